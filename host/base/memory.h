@@ -1,0 +1,24 @@
+// Allocation whose size arithmetic cannot overflow.
+#ifndef GLINT_BASE_MEMORY_H
+#define GLINT_BASE_MEMORY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// count × size zeroed bytes, aligned to 64 (a cache line, and what a zero-copy OpenCL buffer
+// wants). NULL when the product overflows or memory is short. Release with free(). A count of 0
+// gives a pointer that can be freed.
+void *glint_allocate(size_t count, size_t size);
+
+// Sets *product to a × b; false (and *product untouched) when that overflows.
+bool glint_multiply(size_t a, size_t b, size_t *product);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,94 @@
+// The error idiom and the list of warnings. See status.h.
+#include "base/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A message is one line: nothing in a file name or a file may break it or drive the terminal.
+static void replace_control_characters(char *text)
+{
+    for (; *text != '\0'; text++) {
+        unsigned char c = (unsigned char)*text;
+        if (c < 0x20 || c == 0x7f) {
+            *text = '?';
+        }
+    }
+}
+
+glint_status glint_fail(glint_error *error, glint_status code, const char *format, ...)
+{
+    if (error == NULL) {
+        return code;
+    }
+    error->code = code;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->message, sizeof error->message, format, arguments);
+    va_end(arguments);
+    replace_control_characters(error->message);
+    return code;
+}
+
+glint_status glint_fail_memory(glint_error *error, const char *what)
+{
+    return glint_fail(error, GLINT_DEVICE_FAILED, "not enough memory for %s", what);
+}
+
+void glint_error_free(glint_error *error)
+{
+    free(error->details);
+    *error = (glint_error){0};
+}
+
+static int already_said(const glint_warnings *warnings, const char *text)
+{
+    for (size_t i = 0; i < warnings->count; i++) {
+        if (strcmp(warnings->texts[i], text) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+void glint_warn(glint_warnings *warnings, const char *format, ...)
+{
+    if (warnings == NULL) {
+        return;
+    }
+    char text[GLINT_MESSAGE_CAPACITY];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    replace_control_characters(text);
+    if (already_said(warnings, text)) {
+        return;
+    }
+    if (warnings->count == warnings->capacity) {
+        size_t capacity = warnings->capacity ? 2 * warnings->capacity : 8;
+        char **texts = realloc(warnings->texts, capacity * sizeof *texts);
+        if (texts == NULL) {
+            warnings->lost++;
+            return;
+        }
+        warnings->texts = texts;
+        warnings->capacity = capacity;
+    }
+    char *copy = strdup(text);
+    if (copy == NULL) {
+        warnings->lost++;
+        return;
+    }
+    warnings->texts[warnings->count++] = copy;
+}
+
+void glint_warnings_free(glint_warnings *warnings)
+{
+    for (size_t i = 0; i < warnings->count; i++) {
+        free(warnings->texts[i]);
+    }
+    free(warnings->texts);
+    *warnings = (glint_warnings){0};
+}

@@ -1,0 +1,67 @@
+// The error idiom: a function that can fail returns a glint_status and fills the caller's
+// glint_error. The library never prints and never exits; main.c turns the status into the exit
+// status of the process.
+#ifndef GLINT_BASE_STATUS_H
+#define GLINT_BASE_STATUS_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// The values are the exit statuses of the program.
+typedef enum glint_status {
+    GLINT_OK = 0,
+    GLINT_USAGE = 2,         // the command line makes no sense
+    GLINT_BAD_INPUT = 3,     // a scene, environment or image that cannot be used
+    GLINT_DEVICE_FAILED = 4, // no device, too little memory, or the driver reported an error
+    GLINT_OUTPUT_FAILED = 5, // an output file could not be written
+    GLINT_FRAMES_FAILED = 6, // some frames of a sequence failed
+    GLINT_MISMATCH = 7,      // a comparison or a self-test found an error
+    GLINT_INTERRUPTED = 130, // stopped on request (signal), nothing half-written
+} glint_status;
+
+#define GLINT_MESSAGE_CAPACITY 1024
+
+// Owned by the caller; zero is valid ("no error"). `message` is one line without a trailing
+// newline, of the form "FILE: what is wrong (what to do)". `details` is NULL or a malloc'd text of
+// several lines, such as a kernel build log; glint_error_free releases it.
+typedef struct glint_error {
+    glint_status code;
+    char message[GLINT_MESSAGE_CAPACITY];
+    char *details;
+} glint_error;
+
+// Records the failure and returns `code`, so that a caller can write `return glint_fail(…)`.
+// `error` may be NULL. Control characters in the formatted text become '?', so that the message
+// stays one line whatever a file name or a file's content holds.
+glint_status glint_fail(glint_error *error, glint_status code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// glint_fail for an allocation of `what` that did not succeed.
+glint_status glint_fail_memory(glint_error *error, const char *what);
+
+void glint_error_free(glint_error *error);
+
+// Things worth saying that do not stop the work. Zero is valid and empty. The texts are owned by
+// the list. Adding a text that is already there does nothing, so that each thing is said once; a
+// text that finds no memory is counted in `lost`.
+typedef struct glint_warnings {
+    char **texts;
+    size_t count;
+    size_t capacity;
+    size_t lost;
+} glint_warnings;
+
+// `warnings` may be NULL. The text has the form "FILE: what was found, what is done about it".
+void glint_warn(glint_warnings *warnings, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+void glint_warnings_free(glint_warnings *warnings);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

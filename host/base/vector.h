@@ -1,0 +1,72 @@
+// Vectors and matrices of double, for the host's set-up work. Column vectors: p' = M p.
+#ifndef GLINT_BASE_VECTOR_H
+#define GLINT_BASE_VECTOR_H
+
+#include <math.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GLINT_PI 3.14159265358979323846
+
+typedef struct glint_vec3 {
+    double x, y, z;
+} glint_vec3;
+
+// m[row][column]; the translation is in column 3.
+typedef struct glint_mat4 {
+    double m[4][4];
+} glint_mat4;
+
+static inline glint_vec3 glint_vec3_add(glint_vec3 a, glint_vec3 b)
+{
+    return (glint_vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static inline glint_vec3 glint_vec3_subtract(glint_vec3 a, glint_vec3 b)
+{
+    return (glint_vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline glint_vec3 glint_vec3_scale(glint_vec3 a, double s)
+{
+    return (glint_vec3){a.x * s, a.y * s, a.z * s};
+}
+
+static inline double glint_vec3_dot(glint_vec3 a, glint_vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline glint_vec3 glint_vec3_cross(glint_vec3 a, glint_vec3 b)
+{
+    return (glint_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static inline double glint_vec3_length(glint_vec3 a)
+{
+    return hypot(hypot(a.x, a.y), a.z);
+}
+
+// The unit vector along `a`, or (0, 0, 0) where it has none (zero, infinite or NaN components).
+glint_vec3 glint_vec3_normalize(glint_vec3 a);
+
+extern const glint_mat4 glint_mat4_identity;
+
+glint_mat4 glint_mat4_multiply(const glint_mat4 *a, const glint_mat4 *b);
+glint_vec3 glint_mat4_point(const glint_mat4 *a, glint_vec3 p);
+
+// The determinant of the upper left 3 × 3.
+double glint_mat4_determinant3(const glint_mat4 *a);
+
+// Applies the cofactor matrix of the upper left 3 × 3, which is its inverse transpose times its
+// determinant: what turns normals, without a division, also where the matrix is singular. The sign
+// of the determinant is divided out, so that a mirrored mesh keeps its normals on the outside.
+glint_vec3 glint_mat4_normal(const glint_mat4 *a, glint_vec3 n);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

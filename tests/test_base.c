@@ -1,0 +1,114 @@
+// Properties of the lowest floor: errors, warnings, allocation, vectors.
+#include "base/memory.h"
+#include "base/status.h"
+#include "base/vector.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void an_error_is_one_line_whatever_it_quotes(void **state)
+{
+    (void)state;
+    glint_error error = {0};
+    assert_int_equal(glint_fail(&error, GLINT_BAD_INPUT, "%s: bad", "a\nb\x1b[31m"),
+                     GLINT_BAD_INPUT);
+    assert_string_equal(error.message, "a?b?[31m: bad");
+    assert_int_equal(error.code, GLINT_BAD_INPUT);
+    assert_int_equal(glint_fail(NULL, GLINT_USAGE, "nobody listens"), GLINT_USAGE);
+}
+
+static void a_long_message_is_cut_not_overrun(void **state)
+{
+    (void)state;
+    char long_name[3 * GLINT_MESSAGE_CAPACITY];
+    memset(long_name, 'x', sizeof long_name);
+    long_name[sizeof long_name - 1] = '\0';
+    glint_error error = {0};
+    glint_fail(&error, GLINT_BAD_INPUT, "%s", long_name);
+    assert_int_equal(strlen(error.message), GLINT_MESSAGE_CAPACITY - 1);
+}
+
+static void a_warning_is_said_once(void **state)
+{
+    (void)state;
+    glint_warnings warnings = {0};
+    for (int i = 0; i < 40; i++) {
+        glint_warn(&warnings, "thing %d", i % 20);
+    }
+    assert_int_equal(warnings.count, 20);
+    assert_string_equal(warnings.texts[19], "thing 19");
+    glint_warn(NULL, "nobody listens");
+    glint_warnings_free(&warnings);
+    glint_warnings_free(&warnings); // zero is valid
+}
+
+static void allocation_is_zeroed_aligned_and_safe_from_overflow(void **state)
+{
+    (void)state;
+    unsigned char *memory = glint_allocate(1000, 3);
+    assert_non_null(memory);
+    assert_int_equal((uintptr_t)memory % 64, 0);
+    for (int i = 0; i < 3000; i++) {
+        assert_int_equal(memory[i], 0);
+    }
+    free(memory);
+    assert_null(glint_allocate(SIZE_MAX / 2, 3));
+    assert_null(glint_allocate(SIZE_MAX, 1));
+    void *nothing = glint_allocate(0, 8);
+    assert_non_null(nothing);
+    free(nothing);
+    size_t product = 7;
+    assert_false(glint_multiply(SIZE_MAX, 2, &product));
+    assert_int_equal(product, 7);
+}
+
+static void normalize_keeps_clear_of_overflow_and_says_when_it_cannot(void **state)
+{
+    (void)state;
+    const double scales[] = {1e-300, 1e-160, 1, 1e160, 1e300};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        glint_vec3 n = glint_vec3_normalize((glint_vec3){3 * scales[i], 0, -4 * scales[i]});
+        assert_true(fabs(n.x - 0.6) < 1e-15 && n.y == 0 && fabs(n.z + 0.8) < 1e-15);
+    }
+    const glint_vec3 hopeless[] = {{0, 0, 0}, {NAN, 1, 0}, {0, INFINITY, 0}, {0, 1, NAN}};
+    for (size_t i = 0; i < sizeof hopeless / sizeof *hopeless; i++) {
+        glint_vec3 n = glint_vec3_normalize(hopeless[i]);
+        assert_true(n.x == 0 && n.y == 0 && n.z == 0);
+    }
+}
+
+static void normals_stay_perpendicular_and_outside_under_any_matrix(void **state)
+{
+    (void)state;
+    // Scale by (2, −3, 0.5) and shear: mirrored, so the winding of a triangle is to be swapped.
+    const glint_mat4 m = {{{2, 1, 0, 7}, {0, -3, 0.25, 8}, {0, 0, 0.5, 9}, {0, 0, 0, 1}}};
+    assert_true(glint_mat4_determinant3(&m) == -3);
+    glint_vec3 a = {1, 2, 3}, b = {-1, 0.5, 2}, n = glint_vec3_cross(a, b);
+    glint_vec3 none = {0, 0, 0}, origin = glint_mat4_point(&m, none);
+    glint_vec3 ta = glint_vec3_subtract(glint_mat4_point(&m, a), origin);
+    glint_vec3 tb = glint_vec3_subtract(glint_mat4_point(&m, b), origin);
+    glint_vec3 tn = glint_mat4_normal(&m, n);
+    assert_true(fabs(glint_vec3_dot(tn, ta)) < 1e-12);
+    assert_true(fabs(glint_vec3_dot(tn, tb)) < 1e-12);
+    // The outside of the triangle with its winding swapped.
+    assert_true(glint_vec3_dot(tn, glint_vec3_cross(tb, ta)) > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_error_is_one_line_whatever_it_quotes),
+        cmocka_unit_test(a_long_message_is_cut_not_overrun),
+        cmocka_unit_test(a_warning_is_said_once),
+        cmocka_unit_test(allocation_is_zeroed_aligned_and_safe_from_overflow),
+        cmocka_unit_test(normalize_keeps_clear_of_overflow_and_says_when_it_cannot),
+        cmocka_unit_test(normals_stay_perpendicular_and_outside_under_any_matrix),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
