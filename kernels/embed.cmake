@@ -1,0 +1,33 @@
+# Flattens a kernel file and all that it includes into one C string, with #line directives, so that
+# a build log names the real file.
+#   cmake -DSOURCE=kernels/render.cl -DOUTPUT=kernel_sources.c -P embed.cmake
+cmake_policy(SET CMP0053 NEW)
+get_filename_component(FOLDER "${SOURCE}" DIRECTORY)
+get_filename_component(NAME "${SOURCE}" NAME)
+file(READ "${SOURCE}" TEXT)
+set(FLAT "#line 1 \"kernels/${NAME}\"\n")
+while(TEXT MATCHES "#include \"([a-z_.]+)\"\n")
+  set(INCLUDED "${CMAKE_MATCH_1}")
+  set(DIRECTIVE "${CMAKE_MATCH_0}")
+  string(FIND "${TEXT}" "${DIRECTIVE}" AT)
+  string(LENGTH "${DIRECTIVE}" LENGTH)
+  string(SUBSTRING "${TEXT}" 0 ${AT} BEFORE)
+  math(EXPR AFTER_AT "${AT} + ${LENGTH}")
+  string(SUBSTRING "${TEXT}" ${AFTER_AT} -1 TEXT)
+  string(REGEX REPLACE "[^\n]" "" NEWLINES "${BEFORE}")
+  string(LENGTH "${NEWLINES}" LINES)
+  math(EXPR LINE "${LINE} + ${LINES} + 1")
+  math(EXPR NEXT "${LINE} + 1")
+  file(READ "${FOLDER}/${INCLUDED}" CONTENT)
+  if(CONTENT MATCHES "\n#include \"")
+    message(FATAL_ERROR "${INCLUDED}: only ${NAME} includes other kernel files")
+  endif()
+  string(APPEND FLAT "${BEFORE}#line 1 \"kernels/${INCLUDED}\"\n${CONTENT}"
+                     "#line ${NEXT} \"kernels/${NAME}\"\n")
+endwhile()
+string(APPEND FLAT "${TEXT}")
+string(REPLACE "\\" "\\\\" FLAT "${FLAT}")
+string(REPLACE "\"" "\\\"" FLAT "${FLAT}")
+string(REPLACE "\n" "\\n\"\n\"" FLAT "${FLAT}")
+file(WRITE "${OUTPUT}" "// Made by kernels/embed.cmake.\n#include \"device/kernel_sources.h\"\n
+const char glint_kernel_source[] =\n\"${FLAT}\";\n")

@@ -1,0 +1,29 @@
+// The one list of what a kernel can be compiled with. Each feature is passed to the kernel compiler
+// as -DGLINT_<NAME>=0 or 1, always; host/render/plan.c decides and gives the reason, which
+// `glint info` prints. The second column says what the feature adds to the kernel.
+// To add one: a line here, its condition in plan.c, its code under #if in the kernels; the lint and
+// the tests that compile every feature off and on find it by themselves.
+#ifndef GLINT_KERNELS_FEATURES_H
+#define GLINT_KERNELS_FEATURES_H
+
+#define GLINT_FEATURES(FEATURE)                                                                    \
+    FEATURE(GEOMETRY, "rays are traced against triangles")                                         \
+    FEATURE(SMOOTH_NORMALS, "shading normals are interpolated from vertices")                      \
+    FEATURE(MANY_MATERIALS, "materials are looked up for each hit")                                \
+    FEATURE(MIRROR, "metal reflects with Schlick's Fresnel term")                                  \
+    FEATURE(GLASS, "paths split in two by the exact Fresnel term of dielectrics")                  \
+    FEATURE(SOLID, "light refracts into and out of solids by Snell's law")                         \
+    FEATURE(THIN_WALL, "light passes straight through walls without thickness")                    \
+    FEATURE(NESTED_MEDIA, "a path keeps the stack of solids that it is inside")                    \
+    FEATURE(ABSORPTION, "light is absorbed inside solids by Beer and Lambert's law")               \
+    FEATURE(PAINT, "matte paint is lit by the environment's irradiance")                           \
+    FEATURE(GLOSS, "smooth paint reflects under its Fresnel term")                                 \
+    FEATURE(BLEND, "the lecture's blend of paint and mirror")                                      \
+    FEATURE(UNLIT, "unlit surfaces end a path with their colour")                                  \
+    FEATURE(EMISSION, "surfaces emit")                                                             \
+    FEATURE(INTERREFLECTION, "paths go on to further surfaces (depth above 1)")                    \
+    FEATURE(SUPERSAMPLING, "several samples a pixel")                                              \
+    FEATURE(TRANSPARENT, "the background is left out and alpha kept")                              \
+    FEATURE(ENV_ROTATION, "the environment is turned about +Y")
+
+#endif

@@ -1,0 +1,201 @@
+// Tests of the packet's rays against boxes and triangles.
+//
+// A triangle is tested as Woop, Benthin and Wald do (Watertight Ray/Triangle Intersection, 2013): in
+// a space sheared so that the ray is its third axis, the signs of three two-dimensional cross
+// products decide. Vertices are mapped alike for every triangle that shares them, the products are
+// rounded separately (no fused multiply-add: rounding is monotonic, so the sign of a difference of
+// rounded products is never wrong, it can only become 0), and 0 counts as inside: no ray passes
+// between two triangles that share an edge or a vertex.
+
+// What the tests need of the rays beside origin and direction.
+typedef struct packet {
+    real origin[3];
+    real inverse[3];  // 1/direction, finite
+    lanes_int axis;   // the direction's largest component: the third axis of the sheared space
+    real shear_x, shear_y, shear_z;
+    int axes;         // bit k: some active ray has axis k
+    // Per coordinate, over the active rays: whether all directions have the same sign (0: no), and
+    // the range of origins and inverses after turning negative directions around.
+    int sign[3];
+    scalar origin_low[3], origin_high[3];
+    scalar inverse_low[3], inverse_high[3];
+} packet;
+
+typedef struct closest {
+    real t;          // in lengths of the direction; HUGE where nothing was hit
+    real b1, b2;     // barycentric weights of the second and third vertex
+    lanes_int place; // of the triangle hit, −1: none
+    lanes_int triangle; // its number in the scene
+} closest;
+
+// The vector of one value per child of a node, in the precision of the rays.
+#if GLINT_BVH_WIDTH == 16
+#define BOXES(type) type##16
+#define load_boxes_float(p) vload16(0, p)
+#define CHILD_BITS                                                                                 \
+    (boxes_mask)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768)
+#elif GLINT_BVH_WIDTH == 8
+#define BOXES(type) type##8
+#define load_boxes_float(p) vload8(0, p)
+#define CHILD_BITS (boxes_mask)(1, 2, 4, 8, 16, 32, 64, 128)
+#else
+#error "GLINT_BVH_WIDTH must be 8 or 16"
+#endif
+#if GLINT_DOUBLE
+typedef BOXES(double) boxes;
+typedef BOXES(long) boxes_mask;
+typedef long box_int;
+#define load_boxes(p) BOXES(convert_double)(load_boxes_float(p))
+#else
+typedef BOXES(float) boxes;
+typedef BOXES(int) boxes_mask;
+typedef int box_int;
+#define load_boxes(p) load_boxes_float(p)
+#endif
+
+// The far distance is widened by this much, so that rounding never loses a box that is touched
+// (three roundings on either side; Ize, Robust BVH Ray Traversal, 2013).
+#define FAR_SLACK (R(1.0) + R(8.0) * EPSILON)
+
+// 1/d, kept finite so that 0 times it is 0 and not NaN: a ray along a box's face is inside it.
+static inline real finite_inverse(real d)
+{
+    const real smallest = real_of(R(1.0) / HUGE);
+    real magnitude = LARGER(fabs(d), smallest);
+    return copysign(R(1.0) / magnitude, d);
+}
+
+static inline packet make_packet(real3 origin, real3 direction, mask active)
+{
+    packet p;
+    p.origin[0] = origin.x;
+    p.origin[1] = origin.y;
+    p.origin[2] = origin.z;
+    real d[3] = {direction.x, direction.y, direction.z};
+    for (int k = 0; k < 3; k++) {
+        p.inverse[k] = finite_inverse(d[k]);
+        // Rays that are not active must not widen the ranges.
+        mask positive = active & (p.inverse[k] > R(0.0));
+        mask negative = active & (p.inverse[k] < R(0.0));
+        bool any_positive = any_lane(positive), any_negative = any_lane(negative);
+        p.sign[k] = any_positive && any_negative ? 0 : any_negative ? -1 : 1;
+        scalar turn = p.sign[k] < 0 ? R(-1.0) : R(1.0);
+        real o = p.origin[k] * turn, i = p.inverse[k] * turn;
+        p.origin_low[k] = smallest_lane(SELECT(active, o, real_of(HUGE)));
+        p.origin_high[k] = largest_lane(SELECT(active, o, real_of(-HUGE)));
+        p.inverse_low[k] = smallest_lane(SELECT(active, i, real_of(HUGE)));
+        p.inverse_high[k] = largest_lane(SELECT(active, i, real_of(-HUGE)));
+    }
+    real ax = fabs(d[0]), ay = fabs(d[1]), az = fabs(d[2]);
+    mask x_major = (ax >= ay) & (ax >= az);
+    mask y_major = !x_major & (ay >= az);
+    p.axis = SELECT(x_major, int_of(0), SELECT(y_major, int_of(1), int_of(2)));
+    // The two other components follow cyclically: y z, z x, x y.
+    real along = SELECT(x_major, d[0], SELECT(y_major, d[1], d[2]));
+    real first = SELECT(x_major, d[1], SELECT(y_major, d[2], d[0]));
+    real second = SELECT(x_major, d[2], SELECT(y_major, d[0], d[1]));
+    p.shear_x = first / along;
+    p.shear_y = second / along;
+    p.shear_z = R(1.0) / along;
+    p.axes = (any_lane(active & x_major) ? 1 : 0) | (any_lane(active & y_major) ? 2 : 0) |
+             (any_lane(active & !x_major & !y_major) ? 4 : 0);
+    return p;
+}
+
+// The nearest distance at which any ray of the packet may enter each of a node's boxes, in `entry`;
+// bit c of the result is set if some ray may meet box c before `farthest`. By interval arithmetic
+// over the packet, so a set bit may be wrong for a wide packet; a clear bit never is.
+static inline uint packet_meets_boxes(const packet *p, global const float *node, scalar farthest,
+                                      boxes *entry)
+{
+    boxes near = 0, far = HUGE;
+    for (int k = 0; k < 3; k++) {
+        if (p->sign[k] == 0) {
+            continue;
+        }
+        boxes low = load_boxes(node + k * GLINT_BVH_WIDTH);
+        boxes high = load_boxes(node + (3 + k) * GLINT_BVH_WIDTH);
+        if (p->sign[k] < 0) {
+            boxes turned = -low;
+            low = -high;
+            high = turned;
+        }
+        boxes to_low = low - p->origin_high[k], to_high = high - p->origin_low[k];
+        boxes near_k = to_low * (to_low > (boxes)0 ? (boxes)p->inverse_low[k]
+                                                   : (boxes)p->inverse_high[k]);
+        boxes far_k = to_high * (to_high > (boxes)0 ? (boxes)p->inverse_high[k]
+                                                    : (boxes)p->inverse_low[k]);
+        near = LARGER(near_k, near);
+        far = SMALLER(far_k, far);
+    }
+    *entry = near;
+    boxes_mask met = (near <= far * FAR_SLACK) & (near <= farthest);
+    met &= CHILD_BITS;
+#ifdef REDUCE_OR
+    return (uint)REDUCE_OR(met);
+#else
+    uint bits = 0;
+    for (int c = 0; c < GLINT_BVH_WIDTH; c++) {
+        bits |= (uint)((box_int *)&met)[c];
+    }
+    return bits;
+#endif
+}
+
+#if GLINT_WIDTH > 1
+// The rays that may meet one box before what they have hit so far.
+static inline mask rays_meet_box(const packet *p, global const float *node, int child, real farthest)
+{
+    real near = real_of(0), far = farthest;
+    for (int k = 0; k < 3; k++) {
+        scalar low = node[k * GLINT_BVH_WIDTH + child];
+        scalar high = node[(3 + k) * GLINT_BVH_WIDTH + child];
+        real to_low = (low - p->origin[k]) * p->inverse[k];
+        real to_high = (high - p->origin[k]) * p->inverse[k];
+        real near_k = SMALLER(to_low, to_high), far_k = LARGER(to_low, to_high);
+        near = LARGER(near_k, near);
+        far = SMALLER(far_k, far);
+    }
+    return near <= far * FAR_SLACK;
+}
+#endif
+
+// Tests one triangle against the rays in `active` and keeps the nearer hit. At equal distance the
+// triangle with the lower number in the scene wins, whatever the order of the tests.
+static inline void intersect_triangle(const packet *p, global const float *vertices, int place,
+                                      int triangle, mask active, closest *hit)
+{
+    for (int k = 0; k < 3; k++) {
+        if (!(p->axes & (1 << k))) {
+            continue;
+        }
+        const int x = (k + 1) % 3, y = (k + 2) % 3, z = k;
+        // Vertices relative to the origin, sheared.
+        real az = vertices[z] - p->origin[z], bz = vertices[3 + z] - p->origin[z];
+        real cz = vertices[6 + z] - p->origin[z];
+        real ax = fused(-p->shear_x, az, vertices[x] - p->origin[x]);
+        real ay = fused(-p->shear_y, az, vertices[y] - p->origin[y]);
+        real bx = fused(-p->shear_x, bz, vertices[3 + x] - p->origin[x]);
+        real by = fused(-p->shear_y, bz, vertices[3 + y] - p->origin[y]);
+        real cx = fused(-p->shear_x, cz, vertices[6 + x] - p->origin[x]);
+        real cy = fused(-p->shear_y, cz, vertices[6 + y] - p->origin[y]);
+        // Twice the areas that the ray cuts off, on either side of it. Not fused: see above.
+        real u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
+        mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
+                      ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
+        real determinant = u + v + w;
+        inside = inside & active & (determinant != R(0.0)) & (p->axis == (lane_int)k);
+        if (!any_lane(inside)) {
+            continue;
+        }
+        real inverse = R(1.0) / SELECT(inside, determinant, real_of(1));
+        real t = fused(u, az, fused(v, bz, w * cz)) * p->shear_z * inverse;
+        mask nearer = (t < hit->t) | ((t == hit->t) & (hit->triangle > (lane_int)triangle));
+        mask taken = inside & (t > R(0.0)) & nearer;
+        hit->t = SELECT(taken, t, hit->t);
+        hit->b1 = SELECT(taken, v * inverse, hit->b1);
+        hit->b2 = SELECT(taken, w * inverse, hit->b2);
+        hit->place = SELECT(taken, int_of(place), hit->place);
+        hit->triangle = SELECT(taken, int_of(triangle), hit->triangle);
+    }
+}

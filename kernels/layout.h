@@ -1,0 +1,119 @@
+// The facts that the host and the kernels share: read by a C compiler and by OpenCL C alike.
+// Structs hold 32-bit scalars only, so that both compilers lay them out alike; the host asserts
+// their sizes (host/render/layout_check.c).
+#ifndef GLINT_KERNELS_LAYOUT_H
+#define GLINT_KERNELS_LAYOUT_H
+
+// ---- Cube map ----------------------------------------------------------------------------------
+// Faces in the order +X −X +Y −Y +Z −Z, oriented as in OpenEXR's ImfEnvmap.h: seen from inside,
+// unmirrored. On a face, s runs to the right and t downwards, each in [−1, 1]; the direction is the
+// face's axis plus s along one axis and t along another:
+//   face   +X  −X  +Y  −Y  +Z  −Z
+//   s is   +z  −z  +x  +x  −x  +x
+//   t is   −y  −y  −z  +z  −y  −y
+// Texel (column i, row j) of a face of edge N has its centre at s = (2i + 1)/N − 1, t likewise, and
+// each face carries a border of one texel: [6][N + 2][N + 2][4] floats (R, G, B, unused).
+// (Keep the lists: both compilers initialise constant arrays from them.)
+#define GLINT_CUBE_FACES 6
+#define GLINT_CUBE_S_AXIS {2, 2, 0, 0, 0, 0}
+#define GLINT_CUBE_S_SIGN {1, -1, 1, 1, -1, 1}
+#define GLINT_CUBE_T_AXIS {1, 1, 2, 2, 1, 1}
+#define GLINT_CUBE_T_SIGN {-1, -1, -1, 1, -1, -1}
+#define GLINT_CUBE_BORDER 1
+
+// ---- Tree --------------------------------------------------------------------------------------
+// A node of width B is 7 × B 32-bit values: the children's low x, low y, low z, high x, high y,
+// high z (floats, B of each), then B ints that name the children: 0 or more is a node's index;
+// below 0 is a leaf, whose complement holds the place of its first triangle and their number:
+// ~child = first × GLINT_LEAF_MAX + (number − 1). A child that is not there has both corners of
+// its box at (GLINT_FAR, GLINT_FAR, GLINT_FAR), where no ray arrives.
+#define GLINT_NODE_VALUES 7
+#define GLINT_FAR 1e30f // farther than any hit; finite, as ∞ would give NaN when multiplied by 0
+#define GLINT_LEAF_MAX 16
+// The largest number of triangles that a leaf's int can name.
+#define GLINT_TRIANGLES_MAX ((1u << 27) - 1)
+
+// Triangles stand in the order of the leaves. Positions (and normals) are [place][3 vertices][3]
+// floats in stored coordinates; beside each place stand its facts: the triangle's number in the
+// scene, which decides ties, and its material.
+#define GLINT_FACTS 2
+#define GLINT_FACT_TRIANGLE 0
+#define GLINT_FACT_MATERIAL 1
+
+// ---- Materials ---------------------------------------------------------------------------------
+#define GLINT_MATERIAL_SOLID 1u  // transmits, and bounds a solid
+#define GLINT_MATERIAL_THIN 2u   // transmits, without thickness
+#define GLINT_MATERIAL_UNLIT 4u  // the base colour, and the path ends
+#define GLINT_MATERIAL_BLEND 8u  // the lecture's blend: `blend` is the mirror's share
+#define GLINT_MATERIAL_GLOSS 16u // paint of roughness 0: reflects under its Fresnel term
+
+typedef struct glint_material_record {
+    float base_color[4]; // linear R, G, B; 0
+    float emission[4];   // radiance R, G, B; 0
+    float metallic;      // [0, 1]
+    float transmission;  // [0, 1]
+    float ior;           // ≥ 1
+    float blend;         // [0, 1], see GLINT_MATERIAL_BLEND
+    unsigned int flags;  // GLINT_MATERIAL_…
+    unsigned int medium; // of a solid: its place in the media, 1 or more; else 0
+    unsigned int unused[2];
+} glint_material_record;
+
+// Medium 0 is empty space. Absorption is per stored unit of length, as an unevaluated sum of two
+// floats, so that double precision keeps what the host computed.
+typedef struct glint_medium_record {
+    float absorption_high[4]; // R, G, B; 0
+    float absorption_low[4];
+    float ior;
+    float unused[3];
+} glint_medium_record;
+
+// ---- Frame -------------------------------------------------------------------------------------
+// Values that may change from frame to frame without compiling again. A vector is an unevaluated
+// sum of two floats; float precision uses the first alone.
+typedef struct glint_split_vector {
+    float high[4], low[4];
+} glint_split_vector;
+
+// The primary ray through the point (px, py) of the image plane, in pixels from the top left, with
+// X = px − width/2 and Y = height/2 − py, starts at origin + X origin_x + Y origin_y and runs along
+// direction + X direction_x + Y direction_y (stored coordinates, not normalised). The start has been
+// moved forwards from the eye to where the scene begins, by `start` times the direction: a distant
+// camera then loses no digits in the differences between vertices and origin.
+typedef struct glint_frame_record {
+    glint_split_vector origin, origin_x, origin_y;
+    glint_split_vector direction, direction_x, direction_y;
+    float start[2];        // how far the start was moved, in lengths of the direction: high, low
+    float env_rotation[4]; // cosine high, low, sine high, low
+    float min_weight;      // a branch whose largest weight is below takes the environment
+    int width, height;     // pixels
+    int samples_per_axis;  // k
+    int depth;             // surfaces that a path meets at most, 1 or more
+    int environment_edge;  // texels, without border
+    int irradiance_edge;
+    int first_row;         // of packets: where this launch begins
+    int unused[2];
+} glint_frame_record;
+
+// ---- Counters ----------------------------------------------------------------------------------
+// Each counter is 64 bits in two 32-bit words (low, high). To keep work-items from waiting for each
+// other there are GLINT_COUNTER_SLOTS sets; the host adds them up. Whole numbers, so that the sum
+// does not depend on the order. Weights are in units of 2^−GLINT_WEIGHT_BITS.
+#define GLINT_COUNTER_SLOTS 64
+#define GLINT_WEIGHT_BITS 16
+enum glint_counter {
+    GLINT_COUNT_PRIMARY,
+    GLINT_COUNT_REFLECTED,
+    GLINT_COUNT_REFRACTED_IN,
+    GLINT_COUNT_REFRACTED_OUT,
+    GLINT_COUNT_TRANSMITTED,
+    GLINT_COUNT_TOTAL_REFLECTIONS,
+    GLINT_COUNT_DEEPEST, // a maximum, not a sum
+    GLINT_COUNT_MEDIA_OVERFLOWS,
+    GLINT_COUNT_WEIGHT_BY_DEPTH,
+    GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT,
+    GLINT_COUNT_WEIGHT_BY_STACK,
+    GLINT_COUNTERS = 16 // room for more, and a round size
+};
+
+#endif

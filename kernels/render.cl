@@ -1,0 +1,386 @@
+// The entry point: one work-item renders one packet of pixels, sample by sample, following every
+// path to its end.
+//
+// The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
+// GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS, GLINT_MEDIA_CAPACITY and
+// GLINT_TRAVERSAL_STACK.
+#if (GLINT_SOLID || GLINT_THIN_WALL) && !GLINT_GLASS
+#error "SOLID and THIN_WALL need GLASS"
+#endif
+#if (GLINT_ABSORPTION || GLINT_NESTED_MEDIA) && !GLINT_SOLID
+#error "ABSORPTION and NESTED_MEDIA need SOLID"
+#endif
+#if GLINT_GLOSS && !GLINT_PAINT
+#error "GLOSS needs PAINT"
+#endif
+
+#include "layout.h"
+#include "lanes.cl"
+#include "cubemap.cl"
+#include "optics.cl"
+#include "media.cl"
+#include "intersect.cl"
+#include "traverse_packet.cl"
+#include "shade.cl"
+#include "scatter.cl"
+#include "branches.cl"
+
+#define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
+
+// What one work-item counts; added to the counters at its end.
+typedef struct tally {
+    uint counts[GLINT_COUNTERS];
+    real weight_by_depth, weight_by_min_weight, weight_by_stack;
+} tally;
+
+static inline real3 join_vector(const glint_split_vector *v)
+{
+    return real3_of(real_of(JOIN(v->high[0], v->low[0])), real_of(JOIN(v->high[1], v->low[1])),
+                    real_of(JOIN(v->high[2], v->low[2])));
+}
+
+#if GLINT_ENV_ROTATION
+// The environment turned by the angle a about +Y is looked up along d turned by −a.
+static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)
+{
+    real c = real_of(JOIN(frame->env_rotation[0], frame->env_rotation[1]));
+    real s = real_of(JOIN(frame->env_rotation[2], frame->env_rotation[3]));
+    return real3_of(fused(c, d.x, -(s * d.z)), d.y, fused(s, d.x, c * d.z));
+}
+#else
+static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d) { return d; }
+#endif
+
+// The primary rays through the points (x, y) of the image plane, see glint_frame_record.
+static inline path primary_rays(const glint_frame_record *frame, real x, real y)
+{
+    path ray;
+    ray.origin = scale_add(join_vector(&frame->origin_y), y,
+                           scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
+    real3 d = scale_add(join_vector(&frame->direction_y), y,
+                        scale_add(join_vector(&frame->direction_x), x,
+                                  join_vector(&frame->direction)));
+    real length = sqrt(dot3(d, d));
+    ray.direction = real3_of(d.x / length, d.y / length, d.z / length);
+    ray.weight = real3_of(real_of(1), real_of(1), real_of(1));
+#if GLINT_ABSORPTION
+    ray.travelled = length * JOIN(frame->start[0], frame->start[1]);
+#endif
+    ray.from = int_of(-1);
+    ray.met = int_of(0);
+    ray.media = int_of(0);
+    ray.looked_up = int_of(0);
+    return ray;
+}
+
+// One branch that leaves the surface: a ray along `direction`, on the side that `sign` says (+1 the
+// viewer's, −1 the other).
+static inline path make_branch(const path *ray, const surface *s, const closest *hit,
+                               real3 direction, scalar sign)
+{
+    path branch = *ray;
+    branch.direction = direction;
+    branch.met = ray->met + (lane_int)1;
+#if GLINT_INTERREFLECTION
+    branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
+    branch.from = hit->place;
+#endif
+#if GLINT_ABSORPTION
+    branch.travelled = real_of(0);
+#endif
+    return branch;
+}
+
+// Rule 7: a branch that has met all the surfaces it may, or weighs too little, takes the environment
+// along its direction. What that leaves out is counted.
+static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
+                              tally *tally)
+{
+    real weight = largest3(branch->weight);
+    mask deep = exists & (branch->met >= (lane_int)frame->depth);
+    mask light = exists & !deep & (weight < (scalar)frame->min_weight);
+    const real zero = real_of(0);
+    tally->weight_by_depth += SELECT(deep, weight, zero);
+    tally->weight_by_min_weight += SELECT(light, weight, zero);
+    branch->looked_up = SELECT(deep | light, int_of(1), int_of(0));
+}
+
+#if GLINT_ABSORPTION
+// The light that is left of the segment that ends here, in the medium on top of the stack.
+static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray, real t)
+{
+    real3 left =
+        medium_transmittance(scene->media, medium_on_top(ray->media), t + ray->travelled);
+    return multiply(ray->weight, left);
+}
+#endif
+
+// *ray = *branch for the rays in `yes`.
+static inline void assign_path(path *ray, const path *branch, mask yes)
+{
+    ray->origin = select3(yes, branch->origin, ray->origin);
+    ray->direction = select3(yes, branch->direction, ray->direction);
+    ray->weight = select3(yes, branch->weight, ray->weight);
+#if GLINT_ABSORPTION
+    ray->travelled = SELECT(yes, branch->travelled, ray->travelled);
+#endif
+    ray->from = SELECT(yes, branch->from, ray->from);
+    ray->met = SELECT(yes, branch->met, ray->met);
+    ray->media = SELECT(yes, branch->media, ray->media);
+    ray->looked_up = SELECT(yes, branch->looked_up, ray->looked_up);
+}
+
+#if GLINT_GLASS
+static inline void count_transmissions(const surface *s, mask transmits, tally *tally)
+{
+    mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
+    tally->counts[GLINT_COUNT_REFRACTED_IN] += (uint)count_lanes(transmits & solid & s->outside);
+    tally->counts[GLINT_COUNT_REFRACTED_OUT] += (uint)count_lanes(transmits & solid & !s->outside);
+    tally->counts[GLINT_COUNT_TRANSMITTED] += (uint)count_lanes(transmits & !solid);
+}
+
+// Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack has
+// room for one more only, both are looked up, and counted.
+static inline mask split_path(branches *waiting, path *reflected, path *transmitted, mask reflects,
+                              mask transmits, path *ray, tally *tally)
+{
+    mask both = reflects & transmits;
+    mask reflect_first = reflects & (!transmits | (largest3(reflected->weight) <=
+                                                   largest3(transmitted->weight)));
+    mask full = both & nearly_full(waiting);
+    if (any_lane(full)) {
+        const real zero = real_of(0);
+        mask unended_r = full & (reflected->looked_up == (lane_int)0);
+        mask unended_t = full & (transmitted->looked_up == (lane_int)0);
+        tally->weight_by_stack += SELECT(unended_r, largest3(reflected->weight), zero) +
+                                  SELECT(unended_t, largest3(transmitted->weight), zero);
+        reflected->looked_up = SELECT(full, int_of(1), reflected->looked_up);
+        transmitted->looked_up = SELECT(full, int_of(1), transmitted->looked_up);
+    }
+    assign_path(ray, reflected, reflects);
+    assign_path(ray, transmitted, transmits & !reflect_first);
+    assign_path(reflected, transmitted, both & reflect_first);
+    push_branch(waiting, reflected, both);
+    return reflects | transmits;
+}
+#endif
+
+// Shades the rays in `met`, adds what the surfaces emit to `radiance`, and puts the branch that goes
+// on into `ray`. The result says which rays go on.
+static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
+                                 const closest *hit, mask met, path *ray, real3 *radiance,
+#if GLINT_GLASS
+                                 branches *waiting,
+#endif
+                                 tally *tally)
+{
+    surface s = find_surface(scene, ray, hit, met);
+    real3 v = negate(ray->direction);
+    real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
+#if NEEDS_IRRADIANCE
+    irradiance = sample_cube(scene->irradiance, frame->irradiance_edge,
+                             turn_into_environment(frame, s.normal), met);
+#endif
+    mask media_lost;
+    lanes_int media = ray->media;
+    scattering out = scatter(scene, &s, v, &media, irradiance, &media_lost);
+    ray->media = SELECT(met, media, ray->media);
+#if GLINT_ABSORPTION
+    ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
+#endif
+    real3 gathered = add(*radiance, multiply(ray->weight, out.emitted));
+    *radiance = select3(met, gathered, *radiance);
+    tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (uint)count_lanes(met & media_lost);
+
+    path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
+    reflected.weight = multiply(ray->weight, out.reflected_weight);
+    reflected.media = out.media_reflected;
+    // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
+    mask reflects = met & (largest3(reflected.weight) > R(0.0));
+    end_branch(frame, &reflected, reflects, tally);
+    tally->counts[GLINT_COUNT_REFLECTED] += (uint)count_lanes(reflects);
+#if GLINT_GLASS
+    path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
+    transmitted.weight = multiply(ray->weight, out.transmitted_weight);
+    transmitted.media = out.media_transmitted;
+    mask transmits = met & (largest3(transmitted.weight) > R(0.0));
+    end_branch(frame, &transmitted, transmits, tally);
+    count_transmissions(&s, transmits, tally);
+    tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
+        (uint)count_lanes(reflects & out.total_reflection);
+    return split_path(waiting, &reflected, &transmitted, reflects, transmits, ray, tally);
+#else
+    assign_path(ray, &reflected, reflects);
+    return reflects;
+#endif
+}
+
+// Follows the rays in `active` to their ends. The result is the radiance that they gather; `missed`
+// tells the primary rays that met nothing.
+static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
+                                 path *ray, mask active, mask *missed, tally *tally)
+{
+    real3 radiance = real3_of(real_of(0), real_of(0), real_of(0));
+    lanes_int deepest = int_of(0);
+#if GLINT_GLASS
+    branches waiting;
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        waiting.count[lane] = 0;
+    }
+#endif
+    *missed = mask_none();
+    bool primary = true;
+    while (any_lane(active)) {
+        mask met = mask_none();
+#if GLINT_GEOMETRY
+        closest hit;
+        // At depth 1 only primary rays are traced.
+        if (GLINT_INTERREFLECTION || primary) {
+            mask traced = active & (ray->looked_up == (lane_int)0);
+            hit = trace_packet(scene->nodes, scene->positions, scene->facts, ray->origin,
+                               ray->direction, ray->from, traced);
+            met = traced & (hit.place >= (lane_int)0);
+        }
+#endif
+        mask escaped = active & !met;
+        if (primary) {
+            *missed = escaped;
+        }
+        bool wanted = any_lane(escaped);
+#if GLINT_TRANSPARENT
+        wanted = wanted && !primary;
+#endif
+        if (wanted) {
+            real3 light = sample_cube(scene->environment, frame->environment_edge,
+                                      turn_into_environment(frame, ray->direction), escaped);
+            real3 gathered = add(radiance, multiply(ray->weight, light));
+            radiance = select3(escaped, gathered, radiance);
+        }
+        active = mask_none();
+#if GLINT_GEOMETRY
+        mask ended = escaped;
+        if (any_lane(met)) {
+            deepest = SELECT(met & (ray->met >= deepest), ray->met + (lane_int)1, deepest);
+            active = meet_surfaces(scene, frame, &hit, met, ray, &radiance,
+#if GLINT_GLASS
+                                   &waiting,
+#endif
+                                   tally);
+            ended = ended | (met & !active);
+        }
+#if GLINT_GLASS
+        if (any_lane(ended)) {
+            active = active | pop_branch(&waiting, ray, ended);
+        }
+#endif
+#endif
+        primary = false;
+    }
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        uint depth = (uint)LANE_INT(deepest, lane);
+        tally->counts[GLINT_COUNT_DEEPEST] = max(tally->counts[GLINT_COUNT_DEEPEST], depth);
+    }
+    return radiance;
+}
+
+// Adds to a counter of 64 bits in two words.
+static inline void add_to_counter(global uint *counter, uint amount)
+{
+    if (amount != 0) {
+        uint before = atomic_add(counter, amount);
+        if (before + amount < before) {
+            atomic_inc(counter + 1);
+        }
+    }
+}
+
+static inline void report(tally *tally, global uint *counters, uint slot)
+{
+    const scalar unit = (scalar)(1 << GLINT_WEIGHT_BITS);
+    uint *counts = tally->counts;
+    counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = convert_uint_sat(sum_of_lanes(tally->weight_by_depth) * unit);
+    counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] =
+        convert_uint_sat(sum_of_lanes(tally->weight_by_min_weight) * unit);
+    counts[GLINT_COUNT_WEIGHT_BY_STACK] = convert_uint_sat(sum_of_lanes(tally->weight_by_stack) * unit);
+    global uint *mine = counters + 2 * GLINT_COUNTERS * (slot % GLINT_COUNTER_SLOTS);
+    for (int i = 0; i < GLINT_COUNTERS; i++) {
+        if (i == GLINT_COUNT_DEEPEST) {
+            atomic_max(mine + 2 * i, counts[i]);
+        } else {
+            add_to_counter(mine + 2 * i, counts[i]);
+        }
+    }
+}
+
+// Writes the packet's pixels that lie inside the image.
+static inline void store_pixels(global scalar *pixels, const glint_frame_record *frame, int x0,
+                                int y0, real3 color, real alpha)
+{
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        int x = x0 + lane % PACKET_WIDTH, y = y0 + lane / PACKET_WIDTH;
+        if (x < frame->width && y < frame->height) {
+            scalar4 rgba = (scalar4)(LANE(color.x, lane), LANE(color.y, lane), LANE(color.z, lane),
+                                     LANE(alpha, lane));
+            vstore4(rgba, (size_t)y * (size_t)frame->width + (size_t)x, pixels);
+        }
+    }
+}
+
+// Work-item (i, j) of the global range renders the packet in column i and row first_row + j of the
+// frame, in packets. (An offset of the range itself would make PoCL compile the kernel once more.)
+//  pixels: [height][width][4] (R, G, B premultiplied, alpha). counters: see layout.h. The
+// other buffers are described in layout.h too; those that no compiled feature needs may be of any
+// size.
+kernel void render_packets(global const float *nodes, global const float *positions,
+                           global const float *normals, global const uint *facts,
+                           global const glint_material_record *materials,
+                           global const glint_medium_record *media,
+                           global const float *environment, global const float *irradiance,
+                           global scalar *pixels, global uint *counters,
+                           const glint_frame_record frame)
+{
+    const scene_buffers scene = {nodes, positions, normals, facts,
+                                 materials, media, environment, irradiance};
+    const int x0 = (int)get_global_id(0) * PACKET_WIDTH;
+    const int y0 = ((int)get_global_id(1) + frame.first_row) * PACKET_HEIGHT;
+    if (x0 >= frame.width || y0 >= frame.height) {
+        return;
+    }
+    const real zero = real_of(0);
+    tally tally;
+    for (int i = 0; i < GLINT_COUNTERS; i++) {
+        tally.counts[i] = 0;
+    }
+    tally.weight_by_depth = tally.weight_by_min_weight = tally.weight_by_stack = zero;
+
+    lanes_int lane = lane_numbers();
+    lanes_int column = lane % (lane_int)PACKET_WIDTH + (lane_int)x0;
+    lanes_int row = lane / (lane_int)PACKET_WIDTH + (lane_int)y0;
+    mask inside = (column < (lane_int)frame.width) & (row < (lane_int)frame.height);
+    real left = to_real(column) - R(0.5) * (scalar)frame.width;
+    real up = R(0.5) * (scalar)frame.height - to_real(row);
+
+#if GLINT_SUPERSAMPLING
+    const int k = frame.samples_per_axis;
+#else
+    const int k = 1;
+#endif
+    real3 color = real3_of(zero, zero, zero);
+    real alpha = zero;
+    for (int sample = 0; sample < k * k; sample++) {
+        real right = real_of(((scalar)(sample % k) + R(0.5)) / (scalar)k);
+        real down = real_of(((scalar)(sample / k) + R(0.5)) / (scalar)k);
+        path ray = primary_rays(&frame, left + right, up - down);
+        mask missed;
+        color = add(color, follow_paths(&scene, &frame, &ray, inside, &missed, &tally));
+#if GLINT_TRANSPARENT
+        alpha += SELECT(missed, zero, real_of(1));
+#else
+        alpha += R(1.0);
+#endif
+    }
+    tally.counts[GLINT_COUNT_PRIMARY] = (uint)(count_lanes(inside) * k * k);
+    scalar share = R(1.0) / (scalar)(k * k);
+    store_pixels(pixels, &frame, x0, y0, scale(color, real_of(share)), alpha * share);
+    report(&tally, counters, (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0)));
+}

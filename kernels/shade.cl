@@ -1,0 +1,163 @@
+// What happens where a ray meets a surface: light that is added there, and the directions in which
+// the path goes on. The rules are those of ARCHITECTURE.md, "Light transport".
+
+// A path on its way: a ray and what it has gathered.
+typedef struct path {
+    real3 origin, direction; // the direction is a unit vector
+    real3 weight;            // what a unit of radiance that arrives now adds to the pixel
+#if GLINT_ABSORPTION
+    real travelled;          // the segment's length before its origin: primary rays start late
+#endif
+    lanes_int from;          // place of the triangle that the ray starts on, −1: none
+    lanes_int met;           // surfaces met so far
+    lanes_int media;         // see media.cl
+    lanes_int looked_up;     // 1: takes the environment along its direction, without being traced
+} path;
+
+// The scene's buffers, as every part of the shading gets them.
+typedef struct scene_buffers {
+    global const float *nodes;
+    global const float *positions;
+    global const float *normals;
+    global const uint *facts;
+    global const glint_material_record *materials;
+    global const glint_medium_record *media;
+    global const float *environment;
+    global const float *irradiance;
+} scene_buffers;
+
+// A hit, ready for optics.
+typedef struct surface {
+    real3 position;         // on the triangle, stored coordinates
+    real offset;            // how far from it a ray must start, along the geometric normal
+    real3 geometric_normal; // unit, towards the viewer
+    real3 normal;           // unit shading normal, n·v ≥ 0
+    real cosine;            // n·v
+    mask outside;           // the viewer is on the side from which the triangle winds left
+    real3 base_color, emission;
+    real metallic, transmission, ior, blend;
+    lanes_int flags, medium;
+} surface;
+
+#define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
+
+// Three vertices (or normals) of the triangles hit, as [vertex][coordinate]; zeros for other rays.
+static inline void load_vertices(global const float *values, lanes_int place, mask wanted,
+                                 real3 vertices[3])
+{
+    const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
+    vertices[0] = vertices[1] = vertices[2] = zero;
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        if (!lane_is_set(wanted, lane)) {
+            continue;
+        }
+        global const float *v = values + 9 * (size_t)LANE_INT(place, lane);
+        for (int i = 0; i < 3; i++) {
+            LANE(vertices[i].x, lane) = v[3 * i];
+            LANE(vertices[i].y, lane) = v[3 * i + 1];
+            LANE(vertices[i].z, lane) = v[3 * i + 2];
+        }
+    }
+}
+
+static inline real3 interpolate(const real3 vertices[3], real b1, real b2)
+{
+    real b0 = R(1.0) - b1 - b2;
+    return scale_add(vertices[2], b2, scale_add(vertices[1], b1, scale(vertices[0], b0)));
+}
+
+// The position, and a bound of its distance to the triangle's plane: the interpolation makes about
+// 8 roundings of values no larger than the largest vertex, coordinate by coordinate (Pharr, Jakob,
+// Humphreys, Physically Based Rendering, 6.8). A ray that starts this far off the plane, on the side
+// that it leaves to, cannot meet the neighbours of its triangle because of rounding.
+static inline void place_on_triangle(const real3 vertices[3], const closest *hit, surface *s)
+{
+    s->position = interpolate(vertices, hit->b1, hit->b2);
+    real3 reach;
+    reach.x = LARGER(fabs(vertices[0].x), LARGER(fabs(vertices[1].x), fabs(vertices[2].x)));
+    reach.y = LARGER(fabs(vertices[0].y), LARGER(fabs(vertices[1].y), fabs(vertices[2].y)));
+    reach.z = LARGER(fabs(vertices[0].z), LARGER(fabs(vertices[1].z), fabs(vertices[2].z)));
+    real3 n = real3_of(fabs(s->geometric_normal.x), fabs(s->geometric_normal.y),
+                       fabs(s->geometric_normal.z));
+    s->offset = R(8.0) * EPSILON * dot3(n, reach);
+}
+
+// Rule 1: the side is the geometric normal's alone; both normals are turned to the viewer.
+static inline void orient_normals(const scene_buffers *scene, const path *ray, const closest *hit,
+                                  mask met, surface *s)
+{
+    real3 v = negate(ray->direction);
+    real facing = dot3(s->geometric_normal, v);
+    s->outside = facing > R(0.0);
+    s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
+    s->normal = s->geometric_normal;
+#if GLINT_SMOOTH_NORMALS
+    real3 normals[3];
+    load_vertices(scene->normals, hit->place, met, normals);
+    // A vertex without a usable normal is (0, 0, 0); then the geometric normal serves.
+    real smallest = largest_magnitude3(normals[0]);
+    smallest = SMALLER(largest_magnitude3(normals[1]), smallest);
+    smallest = SMALLER(largest_magnitude3(normals[2]), smallest);
+    mask given = smallest > R(0.0);
+    mask valid;
+    real3 n = normalized(interpolate(normals, hit->b1, hit->b2), &valid);
+    mask against = dot3(n, s->geometric_normal) < R(0.0);
+    n = select3(against, negate(n), n);
+    s->normal = select3(given & valid, n, s->geometric_normal);
+#endif
+    real cosine = dot3(s->normal, v);
+    mask away = cosine < R(0.0);
+    s->normal = select3(away, negate(s->normal), s->normal);
+    cosine = fabs(cosine);
+    s->cosine = SMALLER(cosine, real_of(1));
+}
+
+// Copies what the compiled features need of one material into a lane.
+static inline void set_material_lane(surface *s, int lane, global const glint_material_record *m)
+{
+    LANE(s->base_color.x, lane) = m->base_color[0];
+    LANE(s->base_color.y, lane) = m->base_color[1];
+    LANE(s->base_color.z, lane) = m->base_color[2];
+#if GLINT_EMISSION
+    LANE(s->emission.x, lane) = m->emission[0];
+    LANE(s->emission.y, lane) = m->emission[1];
+    LANE(s->emission.z, lane) = m->emission[2];
+#endif
+    LANE(s->metallic, lane) = m->metallic;
+    LANE(s->transmission, lane) = m->transmission;
+    LANE(s->ior, lane) = m->ior;
+    LANE(s->blend, lane) = m->blend;
+    LANE_INT(s->flags, lane) = (lane_int)m->flags;
+    LANE_INT(s->medium, lane) = (lane_int)m->medium;
+}
+
+static inline void load_material(const scene_buffers *scene, lanes_int place, mask met, surface *s)
+{
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        size_t material = 0;
+#if GLINT_MANY_MATERIALS
+        if (lane_is_set(met, lane)) {
+            material = scene->facts[GLINT_FACTS * (size_t)LANE_INT(place, lane) +
+                                    GLINT_FACT_MATERIAL];
+        }
+#endif
+        set_material_lane(s, lane, scene->materials + material);
+    }
+}
+
+static inline surface find_surface(const scene_buffers *scene, const path *ray, const closest *hit,
+                                   mask met)
+{
+    surface s;
+    real3 vertices[3];
+    load_vertices(scene->positions, hit->place, met, vertices);
+    mask valid;
+    s.geometric_normal = normalized(cross3(subtract(vertices[1], vertices[0]),
+                                           subtract(vertices[2], vertices[0])), &valid);
+#if GLINT_INTERREFLECTION
+    place_on_triangle(vertices, hit, &s);
+#endif
+    orient_normals(scene, ray, hit, met, &s);
+    load_material(scene, hit->place, met, &s);
+    return s;
+}

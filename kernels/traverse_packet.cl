@@ -1,0 +1,80 @@
+// Closest hits of a packet of rays in the wide tree: one stack for all rays of the packet. A node's
+// boxes are tested all at once against the ranges of the packet's rays; a box that passes is then
+// tested against each ray, so that rays that have spread apart do not visit all that lies between.
+
+// A node or leaf that waits, and the distance at which the packet may enter it.
+typedef struct waiting {
+    int child;
+    scalar entry;
+} waiting;
+
+// Puts the children that some ray meets on the stack, the nearest on top.
+static inline int push_children(const packet *p, global const float *node, mask active,
+                                const closest *hit, waiting *stack, int size)
+{
+    boxes entries;
+    scalar farthest = largest_lane(SELECT(active, hit->t, real_of(-HUGE)));
+    uint met = packet_meets_boxes(p, node, farthest, &entries);
+    global const int *children = (global const int *)(node + 6 * GLINT_BVH_WIDTH);
+    int base = size;
+    while (met != 0) {
+        int child = 31 - (int)clz(met & -met);
+        met &= met - 1;
+#if GLINT_WIDTH > 1
+        if (!any_lane(active & rays_meet_box(p, node, child, hit->t))) {
+            continue;
+        }
+#endif
+        // Insertion keeps the new part of the stack in order of falling distance. Equal distances
+        // keep the order of the children, so that the order is always the same.
+        scalar entry = ((scalar *)&entries)[child];
+        int i = size++;
+        for (; i > base && stack[i - 1].entry <= entry; i--) {
+            stack[i] = stack[i - 1];
+        }
+        stack[i].child = children[child];
+        stack[i].entry = entry;
+    }
+    return size;
+}
+
+// `from` is the place of the triangle that each ray starts on, which it cannot hit: −1 for none.
+static inline closest trace_packet(global const float *nodes, global const float *positions,
+                                   global const uint *facts, real3 origin, real3 direction,
+                                   lanes_int from, mask active)
+{
+    closest hit;
+    hit.t = real_of(HUGE);
+    hit.b1 = real_of(0);
+    hit.b2 = real_of(0);
+    hit.place = int_of(-1);
+    hit.triangle = int_of(0x7fffffff);
+    if (!any_lane(active)) {
+        return hit;
+    }
+    packet p = make_packet(origin, direction, active);
+    waiting stack[GLINT_TRAVERSAL_STACK];
+    stack[0].child = 0;
+    stack[0].entry = 0;
+    int size = 1;
+    while (size > 0) {
+        waiting next = stack[--size];
+        if (next.entry > largest_lane(SELECT(active, hit.t, real_of(-HUGE)))) {
+            continue;
+        }
+        if (next.child >= 0) {
+            global const float *node =
+                nodes + (size_t)next.child * (GLINT_NODE_VALUES * GLINT_BVH_WIDTH);
+            size = push_children(&p, node, active, &hit, stack, size);
+            continue;
+        }
+        int leaf = ~next.child;
+        int first = leaf / GLINT_LEAF_MAX, count = leaf % GLINT_LEAF_MAX + 1;
+        for (int place = first; place < first + count; place++) {
+            intersect_triangle(&p, positions + 9 * (size_t)place, place,
+                               (int)facts[GLINT_FACTS * (size_t)place + GLINT_FACT_TRIANGLE],
+                               active & (from != (lane_int)place), &hit);
+        }
+    }
+    return hit;
+}
