@@ -1,0 +1,317 @@
+// OpenCL devices. See device.h.
+#include "device/device.h"
+
+#include "device/opencl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define MAX_PLATFORMS 32
+#define MAX_DEVICES 64 // of one platform
+
+const char *glint_opencl_error_name(cl_int code)
+{
+    static const struct {
+        cl_int code;
+        const char *name;
+    } names[] = {
+#define NAME(code) {code, #code}
+        NAME(CL_DEVICE_NOT_FOUND),
+        NAME(CL_DEVICE_NOT_AVAILABLE),
+        NAME(CL_COMPILER_NOT_AVAILABLE),
+        NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE),
+        NAME(CL_OUT_OF_RESOURCES),
+        NAME(CL_OUT_OF_HOST_MEMORY),
+        NAME(CL_BUILD_PROGRAM_FAILURE),
+        NAME(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST),
+        NAME(CL_INVALID_VALUE),
+        NAME(CL_INVALID_DEVICE),
+        NAME(CL_INVALID_CONTEXT),
+        NAME(CL_INVALID_COMMAND_QUEUE),
+        NAME(CL_INVALID_MEM_OBJECT),
+        NAME(CL_INVALID_BUILD_OPTIONS),
+        NAME(CL_INVALID_PROGRAM_EXECUTABLE),
+        NAME(CL_INVALID_KERNEL_NAME),
+        NAME(CL_INVALID_KERNEL_ARGS),
+        NAME(CL_INVALID_ARG_SIZE),
+        NAME(CL_INVALID_WORK_GROUP_SIZE),
+        NAME(CL_INVALID_WORK_ITEM_SIZE),
+        NAME(CL_INVALID_BUFFER_SIZE),
+        NAME(CL_INVALID_OPERATION),
+#undef NAME
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (names[i].code == code) {
+            return names[i].name;
+        }
+    }
+    return "unknown OpenCL error";
+}
+
+glint_status glint_fail_opencl(glint_error *error, const struct glint_device *device,
+                               const char *what, cl_int code)
+{
+    return glint_fail(error, GLINT_DEVICE_FAILED, "device '%s': %s: %s (%d)",
+                      device->capabilities.name, what, glint_opencl_error_name(code), code);
+}
+
+static void device_text(cl_device_id id, cl_device_info what, char *text, size_t capacity)
+{
+    text[0] = '\0';
+    if (clGetDeviceInfo(id, what, capacity, text, NULL) != CL_SUCCESS) {
+        snprintf(text, capacity, "?");
+    }
+    text[capacity - 1] = '\0';
+}
+
+static bool has_extension(cl_device_id id, const char *name)
+{
+    size_t size = 0;
+    if (clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, 0, NULL, &size) != CL_SUCCESS || size == 0) {
+        return false;
+    }
+    char *list = calloc(size + 1, 1);
+    bool found = false;
+    if (list != NULL && clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, size, list, NULL) == CL_SUCCESS) {
+        size_t length = strlen(name);
+        for (const char *at = list; (at = strstr(at, name)) != NULL; at += length) {
+            bool starts = at == list || at[-1] == ' ';
+            found = found || (starts && (at[length] == ' ' || at[length] == '\0'));
+        }
+    }
+    free(list);
+    return found;
+}
+
+static void describe(cl_platform_id platform, cl_device_id id, glint_capabilities *c)
+{
+    *c = (glint_capabilities){0};
+    device_text(id, CL_DEVICE_NAME, c->name, sizeof c->name);
+    device_text(id, CL_DRIVER_VERSION, c->driver, sizeof c->driver);
+    device_text(id, CL_DEVICE_VERSION, c->opencl_version, sizeof c->opencl_version);
+    if (clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof c->platform, c->platform, NULL) !=
+        CL_SUCCESS) {
+        snprintf(c->platform, sizeof c->platform, "?");
+    }
+    cl_device_type type = 0;
+    cl_uint width = 0, units = 0;
+    cl_ulong memory = 0, allocation = 0;
+    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof allocation, &allocation, NULL);
+    c->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    c->is_gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
+    c->has_double = has_extension(id, "cl_khr_fp64");
+    c->native_float_width = width > 0 ? (int)width : 1;
+    c->compute_units = units;
+    c->memory_bytes = memory;
+    c->largest_allocation_bytes = allocation;
+}
+
+typedef struct found_device {
+    cl_device_id id;
+    glint_capabilities capabilities;
+} found_device;
+
+// GPUs first, then other devices that are no CPUs, then CPUs; platforms keep the loader's order.
+static int rank(const glint_capabilities *c)
+{
+    return c->is_gpu ? 0 : c->is_cpu ? 2 : 1;
+}
+
+static void sort_devices(found_device *devices, size_t count)
+{
+    for (size_t i = 1; i < count; i++) {
+        found_device moved = devices[i];
+        size_t j = i;
+        for (; j > 0 && rank(&devices[j - 1].capabilities) > rank(&moved.capabilities); j--) {
+            devices[j] = devices[j - 1];
+        }
+        devices[j] = moved;
+    }
+    for (size_t i = 0; i < count; i++) {
+        devices[i].capabilities.index = (int)i;
+    }
+}
+
+static glint_status find_devices(found_device **devices, size_t *count, glint_error *error)
+{
+    *devices = NULL;
+    *count = 0;
+    cl_platform_id platforms[MAX_PLATFORMS];
+    cl_uint platform_count = 0;
+    cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count);
+    if (code != CL_SUCCESS || platform_count == 0) {
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "no OpenCL platform was found (install a driver; for the CPU, Debian's "
+                          "package pocl-opencl-icd)");
+    }
+    platform_count = platform_count < MAX_PLATFORMS ? platform_count : MAX_PLATFORMS;
+    found_device *list = calloc((size_t)platform_count * MAX_DEVICES, sizeof *list);
+    if (list == NULL) {
+        return glint_fail_memory(error, "the list of devices");
+    }
+    size_t found = 0;
+    for (cl_uint p = 0; p < platform_count; p++) {
+        cl_device_id ids[MAX_DEVICES];
+        cl_uint id_count = 0;
+        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, MAX_DEVICES, ids, &id_count) !=
+            CL_SUCCESS) {
+            continue; // a platform without devices
+        }
+        for (cl_uint d = 0; d < id_count && d < MAX_DEVICES; d++) {
+            list[found].id = ids[d];
+            describe(platforms[p], ids[d], &list[found].capabilities);
+            found++;
+        }
+    }
+    if (found == 0) {
+        free(list);
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "no OpenCL device was found (install a driver; for the CPU, Debian's "
+                          "package pocl-opencl-icd)");
+    }
+    sort_devices(list, found);
+    *devices = list;
+    *count = found;
+    return GLINT_OK;
+}
+
+glint_status glint_device_list(glint_capabilities **list, size_t *count, glint_error *error)
+{
+    *list = NULL;
+    found_device *devices;
+    glint_status status = find_devices(&devices, count, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    *list = calloc(*count, sizeof **list);
+    if (*list == NULL) {
+        free(devices);
+        return glint_fail_memory(error, "the list of devices");
+    }
+    for (size_t i = 0; i < *count; i++) {
+        (*list)[i] = devices[i].capabilities;
+    }
+    free(devices);
+    return GLINT_OK;
+}
+
+static bool is_number(const char *text)
+{
+    return text[0] != '\0' && strspn(text, "0123456789") == strlen(text) && strlen(text) < 6;
+}
+
+static bool matches(const glint_capabilities *c, const char *selector)
+{
+    if (is_number(selector)) {
+        return c->index == atoi(selector);
+    }
+    if (strcasecmp(selector, "gpu") == 0) {
+        return c->is_gpu;
+    }
+    if (strcasecmp(selector, "cpu") == 0) {
+        return c->is_cpu;
+    }
+    return strcasestr(c->name, selector) != NULL || strcasestr(c->platform, selector) != NULL;
+}
+
+// The devices by name, for messages: "0: A (cpu), 1: B (gpu)".
+static void list_names(const found_device *devices, size_t count, char *text, size_t capacity)
+{
+    text[0] = '\0';
+    for (size_t i = 0; i < count; i++) {
+        size_t used = strlen(text);
+        snprintf(text + used, capacity - used, "%s%zu: %s", i > 0 ? ", " : "", i,
+                 devices[i].capabilities.name);
+    }
+}
+
+// The device that the selector names: the first of its kind for "cpu" and "gpu", else the only one.
+static glint_status choose(const found_device *devices, size_t count, const char *selector,
+                           size_t *chosen, glint_error *error)
+{
+    *chosen = 0; // the list begins with what is wanted without a selector
+    if (selector == NULL) {
+        return GLINT_OK;
+    }
+    size_t found = 0;
+    for (size_t i = count; i-- > 0;) {
+        if (matches(&devices[i].capabilities, selector)) {
+            *chosen = i;
+            found++;
+        }
+    }
+    bool by_kind = strcasecmp(selector, "gpu") == 0 || strcasecmp(selector, "cpu") == 0;
+    if (found == 1 || (found > 1 && by_kind)) {
+        return GLINT_OK;
+    }
+    char names[600];
+    list_names(devices, count, names, sizeof names);
+    return glint_fail(error, GLINT_DEVICE_FAILED, "device '%s': %s (there is %s)", selector,
+                      found == 0 ? "there is none such" : "more than one has that in its name",
+                      names);
+}
+
+glint_status glint_device_open(const char *selector, glint_device **device, glint_error *error)
+{
+    *device = NULL;
+    found_device *devices;
+    size_t count, chosen;
+    glint_status status = find_devices(&devices, &count, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    glint_device *opened = NULL;
+    status = choose(devices, count, selector, &chosen, error);
+    if (status != GLINT_OK) {
+        goto cleanup;
+    }
+    opened = calloc(1, sizeof *opened);
+    if (opened == NULL) {
+        status = glint_fail_memory(error, "the device");
+        goto cleanup;
+    }
+    opened->id = devices[chosen].id;
+    opened->capabilities = devices[chosen].capabilities;
+    cl_int code;
+    opened->context = clCreateContext(NULL, 1, &opened->id, NULL, NULL, &code);
+    if (code != CL_SUCCESS) {
+        status = glint_fail_opencl(error, opened, "creating a context", code);
+        goto cleanup;
+    }
+    opened->queue = clCreateCommandQueue(opened->context, opened->id, 0, &code);
+    if (code != CL_SUCCESS) {
+        status = glint_fail_opencl(error, opened, "creating a queue", code);
+        goto cleanup;
+    }
+    *device = opened;
+    opened = NULL;
+cleanup:
+    glint_device_close(opened);
+    free(devices);
+    return status;
+}
+
+const glint_capabilities *glint_device_capabilities(const glint_device *device)
+{
+    return &device->capabilities;
+}
+
+void glint_device_close(glint_device *device)
+{
+    if (device == NULL) {
+        return;
+    }
+    if (device->queue != NULL) {
+        clReleaseCommandQueue(device->queue);
+    }
+    if (device->context != NULL) {
+        clReleaseContext(device->context);
+    }
+    free(device);
+}

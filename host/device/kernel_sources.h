@@ -1,0 +1,7 @@
+// The kernels' source, embedded at build time by kernels/embed.cmake.
+#ifndef GLINT_DEVICE_KERNEL_SOURCES_H
+#define GLINT_DEVICE_KERNEL_SOURCES_H
+
+extern const char glint_kernel_source[]; // kernels/render.cl with all its includes, #line kept
+
+#endif

@@ -1,0 +1,24 @@
+// OpenCL's handles behind glint_device, and the text of its errors: for floors 4 and 5 only.
+#ifndef GLINT_DEVICE_OPENCL_H
+#define GLINT_DEVICE_OPENCL_H
+
+#include "base/status.h"
+#include "device/capabilities.h"
+
+#include <CL/cl.h>
+
+struct glint_device {
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue; // in order
+    glint_capabilities capabilities;
+};
+
+// "CL_OUT_OF_RESOURCES"; "OpenCL error −9999" in a static buffer's stead is "unknown OpenCL error".
+const char *glint_opencl_error_name(cl_int code);
+
+// Fails with "DEVICE: what: CL_NAME (−5)".
+glint_status glint_fail_opencl(glint_error *error, const struct glint_device *device,
+                               const char *what, cl_int code);
+
+#endif

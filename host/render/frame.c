@@ -1,0 +1,472 @@
+// Rendering one frame. See frame.h.
+#include "render/frame.h"
+
+#include "base/memory.h"
+#include "device/program.h"
+#include "environment/irradiance.h"
+#include "kernels/layout.h"
+#include "render/upload.h"
+#include "render/view.h"
+#include "scene/topology.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+// Texels along an edge of the irradiance map: irradiance is smooth, and bilinear filtering at this
+// size is off by about 10⁻⁴ of it.
+#define IRRADIANCE_EDGE 64
+// Launches are made long enough to keep a device busy and short enough for progress and signals.
+#define LAUNCH_MS 100.0
+
+struct glint_renderer {
+    glint_device *device;
+    glint_settings settings;
+    glint_plan plan;
+    glint_bvh_report bvh;
+    glint_phases phases;
+    glint_stored_space space;
+    glint_scene_memory memory;
+    int environment_edge, irradiance_edge;
+    cl_kernel kernel;
+    cl_mem pixels, counters;
+    size_t pixel_count;
+};
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+// Milliseconds since *start, which moves on to now.
+static double lap(double *start)
+{
+    double now = now_ms(), elapsed = now - *start;
+    *start = now;
+    return elapsed;
+}
+
+static size_t scalar_bytes(const glint_renderer *r)
+{
+    return r->plan.precision == GLINT_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
+}
+
+// ---- Creation ----------------------------------------------------------------------------------
+
+static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r, glint_error *error)
+{
+    glint_topology topology = {0};
+    glint_status status = glint_topology_find(in->scene, &topology, error);
+    if (status == GLINT_OK) {
+        const glint_plan_inputs inputs = {
+            .scene = in->scene,
+            .topology = &topology,
+            .camera = in->camera,
+            .device = glint_device_capabilities(in->device),
+            .settings = in->settings,
+        };
+        status = glint_plan_make(&inputs, &r->plan, error);
+    }
+    glint_topology_free(&topology);
+    return status;
+}
+
+static bool needs_irradiance(const glint_plan *plan)
+{
+    return plan->features[GLINT_FEATURE_PAINT].compiled ||
+           plan->features[GLINT_FEATURE_BLEND].compiled;
+}
+
+static glint_status set_argument(const glint_renderer *r, cl_uint index, size_t size,
+                                 const void *value, glint_error *error)
+{
+    cl_int code = clSetKernelArg(r->kernel, index, size, value);
+    return code == CL_SUCCESS
+               ? GLINT_OK
+               : glint_fail_opencl(error, r->device, "setting a kernel's argument", code);
+}
+
+static glint_status set_buffers(const glint_renderer *r, glint_error *error)
+{
+    const cl_mem buffers[] = {
+        r->memory.nodes,     r->memory.positions, r->memory.normals,     r->memory.facts,
+        r->memory.materials, r->memory.media,     r->memory.environment, r->memory.irradiance,
+        r->pixels,           r->counters};
+    glint_status status = GLINT_OK;
+    for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
+        status = set_argument(r, i, sizeof buffers[i], &buffers[i], error);
+    }
+    return status;
+}
+
+#define FRAME_ARGUMENT 10
+
+// Where a packet is one ray, the rays of 8 × 8 pixels share a work-group; a wider packet is a
+// work-group's worth by itself.
+static void local_size(const glint_plan *plan, size_t local[2])
+{
+    local[0] = local[1] = plan->kernel_width == 1 ? 8 : 1;
+}
+
+static void packet_size(const glint_plan *plan, int *width, int *height)
+{
+    *width = plan->kernel_width == 1 ? 1 : 4;
+    *height = plan->kernel_width == 16 ? 4 : plan->kernel_width == 8 ? 2 : 1;
+}
+
+static size_t round_up(size_t value, size_t multiple)
+{
+    return (value + multiple - 1) / multiple * multiple;
+}
+
+// Renders the packets of `rows` rows from `first` on, and waits for the end.
+static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t first,
+                           size_t rows, glint_error *error)
+{
+    record->first_row = (int)first;
+    glint_status status = set_argument(r, FRAME_ARGUMENT, sizeof *record, record, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    int packet_width, packet_height;
+    packet_size(&r->plan, &packet_width, &packet_height);
+    size_t local[2];
+    local_size(&r->plan, local);
+    size_t columns = ((size_t)r->settings.width + (size_t)packet_width - 1) / (size_t)packet_width;
+    const size_t global[2] = {round_up(columns, local[0]), round_up(rows, local[1])};
+    cl_int code = clEnqueueNDRangeKernel(r->device->queue, r->kernel, 2, NULL, global, local, 0,
+                                         NULL, NULL);
+    if (code == CL_SUCCESS) {
+        code = clFinish(r->device->queue);
+    }
+    return code == CL_SUCCESS ? GLINT_OK
+                              : glint_fail_opencl(error, r->device, "running the kernel", code);
+}
+
+// Compiles, and launches once over an image without pixels: drivers put off a part of the
+// compilation to the first launch.
+static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer *r,
+                                 glint_error *error)
+{
+    char options[4096];
+    glint_plan_build_options(&r->plan, options, sizeof options);
+    glint_status status =
+        glint_kernel_build(r->device, in->kernel_dir, options, "render_packets", &r->kernel, error);
+    if (status == GLINT_OK) {
+        status = set_buffers(r, error);
+    }
+    if (status == GLINT_OK) {
+        glint_frame_record nothing = {0};
+        status = launch(r, &nothing, 0, 1, error);
+    }
+    return status;
+}
+
+static glint_status create_outputs(glint_renderer *r, glint_error *error)
+{
+    size_t bytes;
+    if (!glint_multiply((size_t)r->settings.width, (size_t)r->settings.height, &r->pixel_count) ||
+        !glint_multiply(r->pixel_count, 4 * scalar_bytes(r), &bytes)) {
+        return glint_fail(error, GLINT_USAGE, "--size: %dx%d is too large", r->settings.width,
+                          r->settings.height);
+    }
+    glint_status status =
+        glint_buffer_create(r->device, "the frame", bytes, NULL, &r->pixels, error);
+    if (status == GLINT_OK) {
+        const size_t counters = GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2 * sizeof(cl_uint);
+        status =
+            glint_buffer_create(r->device, "the counters", counters, NULL, &r->counters, error);
+    }
+    return status;
+}
+
+// The smallest power of two that is no smaller than the tree needs, so that few sizes are compiled.
+static int traversal_stack(int need)
+{
+    int size = 64;
+    while (size < need) {
+        size *= 2;
+    }
+    return size;
+}
+
+static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, glint_error *error)
+{
+    double clock = now_ms();
+    glint_bvh bvh = {0};
+    glint_cube irradiance = {0};
+    glint_status status = analyse(in, r, error);
+    r->phases.analysis = lap(&clock);
+    if (status == GLINT_OK) {
+        status = glint_bvh_build(in->scene->positions, in->scene->triangle_count, r->plan.bvh_width,
+                                 &bvh, error);
+        r->bvh = bvh.report;
+        r->plan.traversal_stack = traversal_stack(bvh.report.stack_need);
+        r->phases.bvh = lap(&clock);
+    }
+    if (status == GLINT_OK && needs_irradiance(&r->plan)) {
+        status =
+            glint_irradiance_map(&in->environment->radiance, IRRADIANCE_EDGE, &irradiance, error);
+        r->phases.irradiance = lap(&clock);
+    }
+    if (status == GLINT_OK) {
+        const glint_upload_inputs inputs = {
+            .device = in->device,
+            .scene = in->scene,
+            .bvh = &bvh,
+            .plan = &r->plan,
+            .environment = &in->environment->radiance,
+            .irradiance = &irradiance,
+        };
+        status = glint_scene_upload(&inputs, &r->memory, error);
+    }
+    if (status == GLINT_OK) {
+        r->environment_edge = in->environment->radiance.edge;
+        r->irradiance_edge = irradiance.edge;
+        status = create_outputs(r, error);
+        r->phases.upload = lap(&clock);
+    }
+    if (status == GLINT_OK) {
+        status = build_kernel(in, r, error);
+        r->phases.kernel_build = lap(&clock);
+    }
+    glint_bvh_free(&bvh);
+    glint_cube_free(&irradiance);
+    return status;
+}
+
+glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
+                                   glint_error *error)
+{
+    *renderer = NULL;
+    glint_renderer *r = calloc(1, sizeof *r);
+    if (r == NULL) {
+        return glint_fail_memory(error, "the renderer");
+    }
+    r->device = inputs->device;
+    r->settings = *inputs->settings;
+    r->space = glint_stored_space_of(inputs->scene);
+    glint_status status = fill(inputs, r, error);
+    if (status != GLINT_OK) {
+        glint_renderer_free(r);
+        return status;
+    }
+    *renderer = r;
+    return GLINT_OK;
+}
+
+const glint_plan *glint_renderer_plan(const glint_renderer *renderer)
+{
+    return &renderer->plan;
+}
+
+const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer)
+{
+    return &renderer->bvh;
+}
+
+const glint_phases *glint_renderer_phases(const glint_renderer *renderer)
+{
+    return &renderer->phases;
+}
+
+void glint_renderer_free(glint_renderer *renderer)
+{
+    if (renderer == NULL) {
+        return;
+    }
+    glint_scene_memory_free(&renderer->memory);
+    if (renderer->pixels != NULL) {
+        clReleaseMemObject(renderer->pixels);
+    }
+    if (renderer->counters != NULL) {
+        clReleaseMemObject(renderer->counters);
+    }
+    if (renderer->kernel != NULL) {
+        clReleaseKernel(renderer->kernel);
+    }
+    free(renderer);
+}
+
+// ---- A frame -----------------------------------------------------------------------------------
+
+static glint_status clear_counters(const glint_renderer *r, glint_error *error)
+{
+    static const cl_uint zeros[GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2] = {0};
+    cl_int code = clEnqueueWriteBuffer(r->device->queue, r->counters, CL_TRUE, 0, sizeof zeros,
+                                       zeros, 0, NULL, NULL);
+    return code == CL_SUCCESS ? GLINT_OK
+                              : glint_fail_opencl(error, r->device, "clearing the counters", code);
+}
+
+static uint64_t total_of(const cl_uint *counters, int counter)
+{
+    uint64_t total = 0;
+    for (int slot = 0; slot < GLINT_COUNTER_SLOTS; slot++) {
+        const cl_uint *words = counters + 2 * (slot * GLINT_COUNTERS + counter);
+        uint64_t value = ((uint64_t)words[1] << 32) + words[0];
+        total = counter == GLINT_COUNT_DEEPEST ? (value > total ? value : total) : total + value;
+    }
+    return total;
+}
+
+static glint_status read_counters(const glint_renderer *r, glint_frame_report *report,
+                                  glint_error *error)
+{
+    cl_uint counters[GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2];
+    cl_int code = clEnqueueReadBuffer(r->device->queue, r->counters, CL_TRUE, 0, sizeof counters,
+                                      counters, 0, NULL, NULL);
+    if (code != CL_SUCCESS) {
+        return glint_fail_opencl(error, r->device, "reading the counters", code);
+    }
+    report->rays.primary = total_of(counters, GLINT_COUNT_PRIMARY);
+    report->rays.reflected = total_of(counters, GLINT_COUNT_REFLECTED);
+    report->rays.refracted_in = total_of(counters, GLINT_COUNT_REFRACTED_IN);
+    report->rays.refracted_out = total_of(counters, GLINT_COUNT_REFRACTED_OUT);
+    report->rays.transmitted = total_of(counters, GLINT_COUNT_TRANSMITTED);
+    report->rays.total_reflections = total_of(counters, GLINT_COUNT_TOTAL_REFLECTIONS);
+    report->deepest = (uint32_t)total_of(counters, GLINT_COUNT_DEEPEST);
+    double all = (double)report->rays.primary * (1 << GLINT_WEIGHT_BITS);
+    glint_truncation *t = &report->truncation;
+    t->by_depth = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH) / all;
+    t->by_min_weight = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT) / all;
+    t->by_stack = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_STACK) / all;
+    t->media_overflows = total_of(counters, GLINT_COUNT_MEDIA_OVERFLOWS);
+    return GLINT_OK;
+}
+
+// Rows of packets, in launches of about LAUNCH_MS; asks `progress` between them.
+static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
+                                 const glint_progress *progress, glint_error *error)
+{
+    int packet_width, packet_height;
+    packet_size(&r->plan, &packet_width, &packet_height);
+    size_t local[2];
+    local_size(&r->plan, local);
+    size_t rows = ((size_t)record->height + (size_t)packet_height - 1) / (size_t)packet_height;
+    size_t step = round_up(rows / 16 > 0 ? rows / 16 : 1, local[1]);
+    for (size_t first = 0; first < rows;) {
+        size_t count = first + step < rows ? step : rows - first;
+        double clock = now_ms();
+        glint_status status = launch(r, record, first, count, error);
+        if (status != GLINT_OK) {
+            return status;
+        }
+        first += count;
+        if (progress != NULL && !progress->step(progress->context, first, rows)) {
+            return glint_fail(error, GLINT_INTERRUPTED, "stopped");
+        }
+        // Twice as many rows while launches are short, half as many when they are long.
+        double elapsed = lap(&clock);
+        if (elapsed < LAUNCH_MS / 2) {
+            step *= 2;
+        } else if (elapsed > LAUNCH_MS * 2 && step >= 2 * local[1]) {
+            step = round_up(step / 2, local[1]);
+        }
+    }
+    return GLINT_OK;
+}
+
+static glint_status read_scalars(const glint_renderer *r, void *values, glint_error *error)
+{
+    cl_int code = clEnqueueReadBuffer(r->device->queue, r->pixels, CL_TRUE, 0,
+                                      r->pixel_count * 4 * scalar_bytes(r), values, 0, NULL, NULL);
+    return code == CL_SUCCESS ? GLINT_OK
+                              : glint_fail_opencl(error, r->device, "reading the frame", code);
+}
+
+static glint_status read_image(const glint_renderer *r, glint_image *image, glint_error *error)
+{
+    if (r->plan.precision == GLINT_PRECISION_FLOAT) {
+        return read_scalars(r, image->pixels, error);
+    }
+    size_t values = r->pixel_count * 4;
+    double *exact = glint_allocate(values, sizeof *exact);
+    if (exact == NULL) {
+        return glint_fail_memory(error, "the frame");
+    }
+    glint_status status = read_scalars(r, exact, error);
+    for (size_t i = 0; status == GLINT_OK && i < values; i++) {
+        image->pixels[i] = (float)exact[i];
+    }
+    free(exact);
+    return status;
+}
+
+static uint64_t count_nonfinite(const glint_image *image)
+{
+    uint64_t count = 0;
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < pixels; i++) {
+        const float *p = image->pixels + 4 * i;
+        // The sum is not finite if any of the four is not (or if it overflows, which is as wrong).
+        count += isfinite(p[0] + p[1] + p[2] + p[3]) ? 0 : 1;
+    }
+    return count;
+}
+
+glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,
+                                  const glint_progress *progress, glint_image *image,
+                                  glint_frame_report *report, glint_error *error)
+{
+    glint_renderer *r = renderer;
+    glint_frame_report own_report;
+    report = report != NULL ? report : &own_report;
+    *report = (glint_frame_report){0};
+    glint_frame_record record;
+    glint_view_record(&r->space, camera, &r->settings, &r->plan, &record);
+    record.environment_edge = r->environment_edge;
+    record.irradiance_edge = r->irradiance_edge;
+    glint_status status =
+        glint_image_create(r->settings.width, r->settings.height, 4, image, error);
+    double clock = now_ms();
+    if (status == GLINT_OK) {
+        status = clear_counters(r, error);
+    }
+    if (status == GLINT_OK) {
+        status = run_launches(r, &record, progress, error);
+        report->kernel_ms = lap(&clock);
+    }
+    if (status == GLINT_OK) {
+        status = read_image(r, image, error);
+    }
+    if (status == GLINT_OK) {
+        status = read_counters(r, report, error);
+        report->readback_ms = lap(&clock);
+    }
+    if (status != GLINT_OK) {
+        glint_image_free(image);
+        return status;
+    }
+    report->nonfinite_pixels = count_nonfinite(image);
+    r->phases.kernel = report->kernel_ms;
+    r->phases.readback = report->readback_ms;
+    return GLINT_OK;
+}
+
+glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixels,
+                                         glint_error *error)
+{
+    size_t values = renderer->pixel_count * 4;
+    *pixels = glint_allocate(values, sizeof **pixels);
+    if (*pixels == NULL) {
+        return glint_fail_memory(error, "the frame");
+    }
+    // Floats are read into the upper half and spread from the front, so that none is overwritten
+    // before it is read.
+    bool is_double = renderer->plan.precision == GLINT_PRECISION_DOUBLE;
+    float *floats = (float *)*pixels + values;
+    glint_status status = read_scalars(renderer, is_double ? (void *)*pixels : floats, error);
+    for (size_t i = 0; status == GLINT_OK && !is_double && i < values; i++) {
+        float value = floats[i];
+        (*pixels)[i] = (double)value;
+    }
+    if (status != GLINT_OK) {
+        free(*pixels);
+        *pixels = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,98 @@
+// Rendering one frame: upload, launch, read back. Returns pixels, writes no file.
+#ifndef GLINT_RENDER_FRAME_H
+#define GLINT_RENDER_FRAME_H
+
+#include "accel/bvh.h"
+#include "base/status.h"
+#include "device/device.h"
+#include "environment/environment.h"
+#include "image/image.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Wall-clock milliseconds of the phases that floor 5 sees.
+typedef struct glint_phases {
+    double analysis;     // topology and plan
+    double bvh;          // tree
+    double irradiance;   // irradiance map, where paint needs one
+    double kernel_build; // compiling, or fetching from the driver's cache
+    double upload;
+    double kernel; // all launches of the frame
+    double readback;
+} glint_phases;
+
+// Rays traced or looked up, by how they came about. A path's last direction counts even where it
+// was only looked up in the environment.
+typedef struct glint_ray_counts {
+    uint64_t primary;
+    uint64_t reflected;
+    uint64_t refracted_in;      // into a solid
+    uint64_t refracted_out;     // out of a solid
+    uint64_t transmitted;       // straight through a thin wall
+    uint64_t total_reflections; // of `reflected`, those by total internal reflection
+} glint_ray_counts;
+
+// Light that took the environment along its last direction without that direction being traced, as
+// a share of all weight (1 = every sample of every pixel, largest of R, G and B).
+typedef struct glint_truncation {
+    double by_depth;
+    double by_min_weight;
+    double by_stack;
+    uint64_t media_overflows; // entries lost because solids nest deeper than the stack of media
+} glint_truncation;
+
+typedef struct glint_frame_report {
+    glint_ray_counts rays;
+    glint_truncation truncation;
+    uint32_t deepest; // surfaces met by the longest path
+    uint64_t
+        nonfinite_pixels; // pixels with a NaN or infinite component (0 unless something is wrong)
+    double kernel_ms, readback_ms; // of this frame
+} glint_frame_report;
+
+// Called between launches. `done` and `total` are pixel rows × samples in launch order. Returning
+// false stops the frame with GLINT_INTERRUPTED.
+typedef struct glint_progress {
+    bool (*step)(void *context, uint64_t done, uint64_t total);
+    void *context;
+} glint_progress;
+
+// A scene on a device, ready to render frames. Opaque.
+typedef struct glint_renderer glint_renderer;
+
+typedef struct glint_renderer_inputs {
+    glint_device *device;                 // borrowed, must outlive the renderer
+    const glint_scene *scene;             // borrowed during creation only
+    const glint_environment *environment; // borrowed during creation only
+    const glint_camera *camera;           // decides what is compiled (orthographic or not)
+    const glint_settings *settings;       // borrowed during creation only
+    const char *kernel_dir;               // NULL: the embedded kernels
+} glint_renderer_inputs;
+
+// Analyses, plans, builds the tree and the kernels, uploads. Errors: GLINT_USAGE, GLINT_BAD_INPUT,
+// GLINT_DEVICE_FAILED; a kernel that does not compile leaves the build log in error->details.
+glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
+                                   glint_error *error);
+
+const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
+const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);
+const glint_phases *glint_renderer_phases(const glint_renderer *renderer);
+
+// Renders with `camera` into a new RGBA image (premultiplied, linear). `progress` and `report` may
+// be NULL. On failure `image` is left empty.
+glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,
+                                  const glint_progress *progress, glint_image *image,
+                                  glint_frame_report *report, glint_error *error);
+
+// The pixels of the last frame as the device computed them ([height][width][4] of double,
+// malloc'd), before they are rounded to float: for tests of the double precision.
+glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixels,
+                                         glint_error *error);
+
+// NULL is allowed.
+void glint_renderer_free(glint_renderer *renderer);
+
+#endif

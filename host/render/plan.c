@@ -1,0 +1,347 @@
+// The plan: what is compiled, and why. See plan.h.
+#include "render/plan.h"
+
+#include "kernels/layout.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const glint_settings glint_settings_default = {
+    .width = 1280,
+    .height = 720,
+    .samples_per_axis = 1,
+    .min_weight = GLINT_DEFAULT_MIN_WEIGHT,
+};
+
+const char *glint_feature_name(glint_feature feature)
+{
+    static const char *const names[] = {
+#define NAME(name, meaning) #name,
+        GLINT_FEATURES(NAME)
+#undef NAME
+    };
+    return names[feature];
+}
+
+const char *glint_feature_meaning(glint_feature feature)
+{
+    static const char *const meanings[] = {
+#define MEANING(name, meaning) meaning,
+        GLINT_FEATURES(MEANING)
+#undef MEANING
+    };
+    return meanings[feature];
+}
+
+// How many of the materials in use have each property.
+typedef struct material_census {
+    size_t used;
+    size_t metal, glass, solid, thin, absorbing, paint, gloss, blend, unlit, emissive;
+} material_census;
+
+static bool is_absorbing(const glint_material *m)
+{
+    return isfinite(m->attenuation_distance) &&
+           (m->attenuation_color[0] < 1 || m->attenuation_color[1] < 1 ||
+            m->attenuation_color[2] < 1);
+}
+
+static void count_material(const glint_material *m, material_census *census)
+{
+    census->used++;
+    if (m->unlit) {
+        census->unlit++;
+        return; // the base colour is all there is
+    }
+    census->emissive += m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0;
+    if (m->mirror >= 0) {
+        census->blend++;
+        return; // the blend replaces the other models
+    }
+    bool glass = m->metallic < 1 && m->transmission > 0;
+    bool paint = m->metallic < 1 && m->transmission < 1;
+    census->metal += m->metallic > 0;
+    census->glass += glass;
+    census->solid += glint_material_is_solid(m);
+    census->thin += glass && !glint_material_is_solid(m);
+    census->absorbing += glint_material_is_solid(m) && is_absorbing(m);
+    census->paint += paint;
+    census->gloss += paint && !(m->roughness > 0);
+}
+
+static glint_status take_census(const glint_scene *scene, material_census *census,
+                                glint_error *error)
+{
+    *census = (material_census){0};
+    bool *used = calloc(scene->material_count + 1, sizeof *used);
+    if (used == NULL) {
+        return glint_fail_memory(error, "the plan");
+    }
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        if (scene->instances[i].triangle_count > 0) {
+            used[scene->instances[i].material] = true;
+        }
+    }
+    for (size_t i = 0; i < scene->material_count; i++) {
+        if (used[i]) {
+            count_material(&scene->materials[i], census);
+        }
+    }
+    free(used);
+    return GLINT_OK;
+}
+
+static void decide(glint_plan *plan, glint_feature feature, bool compiled, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+static void decide(glint_plan *plan, glint_feature feature, bool compiled, const char *format, ...)
+{
+    glint_feature_choice *choice = &plan->features[feature];
+    choice->compiled = compiled;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(choice->reason, sizeof choice->reason, format, arguments);
+    va_end(arguments);
+}
+
+// "2 of 5 materials are metal" / "no material is metal"
+static void decide_by_count(glint_plan *plan, glint_feature feature, size_t count, size_t of,
+                            const char *what)
+{
+    if (count == 0) {
+        decide(plan, feature, false, "no material %s", what);
+    } else {
+        decide(plan, feature, true, "%zu of %zu material%s: %s", count, of, of == 1 ? "" : "s",
+               what);
+    }
+}
+
+static void decide_materials(const material_census *c, glint_plan *plan)
+{
+    decide(plan, GLINT_FEATURE_MANY_MATERIALS, c->used > 1, "%zu material%s in use", c->used,
+           c->used == 1 ? "" : "s");
+    decide_by_count(plan, GLINT_FEATURE_MIRROR, c->metal, c->used, "has a metallic share");
+    decide_by_count(plan, GLINT_FEATURE_GLASS, c->glass, c->used, "transmits");
+    decide_by_count(plan, GLINT_FEATURE_SOLID, c->solid, c->used, "bounds a solid (has a volume)");
+    decide_by_count(plan, GLINT_FEATURE_THIN_WALL, c->thin, c->used, "transmits without a volume");
+    decide_by_count(plan, GLINT_FEATURE_ABSORPTION, c->absorbing, c->used, "absorbs inside");
+    decide_by_count(plan, GLINT_FEATURE_PAINT, c->paint, c->used, "has a share of paint");
+    decide_by_count(plan, GLINT_FEATURE_GLOSS, c->gloss, c->used, "is smooth paint");
+    decide_by_count(plan, GLINT_FEATURE_BLEND, c->blend, c->used, "has the lecture's blend");
+    decide_by_count(plan, GLINT_FEATURE_UNLIT, c->unlit, c->used, "is unlit");
+    decide_by_count(plan, GLINT_FEATURE_EMISSION, c->emissive, c->used, "emits");
+}
+
+static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
+{
+    const glint_scene *scene = in->scene;
+    decide(plan, GLINT_FEATURE_GEOMETRY, scene->triangle_count > 0, "%zu triangles",
+           scene->triangle_count);
+    decide(plan, GLINT_FEATURE_SMOOTH_NORMALS, scene->normals != NULL, "%s",
+           scene->normals != NULL ? "some primitive has normals" : "no primitive has normals");
+    if (!plan->features[GLINT_FEATURE_SOLID].compiled) {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, false, "no material bounds a solid");
+    } else if (glint_topology_solids_may_nest(scene, in->topology)) {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, true,
+               "solids may nest: not all are convex and apart from each other");
+    } else {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, false,
+               "every solid is convex and their bounds are apart: none nests");
+    }
+}
+
+static void decide_settings(const glint_settings *settings, glint_plan *plan)
+{
+    decide(plan, GLINT_FEATURE_INTERREFLECTION,
+           plan->features[GLINT_FEATURE_GEOMETRY].compiled && plan->depth > 1, "depth %d",
+           plan->depth);
+    int samples = settings->samples_per_axis * settings->samples_per_axis;
+    decide(plan, GLINT_FEATURE_SUPERSAMPLING, samples > 1, "%d sample%s a pixel", samples,
+           samples == 1 ? "" : "s");
+    decide(plan, GLINT_FEATURE_TRANSPARENT, settings->transparent, "background %s",
+           settings->transparent ? "transparent" : "env");
+    bool turned = fmod(settings->env_rotate, 360) != 0;
+    decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
+}
+
+static glint_status check_settings(const glint_plan_inputs *in, glint_error *error)
+{
+    const glint_settings *s = in->settings;
+    if (s->width < 1 || s->height < 1) {
+        return glint_fail(error, GLINT_USAGE, "--size: %dx%d has no pixels", s->width, s->height);
+    }
+    if (s->samples_per_axis < 1 || s->samples_per_axis > 256) {
+        return glint_fail(error, GLINT_USAGE, "--samples: 1 to 65536, a square number");
+    }
+    if (s->depth < 0) {
+        return glint_fail(error, GLINT_USAGE, "--depth: 1 or more, or auto");
+    }
+    if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
+        return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
+    }
+    if (!isfinite(s->env_rotate)) {
+        return glint_fail(error, GLINT_USAGE, "--env-rotate: a finite number of degrees");
+    }
+    if (s->kernel_width != 0 && s->kernel_width != 1 && s->kernel_width != 8 &&
+        s->kernel_width != 16) {
+        return glint_fail(error, GLINT_USAGE, "--kernel-width: 1, 8 or 16");
+    }
+    if (s->precision == GLINT_PRECISION_DOUBLE && !in->device->has_double) {
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "device '%s' has no double precision (use --precision float)",
+                          in->device->name);
+    }
+    return GLINT_OK;
+}
+
+// A packet fills the widest vector of the device; where a work-item is one lane of the hardware's
+// own (GPUs), a packet is one ray.
+static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
+{
+    const glint_capabilities *device = in->device;
+    int lanes = device->native_float_width;
+    if (plan->precision == GLINT_PRECISION_DOUBLE) {
+        lanes /= 2;
+    }
+    plan->bvh_width = device->native_float_width >= 16 ? 16 : 8;
+    if (in->settings->kernel_width != 0) {
+        plan->kernel_width = in->settings->kernel_width;
+        snprintf(plan->width_reason, sizeof plan->width_reason, "asked for");
+    } else if (!device->is_cpu) {
+        plan->kernel_width = 1;
+        snprintf(plan->width_reason, sizeof plan->width_reason, "not a CPU: one ray a work-item");
+    } else {
+        plan->kernel_width = lanes >= 16 ? 16 : 8;
+        snprintf(plan->width_reason, sizeof plan->width_reason, "the device's vectors hold %d %ss",
+                 lanes, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float");
+    }
+}
+
+// The path goes on with the lighter of two branches, which has at most half of the weight, so that
+// at most 1 + log2(1/min_weight) wait; one more slot tells that the stack is nearly full.
+static void choose_stack(const glint_settings *settings, glint_plan *plan)
+{
+    plan->stack_capacity = 0;
+    if (!plan->features[GLINT_FEATURE_GLASS].compiled) {
+        snprintf(plan->stack_reason, sizeof plan->stack_reason, "no path splits");
+        return;
+    }
+    double by_weight = settings->min_weight > 0 ? floor(-log2(settings->min_weight)) + 1 : INFINITY;
+    double need = fmin(by_weight, plan->depth) + 1;
+    plan->stack_capacity = (int)fmin(need, GLINT_DEPTH_MAX + 1);
+    if (need > plan->stack_capacity) {
+        snprintf(plan->stack_reason, sizeof plan->stack_reason,
+                 "%d is the most; more would be truncated and reported", plan->stack_capacity);
+    } else {
+        snprintf(plan->stack_reason, sizeof plan->stack_reason,
+                 "enough for every path of depth %d and least weight %g", plan->depth,
+                 settings->min_weight);
+    }
+}
+
+// Entries of the fewest bits that can name every medium; without nesting one entry is enough.
+static void choose_media(const glint_scene *scene, glint_plan *plan)
+{
+    int media = 0;
+    for (size_t i = 0; i < scene->material_count; i++) {
+        media += glint_material_is_solid(&scene->materials[i]);
+    }
+    plan->media_count = media;
+    int bits = 1;
+    while (bits < 30 && (1 << bits) <= media) {
+        bits++;
+    }
+    plan->media_bits = bits;
+    bool nested = plan->features[GLINT_FEATURE_NESTED_MEDIA].compiled;
+    plan->media_capacity = nested ? 30 / bits : 1;
+}
+
+static size_t scene_bytes(const glint_scene *scene)
+{
+    size_t per_triangle = 9 * sizeof(float) + GLINT_FACTS * sizeof(unsigned);
+    per_triangle += scene->normals != NULL ? 9 * sizeof(float) : 0;
+    return scene->triangle_count * per_triangle +
+           scene->material_count * sizeof(glint_material_record);
+}
+
+// To show that unneeded features change nothing. A feature that contradicts the settings (a
+// transparent background) would change the picture and stays as it is.
+static void compile_everything(glint_plan *plan)
+{
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        if (i == GLINT_FEATURE_TRANSPARENT || plan->features[i].compiled ||
+            (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1)) {
+            continue;
+        }
+        if (!plan->features[GLINT_FEATURE_GEOMETRY].compiled) {
+            continue;
+        }
+        decide(plan, (glint_feature)i, true, "not needed, but all features were asked for");
+    }
+}
+
+glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
+{
+    *plan = (glint_plan){0};
+    const glint_settings *settings = in->settings;
+    glint_status status = check_settings(in, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    material_census census;
+    status = take_census(in->scene, &census, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    plan->precision = settings->precision;
+    plan->depth_is_auto = settings->depth == 0;
+    plan->depth = plan->depth_is_auto ? GLINT_DEPTH_MAX : settings->depth;
+    decide_materials(&census, plan);
+    decide_scene(in, plan);
+    decide_settings(settings, plan);
+    if (settings->all_features) {
+        compile_everything(plan);
+    }
+    choose_width(in, plan);
+    choose_stack(settings, plan);
+    choose_media(in->scene, plan);
+    plan->scene_bytes = scene_bytes(in->scene);
+    plan->traversal_stack = 64;
+    return GLINT_OK;
+}
+
+int glint_plan_feature_count(const glint_plan *plan)
+{
+    int count = 0;
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        count += plan->features[i].compiled;
+    }
+    return count;
+}
+
+void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity)
+{
+    size_t used = (size_t)snprintf(
+        text, capacity,
+        "-cl-std=CL1.2 -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d -DGLINT_DOUBLE=%d "
+        "-DGLINT_STACK_CAPACITY=%d -DGLINT_MEDIA_BITS=%d -DGLINT_MEDIA_CAPACITY=%d "
+        "-DGLINT_TRAVERSAL_STACK=%d",
+        plan->kernel_width, plan->bvh_width, plan->precision == GLINT_PRECISION_DOUBLE,
+        plan->stack_capacity, plan->media_bits, plan->media_capacity, plan->traversal_stack);
+    for (int i = 0; i < GLINT_FEATURE_COUNT && used < capacity; i++) {
+        used += (size_t)snprintf(text + used, capacity - used, " -DGLINT_%s=%d",
+                                 glint_feature_name((glint_feature)i), plan->features[i].compiled);
+    }
+}
+
+void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity)
+{
+    char depth[32];
+    snprintf(depth, sizeof depth, plan->depth_is_auto ? "auto (at most %d)" : "%d", plan->depth);
+    snprintf(text, capacity, "shading pixel, depth %s, precision %s, width %d, %d of %d features",
+             depth, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
+             plan->kernel_width, glint_plan_feature_count(plan), GLINT_FEATURE_COUNT);
+}

@@ -1,0 +1,94 @@
+// The plan: what is compiled for one scene on one device, and why. Pure: it calls no OpenCL.
+#ifndef GLINT_RENDER_PLAN_H
+#define GLINT_RENDER_PLAN_H
+
+#include "base/status.h"
+#include "device/capabilities.h"
+#include "environment/environment.h"
+#include "kernels/features.h"
+#include "scene/scene.h"
+#include "scene/topology.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum glint_precision {
+    GLINT_PRECISION_FLOAT,
+    GLINT_PRECISION_DOUBLE,
+} glint_precision;
+
+typedef enum glint_feature {
+#define GLINT_FEATURE_NAME(name, meaning) GLINT_FEATURE_##name,
+    GLINT_FEATURES(GLINT_FEATURE_NAME)
+#undef GLINT_FEATURE_NAME
+        GLINT_FEATURE_COUNT
+} glint_feature;
+
+#define GLINT_DEPTH_MAX 64 // what --depth auto stops at; larger depths may be asked for by number
+#define GLINT_DEFAULT_MIN_WEIGHT (1.0 / 1024)
+
+// What the user asks for. glint_settings_default fills it.
+typedef struct glint_settings {
+    int width, height;    // pixels, ≥ 1
+    int samples_per_axis; // k of k² samples a pixel, ≥ 1
+    int depth;            // surfaces a path meets, ≥ 1; 0: auto
+    double min_weight;    // in [0, 1]; 0 follows every branch to the depth
+    bool transparent;     // background transparent, else the environment
+    double env_rotate;    // degrees about +Y, counter-clockwise seen from above
+    glint_precision precision;
+    int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
+    bool all_features; // compile everything, needed or not (to test that it changes nothing)
+} glint_settings;
+
+extern const glint_settings glint_settings_default; // 1280 × 720, 1 sample, auto, 1/1024, float
+
+// How a feature was decided.
+typedef struct glint_feature_choice {
+    bool compiled;
+    char reason[120]; // "3 of 8 materials are metal", "no material has a volume"
+} glint_feature_choice;
+
+typedef struct glint_plan {
+    glint_feature_choice features[GLINT_FEATURE_COUNT];
+    glint_precision precision;
+    int kernel_width; // lanes: rays of a packet
+    char width_reason[120];
+    int bvh_width; // children of a node
+    int depth;     // surfaces at most
+    bool depth_is_auto;
+    int stack_capacity; // waiting branches a ray; 0 without GLASS
+    char stack_reason[120];
+    int media_count;     // distinct media (index of refraction and absorption), without empty space
+    int media_bits;      // bits of one entry of the stack of media
+    int media_capacity;  // entries of that stack
+    int traversal_stack; // entries of the traversal's stack; set once the tree is built
+    size_t scene_bytes;  // device memory for triangles, normals and facts, without the tree
+} glint_plan;
+
+// Names of a feature and what it adds, from kernels/features.h.
+const char *glint_feature_name(glint_feature feature);
+const char *glint_feature_meaning(glint_feature feature);
+
+// Everything the decision rests on. Pointers are borrowed.
+typedef struct glint_plan_inputs {
+    const glint_scene *scene;
+    const glint_topology *topology;
+    const glint_camera *camera;
+    const glint_capabilities *device;
+    const glint_settings *settings;
+} glint_plan_inputs;
+
+// Errors: GLINT_USAGE for settings out of range, GLINT_DEVICE_FAILED for what the device cannot do
+// (double precision without cl_khr_fp64).
+glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
+
+// The number of features compiled.
+int glint_plan_feature_count(const glint_plan *plan);
+
+// Writes the kernel build options ("-DGLINT_WIDTH=16 …") of at most `capacity` bytes.
+void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity);
+
+// One line that names the plan: "pixel, depth auto (≤ 64), float, width 16, 11 of 20 features".
+void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity);
+
+#endif

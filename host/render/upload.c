@@ -1,0 +1,229 @@
+// The scene's buffers on the device. See upload.h.
+#include "render/upload.h"
+
+#include "base/memory.h"
+#include "kernels/layout.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Both compilers must lay the shared structs out alike: 32-bit scalars without gaps.
+_Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has gaps");
+_Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
+_Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
+_Static_assert(sizeof(glint_frame_record) == 6 * 32 + 16 * 4, "glint_frame_record has gaps");
+
+glint_status glint_buffer_create(const struct glint_device *device, const char *what, size_t bytes,
+                                 const void *data, cl_mem *buffer, glint_error *error)
+{
+    static const char nothing[16] = {0};
+    size_t least = sizeof nothing;
+    if (bytes > device->capabilities.largest_allocation_bytes) {
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "device '%s': %s needs %.0f MiB in one buffer and the device allows %.0f",
+                          device->capabilities.name, what, (double)bytes / 1048576,
+                          (double)device->capabilities.largest_allocation_bytes / 1048576);
+    }
+    if (bytes < least) {
+        data = bytes == 0 || data == NULL ? nothing : data;
+    }
+    size_t allocated = bytes < least ? least : bytes;
+    cl_int code;
+    *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, allocated, NULL, &code);
+    if (code == CL_SUCCESS && data != NULL && bytes > 0) {
+        code = clEnqueueWriteBuffer(device->queue, *buffer, CL_TRUE, 0, bytes, data, 0, NULL, NULL);
+    }
+    return code == CL_SUCCESS ? GLINT_OK : glint_fail_opencl(error, device, what, code);
+}
+
+// Triangles in the order of the tree's leaves.
+static void reorder(const glint_bvh *bvh, size_t count, const float *from, float *to)
+{
+    for (size_t place = 0; place < count; place++) {
+        memcpy(to + 9 * place, from + 9 * (size_t)bvh->order[place], 9 * sizeof(float));
+    }
+}
+
+static glint_status upload_vertices(const glint_upload_inputs *in, const char *what,
+                                    const float *values, cl_mem *buffer, glint_error *error)
+{
+    size_t count = values != NULL ? in->scene->triangle_count : 0;
+    float *ordered = glint_allocate(9 * count, sizeof *ordered);
+    if (ordered == NULL) {
+        return glint_fail_memory(error, what);
+    }
+    reorder(in->bvh, count, values, ordered);
+    glint_status status =
+        glint_buffer_create(in->device, what, 9 * count * sizeof *ordered, ordered, buffer, error);
+    free(ordered);
+    return status;
+}
+
+static glint_status upload_facts(const glint_upload_inputs *in, cl_mem *buffer, glint_error *error)
+{
+    size_t count = in->scene->triangle_count;
+    uint32_t *facts = glint_allocate(GLINT_FACTS * count, sizeof *facts);
+    if (facts == NULL) {
+        return glint_fail_memory(error, "the triangles' facts");
+    }
+    for (size_t place = 0; place < count; place++) {
+        uint32_t triangle = in->bvh->order[place];
+        facts[GLINT_FACTS * place + GLINT_FACT_TRIANGLE] = triangle;
+        facts[GLINT_FACTS * place + GLINT_FACT_MATERIAL] = in->scene->material_of[triangle];
+    }
+    glint_status status =
+        glint_buffer_create(in->device, "the triangles' facts", GLINT_FACTS * count * sizeof *facts,
+                            facts, buffer, error);
+    free(facts);
+    return status;
+}
+
+static glint_material_record material_record(const glint_material *m, uint32_t *media)
+{
+    glint_material_record record = {0};
+    memcpy(record.base_color, m->base_color, sizeof m->base_color);
+    record.metallic = m->metallic;
+    record.transmission = m->transmission;
+    record.ior = m->ior;
+    if (m->unlit) {
+        record.flags = GLINT_MATERIAL_UNLIT;
+        record.metallic = 1; // nothing is transmitted
+        return record;
+    }
+    memcpy(record.emission, m->emission, sizeof m->emission);
+    if (m->mirror >= 0) {
+        record.flags = GLINT_MATERIAL_BLEND;
+        record.blend = m->mirror;
+        record.metallic = 1;
+        return record;
+    }
+    if (glint_material_is_solid(m)) {
+        record.flags |= GLINT_MATERIAL_SOLID;
+        record.medium = ++*media;
+    } else if (m->metallic < 1 && m->transmission > 0) {
+        record.flags |= GLINT_MATERIAL_THIN;
+    }
+    if (!(m->roughness > 0)) {
+        record.flags |= GLINT_MATERIAL_GLOSS;
+    }
+    return record;
+}
+
+// σ = −ln(colour)/distance (KHR_materials_volume), per stored unit. A colour of 0 absorbs all: a
+// finite σ large enough for any distance, as ∞ times a distance of 0 would give NaN.
+static glint_medium_record medium_record(const glint_material *m, double unit)
+{
+    glint_medium_record record = {.ior = m->ior};
+    for (int k = 0; k < 3; k++) {
+        double sigma = 0;
+        if (isfinite(m->attenuation_distance) && m->attenuation_color[k] < 1) {
+            double color = fmax((double)m->attenuation_color[k], 1e-30);
+            sigma = -log(color) / (double)m->attenuation_distance * unit;
+            sigma = m->attenuation_color[k] > 0 ? fmin(sigma, 1e30) : 1e30;
+        }
+        record.absorption_high[k] = (float)sigma;
+        record.absorption_low[k] = (float)(sigma - (double)record.absorption_high[k]);
+    }
+    return record;
+}
+
+static glint_status upload_materials(const glint_upload_inputs *in, glint_scene_memory *memory,
+                                     glint_error *error)
+{
+    const glint_scene *scene = in->scene;
+    size_t count = scene->material_count;
+    glint_status status = GLINT_OK;
+    uint32_t media_count = 0;
+    glint_material_record *materials = glint_allocate(count + 1, sizeof *materials);
+    glint_medium_record *media = glint_allocate(count + 1, sizeof *media);
+    if (materials == NULL || media == NULL) {
+        status = glint_fail_memory(error, "the materials");
+        goto cleanup;
+    }
+    media[0].ior = 1;
+    size_t only = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t before = media_count;
+        materials[i] = material_record(&scene->materials[i], &media_count);
+        if (media_count > before) {
+            media[media_count] = medium_record(&scene->materials[i], scene->unit);
+        }
+    }
+    // A kernel without MANY_MATERIALS reads the first: the one that is in use.
+    if (scene->triangle_count > 0) {
+        only = scene->material_of[0];
+    }
+    if (!in->plan->features[GLINT_FEATURE_MANY_MATERIALS].compiled) {
+        materials[0] = materials[only];
+    }
+    status = glint_buffer_create(in->device, "the materials", (count + 1) * sizeof *materials,
+                                 materials, &memory->materials, error);
+    if (status == GLINT_OK) {
+        status = glint_buffer_create(in->device, "the media", (media_count + 1) * sizeof *media,
+                                     media, &memory->media, error);
+    }
+cleanup:
+    free(materials);
+    free(media);
+    return status;
+}
+
+static glint_status upload_cube(const glint_upload_inputs *in, const char *what,
+                                const glint_cube *cube, cl_mem *buffer, glint_error *error)
+{
+    size_t bytes = cube->texels != NULL ? glint_cube_size(cube) * sizeof(float) : 0;
+    return glint_buffer_create(in->device, what, bytes, cube->texels, buffer, error);
+}
+
+glint_status glint_scene_upload(const glint_upload_inputs *in, glint_scene_memory *memory,
+                                glint_error *error)
+{
+    *memory = (glint_scene_memory){0};
+    size_t node_bytes = in->bvh->node_count * GLINT_NODE_VALUES * (size_t)in->bvh->width * 4;
+    glint_status status = glint_buffer_create(in->device, "the tree", node_bytes, in->bvh->nodes,
+                                              &memory->nodes, error);
+    if (status == GLINT_OK) {
+        status =
+            upload_vertices(in, "the triangles", in->scene->positions, &memory->positions, error);
+    }
+    if (status == GLINT_OK) {
+        status = upload_vertices(in, "the normals", in->scene->normals, &memory->normals, error);
+    }
+    if (status == GLINT_OK) {
+        status = upload_facts(in, &memory->facts, error);
+    }
+    if (status == GLINT_OK) {
+        status = upload_materials(in, memory, error);
+    }
+    if (status == GLINT_OK) {
+        status = upload_cube(in, "the environment", in->environment, &memory->environment, error);
+    }
+    if (status == GLINT_OK) {
+        status = upload_cube(in, "the irradiance", in->irradiance, &memory->irradiance, error);
+    }
+    if (status != GLINT_OK) {
+        glint_scene_memory_free(memory);
+    }
+    return status;
+}
+
+static void release(cl_mem buffer)
+{
+    if (buffer != NULL) {
+        clReleaseMemObject(buffer);
+    }
+}
+
+void glint_scene_memory_free(glint_scene_memory *memory)
+{
+    release(memory->nodes);
+    release(memory->positions);
+    release(memory->normals);
+    release(memory->facts);
+    release(memory->materials);
+    release(memory->media);
+    release(memory->environment);
+    release(memory->irradiance);
+    *memory = (glint_scene_memory){0};
+}

@@ -1,0 +1,39 @@
+// The scene's buffers on the device.
+#ifndef GLINT_RENDER_UPLOAD_H
+#define GLINT_RENDER_UPLOAD_H
+
+#include "accel/bvh.h"
+#include "base/status.h"
+#include "device/opencl.h"
+#include "environment/environment.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+// Zero is valid: no buffers. Each is described in kernels/layout.h; those that the plan does not
+// need are a few bytes long, as a kernel's arguments cannot be left out.
+typedef struct glint_scene_memory {
+    cl_mem nodes, positions, normals, facts, materials, media, environment, irradiance;
+} glint_scene_memory;
+
+// Everything that is uploaded. Pointers are borrowed; `irradiance` may be an empty cube.
+typedef struct glint_upload_inputs {
+    const struct glint_device *device;
+    const glint_scene *scene;
+    const glint_bvh *bvh;
+    const glint_plan *plan;
+    const glint_cube *environment;
+    const glint_cube *irradiance;
+} glint_upload_inputs;
+
+// Errors: GLINT_DEVICE_FAILED, also when a buffer is larger than the device allows: said before
+// anything is uploaded.
+glint_status glint_scene_upload(const glint_upload_inputs *inputs, glint_scene_memory *memory,
+                                glint_error *error);
+void glint_scene_memory_free(glint_scene_memory *memory);
+
+// A buffer of `bytes` (at least 16 are made), filled from `data` unless that is NULL. `what` names
+// it in messages.
+glint_status glint_buffer_create(const struct glint_device *device, const char *what, size_t bytes,
+                                 const void *data, cl_mem *buffer, glint_error *error);
+
+#endif

@@ -1,0 +1,85 @@
+// From a camera to the values that the kernel makes primary rays of. See view.h and
+// glint_frame_record.
+#include "render/view.h"
+
+#include <math.h>
+#include <string.h>
+
+glint_stored_space glint_stored_space_of(const glint_scene *scene)
+{
+    double unit = scene->unit > 0 ? scene->unit : 1;
+    return (glint_stored_space){scene->origin, unit, scene->low, scene->high};
+}
+
+static void split_number(double value, float *high, float *low)
+{
+    *high = (float)value;
+    *low = (float)(value - (double)*high);
+}
+
+static glint_split_vector split_vector(glint_vec3 v)
+{
+    glint_split_vector split = {{0}, {0}};
+    split_number(v.x, &split.high[0], &split.low[0]);
+    split_number(v.y, &split.high[1], &split.low[1]);
+    split_number(v.z, &split.high[2], &split.low[2]);
+    return split;
+}
+
+// How far in front of the eye the scene begins, along the axis of view, in stored units: 0 when the
+// eye is beside, behind or inside. Kept a little short, so that rounding hides nothing.
+static double start_depth(const glint_stored_space *space, const glint_camera *camera,
+                          glint_vec3 eye)
+{
+    if (!(space->low.x <= space->high.x)) {
+        return 0;
+    }
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (int corner = 0; corner < 8; corner++) {
+        glint_vec3 p = {corner & 1 ? space->high.x : space->low.x,
+                        corner & 2 ? space->high.y : space->low.y,
+                        corner & 4 ? space->high.z : space->low.z};
+        p = glint_vec3_scale(glint_vec3_subtract(p, space->origin), 1 / space->unit);
+        double depth = -glint_vec3_dot(glint_vec3_subtract(p, eye), camera->back);
+        nearest = fmin(nearest, depth);
+        farthest = fmax(farthest, depth);
+    }
+    double depth = nearest - 0.01 * (farthest - nearest) - 1e-6 * fabs(nearest);
+    return depth > 0 ? depth : 0;
+}
+
+void glint_view_record(const glint_stored_space *space, const glint_camera *camera,
+                       const glint_settings *settings, const glint_plan *plan,
+                       glint_frame_record *record)
+{
+    memset(record, 0, sizeof *record);
+    const glint_vec3 none = {0, 0, 0};
+    glint_vec3 eye =
+        glint_vec3_scale(glint_vec3_subtract(camera->eye, space->origin), 1 / space->unit);
+    glint_vec3 forward = glint_vec3_scale(camera->back, -1);
+    double start = start_depth(space, camera, eye);
+
+    // The image plane's step of one pixel: at unit distance, or for parallel rays in stored units.
+    double half_height = camera->orthographic ? camera->ymag / space->unit : tan(camera->yfov / 2);
+    double step = 2 * half_height / settings->height;
+    glint_vec3 step_x = glint_vec3_scale(camera->right, step);
+    glint_vec3 step_y = glint_vec3_scale(camera->up, step);
+    double spread = camera->orthographic ? 1 : start; // of the origins
+
+    record->origin = split_vector(glint_vec3_add(eye, glint_vec3_scale(forward, start)));
+    record->origin_x = split_vector(glint_vec3_scale(step_x, spread));
+    record->origin_y = split_vector(glint_vec3_scale(step_y, spread));
+    record->direction = split_vector(forward);
+    record->direction_x = split_vector(camera->orthographic ? none : step_x);
+    record->direction_y = split_vector(camera->orthographic ? none : step_y);
+    split_number(start, &record->start[0], &record->start[1]);
+
+    double angle = fmod(settings->env_rotate, 360) * GLINT_PI / 180;
+    split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
+    split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
+    record->min_weight = (float)settings->min_weight;
+    record->width = settings->width;
+    record->height = settings->height;
+    record->samples_per_axis = settings->samples_per_axis;
+    record->depth = plan->depth;
+}

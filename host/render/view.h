@@ -1,0 +1,23 @@
+// From a camera to the values that the kernel makes primary rays of.
+#ifndef GLINT_RENDER_VIEW_H
+#define GLINT_RENDER_VIEW_H
+
+#include "kernels/layout.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+// What placing rays in stored coordinates needs of a scene.
+typedef struct glint_stored_space {
+    glint_vec3 origin;    // metres
+    double unit;          // metres per stored unit
+    glint_vec3 low, high; // bounds, metres; low > high: no triangles
+} glint_stored_space;
+
+glint_stored_space glint_stored_space_of(const glint_scene *scene);
+
+// Fills the camera's and the settings' part of the record; the edges of the maps are the caller's.
+void glint_view_record(const glint_stored_space *space, const glint_camera *camera,
+                       const glint_settings *settings, const glint_plan *plan,
+                       glint_frame_record *record);
+
+#endif

@@ -1,0 +1,244 @@
+// Properties of the plan: what is compiled follows from scene, settings and device, with a reason.
+#include "kernels/layout.h"
+#include "render/plan.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const glint_capabilities wide_cpu = {
+    .is_cpu = true, .has_double = true, .native_float_width = 16, .name = "wide"};
+static const glint_capabilities narrow_cpu = {
+    .is_cpu = true, .has_double = true, .native_float_width = 4, .name = "narrow"};
+static const glint_capabilities plain_gpu = {
+    .is_gpu = true, .native_float_width = 1, .name = "gpu"};
+
+// One triangle a material.
+typedef struct test_scene {
+    glint_scene scene;
+    glint_material materials[4];
+    glint_instance instances[4];
+} test_scene;
+
+static const glint_material white_paint = {.base_color = {1, 1, 1},
+                                           .roughness = 1,
+                                           .ior = 1.5f,
+                                           .attenuation_distance = INFINITY,
+                                           .attenuation_color = {1, 1, 1},
+                                           .mirror = -1};
+
+static void make_scene(test_scene *s, const glint_material *materials, size_t count)
+{
+    *s = (test_scene){0};
+    for (size_t i = 0; i < count; i++) {
+        s->materials[i] = materials[i];
+        s->instances[i] = (glint_instance){.triangle_count = 1, .material = (uint32_t)i};
+    }
+    s->scene = (glint_scene){.triangle_count = count,
+                             .material_count = count,
+                             .materials = s->materials,
+                             .instance_count = count,
+                             .instances = s->instances,
+                             .unit = 1};
+}
+
+static glint_status plan_for(const test_scene *s, const glint_capabilities *device,
+                             const glint_settings *settings, glint_plan *plan, glint_error *error)
+{
+    // No component is proved convex, so solids may nest.
+    static glint_component solid = {.instance = 0, .triangle_count = 1};
+    const glint_topology topology = {.component_count = 1, .components = &solid};
+    const glint_plan_inputs inputs = {
+        .scene = &s->scene, .topology = &topology, .device = device, .settings = settings};
+    return glint_plan_make(&inputs, plan, error);
+}
+
+static bool compiles(const glint_plan *plan, glint_feature feature)
+{
+    return plan->features[feature].compiled;
+}
+
+static void a_mirror_compiles_no_glass_and_no_paint(void **state)
+{
+    (void)state;
+    glint_material mirror = white_paint;
+    mirror.metallic = 1;
+    test_scene s;
+    make_scene(&s, &mirror, 1);
+    glint_plan plan;
+    assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_MIRROR));
+    assert_true(compiles(&plan, GLINT_FEATURE_INTERREFLECTION));
+    assert_int_equal(glint_plan_feature_count(&plan), 3); // and GEOMETRY
+    assert_int_equal(plan.stack_capacity, 0);
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        assert_true(plan.features[i].reason[0] != '\0');
+    }
+}
+
+static void glass_compiles_what_its_volume_asks_for(void **state)
+{
+    (void)state;
+    glint_material glass = white_paint;
+    glass.transmission = 1;
+    test_scene s;
+    glint_plan plan;
+    make_scene(&s, &glass, 1);
+    assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_THIN_WALL) && !compiles(&plan, GLINT_FEATURE_SOLID));
+    assert_false(compiles(&plan, GLINT_FEATURE_PAINT));
+    glass.thickness = 1;
+    make_scene(&s, &glass, 1);
+    assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_SOLID) && !compiles(&plan, GLINT_FEATURE_THIN_WALL));
+    assert_true(compiles(&plan, GLINT_FEATURE_NESTED_MEDIA));
+    assert_false(compiles(&plan, GLINT_FEATURE_ABSORPTION));
+    glass.attenuation_distance = 2;
+    glass.attenuation_color[1] = 0.5f;
+    make_scene(&s, &glass, 1);
+    assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_ABSORPTION));
+}
+
+static void unlit_and_blended_materials_hide_their_other_factors(void **state)
+{
+    (void)state;
+    glint_material pair[2] = {white_paint, white_paint};
+    pair[0].unlit = true;
+    pair[0].transmission = 1;
+    pair[0].emission[0] = 3;
+    pair[1].mirror = 0.5f;
+    pair[1].metallic = 1;
+    test_scene s;
+    make_scene(&s, pair, 2);
+    glint_plan plan;
+    assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_UNLIT) && compiles(&plan, GLINT_FEATURE_BLEND));
+    assert_true(compiles(&plan, GLINT_FEATURE_MANY_MATERIALS));
+    assert_false(compiles(&plan, GLINT_FEATURE_GLASS) || compiles(&plan, GLINT_FEATURE_MIRROR));
+    assert_false(compiles(&plan, GLINT_FEATURE_EMISSION) || compiles(&plan, GLINT_FEATURE_PAINT));
+}
+
+static void the_width_follows_the_device(void **state)
+{
+    (void)state;
+    test_scene s;
+    make_scene(&s, &white_paint, 1);
+    glint_settings settings = glint_settings_default;
+    glint_plan plan;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_true(plan.kernel_width == 16 && plan.bvh_width == 16);
+    assert_int_equal(plan_for(&s, &narrow_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_true(plan.kernel_width == 8 && plan.bvh_width == 8);
+    assert_int_equal(plan_for(&s, &plain_gpu, &settings, &plan, NULL), GLINT_OK);
+    assert_true(plan.kernel_width == 1 && plan.bvh_width == 8);
+    settings.precision = GLINT_PRECISION_DOUBLE;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_int_equal(plan.kernel_width, 8);
+    glint_error error = {0};
+    assert_int_equal(plan_for(&s, &plain_gpu, &settings, &plan, &error), GLINT_DEVICE_FAILED);
+    assert_non_null(strstr(error.message, "double"));
+}
+
+static void the_stack_holds_every_branch_that_the_least_weight_allows(void **state)
+{
+    (void)state;
+    glint_material glass = white_paint;
+    glass.transmission = 1;
+    test_scene s;
+    make_scene(&s, &glass, 1);
+    glint_settings settings = glint_settings_default;
+    glint_plan plan;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_int_equal(plan.stack_capacity, 12); // log2(1024) + 1 waiting, and the warning slot
+    settings.depth = 2;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_int_equal(plan.stack_capacity, 3);
+    settings.min_weight = 0;
+    settings.depth = 1000;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_int_equal(plan.stack_capacity, GLINT_DEPTH_MAX + 1);
+    assert_non_null(strstr(plan.stack_reason, "truncated"));
+}
+
+static void media_take_as_few_bits_as_can_name_them(void **state)
+{
+    (void)state;
+    glint_material glass[4] = {white_paint, white_paint, white_paint, white_paint};
+    for (int i = 0; i < 4; i++) {
+        glass[i].transmission = 1;
+        glass[i].thickness = 1;
+    }
+    static const int bits[] = {0, 1, 2, 2, 3};
+    for (size_t count = 1; count <= 4; count++) {
+        test_scene s;
+        make_scene(&s, glass, count);
+        glint_plan plan;
+        assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+        assert_int_equal(plan.media_bits, bits[count]);
+        assert_true(plan.media_bits * plan.media_capacity <= 30);
+    }
+}
+
+static void settings_out_of_range_are_usage_errors(void **state)
+{
+    (void)state;
+    test_scene s;
+    make_scene(&s, &white_paint, 1);
+    glint_settings bad[8];
+    for (int i = 0; i < 8; i++) {
+        bad[i] = glint_settings_default;
+    }
+    bad[0].width = 0;
+    bad[1].height = -1;
+    bad[2].samples_per_axis = 0;
+    bad[3].depth = -1;
+    bad[4].min_weight = NAN;
+    bad[5].min_weight = 1.5;
+    bad[6].env_rotate = INFINITY;
+    bad[7].kernel_width = 4;
+    for (int i = 0; i < 8; i++) {
+        glint_plan plan;
+        glint_error error = {0};
+        assert_int_equal(plan_for(&s, &wide_cpu, &bad[i], &plan, &error), GLINT_USAGE);
+        assert_true(strncmp(error.message, "--", 2) == 0);
+    }
+}
+
+static void every_feature_is_passed_to_the_compiler_as_0_or_1(void **state)
+{
+    (void)state;
+    test_scene s;
+    make_scene(&s, &white_paint, 1);
+    glint_plan plan;
+    assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+    char options[4096];
+    glint_plan_build_options(&plan, options, sizeof options);
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        char wanted[80];
+        snprintf(wanted, sizeof wanted, "-DGLINT_%s=%d", glint_feature_name((glint_feature)i),
+                 plan.features[i].compiled);
+        assert_non_null(strstr(options, wanted));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mirror_compiles_no_glass_and_no_paint),
+        cmocka_unit_test(glass_compiles_what_its_volume_asks_for),
+        cmocka_unit_test(unlit_and_blended_materials_hide_their_other_factors),
+        cmocka_unit_test(the_width_follows_the_device),
+        cmocka_unit_test(the_stack_holds_every_branch_that_the_least_weight_allows),
+        cmocka_unit_test(media_take_as_few_bits_as_can_name_them),
+        cmocka_unit_test(settings_out_of_range_are_usage_errors),
+        cmocka_unit_test(every_feature_is_passed_to_the_compiler_as_0_or_1),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
