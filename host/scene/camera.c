@@ -1,0 +1,65 @@
+// The camera: its axes from a node's transform, and the default one. See camera.h.
+#include "scene/camera.h"
+
+#include <stddef.h>
+
+static glint_vec3 column3(const glint_mat4 *matrix, int column)
+{
+    return (glint_vec3){matrix->m[0][column], matrix->m[1][column], matrix->m[2][column]};
+}
+
+static bool is_zero(glint_vec3 v)
+{
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+bool glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera)
+{
+    glint_vec3 back = glint_vec3_normalize(column3(to_world, 2));
+    glint_vec3 up = glint_vec3_normalize(column3(to_world, 1));
+    glint_vec3 eye = column3(to_world, 3);
+    if (is_zero(back) || is_zero(up) || !isfinite(eye.x) || !isfinite(eye.y) || !isfinite(eye.z)) {
+        return false;
+    }
+    // What is left of up beside the forward axis. Of two unit vectors, less than this much is
+    // rounding and no direction.
+    const double least = 1e-9;
+    up = glint_vec3_subtract(up, glint_vec3_scale(back, glint_vec3_dot(up, back)));
+    if (!(glint_vec3_length(up) > least)) {
+        return false;
+    }
+    up = glint_vec3_normalize(up);
+    // Once more: where little was left of it, its own rounding had grown.
+    up = glint_vec3_subtract(up, glint_vec3_scale(back, glint_vec3_dot(up, back)));
+    camera->up = glint_vec3_normalize(up);
+    camera->back = back;
+    // Not the matrix's right: a mirrored node would give a mirrored picture.
+    camera->right = glint_vec3_normalize(glint_vec3_cross(camera->up, back));
+    camera->eye = eye;
+    return true;
+}
+
+void glint_camera_frame_bounds(glint_vec3 low, glint_vec3 high, glint_camera *camera)
+{
+    const double yfov = 40 * GLINT_PI / 180;
+    *camera = (glint_camera){.yfov = yfov};
+    // Written so that NaN counts as no box.
+    bool has_box = low.x <= high.x && low.y <= high.y && low.z <= high.z;
+    glint_vec3 center = {0, 0, 0};
+    if (has_box) {
+        center = glint_vec3_add(low, glint_vec3_scale(glint_vec3_subtract(high, low), 0.5));
+    }
+    double radius = has_box ? glint_vec3_length(glint_vec3_subtract(high, low)) / 2 : 0;
+    // From the eye to the centre: the direction in which the camera's +Z axis points.
+    glint_vec3 back = {0, 0, 1};
+    // Far enough that the step from the centre is not lost in rounding.
+    double distance = fmax(1, 1e-3 * glint_vec3_length(center));
+    if (radius > 0 && isfinite(radius)) {
+        back = glint_vec3_normalize((glint_vec3){0.4, 0.3, 1});
+        distance = radius / sin(yfov / 2);
+    }
+    camera->back = back;
+    camera->right = glint_vec3_normalize(glint_vec3_cross((glint_vec3){0, 1, 0}, back));
+    camera->up = glint_vec3_cross(back, camera->right);
+    camera->eye = glint_vec3_add(center, glint_vec3_scale(back, distance));
+}

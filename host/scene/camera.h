@@ -1,0 +1,39 @@
+// The camera: where primary rays come from.
+#ifndef GLINT_SCENE_CAMERA_H
+#define GLINT_SCENE_CAMERA_H
+
+#include "base/vector.h"
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// right, up and back are orthonormal and right-handed (right × up = back) in world space; the
+// camera looks along −back. The node's scale is ignored. Near and far planes do not clip.
+typedef struct glint_camera {
+    char *name;        // the node's name, else the camera's, else NULL; owned
+    bool orthographic; // else perspective
+    double yfov;       // perspective: the whole vertical angle, radians, in (0, π)
+    double ymag;       // orthographic: half the vertical extent, metres, > 0
+    glint_vec3 eye;    // metres, world space
+    glint_vec3 right, up, back;
+} glint_camera;
+
+// The camera at a node whose global transform is `to_world`, with its axes made orthonormal: the
+// forward axis is kept, up is made perpendicular to it, right follows. False if they cannot be
+// (singular or not finite).
+bool glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera);
+
+// A camera that frames the box from `low` to `high` (metres, world space): perspective, 40°, seen
+// from in front, a little from the right and from above, so that the bounding sphere fits an aspect
+// of 1:1. A box without extent, or none (low > high), gives a camera at +Z that looks at its centre
+// or the origin.
+void glint_camera_frame_bounds(glint_vec3 low, glint_vec3 high, glint_camera *camera);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

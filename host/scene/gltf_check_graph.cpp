@@ -1,0 +1,306 @@
+// Validation of the raw JSON: nodes, scenes, cameras and skins. Everything takes linear time: a
+// graph of 40 nodes can have 2^40 paths, and a chain can be 50,000 deep. See gltf_check.hpp.
+#include "scene/gltf_check.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace glint
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+std::string node_name(std::size_t i)
+{
+    return "nodes[" + std::to_string(i) + "]";
+}
+
+void check_numbers(const json &node, const Place &node_place, const char *key, std::size_t count)
+{
+    const json *found = member(node, key);
+    if (found == nullptr) {
+        return;
+    }
+    Place place = node_place / key;
+    if (!found->is_array() || found->size() != count) {
+        std::string got = found->is_array() ? counted(found->size(), "element") : "no array";
+        refuse(place, got + " (it must be an array of " + std::to_string(count) + " numbers)");
+    }
+    for (std::size_t i = 0; i < count; i++) {
+        number_of((*found)[i], place[i]);
+    }
+}
+
+// A matrix must be one that translation, rotation and scale could make: affine and not singular.
+void check_matrix(const json &node, const Place &node_place)
+{
+    check_numbers(node, node_place, "matrix", 16);
+    const json *found = member(node, "matrix");
+    if (found == nullptr) {
+        return;
+    }
+    Place place = node_place / "matrix";
+    std::array<double, 16> m{};
+    for (std::size_t i = 0; i < m.size(); i++) {
+        m[i] = (*found)[i].get<double>();
+    }
+    // Some exporters round; nobody writes a projection by a part in 100,000.
+    constexpr double tolerance = 1e-5;
+    if (std::fabs(m[3]) > tolerance || std::fabs(m[7]) > tolerance ||
+        std::fabs(m[11]) > tolerance || std::fabs(m[15] - 1) > tolerance) {
+        refuse(place, "its last row is not 0 0 0 1 (a node's matrix moves, turns and scales only)");
+    }
+    double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
+                         m[8] * (m[1] * m[6] - m[2] * m[5]);
+    double volume =
+        std::hypot(m[0], m[1], m[2]) * std::hypot(m[4], m[5], m[6]) * std::hypot(m[8], m[9], m[10]);
+    // Written so that NaN and a volume of 0 count as singular. 1e-12 of the box that the axes span
+    // is far below what the floats of a matrix can mean.
+    if (!(std::fabs(determinant) > 1e-12 * volume)) {
+        refuse(place, "singular: its axes lie in a plane (a scale of [0, 0, 0] hides a node)");
+    }
+}
+
+void check_rotation(const json &node, const Place &place)
+{
+    check_numbers(node, place, "rotation", 4);
+    const json *found = member(node, "rotation");
+    if (found == nullptr) {
+        return;
+    }
+    double squares = 0;
+    for (const json &value : *found) {
+        squares += value.get<double>() * value.get<double>();
+    }
+    if (!(squares > 1e-12 && squares < 1e12)) {
+        refuse(place / "rotation", "not a rotation: the quaternion's length is " +
+                                       shown(std::sqrt(squares)) +
+                                       " (it must be 1; [0, 0, 0, 1] turns nothing)");
+    }
+}
+
+void check_instancing(const json &root, const json &node, const Place &node_place)
+{
+    const json *extensions = optional_object(node, node_place, "extensions");
+    const json *instancing =
+        extensions == nullptr
+            ? nullptr
+            : optional_object(*extensions, node_place / "extensions", "EXT_mesh_gpu_instancing");
+    if (instancing == nullptr) {
+        return;
+    }
+    Place place = node_place / "extensions" / "EXT_mesh_gpu_instancing";
+    const json &attributes = object_at(*instancing, place, "attributes");
+    const json &accessors = objects_of(root, "accessors");
+    std::uint64_t instances = 0;
+    for (auto it = attributes.begin(); it != attributes.end(); ++it) {
+        Place attribute = place / "attributes" / it.key().c_str();
+        const json &accessor =
+            accessors[index_of(it.value(), attribute, accessors.size(), "accessor")];
+        auto count = accessor["count"].get<std::uint64_t>();
+        if (instances != 0 && count != instances) {
+            refuse(attribute, "as many elements as the other attributes are needed, there are " +
+                                  std::to_string(count) + " and " + std::to_string(instances));
+        }
+        instances = count;
+        if (it.key() == "TRANSLATION" || it.key() == "SCALE") {
+            check_format(accessor, attribute, {"VEC3", true, false, false});
+        } else if (it.key() == "ROTATION") {
+            check_format(accessor, attribute, {"VEC4", true, true, false});
+        }
+    }
+}
+
+void check_node(const json &root, const json &node, const Place &place)
+{
+    optional_text(node, place, "name");
+    optional_index(node, place, "mesh", objects_of(root, "meshes").size(), "mesh");
+    optional_index(node, place, "camera", objects_of(root, "cameras").size(), "camera");
+    optional_index(node, place, "skin", objects_of(root, "skins").size(), "skin");
+    bool has_matrix = member(node, "matrix") != nullptr;
+    for (const char *key : {"translation", "rotation", "scale"}) {
+        if (has_matrix && member(node, key) != nullptr) {
+            refuse(place, std::string("has a matrix and a ") + key +
+                              " (only one of the two can "
+                              "be meant)");
+        }
+    }
+    check_matrix(node, place);
+    check_numbers(node, place, "translation", 3);
+    check_numbers(node, place, "scale", 3);
+    check_rotation(node, place);
+    check_instancing(root, node, place);
+}
+
+// Refuses the second parent that a node would get; as a loop where it is one.
+void adopt(std::size_t parent, std::size_t child, std::vector<int> &parents, const Place &place)
+{
+    if (parents[child] < 0) {
+        parents[child] = static_cast<int>(parent);
+        return;
+    }
+    // A walk up from `parent` that meets `child` closes a loop. It ends: at most once around.
+    std::size_t steps = 0;
+    for (int up = static_cast<int>(parent); up >= 0 && steps < parents.size(); steps++) {
+        if (up == static_cast<int>(child)) {
+            refuse(place, "node loop: " + node_name(child) + " is above " + node_name(parent) +
+                              " and its child");
+        }
+        up = parents[static_cast<std::size_t>(up)];
+    }
+    auto first = static_cast<std::size_t>(parents[child]);
+    if (first == parent) {
+        refuse(place, node_name(child) + " stands there twice (a node has one place only)");
+    }
+    refuse(place, node_name(child) + " is a child of " + node_name(first) +
+                      " already (a node has one parent only: copy it)");
+}
+
+// With one parent at most, a node that no root leads to is in a loop, or under one.
+void check_loops(const std::vector<int> &parents)
+{
+    enum : char { unknown, on_the_way, rooted };
+    std::vector<char> state(parents.size(), unknown);
+    std::vector<std::size_t> way;
+    for (std::size_t i = 0; i < parents.size(); i++) {
+        way.clear();
+        std::size_t node = i;
+        while (state[node] == unknown) {
+            state[node] = on_the_way;
+            way.push_back(node);
+            if (parents[node] < 0) {
+                break;
+            }
+            node = static_cast<std::size_t>(parents[node]);
+            if (state[node] == on_the_way) {
+                refuse((Place() / "nodes")[node],
+                       "node loop: it is among its own descendants (mend the children)");
+            }
+        }
+        for (std::size_t passed : way) {
+            state[passed] = rooted;
+        }
+    }
+}
+
+void check_nodes(const json &root, Checked &checked)
+{
+    const json &nodes = objects_of(root, "nodes");
+    checked.parents.assign(nodes.size(), -1);
+    for (std::size_t i = 0; i < nodes.size(); i++) {
+        Place place = (Place() / "nodes")[i];
+        check_node(root, nodes[i], place);
+        const json &children = optional_array(nodes[i], place, "children");
+        for (std::size_t c = 0; c < children.size(); c++) {
+            Place child = (place / "children")[c];
+            std::size_t index = index_of(children[c], child, nodes.size(), "node");
+            if (index == i) {
+                refuse(child, "node loop: a node cannot be its own child");
+            }
+            adopt(i, index, checked.parents, child);
+        }
+    }
+    check_loops(checked.parents);
+}
+
+void check_scenes(const json &root, const Checked &checked)
+{
+    const json &scenes = objects_of(root, "scenes");
+    std::vector<std::size_t> listed_by(checked.parents.size(), scenes.size());
+    for (std::size_t s = 0; s < scenes.size(); s++) {
+        Place place = (Place() / "scenes")[s];
+        optional_text(scenes[s], place, "name");
+        const json &nodes = optional_array(scenes[s], place, "nodes");
+        for (std::size_t i = 0; i < nodes.size(); i++) {
+            Place entry = (place / "nodes")[i];
+            std::size_t node = index_of(nodes[i], entry, checked.parents.size(), "node");
+            int parent = checked.parents[node];
+            if (parent >= 0) {
+                refuse(entry, node_name(node) + " is a child of " +
+                                  node_name(static_cast<std::size_t>(parent)) +
+                                  " (a scene lists root nodes only)");
+            }
+            if (listed_by[node] == s) {
+                refuse(entry, node_name(node) + " stands there twice (list it once)");
+            }
+            listed_by[node] = s;
+        }
+    }
+    optional_index(root, Place(), "scene", scenes.size(), "scene");
+}
+
+void check_perspective(const json &camera, const Place &camera_place)
+{
+    Place place = camera_place / "perspective";
+    const json &lens = object_at(camera, camera_place, "perspective");
+    if (member(lens, "yfov") == nullptr) {
+        refuse(place / "yfov", "missing (glTF 2.0 requires it)");
+    }
+    double yfov = number_of(lens["yfov"], place / "yfov");
+    if (!(yfov > 0 && yfov < pi)) {
+        refuse(place / "yfov", shown(yfov) + " is no vertical angle (radians, more than 0 and "
+                                             "less than pi)");
+    }
+}
+
+void check_orthographic(const json &camera, const Place &camera_place)
+{
+    Place place = camera_place / "orthographic";
+    const json &lens = object_at(camera, camera_place, "orthographic");
+    if (member(lens, "ymag") == nullptr) {
+        refuse(place / "ymag", "missing (glTF 2.0 requires it)");
+    }
+    double ymag = number_of(lens["ymag"], place / "ymag");
+    if (ymag == 0) {
+        refuse(place / "ymag", "0: the camera sees nothing (give half the height in metres)");
+    }
+}
+
+void check_cameras(const json &root)
+{
+    const json &cameras = objects_of(root, "cameras");
+    for (std::size_t i = 0; i < cameras.size(); i++) {
+        Place place = (Place() / "cameras")[i];
+        optional_text(cameras[i], place, "name");
+        std::string type = optional_text(cameras[i], place, "type");
+        if (type == "perspective") {
+            check_perspective(cameras[i], place);
+        } else if (type == "orthographic") {
+            check_orthographic(cameras[i], place);
+        } else {
+            refuse(place / "type", in_quotes(type) + " is none (perspective or orthographic)");
+        }
+    }
+}
+
+// Skins are not applied, but what points outside the file says that the file is damaged.
+void check_skins(const json &root)
+{
+    const json &skins = objects_of(root, "skins");
+    std::size_t nodes = objects_of(root, "nodes").size();
+    std::size_t accessors = objects_of(root, "accessors").size();
+    for (std::size_t i = 0; i < skins.size(); i++) {
+        Place place = (Place() / "skins")[i];
+        const json &joints = array_at(skins[i], place, "joints");
+        for (std::size_t j = 0; j < joints.size(); j++) {
+            index_of(joints[j], (place / "joints")[j], nodes, "node");
+        }
+        optional_index(skins[i], place, "skeleton", nodes, "node");
+        optional_index(skins[i], place, "inverseBindMatrices", accessors, "accessor");
+    }
+}
+
+} // namespace
+
+void check_graph(const json &root, Checked &checked)
+{
+    check_cameras(root);
+    check_skins(root);
+    check_nodes(root, checked);
+    check_scenes(root, checked);
+}
+
+} // namespace glint

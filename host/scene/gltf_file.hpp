@@ -1,0 +1,41 @@
+// Getting bytes, safely: the scene's file, its GLB chunks, its JSON and its buffers.
+#ifndef GLINT_SCENE_GLTF_FILE_HPP
+#define GLINT_SCENE_GLTF_FILE_HPP
+
+#include "scene/gltf_json.hpp"
+
+#include <string>
+#include <vector>
+
+namespace glint
+{
+
+using Bytes = std::vector<unsigned char>;
+
+struct Document {
+    Document() = default;
+    Document(const Document &) = delete;
+    Document &operator=(const Document &) = delete;
+
+    std::string path;   // as the user gave it
+    std::string folder; // resolved: what the file may refer to lies under it
+    json root;
+    bool has_bin = false; // a GLB with a BIN chunk
+    Bytes bin;
+    std::vector<Bytes> buffers; // cut to byteLength each
+};
+
+// Reads the file into `document.root` and `document.bin`: a regular file of at most 4 GiB, JSON of
+// at most 1 GiB, nested at most 100 deep.
+void read_document(const char *path, Document &document);
+
+// Fills document.buffers after the byteLengths were checked. Takes the data URIs' texts out of the
+// JSON as it goes, so that they are not held twice.
+void read_buffers(Document &document);
+
+// Refuses a URI that is neither a data URI nor a regular file under the folder.
+void check_uri(const Document &document, const std::string &uri, const Place &place);
+
+} // namespace glint
+
+#endif

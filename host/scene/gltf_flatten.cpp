@@ -1,0 +1,365 @@
+// Flattening, in two passes over the drawn triangles: the first finds the bounds, from which origin
+// and unit follow, the second stores. World positions exist in double only while they are worked
+// on, so that memory is what the scene's arrays take. See gltf_flatten.hpp.
+#include "scene/gltf_flatten.hpp"
+
+#include "base/memory.h"
+#include "scene/gltf_material.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <new>
+
+namespace glint
+{
+
+namespace
+{
+
+// A scene of so many triangles takes 10 GiB; indices of their floats stay below 2^31.
+constexpr std::size_t most_triangles = std::size_t{1} << 27;
+// Metres. Beyond, squares of lengths leave a float's range.
+constexpr double farthest = 1e18;
+
+struct Corner {
+    std::size_t vertex;
+    glint_vec3 local;
+};
+using Triangle = std::array<Corner, 3>;
+
+bool is_finite(glint_vec3 p)
+{
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+bool equal(glint_vec3 a, glint_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+// The triangle's corners in the order in which it is stored.
+Triangle corners_of(const Draw &draw, std::size_t t, bool mirrored)
+{
+    Triangle result;
+    for (std::size_t c = 0; c < 3; c++) {
+        // A mirroring node turns the winding round; swapping two corners puts the outside back.
+        std::size_t from = mirrored && c > 0 ? 3 - c : c;
+        std::size_t vertex = draw.primitive->vertex(t, from);
+        std::array<double, 3> p{};
+        draw.primitive->positions.numbers(vertex, 3, p.data());
+        result[c] = {vertex, {p[0], p[1], p[2]}};
+    }
+    return result;
+}
+
+[[noreturn]] void refuse_position(const Draw &draw, const Corner &corner)
+{
+    refuse(draw.primitive->place() / "attributes" / "POSITION",
+           "vertex " + std::to_string(corner.vertex) + " is (" + shown(corner.local.x) + ", " +
+               shown(corner.local.y) + ", " + shown(corner.local.z) +
+               ") (positions must be finite)");
+}
+
+// A triangle with two corners in one place is degenerate under every transform, and must not be
+// allowed to stretch the bounds.
+bool is_collapsed(const Triangle &triangle)
+{
+    return equal(triangle[0].local, triangle[1].local) ||
+           equal(triangle[1].local, triangle[2].local) ||
+           equal(triangle[2].local, triangle[0].local);
+}
+
+struct Bounds {
+    glint_vec3 low, high;
+};
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Bounds no_bounds = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+void grow(Bounds &bounds, glint_vec3 p)
+{
+    bounds.low = {std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y),
+                  std::min(bounds.low.z, p.z)};
+    bounds.high = {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y),
+                   std::max(bounds.high.z, p.z)};
+}
+
+Bounds measure(const std::vector<Draw> &draws)
+{
+    Bounds bounds = no_bounds;
+    for (const Draw &draw : draws) {
+        for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
+            Triangle triangle = corners_of(draw, t, false);
+            for (const Corner &corner : triangle) {
+                if (!is_finite(corner.local)) {
+                    refuse_position(draw, corner);
+                }
+            }
+            if (is_collapsed(triangle)) {
+                continue;
+            }
+            for (const Corner &corner : triangle) {
+                glint_vec3 p = glint_mat4_point(&draw.to_world, corner.local);
+                // Written so that NaN is refused, too.
+                if (!(std::fabs(p.x) <= farthest && std::fabs(p.y) <= farthest &&
+                      std::fabs(p.z) <= farthest)) {
+                    refuse((Place() / "nodes")[static_cast<std::size_t>(draw.node)],
+                           "its mesh reaches farther than " + shown(farthest) +
+                               " m from the origin (use smaller coordinates or scales)");
+                }
+                grow(bounds, p);
+            }
+        }
+    }
+    return bounds;
+}
+
+double larger(double a, double b, double c)
+{
+    return std::max(a, std::max(b, c));
+}
+
+// `step` is a power of two; beyond 2^52 steps every double is a whole number of them.
+double rounded_to(double value, double step)
+{
+    return std::nearbyint(value / step) * step + 0.0; // never −0
+}
+
+// The unit is the least power of two that holds half the extent, the origin the centre, rounded to
+// 1/64 of the unit: few bits, so that most positions keep theirs in the subtraction. Where the
+// rounding pushes the farthest vertex past 1, the unit doubles.
+void choose_frame(const Bounds &bounds, glint_scene &scene)
+{
+    const glint_vec3 low = bounds.low;
+    const glint_vec3 high = bounds.high;
+    scene.unit = 1;
+    scene.origin = {0, 0, 0};
+    if (!(low.x <= high.x)) {
+        return;
+    }
+    double half = larger(high.x - low.x, high.y - low.y, high.z - low.z) / 2;
+    int exponent = 0;
+    double mantissa = std::frexp(half, &exponent); // half = mantissa × 2^exponent, in [1/2, 1)
+    // Not so small that metres per unit leave a float's range.
+    scene.unit =
+        half > 0 ? std::ldexp(1.0, std::max(mantissa == 0.5 ? exponent - 1 : exponent, -100)) : 1;
+    double step = scene.unit / 64;
+    scene.origin = {rounded_to(low.x + (high.x - low.x) / 2, step),
+                    rounded_to(low.y + (high.y - low.y) / 2, step),
+                    rounded_to(low.z + (high.z - low.z) / 2, step)};
+    glint_vec3 o = scene.origin;
+    double reach = larger(larger(high.x - o.x, high.y - o.y, high.z - o.z), o.x - low.x,
+                          std::max(o.y - low.y, o.z - low.z));
+    if (reach > scene.unit) {
+        scene.unit *= 2;
+    }
+}
+
+// True if a·b = c·d exactly. The products' rounding errors are doubles too (they are far from
+// underflow here), so comparing both parts compares the exact products.
+bool products_equal(double a, double b, double c, double d)
+{
+    double first = a * b;
+    double second = c * d;
+    return first == second && std::fma(a, b, -first) == std::fma(c, d, -second);
+}
+
+// Zero area, exactly as the stored floats have it (where they lie within 2^29 of one another;
+// beyond that the differences are rounded).
+bool has_no_area(const float *p)
+{
+    std::array<double, 3> u{};
+    std::array<double, 3> v{};
+    for (std::size_t k = 0; k < 3; k++) {
+        u[k] = static_cast<double>(p[3 + k]) - static_cast<double>(p[k]);
+        v[k] = static_cast<double>(p[6 + k]) - static_cast<double>(p[k]);
+    }
+    return products_equal(u[1], v[2], u[2], v[1]) && products_equal(u[2], v[0], u[0], v[2]) &&
+           products_equal(u[0], v[1], u[1], v[0]);
+}
+
+class Writer
+{
+  public:
+    Writer(const std::vector<Draw> &draws, glint_scene &scene) : draws_(draws), scene_(scene) {}
+
+    // `default_material` stands for the primitives that name none.
+    void write(std::size_t triangles, bool with_normals, std::uint32_t default_material)
+    {
+        allocate(triangles, with_normals);
+        for (const Draw &draw : draws_) {
+            glint_instance &instance = scene_.instances[scene_.instance_count];
+            instance.node_index = draw.node;
+            instance.first_triangle = scene_.triangle_count;
+            instance.material = draw.primitive->material < 0
+                                    ? default_material
+                                    : static_cast<std::uint32_t>(draw.primitive->material);
+            write_draw(draw, instance.material);
+            instance.triangle_count = scene_.triangle_count - instance.first_triangle;
+            if (instance.triangle_count > 0) {
+                scene_.instance_count++;
+            }
+        }
+        finish_bounds();
+    }
+
+  private:
+    void allocate(std::size_t triangles, bool with_normals)
+    {
+        scene_.positions = static_cast<float *>(glint_allocate(triangles, 9 * sizeof(float)));
+        scene_.normals = with_normals
+                             ? static_cast<float *>(glint_allocate(triangles, 9 * sizeof(float)))
+                             : nullptr;
+        scene_.material_of =
+            static_cast<std::uint32_t *>(glint_allocate(triangles, sizeof(std::uint32_t)));
+        // One more, as an instance is begun before it is known whether anything is left of it.
+        scene_.instances = static_cast<glint_instance *>(
+            glint_allocate(draws_.size() + 1, sizeof(glint_instance)));
+        if (scene_.positions == nullptr || scene_.material_of == nullptr ||
+            scene_.instances == nullptr || (with_normals && scene_.normals == nullptr)) {
+            throw std::bad_alloc();
+        }
+    }
+
+    void write_draw(const Draw &draw, std::uint32_t material)
+    {
+        bool mirrored = glint_mat4_determinant3(&draw.to_world) < 0;
+        const std::array<glint_vec3, 3> turned = {
+            glint_mat4_normal(&draw.to_world, {1, 0, 0}),
+            glint_mat4_normal(&draw.to_world, {0, 1, 0}),
+            glint_mat4_normal(&draw.to_world, {0, 0, 1}),
+        };
+        for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
+            Triangle triangle = corners_of(draw, t, mirrored);
+            float *p = scene_.positions + 9 * scene_.triangle_count;
+            if (is_collapsed(triangle) || !store_positions(draw, triangle, p)) {
+                scene_.degenerate_triangles++;
+                continue;
+            }
+            for (int k = 0; k < 9; k++) {
+                low_[k % 3] = std::min(low_[k % 3], p[k]);
+                high_[k % 3] = std::max(high_[k % 3], p[k]);
+            }
+            if (draw.primitive->has_normals) {
+                store_normals(draw, triangle, turned);
+            }
+            scene_.material_of[scene_.triangle_count++] = material;
+        }
+    }
+
+    // False where nothing is left of the triangle.
+    bool store_positions(const Draw &draw, const Triangle &triangle, float *p) const
+    {
+        for (std::size_t c = 0; c < 3; c++) {
+            glint_vec3 world = glint_mat4_point(&draw.to_world, triangle[c].local);
+            glint_vec3 stored =
+                glint_vec3_scale(glint_vec3_subtract(world, scene_.origin), 1 / scene_.unit);
+            p[3 * c] = static_cast<float>(stored.x);
+            p[3 * c + 1] = static_cast<float>(stored.y);
+            p[3 * c + 2] = static_cast<float>(stored.z);
+        }
+        return !has_no_area(p);
+    }
+
+    // Normals that are zero, NaN or infinite become (0, 0, 0) in glint_vec3_normalize.
+    void store_normals(const Draw &draw, const Triangle &triangle,
+                       const std::array<glint_vec3, 3> &turned)
+    {
+        float *stored = scene_.normals + 9 * scene_.triangle_count;
+        for (std::size_t c = 0; c < 3; c++) {
+            std::array<double, 3> n{};
+            draw.primitive->normals.numbers(triangle[c].vertex, 3, n.data());
+            glint_vec3 sum = glint_vec3_scale(turned[0], n[0]);
+            sum = glint_vec3_add(sum, glint_vec3_scale(turned[1], n[1]));
+            sum = glint_vec3_normalize(glint_vec3_add(sum, glint_vec3_scale(turned[2], n[2])));
+            stored[3 * c] = static_cast<float>(sum.x);
+            stored[3 * c + 1] = static_cast<float>(sum.y);
+            stored[3 * c + 2] = static_cast<float>(sum.z);
+        }
+    }
+
+    // The bounds of what is stored.
+    void finish_bounds()
+    {
+        auto world = [&](const std::array<float, 3> &p) {
+            glint_vec3 stored = {p[0], p[1], p[2]};
+            return glint_vec3_add(scene_.origin, glint_vec3_scale(stored, scene_.unit));
+        };
+        scene_.low = world(low_);
+        scene_.high = world(high_);
+    }
+
+    const std::vector<Draw> &draws_;
+    glint_scene &scene_;
+    std::array<float, 3> low_ = {INFINITY, INFINITY, INFINITY};
+    std::array<float, 3> high_ = {-INFINITY, -INFINITY, -INFINITY};
+};
+
+// Keeps the materials that triangles use, in the order of the file and the default one last, so
+// that nothing is compiled, and nothing said, for others.
+void keep_used_materials(Load &load, std::size_t default_material, glint_scene &scene)
+{
+    constexpr std::uint32_t unused = 0xFFFFFFFF;
+    std::vector<std::uint32_t> place(default_material + 1, unused);
+    for (std::size_t i = 0; i < scene.instance_count; i++) {
+        place[scene.instances[i].material] = 0;
+    }
+    auto used = static_cast<std::size_t>(
+        std::count_if(place.begin(), place.end(), [](std::uint32_t p) { return p == 0; }));
+    scene.materials = static_cast<glint_material *>(glint_allocate(used, sizeof(glint_material)));
+    if (scene.materials == nullptr) {
+        throw std::bad_alloc();
+    }
+    const json &root = load.document.root;
+    for (std::size_t i = 0; i < place.size(); i++) {
+        if (place[i] == unused) {
+            continue;
+        }
+        std::ptrdiff_t source = i == default_material ? -1 : static_cast<std::ptrdiff_t>(i);
+        place[i] = static_cast<std::uint32_t>(scene.material_count);
+        scene.materials[scene.material_count] = read_material(root, source);
+        scene.material_count++;
+        if (source >= 0) {
+            scene.materials[scene.material_count - 1].name =
+                copy_text(optional_text(objects_of(root, "materials")[i], Place(), "name"));
+        }
+        survey_material(root, source, load.tally);
+    }
+    for (std::size_t i = 0; i < scene.instance_count; i++) {
+        scene.instances[i].material = place[scene.instances[i].material];
+    }
+    for (std::size_t t = 0; t < scene.triangle_count; t++) {
+        scene.material_of[t] = place[scene.material_of[t]];
+    }
+}
+
+} // namespace
+
+void flatten(Load &load, glint_scene &scene)
+{
+    std::size_t triangles = 0;
+    bool with_normals = false;
+    for (const Draw &draw : load.draws) {
+        triangles += draw.primitive->triangles; // 2^22 draws of 2^33 at most
+        with_normals = with_normals || draw.primitive->has_normals;
+    }
+    if (triangles > most_triangles) {
+        throw refusal(std::to_string(triangles) + " triangles are more than the " +
+                      std::to_string(most_triangles) + " that fit (split the scene)");
+    }
+    choose_frame(measure(load.draws), scene);
+    std::size_t default_material = objects_of(load.document.root, "materials").size();
+    Writer(load.draws, scene)
+        .write(triangles, with_normals, static_cast<std::uint32_t>(default_material));
+    for (std::size_t i = 0; i < scene.instance_count; i++) {
+        glint_instance &instance = scene.instances[i];
+        instance.node =
+            copy_text(load.model.nodes[static_cast<std::size_t>(instance.node_index)].name);
+    }
+    keep_used_materials(load, default_material, scene);
+}
+
+} // namespace glint

@@ -1,0 +1,136 @@
+// Primitives made ready for drawing. See gltf_primitive.hpp.
+#include "scene/gltf_primitive.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace glint
+{
+
+namespace
+{
+
+// Many primitives can share an accessor; each is opened and searched once, or a small file could
+// ask for a long time.
+class Accessors
+{
+  public:
+    Accessors(const tinygltf::Model &model, std::size_t views)
+        : model_(model), views_(views), readers_(model.accessors.size()),
+          largest_(model.accessors.size())
+    {
+    }
+
+    const Reader &reader(std::size_t i)
+    {
+        if (!readers_[i]) {
+            readers_[i].emplace(model_, i, views_);
+        }
+        return *readers_[i];
+    }
+
+    std::uint32_t largest_index(std::size_t i)
+    {
+        if (!largest_[i]) {
+            const Reader &indices = reader(i);
+            std::uint32_t largest = 0;
+            for (std::size_t k = 0; k < indices.count(); k++) {
+                largest = std::max(largest, indices.index(k));
+            }
+            largest_[i] = largest;
+        }
+        return *largest_[i];
+    }
+
+  private:
+    const tinygltf::Model &model_;
+    std::size_t views_;
+    std::vector<std::optional<Reader>> readers_;
+    std::vector<std::optional<std::uint32_t>> largest_;
+};
+
+[[noreturn]] void refuse_index(const Primitive &primitive, std::size_t accessor,
+                               std::uint32_t largest)
+{
+    std::size_t k = 0;
+    while (primitive.indices.index(k) != largest) {
+        k++;
+    }
+    std::string what =
+        "accessors[" + std::to_string(accessor) + "], element " + std::to_string(k) + ": ";
+    if (largest >= primitive.positions.count()) {
+        refuse(primitive.place() / "indices",
+               what + "there is no vertex " + std::to_string(largest) + " (POSITION has " +
+                   counted(primitive.positions.count(), "element") + ")");
+    }
+    refuse(primitive.place() / "indices",
+           what + std::to_string(largest) +
+               " restarts a primitive, which glTF 2.0 does not allow (split the primitive)");
+}
+
+void open_indices(const tinygltf::Primitive &source, Accessors &accessors, Primitive &primitive)
+{
+    if (source.indices < 0) {
+        return;
+    }
+    auto accessor = static_cast<std::size_t>(source.indices);
+    primitive.indexed = true;
+    primitive.indices = accessors.reader(accessor);
+    std::uint32_t largest = accessors.largest_index(accessor);
+    if (largest >= primitive.positions.count() || largest == primitive.indices.largest_index()) {
+        refuse_index(primitive, accessor, largest);
+    }
+}
+
+void count_triangles(Primitive &primitive, Tally &tally)
+{
+    std::size_t corners =
+        primitive.indexed ? primitive.indices.count() : primitive.positions.count();
+    std::size_t left_over = 0;
+    if (primitive.mode == 4) {
+        primitive.triangles = corners / 3;
+        left_over = corners % 3;
+    } else {
+        primitive.triangles = corners < 3 ? 0 : corners - 2;
+        left_over = corners < 3 ? corners : 0;
+    }
+    if (left_over > 0) {
+        tally.add("the last vertices make no whole triangle and are left out",
+                  primitive.place().text());
+    }
+}
+
+} // namespace
+
+Primitives prepare_primitives(const Document &document, const tinygltf::Model &model, Tally &tally)
+{
+    Primitives result;
+    Accessors accessors(model, objects_of(document.root, "bufferViews").size());
+    for (std::size_t m = 0; m < model.meshes.size(); m++) {
+        result.first.push_back(result.all.size());
+        for (std::size_t p = 0; p < model.meshes[m].primitives.size(); p++) {
+            const tinygltf::Primitive &source = model.meshes[m].primitives[p];
+            Primitive primitive;
+            primitive.mesh = m;
+            primitive.number = p;
+            primitive.mode = source.mode;
+            primitive.material = source.material;
+            auto position = source.attributes.find("POSITION");
+            if (primitive.mode >= 4 && position != source.attributes.end()) {
+                primitive.positions = accessors.reader(static_cast<std::size_t>(position->second));
+                auto normal = source.attributes.find("NORMAL");
+                if (normal != source.attributes.end()) {
+                    primitive.has_normals = true;
+                    primitive.normals = accessors.reader(static_cast<std::size_t>(normal->second));
+                }
+                open_indices(source, accessors, primitive);
+                count_triangles(primitive, tally);
+            }
+            result.all.push_back(primitive);
+        }
+    }
+    result.first.push_back(result.all.size());
+    return result;
+}
+
+} // namespace glint

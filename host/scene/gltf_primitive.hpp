@@ -1,0 +1,50 @@
+// Primitives made ready for drawing: their accessors opened and what these hold checked, once,
+// however many nodes draw them.
+#ifndef GLINT_SCENE_GLTF_PRIMITIVE_HPP
+#define GLINT_SCENE_GLTF_PRIMITIVE_HPP
+
+#include "scene/gltf_accessor.hpp"
+#include "scene/gltf_tally.hpp"
+
+#include <vector>
+
+namespace glint
+{
+
+struct Primitive {
+    std::size_t mesh = 0, number = 0; // meshes[mesh].primitives[number]
+    int mode = 4;                     // glTF's; 0 points, 1 to 3 lines, 4 list, 5 strip, 6 fan
+    std::ptrdiff_t material = -1;
+    std::size_t triangles = 0; // 0 for points and lines
+    bool indexed = false, has_normals = false;
+    Reader positions, normals, indices;
+
+    Place place() const
+    {
+        return ((Place() / "meshes")[mesh] / "primitives")[number];
+    }
+
+    // The vertex at corner c of triangle t, in the order in which the mode winds it.
+    std::size_t vertex(std::size_t t, std::size_t c) const
+    {
+        std::size_t i = 3 * t + c;
+        if (mode == 5) {
+            // Every second triangle of a strip swaps two corners, so that all wind alike.
+            i = t + (c == 0 ? 0 : (c == 1 ? 1 + t % 2 : 2 - t % 2));
+        } else if (mode == 6) {
+            i = c == 2 ? 0 : t + 1 + c;
+        }
+        return indexed ? indices.index(i) : i;
+    }
+};
+
+struct Primitives {
+    std::vector<Primitive> all;
+    std::vector<std::size_t> first; // [mesh], and the end
+};
+
+Primitives prepare_primitives(const Document &document, const tinygltf::Model &model, Tally &tally);
+
+} // namespace glint
+
+#endif

@@ -1,0 +1,363 @@
+// The node walk. It uses a stack of its own, as a chain of nodes may be as deep as the file is
+// long; that there are no loops and no second parents was checked. See gltf_walk.hpp.
+#include "scene/gltf_walk.hpp"
+
+#include "base/memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+namespace glint
+{
+
+namespace
+{
+
+constexpr std::size_t most_draws = std::size_t{1} << 22;
+
+std::string node_where(const Load &load, std::size_t node)
+{
+    const std::string &name = load.model.nodes[node].name;
+    return "nodes[" + std::to_string(node) + "]" + (name.empty() ? "" : " " + in_quotes(name));
+}
+
+// `rotation` is (x, y, z, w) of any length but 0: exporters round, and a longer quaternion means
+// the same turn.
+glint_mat4 from_parts(const double *translation, const double *rotation, const double *scale)
+{
+    double length = std::sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] +
+                              rotation[2] * rotation[2] + rotation[3] * rotation[3]);
+    double x = rotation[0] / length;
+    double y = rotation[1] / length;
+    double z = rotation[2] / length;
+    double w = rotation[3] / length;
+    const std::array<std::array<double, 3>, 3> turn = {{
+        {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)}},
+        {{2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)}},
+        {{2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}},
+    }};
+    glint_mat4 result = glint_mat4_identity;
+    for (std::size_t row = 0; row < 3; row++) {
+        for (std::size_t column = 0; column < 3; column++) {
+            result.m[row][column] = turn[row][column] * scale[column];
+        }
+        result.m[row][3] = translation[row];
+    }
+    return result;
+}
+
+[[noreturn]] void refuse_draws()
+{
+    throw refusal("more than " + std::to_string(most_draws) +
+                  " primitives would be drawn (split the scene)");
+}
+
+constexpr std::array<double, 3> no_move = {0, 0, 0};
+constexpr std::array<double, 4> no_turn = {0, 0, 0, 1};
+constexpr std::array<double, 3> no_scale = {1, 1, 1};
+
+glint_mat4 local_matrix(Load &load, std::size_t index)
+{
+    const tinygltf::Node &node = load.model.nodes[index];
+    if (!node.matrix.empty()) {
+        glint_mat4 result = glint_mat4_identity;
+        for (std::size_t i = 0; i < 16; i++) {
+            result.m[i % 4][i / 4] = node.matrix[i]; // the file's is column by column
+        }
+        // Checked to be this up to rounding; exactly so, nothing is projected.
+        result.m[3][0] = result.m[3][1] = result.m[3][2] = 0;
+        result.m[3][3] = 1;
+        return result;
+    }
+    if (!node.rotation.empty()) {
+        double squares = 0;
+        for (double value : node.rotation) {
+            squares += value * value;
+        }
+        if (std::fabs(squares - 1) > 2e-3) {
+            load.tally.add("the rotation is no unit quaternion and is normalized",
+                           node_where(load, index));
+        }
+    }
+    return from_parts(node.translation.empty() ? no_move.data() : node.translation.data(),
+                      node.rotation.empty() ? no_turn.data() : node.rotation.data(),
+                      node.scale.empty() ? no_scale.data() : node.scale.data());
+}
+
+bool is_hidden(const glint_mat4 &matrix)
+{
+    for (const auto &row : {matrix.m[0], matrix.m[1], matrix.m[2]}) {
+        if (row[0] != 0 || row[1] != 0 || row[2] != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+const json *instancing_of(const json &node)
+{
+    const json *extensions = member(node, "extensions");
+    const json *found =
+        extensions == nullptr ? nullptr : member(*extensions, "EXT_mesh_gpu_instancing");
+    return found == nullptr ? nullptr : member(*found, "attributes");
+}
+
+// The instances' matrices, relative to the node. More than `most` are refused before any is made: a
+// small file can ask for many.
+std::vector<glint_mat4> instance_matrices(const Load &load, const json &attributes,
+                                          std::size_t most)
+{
+    const std::size_t views = objects_of(load.document.root, "bufferViews").size();
+    auto open = [&](const char *key) {
+        const json *accessor = member(attributes, key);
+        return accessor == nullptr ? Reader()
+                                   : Reader(load.model, accessor->get<std::size_t>(), views);
+    };
+    Reader translations = open("TRANSLATION");
+    Reader rotations = open("ROTATION");
+    Reader scales = open("SCALE");
+    std::size_t count =
+        std::max({translations.count(), rotations.count(), scales.count(), std::size_t{1}});
+    if (count > most) {
+        refuse_draws();
+    }
+    std::vector<glint_mat4> result;
+    result.reserve(count);
+    for (std::size_t i = 0; i < count; i++) {
+        std::array<double, 3> translation = no_move;
+        std::array<double, 4> rotation = no_turn;
+        std::array<double, 3> scale = no_scale;
+        if (translations.count() > 0) {
+            translations.numbers(i, 3, translation.data());
+        }
+        if (rotations.count() > 0) {
+            rotations.numbers(i, 4, rotation.data());
+        }
+        if (scales.count() > 0) {
+            scales.numbers(i, 3, scale.data());
+        }
+        result.push_back(from_parts(translation.data(), rotation.data(), scale.data()));
+    }
+    return result;
+}
+
+void survey_node(Load &load, std::size_t index)
+{
+    const json &node = objects_of(load.document.root, "nodes")[index];
+    std::string where = node_where(load, index);
+    if (member(node, "skin") != nullptr) {
+        load.tally.add("skins are not applied, the mesh is shown as it was bound", where);
+    }
+    const json *extensions = member(node, "extensions");
+    if (extensions == nullptr) {
+        return;
+    }
+    for (auto it = extensions->begin(); it != extensions->end(); ++it) {
+        if (it.key() == "KHR_lights_punctual") {
+            load.tally.add("lights are not modelled, the environment alone gives light", where);
+        } else if (it.key() != "EXT_mesh_gpu_instancing") {
+            load.tally.add(it.key() + " is not modelled, the node is shown without it", where);
+        }
+    }
+}
+
+void survey_primitive(Load &load, const Primitive &primitive)
+{
+    const json &source =
+        objects_of(load.document.root, "meshes")[primitive.mesh]["primitives"][primitive.number];
+    std::string where = primitive.place().text();
+    if (const json *targets = member(source, "targets"); targets != nullptr && !targets->empty()) {
+        load.tally.add("morph targets are not applied, the base shape is shown", where);
+    }
+    if (member(source["attributes"], "COLOR_0") != nullptr) {
+        load.tally.add("vertex colours (COLOR_0) are not modelled, baseColorFactor alone is used",
+                       where);
+    }
+    const json *extensions = member(source, "extensions");
+    if (extensions == nullptr) {
+        return;
+    }
+    for (auto it = extensions->begin(); it != extensions->end(); ++it) {
+        if (it.key() == "KHR_materials_variants") {
+            load.tally.add("material variants are not modelled, the default is shown", where);
+        } else if (it.key() != "KHR_draco_mesh_compression") {
+            // Draco's data repeats what the accessors hold, where it is not required.
+            load.tally.add(it.key() + " is not modelled, the mesh is shown without it", where);
+        }
+    }
+}
+
+void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene)
+{
+    auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
+    const json *attributes = instancing_of(objects_of(load.document.root, "nodes")[node]);
+    std::size_t primitives = load.primitives.first[mesh + 1] - load.primitives.first[mesh];
+    std::size_t most = (most_draws - load.draws.size()) / primitives;
+    if (most == 0) {
+        refuse_draws();
+    }
+    std::vector<glint_mat4> places = {to_world};
+    if (attributes != nullptr) {
+        places = instance_matrices(load, *attributes, most);
+        for (glint_mat4 &place : places) {
+            place = glint_mat4_multiply(&to_world, &place);
+        }
+    }
+    for (std::size_t i = load.primitives.first[mesh]; i < load.primitives.first[mesh + 1]; i++) {
+        const Primitive &primitive = load.primitives.all[i];
+        if (primitive.mode < 4) {
+            (primitive.mode == 0 ? scene.skipped_points : scene.skipped_lines) += places.size();
+            continue;
+        }
+        survey_primitive(load, primitive);
+        for (const glint_mat4 &place : places) {
+            load.draws.push_back({&primitive, static_cast<int>(node), place});
+        }
+    }
+}
+
+void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world,
+                std::vector<glint_camera> &cameras)
+{
+    auto index = static_cast<std::size_t>(load.model.nodes[node].camera);
+    const tinygltf::Camera &source = load.model.cameras[index];
+    glint_camera camera = {};
+    if (!glint_camera_from_matrix(&to_world, &camera)) {
+        load.tally.add(
+            "the camera has no direction (its scale is 0, or not finite) and is left out",
+            node_where(load, node));
+        return;
+    }
+    camera.orthographic = source.type == "orthographic";
+    if (camera.orthographic) {
+        camera.ymag = std::fabs(source.orthographic.ymag);
+        if (source.orthographic.ymag < 0) {
+            load.tally.add("a negative ymag is taken as positive",
+                           "cameras[" + std::to_string(index) + "]");
+        }
+    } else {
+        camera.yfov = source.perspective.yfov;
+    }
+    const std::string &name = load.model.nodes[node].name;
+    cameras.push_back(camera);
+    cameras.back().name = copy_text(name.empty() ? source.name : name);
+}
+
+std::string scene_list(const tinygltf::Model &model)
+{
+    std::string list;
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < model.scenes.size() && i < most; i++) {
+        const std::string &name = model.scenes[i].name;
+        list +=
+            (i == 0 ? "" : ", ") + std::to_string(i) + (name.empty() ? "" : " " + in_quotes(name));
+    }
+    return list + (model.scenes.size() > most ? ", ..." : "");
+}
+
+std::size_t find_scene(const tinygltf::Model &model, const char *name)
+{
+    for (std::size_t i = 0; i < model.scenes.size(); i++) {
+        if (model.scenes[i].name == name) {
+            return i;
+        }
+    }
+    char *end = nullptr;
+    unsigned long index = std::strtoul(name, &end, 10);
+    bool is_index = name[0] >= '0' && name[0] <= '9' && *end == '\0';
+    if (!is_index || index >= model.scenes.size()) {
+        throw refusal("there is no scene " + in_quotes(name) +
+                      (model.scenes.empty() ? " (the file has none)"
+                                            : " (there is " + scene_list(model) + ")"));
+    }
+    return index;
+}
+
+std::vector<int> find_roots(Load &load, const char *name)
+{
+    const tinygltf::Model &model = load.model;
+    if (name != nullptr || !model.scenes.empty()) {
+        std::size_t scene = name != nullptr           ? find_scene(model, name)
+                            : model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene)
+                                                      : 0;
+        return model.scenes[scene].nodes;
+    }
+    // glTF calls such a file a library. Whoever renders it wants to see what is in it.
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < model.nodes.size(); i++) {
+        if (load.checked.parents[i] < 0) {
+            roots.push_back(static_cast<int>(i));
+        }
+    }
+    if (!roots.empty()) {
+        load.tally.add("missing, so that every root node is shown", "scenes");
+    }
+    return roots;
+}
+
+} // namespace
+
+char *copy_text(const std::string &text)
+{
+    if (text.empty()) {
+        return nullptr;
+    }
+    char *copy = strdup(text.c_str());
+    if (copy == nullptr) {
+        throw std::bad_alloc();
+    }
+    return copy;
+}
+
+void walk_scene(Load &load, const char *name, glint_scene &scene)
+{
+    struct Step {
+        int node;
+        glint_mat4 parent;
+    };
+    std::vector<Step> stack;
+    std::vector<int> roots = find_roots(load, name);
+    for (auto it = roots.rbegin(); it != roots.rend(); ++it) {
+        stack.push_back({*it, glint_mat4_identity});
+    }
+    std::vector<glint_camera> cameras;
+    try {
+        while (!stack.empty()) {
+            Step step = stack.back();
+            stack.pop_back();
+            auto index = static_cast<std::size_t>(step.node);
+            const tinygltf::Node &node = load.model.nodes[index];
+            glint_mat4 local = local_matrix(load, index);
+            glint_mat4 to_world = glint_mat4_multiply(&step.parent, &local);
+            survey_node(load, index);
+            if (node.camera >= 0) {
+                add_camera(load, index, to_world, cameras);
+            }
+            if (node.mesh >= 0 && is_hidden(to_world)) {
+                load.tally.add("a scale of 0 hides the mesh", node_where(load, index));
+            } else if (node.mesh >= 0) {
+                draw_mesh(load, index, to_world, scene);
+            }
+            for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
+                stack.push_back({*it, to_world});
+            }
+        }
+        scene.cameras =
+            static_cast<glint_camera *>(glint_allocate(cameras.size(), sizeof *scene.cameras));
+        if (scene.cameras == nullptr) {
+            throw std::bad_alloc();
+        }
+    } catch (...) {
+        for (glint_camera &camera : cameras) {
+            std::free(camera.name);
+        }
+        throw;
+    }
+    std::copy(cameras.begin(), cameras.end(), scene.cameras);
+    scene.camera_count = cameras.size();
+}
+
+} // namespace glint

@@ -1,0 +1,100 @@
+// The scene's life, and the choice of a camera. What fills it is gltf.cpp.
+#include "scene/scene.h"
+
+#include "scene/gltf.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void glint_scene_free(glint_scene *scene)
+{
+    for (size_t i = 0; i < scene->material_count; i++) {
+        free(scene->materials[i].name);
+    }
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        free(scene->instances[i].node);
+    }
+    for (size_t i = 0; i < scene->camera_count; i++) {
+        free(scene->cameras[i].name);
+    }
+    free(scene->path);
+    free(scene->positions);
+    free(scene->normals);
+    free(scene->material_of);
+    free(scene->materials);
+    free(scene->instances);
+    free(scene->cameras);
+    *scene = (glint_scene){0};
+}
+
+glint_status glint_scene_load(const char *path, const glint_scene_options *options,
+                              glint_scene *scene, glint_warnings *warnings, glint_error *error)
+{
+    *scene = (glint_scene){0};
+    glint_status status = glint_gltf_load(path, options, scene, warnings, error);
+    if (status != GLINT_OK) {
+        glint_scene_free(scene);
+    }
+    return status;
+}
+
+// 0 "main", 1, 2 "top" and so on, as much of it as fits.
+static void list_cameras(const glint_scene *scene, char *text, size_t capacity)
+{
+    static const char more[] = ", ...";
+    size_t room = capacity - sizeof more;
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < scene->camera_count; i++) {
+        const char *name = scene->cameras[i].name;
+        int length = snprintf(text + used, room - used, name ? "%s%zu \"%s\"" : "%s%zu",
+                              i > 0 ? ", " : "", i, name);
+        if (length < 0 || (size_t)length >= room - used) {
+            memcpy(text + used, more, sizeof more);
+            return;
+        }
+        used += (size_t)length;
+    }
+}
+
+static const glint_camera *find_camera(const glint_scene *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->camera_count; i++) {
+        if (scene->cameras[i].name != NULL && strcmp(scene->cameras[i].name, name) == 0) {
+            return &scene->cameras[i];
+        }
+    }
+    // strtoul would take a sign and spaces, too.
+    char *end;
+    unsigned long index = strtoul(name, &end, 10);
+    bool is_number = name[0] >= '0' && name[0] <= '9' && *end == '\0';
+    bool found = is_number && index < scene->camera_count;
+    return found ? &scene->cameras[index] : NULL;
+}
+
+glint_status glint_scene_camera(const glint_scene *scene, const char *name, glint_camera *camera,
+                                glint_error *error)
+{
+    *camera = (glint_camera){0};
+    if (name == NULL && scene->camera_count == 0) {
+        glint_camera_frame_bounds(scene->low, scene->high, camera);
+        return GLINT_OK;
+    }
+    const glint_camera *found = name == NULL ? &scene->cameras[0] : find_camera(scene, name);
+    if (found != NULL) {
+        *camera = *found;
+        return GLINT_OK;
+    }
+    const char *path = scene->path ? scene->path : "scene";
+    if (scene->camera_count == 0) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: there is no camera \"%.60s\" (the scene has none: without a name, "
+                          "one is made that frames it)",
+                          path, name);
+    }
+    char list[600];
+    list_cameras(scene, list, sizeof list);
+    return glint_fail(error, GLINT_BAD_INPUT, "%s: there is no camera \"%.60s\" (there is %s)",
+                      path, name, list);
+}

@@ -1,0 +1,100 @@
+// The scene: triangles in world space, materials and cameras.
+#ifndef GLINT_SCENE_SCENE_H
+#define GLINT_SCENE_SCENE_H
+
+#include "base/status.h"
+#include "base/vector.h"
+#include "scene/camera.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// glTF 2.0's factors, and the extensions that are modelled. Colours are linear Rec.709 in [0, 1].
+typedef struct glint_material {
+    char *name; // may be NULL; owned
+    float base_color[3];
+    float metallic;             // [0, 1]
+    float roughness;            // [0, 1]; above 0, metal and glass are rendered smooth, paint matte
+    float emission[3];          // emissiveFactor × emissiveStrength, radiance ≥ 0
+    float transmission;         // KHR_materials_transmission, [0, 1]
+    float ior;                  // KHR_materials_ior, ≥ 1; default 1.5. 0 in the file ("infinite,
+                                // F = 1") is refused
+    float thickness;            // KHR_materials_volume: > 0 makes the mesh the boundary of a solid
+    float attenuation_distance; // metres; INFINITY where the file gives none
+    float attenuation_color[3]; // what is left of white after attenuation_distance
+    bool unlit;                 // KHR_materials_unlit
+    float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
+} glint_material;
+
+// A primitive as it was instantiated by a node: a run of at least one triangle.
+typedef struct glint_instance {
+    char *node; // the node's name, NULL where it has none; owned
+    int node_index;
+    size_t first_triangle, triangle_count;
+    uint32_t material;
+} glint_instance;
+
+// Stored positions are relative: world = origin + unit × stored, with `origin` near the bounds'
+// centre and `unit` a power of two such that stored coordinates lie within [−1, 1]; so neither a
+// mesh at 1e6 nor one of 1e−6 metres loses anything, and a scene scaled by a power of two gives the
+// same bits. Triangles keep the order of the file (scene, nodes depth first, primitives,
+// triangles). Zero is valid: an empty scene with unit 0 is treated as unit 1.
+typedef struct glint_scene {
+    char *path;
+    glint_vec3 origin;    // metres
+    double unit;          // metres per stored unit, a power of two
+    glint_vec3 low, high; // bounds, metres, world space; low > high when there is no triangle
+
+    size_t triangle_count;
+    float *positions; // [triangle_count][3 vertices][3], owned; counter-clockwise from outside,
+                      // also where a node mirrors (the winding is swapped there, as glTF asks)
+    float *normals;   // the same shape, unit, or NULL when no primitive has any; (0, 0, 0) where
+                      // a vertex has none that is usable: the geometric normal serves there
+    uint32_t *material_of; // [triangle_count], index into materials
+
+    size_t material_count;     // those that triangles use, in the order of the file; glTF's default
+    glint_material *materials; // material stands last where a primitive names none
+
+    size_t instance_count;
+    glint_instance *instances;
+
+    size_t camera_count;
+    glint_camera *cameras; // in depth-first order of their nodes
+
+    size_t skipped_points, skipped_lines; // primitives drawn by nodes that were left out, with a
+                                          // warning
+    size_t degenerate_triangles;          // zero area: kept out of `positions`
+} glint_scene;
+
+typedef struct glint_scene_options {
+    const char *scene; // which glTF scene, by name or index; NULL: the file's default, else 0
+} glint_scene_options;
+
+// Loads .gltf or .glb. `options` and `warnings` may be NULL. Errors: GLINT_BAD_INPUT with
+// "FILE: object[index]: cause (what to do)". On failure `scene` is left empty.
+glint_status glint_scene_load(const char *path, const glint_scene_options *options,
+                              glint_scene *scene, glint_warnings *warnings, glint_error *error);
+void glint_scene_free(glint_scene *scene);
+
+// The camera by name or by index ("0"); NULL: the first one, else one that frames the bounds. The
+// names there are stand in the error. The camera's strings stay the scene's.
+glint_status glint_scene_camera(const glint_scene *scene, const char *name, glint_camera *camera,
+                                glint_error *error);
+
+// True if the material bounds a solid: light that enters is refracted, and absorbed on its way.
+static inline bool glint_material_is_solid(const glint_material *material)
+{
+    return !material->unlit && material->mirror < 0 && material->metallic < 1 &&
+           material->transmission > 0 && material->thickness > 0;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
