@@ -1,0 +1,145 @@
+// The cube map: places, directions, border and look-up. See environment.h.
+#include "environment/environment.h"
+
+#include "base/memory.h"
+#include "kernels/layout.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// Far above what is useful, and below where an int overflows: (edge + 2)² × 6 × 4 < 2³¹.
+#define EDGE_MAX 9000
+
+static const int s_axis[GLINT_CUBE_FACES] = GLINT_CUBE_S_AXIS;
+static const int s_sign[GLINT_CUBE_FACES] = GLINT_CUBE_S_SIGN;
+static const int t_axis[GLINT_CUBE_FACES] = GLINT_CUBE_T_AXIS;
+static const int t_sign[GLINT_CUBE_FACES] = GLINT_CUBE_T_SIGN;
+
+glint_status glint_cube_create(int edge, glint_cube *cube, glint_error *error)
+{
+    *cube = (glint_cube){0};
+    if (edge < 1 || edge > EDGE_MAX) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "environment: a cube of %d texels an edge (1 to %d can be held)", edge,
+                          EDGE_MAX);
+    }
+    glint_cube sized = {.edge = edge};
+    float *texels = glint_allocate(glint_cube_size(&sized), sizeof(float));
+    if (texels == NULL) {
+        return glint_fail_memory(error, "an environment");
+    }
+    *cube = (glint_cube){edge, texels};
+    return GLINT_OK;
+}
+
+void glint_cube_free(glint_cube *cube)
+{
+    free(cube->texels);
+    *cube = (glint_cube){0};
+}
+
+size_t glint_cube_size(const glint_cube *cube)
+{
+    size_t pitch = (size_t)cube->edge + 2 * GLINT_CUBE_BORDER;
+    return cube->edge < 1 ? 0 : GLINT_CUBE_FACES * pitch * pitch * 4;
+}
+
+float *glint_cube_texel(const glint_cube *cube, int face, int i, int j)
+{
+    size_t pitch = (size_t)cube->edge + 2 * GLINT_CUBE_BORDER;
+    size_t row = (size_t)(j + GLINT_CUBE_BORDER), column = (size_t)(i + GLINT_CUBE_BORDER);
+    return cube->texels + (((size_t)face * pitch + row) * pitch + column) * 4;
+}
+
+glint_vec3 glint_cube_direction(int face, double s, double t)
+{
+    double d[3] = {0.0, 0.0, 0.0};
+    d[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+    d[s_axis[face]] = s * s_sign[face];
+    d[t_axis[face]] = t * t_sign[face];
+    return (glint_vec3){d[0], d[1], d[2]};
+}
+
+// The face that a direction meets and the point (s, t) there. On a tie of the largest components
+// the order x, y, z decides, as in ImfEnvmap.h and cubemap.cl.
+static int find_point(glint_vec3 direction, double *s, double *t)
+{
+    double d[3] = {direction.x, direction.y, direction.z};
+    double x = fabs(d[0]), y = fabs(d[1]), z = fabs(d[2]);
+    int axis = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
+    int face = 2 * axis + (d[axis] < 0.0 ? 1 : 0);
+    double major = fabs(d[axis]);
+    *s = d[s_axis[face]] * s_sign[face] / major;
+    *t = d[t_axis[face]] * t_sign[face] / major;
+    return face;
+}
+
+static int clamp_index(double place, int last)
+{
+    // NaN, of a direction that is zero or not finite, becomes 0.
+    return place > 0.0 ? (place < last ? (int)place : last) : 0;
+}
+
+// The texel across the edge is the one that the border texel's own centre looks at: that direction
+// runs from s = 1 + 1/N on this plane to N/(N + 1) on the neighbour's, inside its outermost texels,
+// and shifts by at most (N − 1)/(N(N + 1)) along the edge, less than the half texel of 1/N.
+static void copy_from_neighbour(glint_cube *cube, int face, int i, int j)
+{
+    double n = cube->edge, s, t;
+    glint_vec3 d = glint_cube_direction(face, (2.0 * i + 1.0) / n - 1.0, (2.0 * j + 1.0) / n - 1.0);
+    int neighbour = find_point(d, &s, &t);
+    int column = clamp_index((s + 1.0) * 0.5 * n, cube->edge - 1);
+    int row = clamp_index((t + 1.0) * 0.5 * n, cube->edge - 1);
+    memcpy(glint_cube_texel(cube, face, i, j), glint_cube_texel(cube, neighbour, column, row),
+           4 * sizeof(float));
+}
+
+// Three faces meet in a corner and no fourth texel is there: with the mean of the three, all three
+// faces give that mean at the corner itself.
+static void fill_corner(glint_cube *cube, int face, int right, int down)
+{
+    int n = cube->edge;
+    int border_i = right ? n : -1, border_j = down ? n : -1;
+    int inside_i = right ? n - 1 : 0, inside_j = down ? n - 1 : 0;
+    const float *own = glint_cube_texel(cube, face, inside_i, inside_j);
+    const float *beside = glint_cube_texel(cube, face, border_i, inside_j);
+    const float *below = glint_cube_texel(cube, face, inside_i, border_j);
+    float *corner = glint_cube_texel(cube, face, border_i, border_j);
+    for (int c = 0; c < 4; c++) {
+        double sum = (double)own[c] + (double)beside[c] + (double)below[c];
+        corner[c] = (float)(sum / 3.0);
+    }
+}
+
+void glint_cube_fill_border(glint_cube *cube)
+{
+    int n = cube->edge;
+    for (int face = 0; face < GLINT_CUBE_FACES && n > 0; face++) {
+        for (int k = 0; k < n; k++) {
+            copy_from_neighbour(cube, face, -1, k);
+            copy_from_neighbour(cube, face, n, k);
+            copy_from_neighbour(cube, face, k, -1);
+            copy_from_neighbour(cube, face, k, n);
+        }
+        for (int corner = 0; corner < 4; corner++) {
+            fill_corner(cube, face, corner % 2, corner / 2);
+        }
+    }
+}
+
+void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[3])
+{
+    double s, t, n = cube->edge;
+    int face = find_point(direction, &s, &t);
+    // In texels from the centre of the border's first; the last cell begins at column n.
+    double column = (s + 1.0) * 0.5 * n + 0.5, row = (t + 1.0) * 0.5 * n + 0.5;
+    int i = clamp_index(column, cube->edge), j = clamp_index(row, cube->edge);
+    double right = column - i, down = row - j;
+    const float *upper = glint_cube_texel(cube, face, i - 1, j - 1);
+    const float *lower = glint_cube_texel(cube, face, i - 1, j);
+    for (int c = 0; c < 3; c++) {
+        double above = (double)upper[c] + right * ((double)upper[c + 4] - (double)upper[c]);
+        double below = (double)lower[c] + right * ((double)lower[c + 4] - (double)lower[c]);
+        rgb[c] = above + down * (below - above);
+    }
+}

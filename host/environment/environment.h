@@ -1,0 +1,82 @@
+// The environment: radiance by direction, E(d), held as a cube map.
+#ifndef GLINT_ENVIRONMENT_ENVIRONMENT_H
+#define GLINT_ENVIRONMENT_ENVIRONMENT_H
+
+#include "base/status.h"
+#include "base/vector.h"
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// A cube map in the layout of kernels/layout.h: linear Rec.709 radiance, texel centres at
+// (i + ½)/edge, each face with a border of one texel copied from its neighbours (the three texels
+// around a cube corner are averaged there), so that bilinear filtering is seamless.
+// Zero is valid: no texels.
+typedef struct glint_cube {
+    int edge;      // texels along a face's edge, without the border
+    float *texels; // [6][edge + 2][edge + 2][4], owned
+} glint_cube;
+
+glint_status glint_cube_create(int edge, glint_cube *cube, glint_error *error);
+void glint_cube_free(glint_cube *cube);
+
+// The number of floats in `texels`.
+size_t glint_cube_size(const glint_cube *cube);
+
+// The texel of `face` at column i and row j, each in [−1, edge].
+float *glint_cube_texel(const glint_cube *cube, int face, int i, int j);
+
+// Fills the border from the neighbours' texels; called once the inside is complete.
+void glint_cube_fill_border(glint_cube *cube);
+
+// The direction (not normalised) of the point (s, t) on a face, see kernels/layout.h.
+glint_vec3 glint_cube_direction(int face, double s, double t);
+
+// Bilinear look-up along a direction of any length but zero.
+void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[3]);
+
+// How a file holds directions.
+typedef enum glint_layout {
+    GLINT_LAYOUT_UNKNOWN, // as an argument: to be recognised
+    GLINT_LAYOUT_CUBE,    // OpenEXR's 1 × 6 strip
+    GLINT_LAYOUT_FACES,   // six files
+    GLINT_LAYOUT_LATLONG,
+    GLINT_LAYOUT_STUDIO, // built in, no file
+} glint_layout;
+
+// The name on the command line ("latlong"); NULL for UNKNOWN.
+const char *glint_layout_name(glint_layout layout);
+
+// UNKNOWN for a name that is none.
+glint_layout glint_layout_from_name(const char *name);
+
+typedef struct glint_environment {
+    char *name;          // the file as given, or "studio"
+    glint_layout layout; // what it was read as
+    const char *reason;  // how that was known: "envmap attribute", "shape 2:1", …; static text
+    int source_width, source_height;
+    glint_cube radiance;
+    size_t mended_texels; // NaN, infinite or negative ones, replaced (see environment.c)
+} glint_environment;
+
+// Reads `path`: a file, a folder that holds six faces, or a pattern with one %s for the face's
+// name. `layout` UNKNOWN: recognised from the envmap attribute, the name pattern and the shape; an
+// ambiguous shape is refused with the choices named. Errors: GLINT_BAD_INPUT.
+glint_status glint_environment_load(const char *path, glint_layout layout,
+                                    glint_environment *environment, glint_warnings *warnings,
+                                    glint_error *error);
+
+// The built-in studio: a soft box overhead, two strips at the sides, a floor and a horizon, so that
+// mirrors and glass have something to show.
+glint_status glint_environment_studio(glint_environment *environment, glint_error *error);
+
+void glint_environment_free(glint_environment *environment);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

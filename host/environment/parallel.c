@@ -1,0 +1,55 @@
+// Independent pieces of work spread over the machine's cores. See parallel.h.
+#include "environment/parallel.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+
+#define THREADS_MAX 64
+
+typedef struct job {
+    atomic_size_t next;
+    size_t count;
+    void (*body)(size_t index, void *context);
+    void *context;
+} job;
+
+static void *work(void *argument)
+{
+    job *shared = argument;
+    for (;;) {
+        size_t index = atomic_fetch_add(&shared->next, 1);
+        if (index >= shared->count) {
+            return NULL;
+        }
+        shared->body(index, shared->context);
+    }
+}
+
+// The cores that this process may run on, which a container or taskset may have narrowed.
+static size_t usable_cores(void)
+{
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    int cores = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+    return cores < 1 ? 1 : (cores < THREADS_MAX ? (size_t)cores : THREADS_MAX);
+}
+
+void glint_parallel_for(size_t count, void (*body)(size_t index, void *context), void *context)
+{
+    job shared = {.count = count, .body = body, .context = context};
+    size_t wanted = usable_cores();
+    if (wanted > count) {
+        wanted = count;
+    }
+    pthread_t threads[THREADS_MAX];
+    size_t started = 0;
+    // The caller is one of the workers.
+    while (started + 1 < wanted && pthread_create(&threads[started], NULL, work, &shared) == 0) {
+        started++;
+    }
+    work(&shared);
+    for (size_t i = 0; i < started; i++) {
+        pthread_join(threads[i], NULL);
+    }
+}

@@ -1,0 +1,34 @@
+// An image in memory. See image.h.
+#include "image/image.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+glint_status glint_image_create(int width, int height, int channels, glint_image *image,
+                                glint_error *error)
+{
+    *image = (glint_image){0};
+    if (width < 1 || height < 1 || channels < 1 || channels > 4) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "image: %d × %d pixels of %d channels make no image", width, height,
+                          channels);
+    }
+    size_t pixels = 0, values = 0;
+    if (!glint_multiply((size_t)width, (size_t)height, &pixels) ||
+        !glint_multiply(pixels, (size_t)channels, &values)) {
+        return glint_fail_memory(error, "an image");
+    }
+    float *memory = glint_allocate(values, sizeof(float));
+    if (memory == NULL) {
+        return glint_fail_memory(error, "an image");
+    }
+    *image = (glint_image){width, height, channels, memory};
+    return GLINT_OK;
+}
+
+void glint_image_free(glint_image *image)
+{
+    free(image->pixels);
+    *image = (glint_image){0};
+}

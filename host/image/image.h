@@ -1,0 +1,35 @@
+// An image in memory: rows of float pixels.
+#ifndef GLINT_IMAGE_IMAGE_H
+#define GLINT_IMAGE_IMAGE_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Zero is valid: an image without pixels.
+typedef struct glint_image {
+    int width, height; // pixels, row 0 at the top, column 0 at the left
+    int channels;      // 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA, premultiplied)
+    float *pixels;     // [height][width][channels], owned; linear Rec.709 radiance
+} glint_image;
+
+// Zeroed pixels. Fails on sizes that are not positive or whose product overflows.
+glint_status glint_image_create(int width, int height, int channels, glint_image *image,
+                                glint_error *error);
+void glint_image_free(glint_image *image);
+
+// The first channel of pixel (x, y); the caller keeps x and y inside.
+static inline float *glint_image_pixel(const glint_image *image, int x, int y)
+{
+    return image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,411 @@
+// One image file through OpenImageIO, values as stored. See image_decode.hpp.
+//
+// Of a file with several parts the first is read that has colour (R, G, B) or grey (Y); of a
+// mipmapped one, level 0. Deep pixels are refused. An EXR's pixels are put into its display window,
+// zero where it has none; one with the envmap attribute is its data window. ICC profiles are not
+// applied.
+#include "image/image_decode.hpp"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <strings.h>
+
+using OIIO::ImageInput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+namespace glint
+{
+
+std::shared_mutex &gate()
+{
+    static std::shared_mutex mutex;
+    return mutex;
+}
+
+namespace
+{
+
+// The first line of what OpenImageIO says, without the file's name, which our message names.
+std::string cause_of(ImageInput &input, const char *path)
+{
+    std::string text = input.geterror();
+    text = text.substr(0, text.find('\n'));
+    for (const std::string &lead : {"\"" + std::string(path) + "\"", std::string(path)}) {
+        std::size_t at = text.find(lead);
+        if (at != std::string::npos) {
+            text.replace(at, lead.size(), "the file");
+        }
+    }
+    return text.empty() ? "it is damaged or cut short" : text;
+}
+
+// ---- Channels by name ---------------------------------------------------------------------------
+
+// The places of grey or R, G, B and of alpha among the file's channels; −1 where there is none.
+struct Picked {
+    int color[3] = {-1, -1, -1};
+    int alpha = -1;
+    int colors = 0; // 1 or 3; 0: nothing found
+
+    int channels() const
+    {
+        return colors + (alpha >= 0 ? 1 : 0);
+    }
+    int place(int channel) const
+    {
+        return channel < colors ? color[channel] : alpha;
+    }
+};
+
+// The channel "layer.name", or "name" for an empty layer.
+int find_channel(const ImageSpec &spec, const std::string &layer, const char *name)
+{
+    std::string wanted = layer.empty() ? name : layer + "." + name;
+    for (int c = 0; c < spec.nchannels; c++) {
+        if (strcasecmp(spec.channelnames[std::size_t(c)].c_str(), wanted.c_str()) == 0) {
+            return c;
+        }
+    }
+    return -1;
+}
+
+Picked pick_layer(const ImageSpec &spec, const std::string &layer)
+{
+    Picked picked;
+    for (int c = 0; c < 3; c++) {
+        const char *names[] = {"R", "G", "B"};
+        picked.color[c] = find_channel(spec, layer, names[c]);
+    }
+    // The Y of a position or a normal is not grey.
+    bool is_vector = find_channel(spec, layer, "X") >= 0;
+    int grey = is_vector ? -1 : find_channel(spec, layer, "Y");
+    if (picked.color[0] >= 0 && picked.color[1] >= 0 && picked.color[2] >= 0) {
+        picked.colors = 3;
+    } else if (grey >= 0) {
+        picked.color[0] = grey;
+        picked.colors = 1;
+    } else {
+        return {};
+    }
+    picked.alpha = find_channel(spec, layer, "A");
+    return picked;
+}
+
+std::vector<std::string> layers_of(const ImageSpec &spec)
+{
+    std::vector<std::string> layers;
+    for (const std::string &name : spec.channelnames) {
+        std::size_t dot = name.rfind('.');
+        std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
+        if (!layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end()) {
+            layers.push_back(layer);
+        }
+    }
+    return layers;
+}
+
+// The unnamed layer first, else the only one that has colour; a single channel is grey whatever its
+// name. `doubt` lists the layers where several could be meant.
+Picked pick(const ImageSpec &spec, std::string &doubt)
+{
+    Picked picked = pick_layer(spec, "");
+    if (picked.colors > 0) {
+        return picked;
+    }
+    if (spec.nchannels == 1) {
+        picked.color[0] = 0;
+        picked.colors = 1;
+        return picked;
+    }
+    int found = 0;
+    for (const std::string &layer : layers_of(spec)) {
+        Picked candidate = pick_layer(spec, layer);
+        if (candidate.colors > 0) {
+            picked = candidate;
+            doubt += (found++ == 0 ? "" : ", ") + layer;
+        }
+    }
+    if (found <= 1) {
+        doubt.clear();
+    }
+    return picked;
+}
+
+// ---- The part that is read ----------------------------------------------------------------------
+
+struct Part {
+    int index = 0;
+    ImageSpec spec;
+    Picked picked;
+};
+
+glint_status find_part(const char *path, ImageInput &input, Part &part, glint_error *error)
+{
+    bool has_deep = false;
+    std::string doubt, names;
+    for (int index = 0; index < 1000 && input.seek_subimage(index, 0); index++) {
+        ImageSpec spec = input.spec(index, 0);
+        has_deep = has_deep || spec.deep;
+        if (spec.deep) {
+            continue;
+        }
+        Picked picked = pick(spec, doubt);
+        if (picked.colors > 0 && doubt.empty()) {
+            part = {index, spec, picked};
+            return GLINT_OK;
+        }
+        if (!doubt.empty()) {
+            return glint_fail(error, GLINT_BAD_INPUT,
+                              "%s: holds several layers: %s (save the wanted one alone)", path,
+                              doubt.c_str());
+        }
+        for (const std::string &name : spec.channelnames) {
+            names += (names.empty() ? "" : ", ") + name;
+        }
+    }
+    (void)input.geterror(); // that there is no further part is no error
+    if (has_deep) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: holds deep pixels, which are not read (flatten it)", path);
+    }
+    return glint_fail(error, GLINT_BAD_INPUT,
+                      "%s: no channels R, G, B or Y among its %s (rename them)", path,
+                      names.c_str());
+}
+
+// How many bytes of pixels a byte of file may stand for. Deflation reaches 1,032; EXR's block
+// transforms and TIFF's newer methods more on flat pictures; DDS compresses by 8.
+std::uint64_t expansion_max(const char *plugin)
+{
+    if (std::strcmp(plugin, "openexr") == 0) {
+        return 1u << 20;
+    }
+    if (std::strcmp(plugin, "tiff") == 0) {
+        return 1u << 15;
+    }
+    return std::strcmp(plugin, "dds") == 0 ? 64 : 4096;
+}
+
+// Before anything of the image's size is allocated.
+glint_status check_size(const char *path, const char *plugin, std::uint64_t file_size,
+                        const ImageSpec &spec, glint_error *error)
+{
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %d × %d × %d pixels are no picture", path,
+                          spec.width, spec.height, spec.depth);
+    }
+    std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
+    if (pixels / expansion_max(plugin) * spec.pixel_bytes(true) > file_size) {
+        return glint_fail(
+            error, GLINT_BAD_INPUT,
+            "%s: says %d × %d pixels, which its %llu bytes cannot hold (it is damaged "
+            "or cut short)",
+            path, spec.width, spec.height, (unsigned long long)file_size);
+    }
+    if (pixels > values_max / 4) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: %d × %d pixels are more than %zu can be read (make it smaller)",
+                          path, spec.width, spec.height, values_max / 4);
+    }
+    return GLINT_OK;
+}
+
+// ---- Facts --------------------------------------------------------------------------------------
+
+void find_transfer(const char *plugin, const ImageSpec &spec, Facts &facts)
+{
+    facts.transfer = Transfer::Linear;
+    if (facts.code_bits == 0) {
+        return;
+    }
+    facts.transfer = Transfer::Srgb;
+    if (strcasecmp(spec.get_string_attribute("oiio:ColorSpace").c_str(), "linear") == 0) {
+        facts.transfer = Transfer::Linear;
+    }
+    if (std::strcmp(plugin, "png") != 0) {
+        return;
+    }
+    // PNG's gAMA chunk: 1/2.2 is what its specification tells writers of sRGB to put there.
+    float gamma = spec.get_float_attribute("oiio:Gamma", 0.0f);
+    if (std::fabs(gamma - 1.0f) < 0.01f) {
+        facts.transfer = Transfer::Linear;
+    } else if (gamma > 0.1f && gamma < 10.0f && std::fabs(gamma - 2.2f) > 0.02f) {
+        facts.transfer = Transfer::Power;
+        facts.gamma = gamma;
+    }
+}
+
+void find_facts(const char *plugin, const Part &part, Facts &facts)
+{
+    const ImageSpec &spec = part.spec;
+    facts.width = spec.width;
+    facts.height = spec.height;
+    facts.channels = part.picked.channels();
+    facts.code_bits = spec.format == TypeDesc::UINT8 ? 8 : spec.format == TypeDesc::UINT16 ? 16 : 0;
+    find_transfer(plugin, spec, facts);
+    // A DDS does not say; what makes them keeps alpha beside the colour.
+    facts.is_unassociated =
+        spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0 || std::strcmp(plugin, "dds") == 0;
+    bool is_exr = std::strcmp(plugin, "openexr") == 0;
+    // OpenEXR knows no orientation; what other programs left there by that name means nothing.
+    facts.orientation = is_exr ? 1 : spec.get_int_attribute("Orientation", 1);
+    std::string texture = spec.get_string_attribute("textureformat");
+    facts.envmap = GLINT_ENVMAP_NONE;
+    if (texture == "CubeFace Environment" && is_exr) {
+        facts.envmap = GLINT_ENVMAP_CUBE;
+    } else if (texture == "LatLong Environment" && is_exr) {
+        facts.envmap = GLINT_ENVMAP_LATLONG;
+    }
+    facts.is_direct3d_cube = texture == "CubeFace Environment" && std::strcmp(plugin, "dds") == 0;
+}
+
+// ---- Pixels -------------------------------------------------------------------------------------
+
+// Takes the picked channels out of pixels of `from_channels`, the first of which is `first`.
+template <typename T>
+void pick_values(const T *from, int first, int from_channels, const Part &part, T *to)
+{
+    std::size_t pixels = std::size_t(part.spec.width) * std::size_t(part.spec.height);
+    int channels = part.picked.channels();
+    for (std::size_t p = 0; p < pixels; p++) {
+        for (int c = 0; c < channels; c++) {
+            to[c] = from[part.picked.place(c) - first];
+        }
+        from += from_channels;
+        to += channels;
+    }
+}
+
+template <typename T>
+bool read_pixels(ImageInput &input, const Part &part, TypeDesc type, T *to)
+{
+    int first = part.picked.place(0), last = first, channels = part.picked.channels();
+    bool in_order = true;
+    for (int c = 0; c < channels; c++) {
+        int place = part.picked.place(c);
+        in_order = in_order && place == part.picked.place(0) + c;
+        first = std::min(first, place);
+        last = std::max(last, place);
+    }
+    if (in_order) {
+        return input.read_image(part.index, 0, first, last + 1, type, to);
+    }
+    std::size_t span = std::size_t(last + 1 - first);
+    std::vector<T> all(std::size_t(part.spec.width) * std::size_t(part.spec.height) * span);
+    if (!input.read_image(part.index, 0, first, last + 1, type, all.data())) {
+        return false;
+    }
+    pick_values(all.data(), first, int(span), part, to);
+    return true;
+}
+
+bool read_values(ImageInput &input, const Part &part, Decoded &decoded)
+{
+    const Facts &facts = decoded.facts;
+    std::size_t values =
+        std::size_t(facts.width) * std::size_t(facts.height) * std::size_t(facts.channels);
+    if (facts.code_bits == 8) {
+        decoded.codes.resize(values);
+        return read_pixels(input, part, TypeDesc::UINT8, decoded.codes.data());
+    }
+    if (facts.code_bits == 16) {
+        std::vector<std::uint16_t> codes(values);
+        if (!read_pixels(input, part, TypeDesc::UINT16, codes.data())) {
+            return false;
+        }
+        decoded.codes.resize(values * sizeof(std::uint16_t));
+        std::memcpy(decoded.codes.data(), codes.data(), decoded.codes.size());
+        return true;
+    }
+    decoded.values.resize(values);
+    return read_pixels(input, part, TypeDesc::FLOAT, decoded.values.data());
+}
+
+// Puts an EXR's data window into its display window.
+glint_status frame_pixels(const char *path, const ImageSpec &spec, Decoded &decoded,
+                          glint_error *error)
+{
+    Facts &facts = decoded.facts;
+    int left = spec.x - spec.full_x, top = spec.y - spec.full_y;
+    if (left == 0 && top == 0 && spec.width == spec.full_width && spec.height == spec.full_height) {
+        return GLINT_OK;
+    }
+    std::int64_t width = spec.full_width, height = spec.full_height;
+    if (width < 1 || height < 1 || std::uint64_t(width) * std::uint64_t(height) > values_max / 4) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: its display window of %d × %d pixels cannot be used (crop it)", path,
+                          spec.full_width, spec.full_height);
+    }
+    std::vector<float> framed(std::size_t(width) * std::size_t(height) *
+                              std::size_t(facts.channels));
+    int first = std::max(0, -left);
+    std::int64_t last = std::min<std::int64_t>(facts.width, width - left);
+    std::size_t channels = std::size_t(facts.channels);
+    for (int y = std::max(0, -top); y < facts.height && y + top < height && first < last; y++) {
+        const float *from =
+            &decoded.values[(std::size_t(y) * std::size_t(facts.width) + std::size_t(first)) *
+                            channels];
+        float *to =
+            &framed[(std::size_t(y + top) * std::size_t(width) + std::size_t(first + left)) *
+                    channels];
+        std::copy(from, from + std::size_t(last - first) * channels, to);
+    }
+    decoded.values.swap(framed);
+    facts.width = int(width);
+    facts.height = int(height);
+    return GLINT_OK;
+}
+
+glint_status decode_part(const char *path, const char *plugin, ImageInput &input,
+                         std::uint64_t file_size, Decoded &decoded, glint_error *error)
+{
+    Part part;
+    glint_status status = find_part(path, input, part, error);
+    if (status == GLINT_OK) {
+        status = check_size(path, plugin, file_size, part.spec, error);
+    }
+    if (status != GLINT_OK) {
+        return status;
+    }
+    find_facts(plugin, part, decoded.facts);
+    if (!read_values(input, part, decoded)) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
+                          cause_of(input, path).c_str());
+    }
+    if (std::strcmp(plugin, "openexr") == 0 && decoded.facts.envmap == GLINT_ENVMAP_NONE &&
+        decoded.facts.code_bits == 0) {
+        status = frame_pixels(path, part.spec, decoded, error);
+    }
+    return status;
+}
+
+} // namespace
+
+glint_status decode(const char *path, const char *plugin, std::uint64_t file_size, Decoded &decoded,
+                    glint_error *error)
+{
+    std::unique_ptr<ImageInput> input = ImageInput::create(plugin);
+    if (input == nullptr) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: OpenImageIO was built without this format (convert it to .exr)",
+                          path);
+    }
+    ImageSpec spec, wishes;
+    // Colour and alpha as stored: premultiplying comes after linearising.
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    if (!input->open(path, spec, wishes)) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
+                          cause_of(*input, path).c_str());
+    }
+    glint_status status = decode_part(path, plugin, *input, file_size, decoded, error);
+    input->close();
+    return status;
+}
+
+} // namespace glint

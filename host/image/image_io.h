@@ -1,0 +1,95 @@
+// Image files, through OpenImageIO. Plain C; every function catches everything.
+#ifndef GLINT_IMAGE_IMAGE_IO_H
+#define GLINT_IMAGE_IMAGE_IO_H
+
+#include "base/status.h"
+#include "image/image.h"
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// What OpenEXR's standard attribute `envmap` says of a file.
+typedef enum glint_envmap {
+    GLINT_ENVMAP_NONE,
+    GLINT_ENVMAP_LATLONG,
+    GLINT_ENVMAP_CUBE,
+} glint_envmap;
+
+typedef struct glint_image_facts {
+    glint_envmap envmap;
+    bool was_encoded;      // 8- or 16-bit integers with the sRGB curve, linearised on reading
+    bool is_direct3d_cube; // DDS: six faces above each other, +X −X +Y −Y +Z −Z of Direct3D
+} glint_image_facts;
+
+// Reads exr, hdr, png, tiff, dds or jpeg (jpeg in a child process: OpenImageIO 2.4 aborts on some
+// corrupt ones) as linear Rec.709 with 1 to 4 channels; R, G, B, A are found by name in files with
+// more. Integer files tagged or assumed sRGB are linearised here, before any filtering; alpha is
+// premultiplied, orientation applied. The content decides what the file is, not its extension. The
+// header's size is held against the file's size before pixels are allocated.
+// Errors: GLINT_BAD_INPUT with the file's name and what is wrong. `facts` may be NULL.
+glint_status glint_image_read(const char *path, glint_image *image, glint_image_facts *facts,
+                              glint_error *error);
+
+typedef enum glint_metadata_type {
+    GLINT_METADATA_STRING,
+    GLINT_METADATA_INT,
+    GLINT_METADATA_FLOAT,
+    GLINT_METADATA_MATRIX, // 16 floats, rows of a row-vector matrix as OpenEXR stores them
+} glint_metadata_type;
+
+typedef struct glint_metadata {
+    const char *name;
+    glint_metadata_type type;
+    const char *string;
+    int integer;
+    float real;
+    float matrix[16];
+} glint_metadata;
+
+// All-zero means the defaults.
+typedef struct glint_write_options {
+    bool exr_float;          // EXR: 32-bit float channels instead of half
+    const char *compression; // EXR: none rle zip zips piz pxr24 b44 b44a dwaa dwab; TIFF: none lzw
+                             // zip packbits; PNG: a level "0".."9"; JPEG: a quality "1".."100".
+                             // NULL: the format's default
+    float exposure;          // stops, applied to PNG, JPEG and TIFF only; EXR and HDR stay linear
+    const glint_metadata *metadata; // EXR: typed; PNG, JPEG and TIFF: as text, without matrices
+    size_t metadata_count;
+    glint_envmap envmap; // EXR: written as the standard attribute
+} glint_write_options;
+
+// True if the path's extension is one that can be written: exr hdr png jpg jpeg tif tiff.
+bool glint_image_can_write(const char *path);
+
+// GLINT_USAGE (naming what may be given) when the extension cannot be written or the compression
+// does not suit the format. Called before any work is done.
+glint_status glint_image_check_output(const char *path, const glint_write_options *options,
+                                      glint_error *error);
+
+// GLINT_OUTPUT_FAILED when a file could not be put at `path`: its folder is missing or not
+// writable, or the path is a folder, a device, or a write-protected file. Nothing is created;
+// called before any work is done, where the caller wants to know early. (The write checks again.)
+glint_status glint_image_check_place(const char *path, glint_error *error);
+
+// Writes linear premultiplied pixels. EXR and HDR as they are; PNG, JPEG and 8-bit TIFF after
+// exposure, unpremultiplied where the format keeps alpha, and the sRGB curve (HDR and JPEG keep no
+// alpha: what is written is the premultiplied colour, over black). The file appears whole or not
+// at all: a temporary name in the same folder, fsync, rename; stale temporaries of the same output
+// whose process is gone are removed. A symbolic link is followed and stays; devices and pipes are
+// refused. Values that a format cannot hold: see image_write.cpp. `options` may be NULL.
+// Errors: GLINT_OUTPUT_FAILED with the file's name and the cause; nothing is left behind.
+glint_status glint_image_write(const char *path, const glint_image *image,
+                               const glint_write_options *options, glint_error *error);
+
+// Unlinks the temporary files that writes of other threads have in flight, and lets no further one
+// be made: later writes fail. Async-signal-safe: for a signal handler on its way to _exit.
+void glint_image_discard_temporaries(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,445 @@
+// Writing image files through OpenImageIO. See image_io.h.
+//
+// The file is encoded in memory and put on the disk by output_file.c, which checks every write:
+// several of OpenImageIO's writers do not tell when the disk is full.
+//
+// What becomes of values that a format cannot hold:
+//   EXR half   beyond ±65504, infinities too: ±65504. NaN stays NaN: it marks a fault, and a file
+//              that is fit for comparison must not hide it.
+//   EXR float  as they are.
+//   HDR        NaN and negative values become 0; infinity becomes 1.6e38, what RGBE can hold.
+//   8 bits     NaN and negative values become 0; above 1 is 1.
+// Grey stays grey where the format has it (EXR, PNG, TIFF, JPEG). TIFF is written with 8 bits,
+// sRGB.
+#include "image/image_io.h"
+
+#include "image/color.h"
+#include "image/image_decode.hpp"
+#include "image/output_file.h"
+
+#include <Imath/half.h>
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <strings.h>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+namespace
+{
+
+enum class Format { None, Exr, Hdr, Png, Jpeg, Tiff };
+
+struct Extension {
+    const char *text;
+    Format format;
+    const char *plugin; // OpenImageIO's name of the format
+};
+
+const Extension extensions[] = {
+    {"exr", Format::Exr, "openexr"}, {"hdr", Format::Hdr, "hdr"},    {"png", Format::Png, "png"},
+    {"jpg", Format::Jpeg, "jpeg"},   {"jpeg", Format::Jpeg, "jpeg"}, {"tif", Format::Tiff, "tiff"},
+    {"tiff", Format::Tiff, "tiff"},
+};
+
+const Extension *extension_of(const char *path)
+{
+    const char *slash = std::strrchr(path, '/');
+    const char *name = slash != nullptr ? slash + 1 : path;
+    const char *dot = std::strrchr(name, '.');
+    // ".exr" alone is a hidden file's name without an extension.
+    if (dot != nullptr && dot != name) {
+        for (const Extension &known : extensions) {
+            if (strcasecmp(dot + 1, known.text) == 0) {
+                return &known;
+            }
+        }
+    }
+    return nullptr;
+}
+
+// What may be given as compression: words, or a whole number in [low, high].
+struct Compressions {
+    Format format;
+    const char *words[12];
+    int low, high;
+    const char *said; // for the message
+};
+
+const Compressions compressions[] = {
+    {Format::Exr,
+     {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"},
+     0,
+     -1,
+     "none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa or dwab"},
+    {Format::Tiff, {"none", "lzw", "zip", "packbits"}, 0, -1, "none, lzw, zip or packbits"},
+    {Format::Png, {}, 0, 9, "a level from 0 to 9"},
+    {Format::Jpeg, {}, 1, 100, "a quality from 1 to 100"},
+};
+
+bool compression_fits(const Compressions &allowed, const char *given)
+{
+    for (const char *word : allowed.words) {
+        if (word != nullptr && std::strcmp(word, given) == 0) {
+            return true;
+        }
+    }
+    char *end = nullptr;
+    long number = std::strtol(given, &end, 10);
+    return given[0] >= '0' && given[0] <= '9' && *end == '\0' && number >= allowed.low &&
+           number <= allowed.high;
+}
+
+glint_status check_compression(const char *path, Format format, const char *given,
+                               glint_error *error)
+{
+    if (given == nullptr) {
+        return GLINT_OK;
+    }
+    for (const Compressions &allowed : compressions) {
+        if (allowed.format == format) {
+            return compression_fits(allowed, given)
+                       ? GLINT_OK
+                       : glint_fail(error, GLINT_USAGE,
+                                    "%s: '%s' is no compression of this format (give %s)", path,
+                                    given, allowed.said);
+        }
+    }
+    return glint_fail(error, GLINT_USAGE,
+                      "%s: this format has one compression only (leave '%s' out)", path, given);
+}
+
+// ---- Pixels as the file holds them --------------------------------------------------------------
+
+const float half_max = 65504.0f;
+
+// Leaves NaN: it fails both comparisons.
+float clamp_to_half(float value)
+{
+    return value > half_max ? half_max : (value < -half_max ? -half_max : value);
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx,f16c"))) std::size_t halves_by_eight(const float *from, half *to,
+                                                                std::size_t count)
+{
+    const __m256 high = _mm256_set1_ps(half_max), low = _mm256_set1_ps(-half_max);
+    std::size_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        // min and max give their second operand where one is NaN: it stays.
+        __m256 value = _mm256_max_ps(low, _mm256_min_ps(high, _mm256_loadu_ps(from + i)));
+        _mm_storeu_si128(reinterpret_cast<__m128i *>(to + i),
+                         _mm256_cvtps_ph(value, _MM_FROUND_TO_NEAREST_INT));
+    }
+    return i;
+}
+#endif
+
+void to_halves(const float *from, half *to, std::size_t count)
+{
+    std::size_t i = 0;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("f16c")) {
+        i = halves_by_eight(from, to, count);
+    }
+#endif
+    for (; i < count; i++) {
+        to[i] = half(clamp_to_half(from[i]));
+    }
+}
+
+float clamp_to_rgbe(float value)
+{
+    const float most = 1.6e38f;
+    return value > 0.0f ? std::min(value, most) : 0.0f;
+}
+
+// Which channels of the image the file's are: grey is repeated, alpha left out or kept.
+struct Channels {
+    int color, total; // in the file
+};
+
+Channels channels_of(Format format, int in_image)
+{
+    bool has_alpha = in_image == 2 || in_image == 4;
+    int color = in_image <= 2 ? 1 : 3;
+    if (format == Format::Hdr) {
+        return {3, 3};
+    }
+    if (format == Format::Jpeg || !has_alpha) {
+        return {color, color};
+    }
+    return {color, color + 1};
+}
+
+void fill_rgbe(const glint_image &image, std::vector<unsigned char> &bytes)
+{
+    std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
+    bytes.resize(pixels * 3 * sizeof(float));
+    float *to = reinterpret_cast<float *>(bytes.data());
+    for (std::size_t p = 0; p < pixels; p++) {
+        const float *from = image.pixels + p * std::size_t(image.channels);
+        for (int c = 0; c < 3; c++) {
+            *to++ = clamp_to_rgbe(from[image.channels >= 3 ? c : 0]);
+        }
+    }
+}
+
+// Exposure, then unpremultiplied where alpha is kept, then the curve.
+void fill_codes(const glint_image &image, Channels wanted, float exposure,
+                std::vector<unsigned char> &bytes)
+{
+    std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
+    bytes.resize(pixels * std::size_t(wanted.total));
+    unsigned char *to = bytes.data();
+    float gain = std::exp2(exposure);
+    for (std::size_t p = 0; p < pixels; p++) {
+        const float *from = image.pixels + p * std::size_t(image.channels);
+        float scale = gain;
+        float alpha = 1.0f;
+        if (wanted.total > wanted.color) {
+            alpha = from[image.channels - 1];
+            // A pixel of alpha 0 that still emits keeps its colour.
+            scale = alpha > 0.0f ? gain / alpha : gain;
+        }
+        for (int c = 0; c < wanted.color; c++) {
+            *to++ = glint_linear_to_srgb8(from[c] * scale);
+        }
+        if (wanted.total > wanted.color) {
+            float clamped = alpha > 0.0f ? std::min(alpha, 1.0f) : 0.0f;
+            *to++ = static_cast<unsigned char>(clamped * 255.0f + 0.5f);
+        }
+    }
+}
+
+// ---- Header and metadata ------------------------------------------------------------------------
+
+void add_attribute(ImageSpec &spec, const glint_metadata &entry)
+{
+    switch (entry.type) {
+    case GLINT_METADATA_STRING:
+        spec.attribute(entry.name, entry.string != nullptr ? entry.string : "");
+        break;
+    case GLINT_METADATA_INT:
+        spec.attribute(entry.name, entry.integer);
+        break;
+    case GLINT_METADATA_FLOAT:
+        spec.attribute(entry.name, entry.real);
+        break;
+    case GLINT_METADATA_MATRIX:
+        spec.attribute(entry.name, OIIO::TypeMatrix, entry.matrix);
+        break;
+    }
+}
+
+// "name: value", a line each, for the formats that hold no typed attributes. Matrices are left out.
+std::string as_text(const glint_write_options &options)
+{
+    std::string text;
+    for (std::size_t i = 0; i < options.metadata_count; i++) {
+        const glint_metadata &entry = options.metadata[i];
+        if (entry.type != GLINT_METADATA_MATRIX) {
+            ImageSpec single;
+            add_attribute(single, entry);
+            text += std::string(entry.name) + ": " +
+                    std::string(single.get_string_attribute(entry.name)) + "\n";
+        }
+    }
+    return text;
+}
+
+// EXR holds everything. The others get the text as their description or comment, and no attribute
+// by name: one that OpenImageIO knows from EXIF would make it add a directory to a TIFF, for which
+// it must read back what it wrote, and from memory it cannot.
+void add_metadata(ImageSpec &spec, Format format, const glint_write_options &options)
+{
+    if (format == Format::Exr) {
+        for (std::size_t i = 0; i < options.metadata_count; i++) {
+            add_attribute(spec, options.metadata[i]);
+        }
+    } else if (format != Format::Hdr && options.metadata_count > 0) {
+        spec.attribute("ImageDescription", as_text(options));
+    }
+}
+
+void name_channels(ImageSpec &spec, Channels wanted)
+{
+    spec.channelnames =
+        wanted.color == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+    spec.alpha_channel = -1;
+    if (wanted.total > wanted.color) {
+        spec.channelnames.emplace_back("A");
+        spec.alpha_channel = wanted.color;
+    }
+}
+
+void describe_exr(ImageSpec &spec, const glint_write_options &options)
+{
+    spec.attribute("compression", options.compression != nullptr ? options.compression : "zip");
+    if (options.envmap != GLINT_ENVMAP_NONE) {
+        spec.attribute("textureformat", options.envmap == GLINT_ENVMAP_CUBE
+                                            ? "CubeFace Environment"
+                                            : "LatLong Environment");
+    }
+}
+
+void describe_codes(ImageSpec &spec, Format format, const glint_write_options &options)
+{
+    if (format != Format::Tiff) {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+    }
+    // What is handed over is unpremultiplied already.
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    const char *given = options.compression;
+    if (format == Format::Png) {
+        // The time goes into the deflation: level 2 is three times as fast as the default of 6 and
+        // its files are some percent larger.
+        spec.attribute("png:compressionLevel", given != nullptr ? std::atoi(given) : 2);
+    } else if (format == Format::Jpeg) {
+        spec.attribute("CompressionQuality", given != nullptr ? std::atoi(given) : 95);
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    } else {
+        spec.attribute("compression", given != nullptr ? given : "zip");
+    }
+}
+
+// ---- Encoding -----------------------------------------------------------------------------------
+
+struct Encoded {
+    ImageSpec spec;
+    std::vector<unsigned char> bytes; // as the file's type
+};
+
+Encoded prepare(const glint_image &image, Format format, const glint_write_options &options)
+{
+    Channels wanted = channels_of(format, image.channels);
+    TypeDesc type = TypeDesc::UINT8;
+    if (format == Format::Hdr || (format == Format::Exr && options.exr_float)) {
+        type = TypeDesc::FLOAT;
+    } else if (format == Format::Exr) {
+        type = TypeDesc::HALF;
+    }
+    Encoded made{ImageSpec(image.width, image.height, wanted.total, type), {}};
+    name_channels(made.spec, wanted);
+    std::size_t values =
+        std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
+    if (format == Format::Exr) {
+        describe_exr(made.spec, options);
+        made.bytes.resize(values * type.size());
+        if (options.exr_float) {
+            std::memcpy(made.bytes.data(), image.pixels, values * sizeof(float));
+        } else {
+            to_halves(image.pixels, reinterpret_cast<half *>(made.bytes.data()), values);
+        }
+    } else if (format == Format::Hdr) {
+        fill_rgbe(image, made.bytes);
+    } else {
+        describe_codes(made.spec, format, options);
+        fill_codes(image, wanted, options.exposure, made.bytes);
+    }
+    add_metadata(made.spec, format, options);
+    return made;
+}
+
+// The first line of what OpenImageIO says.
+std::string cause_of(const ImageOutput &output)
+{
+    std::string text = output.geterror();
+    text = text.substr(0, text.find('\n'));
+    return text.empty() ? "the encoder failed without saying why" : text;
+}
+
+glint_status encode(const char *path, const char *plugin, const Encoded &made,
+                    OIIO::Filesystem::IOVecOutput &file, glint_error *error)
+{
+    std::shared_lock<std::shared_mutex> inside(glint::gate());
+    std::unique_ptr<ImageOutput> output = ImageOutput::create(plugin);
+    if (output == nullptr) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "%s: OpenImageIO was built without this format (choose another)", path);
+    }
+    if (!output->set_ioproxy(&file) || !output->open(path, made.spec) ||
+        !output->write_image(made.spec.format, made.bytes.data()) || !output->close()) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded: %s (try .exr)",
+                          path, cause_of(*output).c_str());
+    }
+    return GLINT_OK;
+}
+
+glint_status write(const char *path, const glint_image &image, const glint_write_options &options,
+                   glint_error *error)
+{
+    const Extension *extension = extension_of(path);
+    Encoded made = prepare(image, extension->format, options);
+    OIIO::Filesystem::IOVecOutput file;
+    glint_status status = encode(path, extension->plugin, made, file, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    return glint_output_file_write(path, file.buffer().data(), file.buffer().size(), error);
+}
+
+} // namespace
+
+bool glint_image_can_write(const char *path)
+{
+    return extension_of(path) != nullptr;
+}
+
+glint_status glint_image_check_output(const char *path, const glint_write_options *options,
+                                      glint_error *error)
+{
+    const Extension *extension = extension_of(path);
+    if (extension == nullptr) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: the extension names no format that can be written (use .exr, .hdr, "
+                          ".png, .jpg, .jpeg, .tif or .tiff)",
+                          path);
+    }
+    return check_compression(path, extension->format,
+                             options != nullptr ? options->compression : nullptr, error);
+}
+
+glint_status glint_image_check_place(const char *path, glint_error *error)
+{
+    return glint_output_file_check(path, error);
+}
+
+glint_status glint_image_write(const char *path, const glint_image *image,
+                               const glint_write_options *options, glint_error *error)
+{
+    const glint_write_options defaults = {};
+    const glint_write_options &given = options != nullptr ? *options : defaults;
+    glint_status status = glint_image_check_output(path, &given, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    if (image->pixels == nullptr) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
+    }
+    try {
+        return write(path, *image, given, error);
+    } catch (const std::bad_alloc &) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: not enough memory to encode it", path);
+    } catch (const std::exception &fault) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded: %s (try .exr)",
+                          path, fault.what());
+    } catch (...) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded (try .exr)", path);
+    }
+}
+
+void glint_image_discard_temporaries(void)
+{
+    glint_output_file_discard_all();
+}

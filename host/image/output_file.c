@@ -1,0 +1,368 @@
+// Bytes to a file that appears whole or not at all. See output_file.h.
+//
+// The temporary is named .NAME.PID-HOST-N.tmp.EXT: PID tells whether its process still lives, HOST
+// (a hash of the machine's name) keeps machines that share a folder from judging each other's
+// processes, N tells the temporaries of one process apart.
+//
+// Limits: no more than SLOTS temporaries in flight are known to the signal handler, and none whose
+// path is longer than SLOT_PATH; such a one is left for the next run to remove.
+#include "image/output_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define SLOTS 32
+#define SLOT_PATH 1024
+
+// ---- Temporaries in flight ----------------------------------------------------------------------
+
+typedef struct slot {
+    atomic_int active; // the path is complete, and the file may exist
+    bool taken;        // under slots_lock
+    char path[SLOT_PATH];
+} slot;
+
+static slot slots[SLOTS];
+static pthread_mutex_t slots_lock = PTHREAD_MUTEX_INITIALIZER;
+static atomic_int unregistered; // temporaries in flight without a slot
+static atomic_int discarding;
+
+// NULL when there is no room: the file is then counted in `unregistered`.
+static slot *slot_take(const char *path)
+{
+    slot *found = NULL;
+    pthread_mutex_lock(&slots_lock);
+    for (int i = 0; i < SLOTS && strlen(path) < SLOT_PATH && found == NULL; i++) {
+        if (!slots[i].taken) {
+            found = &slots[i];
+            found->taken = true;
+            memcpy(found->path, path, strlen(path) + 1);
+            atomic_store(&found->active, 1);
+        }
+    }
+    if (found == NULL) {
+        atomic_fetch_add(&unregistered, 1);
+    }
+    pthread_mutex_unlock(&slots_lock);
+    return found;
+}
+
+static void slot_release(slot *taken)
+{
+    pthread_mutex_lock(&slots_lock);
+    if (taken == NULL) {
+        atomic_fetch_sub(&unregistered, 1);
+    } else {
+        atomic_store(&taken->active, 0);
+        taken->taken = false;
+    }
+    pthread_mutex_unlock(&slots_lock);
+}
+
+static bool slot_holds(const char *path)
+{
+    bool held = atomic_load(&unregistered) > 0;
+    pthread_mutex_lock(&slots_lock);
+    for (int i = 0; i < SLOTS && !held; i++) {
+        held = slots[i].taken && strcmp(slots[i].path, path) == 0;
+    }
+    pthread_mutex_unlock(&slots_lock);
+    return held;
+}
+
+void glint_output_file_discard_all(void)
+{
+    atomic_store(&discarding, 1);
+    for (int i = 0; i < SLOTS; i++) {
+        if (atomic_load(&slots[i].active)) {
+            unlink(slots[i].path);
+        }
+    }
+}
+
+// ---- Where the file goes ------------------------------------------------------------------------
+
+// A path taken apart; zero is valid.
+typedef struct place {
+    char *path;   // the file itself, links followed
+    char *folder; // its folder
+    char *name;   // within the folder
+} place;
+
+static void place_free(place *where)
+{
+    free(where->path);
+    free(where->folder);
+    free(where->name);
+    *where = (place){0};
+}
+
+static glint_status place_split(const char *path, place *where, glint_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    size_t folder = slash == NULL ? 0 : (slash == path ? 1 : (size_t)(slash - path));
+    where->name = strdup(name);
+    where->folder = slash == NULL ? strdup(".") : strndup(path, folder);
+    if (where->path == NULL || where->name == NULL || where->folder == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    return GLINT_OK;
+}
+
+// What stands at the path decides: nothing or a regular file may be replaced, a link is followed to
+// its file. A device or a pipe cannot appear whole by renaming; a folder is a mistake.
+static glint_status place_find(const char *path, place *where, glint_error *error)
+{
+    struct stat facts;
+    bool is_link = lstat(path, &facts) == 0 && S_ISLNK(facts.st_mode);
+    where->path = is_link ? realpath(path, NULL) : strdup(path);
+    if (where->path == NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "%s: a symbolic link that leads nowhere (remove it or mend it)", path);
+    }
+    glint_status status = place_split(where->path, where, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    if (stat(where->path, &facts) == 0) {
+        if (S_ISDIR(facts.st_mode) || where->name[0] == '\0') {
+            return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: is a folder (name a file in it)",
+                              path);
+        }
+        if (!S_ISREG(facts.st_mode)) {
+            return glint_fail(error, GLINT_OUTPUT_FAILED,
+                              "%s: is no regular file, and a device or pipe cannot be replaced as "
+                              "a whole (name a file)",
+                              path);
+        }
+        if (access(where->path, W_OK) != 0) {
+            return glint_fail(error, GLINT_OUTPUT_FAILED,
+                              "%s: is write-protected (change its permissions or the name)", path);
+        }
+    }
+    if (stat(where->folder, &facts) != 0) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: its folder %s: %s (make it first)", path,
+                          where->folder, strerror(errno));
+    }
+    if (!S_ISDIR(facts.st_mode)) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: %s is no folder (name another)", path,
+                          where->folder);
+    }
+    if (access(where->folder, W_OK | X_OK) != 0) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "%s: its folder is not writable (change its permissions or the name)",
+                          path);
+    }
+    return GLINT_OK;
+}
+
+glint_status glint_output_file_check(const char *path, glint_error *error)
+{
+    place where = {0};
+    glint_status status = place_find(path, &where, error);
+    place_free(&where);
+    return status;
+}
+
+// ---- Names of temporaries -----------------------------------------------------------------------
+
+static uint32_t host_hash(void)
+{
+    char name[256] = {0};
+    gethostname(name, sizeof name - 1);
+    uint32_t hash = 2166136261u; // FNV-1a
+    for (const char *c = name; *c != '\0'; c++) {
+        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    }
+    return hash;
+}
+
+// The fixed parts of a temporary's name: ".NAME." and ".tmp.EXT". A name near the file system's
+// limit is shortened; NAME then stands for all names that begin alike, which the process and the
+// number still tell apart.
+#define NAME_ROOM 150
+static void temporary_parts(const place *where, char before[NAME_MAX], char after[NAME_MAX])
+{
+    const char *dot = strrchr(where->name, '.');
+    const char *extension = dot != NULL && strlen(dot) < 16 ? dot : "";
+    snprintf(before, NAME_MAX, ".%.*s.", NAME_ROOM, where->name);
+    snprintf(after, NAME_MAX, ".tmp%s", extension);
+}
+
+// True for the temporary of a process that is gone, or of an earlier one that had our number.
+static bool is_stale(const place *where, const char *name)
+{
+    char before[NAME_MAX], after[NAME_MAX];
+    temporary_parts(where, before, after);
+    size_t before_length = strlen(before), after_length = strlen(after), length = strlen(name);
+    if (length < before_length + after_length || strncmp(name, before, before_length) != 0 ||
+        strcmp(name + length - after_length, after) != 0) {
+        return false;
+    }
+    long process = 0;
+    unsigned host = 0, number = 0;
+    int used = 0;
+    if (sscanf(name + before_length, "%ld-%8x-%u%n", &process, &host, &number, &used) != 3 ||
+        before_length + (size_t)used + after_length != length || host != host_hash() ||
+        process < 1 || process > INT_MAX) {
+        return false;
+    }
+    if (process != (long)getpid()) {
+        return kill((pid_t)process, 0) != 0 && errno == ESRCH;
+    }
+    char path[PATH_MAX];
+    int printed = snprintf(path, sizeof path, "%s/%s", where->folder, name);
+    return printed > 0 && (size_t)printed < sizeof path && !slot_holds(path);
+}
+
+static void remove_stale(const place *where)
+{
+    DIR *folder = opendir(where->folder);
+    if (folder == NULL) {
+        return; // a folder that may be written but not listed
+    }
+    for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
+        if (entry->d_name[0] == '.' && is_stale(where, entry->d_name)) {
+            unlinkat(dirfd(folder), entry->d_name, 0);
+        }
+    }
+    closedir(folder);
+}
+
+// ---- Writing ------------------------------------------------------------------------------------
+
+typedef struct temporary {
+    char path[PATH_MAX];
+    slot *registered;
+    bool made;
+    int file;
+} temporary;
+
+static int open_temporary(const place *where, temporary *made)
+{
+    static atomic_uint next;
+    char before[NAME_MAX], after[NAME_MAX];
+    temporary_parts(where, before, after);
+    for (int attempt = 0; attempt < 1000; attempt++) {
+        int printed =
+            snprintf(made->path, sizeof made->path, "%s/%s%ld-%08x-%u%s", where->folder, before,
+                     (long)getpid(), host_hash(), atomic_fetch_add(&next, 1), after);
+        if (printed < 0 || (size_t)printed >= sizeof made->path) {
+            return ENAMETOOLONG;
+        }
+        // Registered before it exists, so that a signal in between leaves nothing.
+        made->registered = slot_take(made->path);
+        made->file = atomic_load(&discarding)
+                         ? (errno = EINTR, -1)
+                         : open(made->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (made->file >= 0) {
+            made->made = true;
+            return 0;
+        }
+        int cause = errno;
+        slot_release(made->registered);
+        if (cause != EEXIST) {
+            return cause;
+        }
+    }
+    return EEXIST;
+}
+
+static int write_all(int file, const unsigned char *bytes, size_t size)
+{
+    while (size > 0) {
+        // Linux moves at most 2 GiB a call.
+        ssize_t done = write(file, bytes, size < (1u << 30) ? size : (1u << 30));
+        if (done < 0 && errno != EINTR) {
+            return errno;
+        }
+        if (done > 0) {
+            bytes += done;
+            size -= (size_t)done;
+        }
+    }
+    // Some file systems cannot sync, and say so; others report here what went wrong in writing.
+    if (fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP) {
+        return errno;
+    }
+    return 0;
+}
+
+// The new name itself reaches the disk with its folder. The file is whole either way.
+static void sync_folder(const char *folder)
+{
+    int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file >= 0) {
+        fsync(file);
+        close(file);
+    }
+}
+
+static const char *advice(int cause)
+{
+    switch (cause) {
+    case ENOSPC:
+    case EDQUOT:
+        return "free some space or write elsewhere";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+        return "change the permissions or write elsewhere";
+    case ENAMETOOLONG:
+        return "choose a shorter name";
+    default:
+        return "write elsewhere";
+    }
+}
+
+glint_status glint_output_file_write(const char *path, const void *bytes, size_t size,
+                                     glint_error *error)
+{
+    place where = {0};
+    temporary made = {.file = -1};
+    int cause = 0;
+    glint_status status = place_find(path, &where, error);
+    if (status != GLINT_OK) {
+        goto cleanup;
+    }
+    remove_stale(&where);
+    cause = open_temporary(&where, &made);
+    if (cause == 0) {
+        cause = write_all(made.file, bytes, size);
+    }
+    if (made.file >= 0 && close(made.file) != 0 && cause == 0 && errno != EINTR) {
+        cause = errno;
+    }
+    if (cause == 0 && rename(made.path, where.path) != 0) {
+        cause = errno;
+    }
+    if (cause != 0) {
+        status = glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be written: %s (%s)", path,
+                            strerror(cause), advice(cause));
+        goto cleanup;
+    }
+    sync_folder(where.folder);
+
+cleanup:
+    if (made.made) {
+        if (status != GLINT_OK) {
+            unlink(made.path);
+        }
+        slot_release(made.registered);
+    }
+    place_free(&where);
+    return status;
+}

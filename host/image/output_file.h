@@ -1,0 +1,32 @@
+// Bytes to a file that appears whole or not at all.
+#ifndef GLINT_IMAGE_OUTPUT_FILE_H
+#define GLINT_IMAGE_OUTPUT_FILE_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Whether a file could be put at `path`: GLINT_OUTPUT_FAILED where the folder is missing or not
+// writable, or where something stands that must not be replaced. Nothing is created.
+glint_status glint_output_file_check(const char *path, glint_error *error);
+
+// Writes `size` bytes under a temporary name in the folder of `path`, brings them to the disk and
+// renames. What stood at `path` is replaced; a symbolic link is followed and stays. The file's
+// permissions are 0666 less the umask. Temporaries of the same output that a dead process of this
+// machine left are removed first. On failure nothing is left behind.
+glint_status glint_output_file_write(const char *path, const void *bytes, size_t size,
+                                     glint_error *error);
+
+// Unlinks every temporary in flight and lets no further one be made. Async-signal-safe: for a
+// signal handler on its way to _exit.
+void glint_output_file_discard_all(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
