@@ -1,0 +1,217 @@
+// The options that `render` and `info` share, and loading what they name. See inputs.h.
+#include "cli/inputs.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SIZE_MAX_PIXELS 65536.0 // of one side: what the hard cases ask for, and image formats hold
+#define SAMPLES_MAX 4096        // 64²
+#define DEPTH_MAX 65535
+
+// Writes "cube, faces or latlong" from the layouts there are.
+static void list_layouts(char *text, size_t capacity)
+{
+    size_t length = 0;
+    text[0] = '\0';
+    for (int i = GLINT_LAYOUT_UNKNOWN + 1; i < GLINT_LAYOUT_STUDIO && length < capacity; i++) {
+        int written = snprintf(text + length, capacity - length, "%s%s", length > 0 ? ", " : "",
+                               glint_layout_name((glint_layout)i));
+        length += written > 0 ? (size_t)written : 0;
+    }
+}
+
+static glint_status parse_layout(const glint_option *option, const char *text, void *destination,
+                                 glint_error *error)
+{
+    glint_layout layout = glint_layout_from_name(text);
+    if (layout == GLINT_LAYOUT_UNKNOWN || layout == GLINT_LAYOUT_STUDIO) {
+        char names[256];
+        list_layouts(names, sizeof names);
+        return glint_fail(error, GLINT_USAGE, "--%s %s: one of %s is expected", option->name, text,
+                          names);
+    }
+    *(glint_layout *)destination = layout;
+    return GLINT_OK;
+}
+
+static glint_status parse_depth(const glint_option *option, const char *text, void *destination,
+                                glint_error *error)
+{
+    long long depth;
+    if (strcmp(text, "auto") == 0) {
+        *(int *)destination = 0;
+        return GLINT_OK;
+    }
+    if (!glint_parse_int(text, &depth) || depth < 1 || depth > DEPTH_MAX) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--%s %s: a number of surfaces from 1 to %d, or auto, is expected",
+                          option->name, text, DEPTH_MAX);
+    }
+    *(int *)destination = (int)depth;
+    return GLINT_OK;
+}
+
+static glint_status parse_samples(const glint_option *option, const char *text, void *destination,
+                                  glint_error *error)
+{
+    long long samples;
+    if (glint_parse_int(text, &samples) && samples >= 1 && samples <= SAMPLES_MAX) {
+        int root = (int)lround(sqrt((double)samples));
+        if ((long long)root * root == samples) {
+            *(int *)destination = root;
+            return GLINT_OK;
+        }
+    }
+    return glint_fail(error, GLINT_USAGE,
+                      "--%s %s: a square number of samples is expected (1, 4, 9, 16 … %d)",
+                      option->name, text, SAMPLES_MAX);
+}
+
+static glint_status parse_background(const glint_option *option, const char *text,
+                                     void *destination, glint_error *error)
+{
+    bool is_transparent = strcmp(text, "transparent") == 0;
+    if (!is_transparent && strcmp(text, "env") != 0) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--%s %s: env or transparent is expected (images behind the scene are "
+                          "not supported yet)",
+                          option->name, text);
+    }
+    *(bool *)destination = is_transparent;
+    return GLINT_OK;
+}
+
+static glint_status parse_kernel_width(const glint_option *option, const char *text,
+                                       void *destination, glint_error *error)
+{
+    static const int widths[] = {1, 8, 16};
+    long long value;
+    for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++) {
+        if (glint_parse_int(text, &value) && value == widths[i]) {
+            *(int *)destination = widths[i];
+            return GLINT_OK;
+        }
+    }
+    return glint_fail(error, GLINT_USAGE, "--%s %s: one of 1, 8, 16 is expected", option->name,
+                      text);
+}
+
+#define OFFSET(member) offsetof(glint_input_request, member)
+
+const glint_option glint_input_options[] = {
+    {GLINT_OPTION_HEADING, .help = "Scene and environment"},
+    {GLINT_OPTION_TEXT, .name = "env", .argument = "FILE",
+     .help = "The environment: an image (exr, hdr, png, tiff, dds, jpeg), a folder that holds six "
+             "faces, or a pattern with %s in the place of the face's name.",
+     .fallback = "a built-in studio", .offset = OFFSET(env)},
+    {GLINT_OPTION_CUSTOM, .name = "env-layout", .argument = "NAME",
+     .help = "How the environment's file holds directions, where that cannot be told: cube, faces "
+             "or latlong.",
+     .fallback = "recognised", .offset = OFFSET(env_layout), .parse = parse_layout},
+    {GLINT_OPTION_REAL, .name = "env-rotate", .argument = "DEG",
+     .help = "Turn the environment about +Y by degrees, counter-clockwise seen from above.",
+     .fallback = "0", .offset = OFFSET(settings.env_rotate), .minimum = -1e6, .maximum = 1e6},
+    {GLINT_OPTION_TEXT, .name = "camera", .argument = "NAME|INDEX",
+     .help = "The camera to see through.",
+     .fallback = "the first; without any, one that frames the scene", .offset = OFFSET(camera)},
+    {GLINT_OPTION_TEXT, .name = "scene", .argument = "NAME|INDEX",
+     .help = "Which of the file's glTF scenes.", .fallback = "the file's default",
+     .offset = OFFSET(scene_name)},
+    GLINT_OPTION_END,
+};
+
+const glint_option glint_settings_options[] = {
+    {GLINT_OPTION_HEADING, .help = "What is computed"},
+    {GLINT_OPTION_SIZE, .name = "size", .argument = "WxH",
+     .help = "Width and height of the frame in pixels.", .fallback = "1280x720",
+     .offset = OFFSET(size), .minimum = 1, .maximum = SIZE_MAX_PIXELS},
+    {GLINT_OPTION_CUSTOM, .name = "samples", .argument = "K2",
+     .help = "Samples a pixel, a square number: a regular grid.", .fallback = "1",
+     .offset = OFFSET(settings.samples_per_axis), .parse = parse_samples},
+    {GLINT_OPTION_CUSTOM, .name = "depth", .argument = "N|auto",
+     .help = "How many surfaces a light path meets before it takes the environment along its "
+             "direction: 1 is environment mapping, 2 is in and out of glass. auto goes on until "
+             "--min-weight ends every path, 64 at most.",
+     .fallback = "auto", .offset = OFFSET(settings.depth), .parse = parse_depth},
+    {GLINT_OPTION_REAL, .name = "min-weight", .argument = "W",
+     .help = "A branch whose weight falls under this takes the environment at once; 0 follows "
+             "every branch to --depth.",
+     .fallback = "1/1024", .offset = OFFSET(settings.min_weight), .minimum = 0, .maximum = 1},
+    {GLINT_OPTION_CUSTOM, .name = "background", .argument = "KIND",
+     .help = "env shows the environment behind the scene, transparent leaves it out and writes "
+             "alpha.",
+     .fallback = "env", .offset = OFFSET(settings.transparent), .parse = parse_background},
+    {GLINT_OPTION_CHOICE, .name = "precision", .argument = "KIND",
+     .help = "float or double arithmetic on the device.", .fallback = "float",
+     .offset = OFFSET(precision), .choices = "float|double"},
+    {GLINT_OPTION_TEXT, .name = "device", .argument = "SELECTOR",
+     .help = "The OpenCL device: an index of `glint devices`, cpu, gpu, or a part of a name.",
+     .fallback = "the first GPU, else the CPU", .offset = OFFSET(device)},
+    {GLINT_OPTION_CUSTOM, .name = "kernel-width", .argument = "LANES",
+     .help = "Rays that the kernel works on at once, for measurements: 1, 8 or 16.",
+     .fallback = "chosen for the device", .offset = OFFSET(settings.kernel_width),
+     .parse = parse_kernel_width},
+    GLINT_OPTION_END,
+};
+
+void glint_input_request_default(glint_input_request *request)
+{
+    *request = (glint_input_request){.settings = glint_settings_default};
+    request->size[0] = glint_settings_default.width;
+    request->size[1] = glint_settings_default.height;
+}
+
+glint_status glint_input_request_finish(glint_input_request *request, glint_error *error)
+{
+    if (request->env_layout != GLINT_LAYOUT_UNKNOWN && request->env == NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--env-layout: it says how a file is read, but no --env is given");
+    }
+    request->settings.width = request->size[0];
+    request->settings.height = request->size[1];
+    request->settings.precision =
+        request->precision == 0 ? GLINT_PRECISION_FLOAT : GLINT_PRECISION_DOUBLE;
+    return GLINT_OK;
+}
+
+static glint_status load_environment(const glint_input_request *request, glint_inputs *inputs,
+                                     glint_error *error)
+{
+    if (request->env == NULL) {
+        return glint_environment_studio(&inputs->environment, error);
+    }
+    return glint_environment_load(request->env, request->env_layout, &inputs->environment,
+                                  &inputs->warnings, error);
+}
+
+glint_status glint_inputs_load(const glint_input_request *request, glint_progress_display *display,
+                               glint_inputs *inputs, glint_error *error)
+{
+    *inputs = (glint_inputs){0};
+    double begun = glint_progress_elapsed(display);
+    glint_progress_phase(display, "load_scene", "loading the scene");
+    const glint_scene_options options = {.scene = request->scene_name};
+    glint_status status =
+        glint_scene_load(request->scene, &options, &inputs->scene, &inputs->warnings, error);
+    inputs->scene_ms = glint_progress_elapsed(display) - begun;
+    if (status == GLINT_OK) {
+        status = glint_scene_camera(&inputs->scene, request->camera, &inputs->camera, error);
+    }
+    if (status != GLINT_OK) {
+        return status;
+    }
+    begun = glint_progress_elapsed(display);
+    glint_progress_phase(display, "load_environment", "loading the environment");
+    status = load_environment(request, inputs, error);
+    inputs->environment_ms = glint_progress_elapsed(display) - begun;
+    return status;
+}
+
+void glint_inputs_free(glint_inputs *inputs)
+{
+    glint_environment_free(&inputs->environment);
+    glint_scene_free(&inputs->scene);
+    glint_warnings_free(&inputs->warnings);
+    *inputs = (glint_inputs){0};
+}

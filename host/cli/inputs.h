@@ -1,0 +1,52 @@
+// What `render` and `info` share: their common options, and loading scene, environment, camera.
+#ifndef GLINT_CLI_INPUTS_H
+#define GLINT_CLI_INPUTS_H
+
+#include "base/status.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "environment/environment.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+// What the command line says of the inputs and of what is computed from them. Texts are borrowed
+// from argv.
+typedef struct glint_input_request {
+    const char *scene; // the file
+    const char *scene_name;
+    const char *camera;
+    const char *env;
+    glint_layout env_layout;
+    const char *device;
+    int size[2];
+    int precision; // a glint_precision
+    glint_settings settings;
+} glint_input_request;
+
+// Tables of options for a request whose first member is a glint_input_request.
+extern const glint_option glint_input_options[];
+extern const glint_option glint_settings_options[];
+
+// Fills the request with the defaults.
+void glint_input_request_default(glint_input_request *request);
+
+// Checks what the parser cannot see, options that only make sense together, and completes the
+// settings. Errors: GLINT_USAGE.
+glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
+
+// What was loaded. Zero is valid and empty.
+typedef struct glint_inputs {
+    glint_scene scene;
+    glint_environment environment;
+    glint_camera camera; // its strings are the scene's
+    glint_warnings warnings;
+    double scene_ms, environment_ms;
+} glint_inputs;
+
+// Loads the scene, the environment and the camera. Whatever the outcome, `inputs` is for
+// glint_inputs_free.
+glint_status glint_inputs_load(const glint_input_request *request, glint_progress_display *display,
+                               glint_inputs *inputs, glint_error *error);
+void glint_inputs_free(glint_inputs *inputs);
+
+#endif

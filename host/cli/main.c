@@ -1,0 +1,193 @@
+// The program: dispatches to a command, prints errors and warnings, decides the exit status.
+// Nothing else prints an error or exits.
+#include "cli/cli.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+static const glint_command *const commands[] = {&glint_command_render, &glint_command_info,
+                                                &glint_command_devices};
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+void glint_say(const char *format, ...)
+{
+    char text[GLINT_MESSAGE_CAPACITY + 64];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "glint: %s\n", text);
+}
+
+void glint_say_warnings(const glint_warnings *warnings, size_t first)
+{
+    for (size_t i = first; i < warnings->count; i++) {
+        glint_say("warning: %s", warnings->texts[i]);
+    }
+    if (warnings->lost > 0) {
+        glint_say("warning: %zu more warnings found no memory", warnings->lost);
+    }
+}
+
+// The width for texts on stdout: the terminal's within [80, 100], 80 where there is none.
+static int text_columns(void)
+{
+    struct winsize size;
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 80) {
+        return 80;
+    }
+    return size.ws_col < 100 ? size.ws_col : 100;
+}
+
+static void print_overview(void)
+{
+    printf("glint " GLINT_VERSION ": renders mirrors and glass with OpenCL\n\n"
+           "usage: glint COMMAND [options]\n\n"
+           "Commands\n");
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
+    }
+    printf("\nOptions\n"
+           "  -h, --help   Print this; after a command, its options.\n"
+           "  --version    Print the version.\n"
+           "\n"
+           "Exit status\n"
+           "  0 done, 2 usage, 3 bad input, 4 no device or it failed, 5 output could not be\n"
+           "  written, 130 or 143 stopped by a signal\n"
+           "\n"
+           "Examples\n"
+           "  glint render scenes/gallery.gltf -o gallery.png\n"
+           "  glint help render\n");
+}
+
+static const glint_command *find_command(const char *name, glint_error *error)
+{
+    const char *names[COMMAND_COUNT + 2] = {"help"};
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        if (strcmp(commands[i]->name, name) == 0) {
+            return commands[i];
+        }
+        names[i + 1] = commands[i]->name;
+    }
+    const char *nearest = glint_nearest_word(name, names);
+    if (nearest != NULL) {
+        glint_fail(error, GLINT_USAGE, "unknown command '%s' (did you mean %s?)", name, nearest);
+    } else {
+        glint_fail(error, GLINT_USAGE, "unknown command '%s' (glint --help lists them)", name);
+    }
+    return NULL;
+}
+
+static glint_status run_help(int argc, char **argv, glint_error *error)
+{
+    if (argc < 2) {
+        print_overview();
+        return GLINT_OK;
+    }
+    const glint_command *command = find_command(argv[1], error);
+    if (command == NULL) {
+        return GLINT_USAGE;
+    }
+    glint_options_help(command, text_columns(), stdout);
+    return GLINT_OK;
+}
+
+static glint_status run_command(const glint_command *command, int argc, char **argv,
+                                glint_error *error)
+{
+    glint_arguments arguments;
+    void *request = calloc(1, command->request_size);
+    if (request == NULL) {
+        return glint_fail_memory(error, "the options");
+    }
+    if (command->set_defaults != NULL) {
+        command->set_defaults(request);
+    }
+    glint_status status = glint_options_parse(command, argc, argv, request, &arguments, error);
+    if (status == GLINT_OK && arguments.help) {
+        glint_options_help(command, text_columns(), stdout);
+    } else if (status == GLINT_OK) {
+        status = command->run(request, arguments.positional, error);
+    }
+    free(request);
+    return status;
+}
+
+static glint_status dispatch(int argc, char **argv, glint_error *error)
+{
+    const char *word = argc > 1 ? argv[1] : "--help";
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
+        print_overview();
+        return GLINT_OK;
+    }
+    if (strcmp(word, "--version") == 0) {
+        printf("glint " GLINT_VERSION "\n");
+        return GLINT_OK;
+    }
+    if (strcmp(word, "help") == 0) {
+        return run_help(argc - 1, argv + 1, error);
+    }
+    if (word[0] == '-') {
+        return glint_fail(error, GLINT_USAGE,
+                          "unknown option %s (options follow the command: glint render --help)",
+                          word);
+    }
+    const glint_command *command = find_command(word, error);
+    return command != NULL ? run_command(command, argc - 1, argv + 1, error) : GLINT_USAGE;
+}
+
+// A file opened while one of the three standard streams is closed would take its number, and get
+// its messages.
+static void open_standard_streams(void)
+{
+    int descriptor;
+    do {
+        descriptor = open("/dev/null", O_RDWR);
+    } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+    if (descriptor > STDERR_FILENO) {
+        close(descriptor);
+    }
+}
+
+// Results that did not reach stdout are a failure; a reader that has seen enough is none.
+static glint_status finish_stdout(glint_error *error)
+{
+    errno = 0;
+    if ((fflush(stdout) != 0 || ferror(stdout)) && errno != EPIPE) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "standard output: %s",
+                          errno != 0 ? strerror(errno) : "it could not be written");
+    }
+    return GLINT_OK;
+}
+
+int main(int argc, char **argv)
+{
+    open_standard_streams();
+    glint_signals_install();
+    glint_error error = {0};
+    glint_status status = dispatch(argc, argv, &error);
+    if (status == GLINT_OK) {
+        status = finish_stdout(&error);
+    }
+    if (status == GLINT_INTERRUPTED) {
+        glint_error_free(&error);
+        return glint_stop_status();
+    }
+    if (status != GLINT_OK) {
+        glint_say("%s", error.message[0] != '\0' ? error.message : "failed without a reason");
+        if (error.details != NULL) {
+            fprintf(stderr, "%s%s", error.details,
+                    error.details[0] != '\0' && error.details[strlen(error.details) - 1] == '\n'
+                        ? ""
+                        : "\n");
+        }
+    }
+    glint_error_free(&error);
+    return (int)status;
+}

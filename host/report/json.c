@@ -1,0 +1,96 @@
+// JSON values, and the files and texts they are written to. See json.h.
+#include "report/json.h"
+
+#include "image/output_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_FORMAT (JSON_INDENT(2) | JSON_REAL_PRECISION(9))
+
+void glint_json_put(json_t *object, const char *key, json_t *value)
+{
+    // Both may be NULL where memory is short; jansson accepts that and releases the value.
+    (void)json_object_set_new(object, key, value);
+}
+
+void glint_json_put_flag(json_t *object, const char *key, bool value)
+{
+    glint_json_put(object, key, json_boolean(value));
+}
+
+void glint_json_put_count(json_t *object, const char *key, uint64_t value)
+{
+    glint_json_put(object, key, json_integer((json_int_t)value));
+}
+
+void glint_json_put_real(json_t *object, const char *key, double value)
+{
+    glint_json_put(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+static json_t *text_or_null(const char *text)
+{
+    if (text == NULL) {
+        return json_null();
+    }
+    json_t *value = json_string(text);
+    if (value != NULL) {
+        return value;
+    }
+    char *ascii = strdup(text);
+    for (char *c = ascii; c != NULL && *c != '\0'; c++) {
+        if ((unsigned char)*c >= 0x80) {
+            *c = '?';
+        }
+    }
+    value = ascii != NULL ? json_string(ascii) : NULL;
+    free(ascii);
+    return value;
+}
+
+void glint_json_put_text(json_t *object, const char *key, const char *text)
+{
+    glint_json_put(object, key, text_or_null(text));
+}
+
+json_t *glint_json_warnings(const glint_warnings *warnings)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < warnings->count; i++) {
+        (void)json_array_append_new(list, text_or_null(warnings->texts[i]));
+    }
+    return list;
+}
+
+glint_status glint_json_print(json_t *root, char **text, glint_error *error)
+{
+    *text = NULL;
+    char *body = root != NULL ? json_dumps(root, JSON_FORMAT) : NULL;
+    json_decref(root);
+    if (body == NULL) {
+        return glint_fail_memory(error, "a report");
+    }
+    size_t length = strlen(body);
+    *text = malloc(length + 2);
+    if (*text == NULL) {
+        free(body);
+        return glint_fail_memory(error, "a report");
+    }
+    memcpy(*text, body, length);
+    memcpy(*text + length, "\n", 2);
+    free(body);
+    return GLINT_OK;
+}
+
+glint_status glint_json_write(const char *path, json_t *root, glint_error *error)
+{
+    char *text = NULL;
+    glint_status status = glint_json_print(root, &text, error);
+    if (status == GLINT_OK) {
+        status = glint_output_file_write(path, text, strlen(text), error);
+    }
+    free(text);
+    return status;
+}

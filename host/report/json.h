@@ -1,0 +1,41 @@
+// JSON through jansson: what the reports of this floor share. Objects that are made here are new
+// references. Where memory is short an entry is missing, and the text at the end cannot be made
+// either: glint_json_write and glint_json_print report it.
+#ifndef GLINT_REPORT_JSON_H
+#define GLINT_REPORT_JSON_H
+
+#include "base/status.h"
+#include "report/subject.h"
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+void glint_json_put(json_t *object, const char *key, json_t *value); // takes the reference
+void glint_json_put_flag(json_t *object, const char *key, bool value);
+void glint_json_put_count(json_t *object, const char *key, uint64_t value);
+// JSON has no NaN and no infinity: null stands for them.
+void glint_json_put_real(json_t *object, const char *key, double value);
+// Bytes that are no UTF-8 (file names may hold any) become '?'; NULL becomes null.
+void glint_json_put_text(json_t *object, const char *key, const char *text);
+
+json_t *glint_json_device(const glint_capabilities *device);
+json_t *glint_json_bvh(const glint_bvh_report *bvh);
+json_t *glint_json_plan(const glint_plan *plan);
+json_t *glint_json_environment(const glint_environment *environment);
+json_t *glint_json_camera(const glint_camera *camera);
+json_t *glint_json_settings(const glint_settings *settings);
+json_t *glint_json_warnings(const glint_warnings *warnings);
+// Counts and bounds; with `everything` also the materials, the instances and the cameras.
+// `topology` may be NULL.
+json_t *glint_json_scene(const glint_scene *scene, const glint_topology *topology, bool everything);
+
+// Writes `root` indented into the file, whole or not at all (image/output_file.h). Takes the
+// reference, also where it is NULL (memory was short when it was made). Errors:
+// GLINT_OUTPUT_FAILED.
+glint_status glint_json_write(const char *path, json_t *root, glint_error *error);
+
+// The same as a malloc'd text that ends with a newline.
+glint_status glint_json_print(json_t *root, char **text, glint_error *error);
+
+#endif

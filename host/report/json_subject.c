@@ -1,0 +1,229 @@
+// The parts of a report as JSON: device, plan, tree, environment, scene. See json.h.
+#include "report/json.h"
+
+static json_t *triple(double x, double y, double z)
+{
+    const double values[3] = {x, y, z};
+    json_t *list = json_array();
+    for (int i = 0; i < 3; i++) {
+        (void)json_array_append_new(list, json_real(values[i]));
+    }
+    return list;
+}
+
+static json_t *color(const float rgb[3])
+{
+    return triple((double)rgb[0], (double)rgb[1], (double)rgb[2]);
+}
+
+static json_t *vector(glint_vec3 v)
+{
+    return triple(v.x, v.y, v.z);
+}
+
+json_t *glint_json_device(const glint_capabilities *device)
+{
+    json_t *object = json_object();
+    glint_json_put(object, "index", json_integer(device->index));
+    glint_json_put_text(object, "name", device->name);
+    glint_json_put_text(object, "platform", device->platform);
+    glint_json_put_text(object, "driver", device->driver);
+    glint_json_put_text(object, "opencl", device->opencl_version);
+    glint_json_put_text(object, "type", device->is_gpu ? "gpu" : device->is_cpu ? "cpu" : "other");
+    glint_json_put_count(object, "float_width", (uint64_t)device->native_float_width);
+    glint_json_put_count(object, "compute_units", device->compute_units);
+    glint_json_put_count(object, "memory_bytes", device->memory_bytes);
+    glint_json_put_count(object, "largest_allocation_bytes", device->largest_allocation_bytes);
+    glint_json_put_flag(object, "fp64", device->has_double);
+    return object;
+}
+
+json_t *glint_json_bvh(const glint_bvh_report *bvh)
+{
+    json_t *object = json_object();
+    glint_json_put_count(object, "triangles", bvh->triangle_count);
+    glint_json_put_count(object, "nodes", bvh->node_count);
+    glint_json_put_count(object, "leaves", bvh->leaf_count);
+    glint_json_put(object, "depth", json_integer(bvh->depth));
+    glint_json_put_real(object, "sah_cost", bvh->sah_cost);
+    glint_json_put_real(object, "mean_leaf_size", bvh->mean_leaf_size);
+    glint_json_put_count(object, "bytes", bvh->bytes);
+    return object;
+}
+
+static json_t *features_object(const glint_plan *plan)
+{
+    json_t *features = json_object();
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        const glint_feature_choice *choice = &plan->features[i];
+        json_t *feature = json_object();
+        glint_json_put_flag(feature, "compiled", choice->compiled);
+        glint_json_put_text(feature, "reason", choice->reason);
+        glint_json_put(features, glint_feature_name((glint_feature)i), feature);
+    }
+    return features;
+}
+
+json_t *glint_json_plan(const glint_plan *plan)
+{
+    char text[512];
+    char options[4096];
+    glint_plan_describe(plan, text, sizeof text);
+    glint_plan_build_options(plan, options, sizeof options);
+    bool is_double = plan->precision == GLINT_PRECISION_DOUBLE;
+    json_t *object = json_object();
+    glint_json_put_text(object, "text", text);
+    glint_json_put_text(object, "precision", is_double ? "double" : "float");
+    glint_json_put(object, "kernel_width", json_integer(plan->kernel_width));
+    glint_json_put_text(object, "kernel_width_reason", plan->width_reason);
+    glint_json_put(object, "bvh_width", json_integer(plan->bvh_width));
+    glint_json_put(object, "depth", json_integer(plan->depth));
+    glint_json_put_flag(object, "depth_is_auto", plan->depth_is_auto);
+    glint_json_put(object, "stack_capacity", json_integer(plan->stack_capacity));
+    glint_json_put_text(object, "stack_reason", plan->stack_reason);
+    glint_json_put(object, "media_count", json_integer(plan->media_count));
+    glint_json_put(object, "features_compiled", json_integer(glint_plan_feature_count(plan)));
+    glint_json_put(object, "features_known", json_integer(GLINT_FEATURE_COUNT));
+    glint_json_put(object, "features", features_object(plan));
+    glint_json_put_text(object, "build_options", options);
+    return object;
+}
+
+json_t *glint_json_environment(const glint_environment *environment)
+{
+    json_t *object = json_object();
+    glint_json_put_text(object, "name", environment->name);
+    glint_json_put_text(object, "layout", glint_layout_name(environment->layout));
+    glint_json_put_text(object, "reason", environment->reason);
+    glint_json_put(object, "width", json_integer(environment->source_width));
+    glint_json_put(object, "height", json_integer(environment->source_height));
+    glint_json_put(object, "cube_edge", json_integer(environment->radiance.edge));
+    glint_json_put_count(object, "cube_bytes",
+                         glint_cube_size(&environment->radiance) * sizeof(float));
+    glint_json_put_count(object, "mended_texels", environment->mended_texels);
+    return object;
+}
+
+json_t *glint_json_camera(const glint_camera *camera)
+{
+    json_t *object = json_object();
+    glint_json_put_text(object, "name", camera->name);
+    glint_json_put_text(object, "type", camera->orthographic ? "orthographic" : "perspective");
+    if (camera->orthographic) {
+        glint_json_put_real(object, "ymag", camera->ymag);
+    } else {
+        glint_json_put_real(object, "yfov_degrees", camera->yfov * 180 / GLINT_PI);
+    }
+    glint_json_put(object, "eye", vector(camera->eye));
+    glint_json_put(object, "right", vector(camera->right));
+    glint_json_put(object, "up", vector(camera->up));
+    glint_json_put(object, "back", vector(camera->back));
+    return object;
+}
+
+json_t *glint_json_settings(const glint_settings *settings)
+{
+    bool is_double = settings->precision == GLINT_PRECISION_DOUBLE;
+    json_t *object = json_object();
+    glint_json_put(object, "width", json_integer(settings->width));
+    glint_json_put(object, "height", json_integer(settings->height));
+    glint_json_put(object, "samples",
+                   json_integer(settings->samples_per_axis * settings->samples_per_axis));
+    glint_json_put(object, "depth",
+                   settings->depth == 0 ? json_string("auto") : json_integer(settings->depth));
+    glint_json_put_real(object, "min_weight", settings->min_weight);
+    glint_json_put_text(object, "background", settings->transparent ? "transparent" : "env");
+    glint_json_put_real(object, "env_rotate_degrees", settings->env_rotate);
+    glint_json_put_text(object, "precision", is_double ? "double" : "float");
+    return object;
+}
+
+static json_t *material_object(const glint_material *material)
+{
+    json_t *object = json_object();
+    glint_json_put_text(object, "name", material->name);
+    glint_json_put_text(object, "kind", glint_material_kind(material));
+    glint_json_put(object, "base_color", color(material->base_color));
+    glint_json_put_real(object, "metallic", (double)material->metallic);
+    glint_json_put_real(object, "roughness", (double)material->roughness);
+    glint_json_put(object, "emission", color(material->emission));
+    glint_json_put_real(object, "transmission", (double)material->transmission);
+    glint_json_put_real(object, "ior", (double)material->ior);
+    glint_json_put_real(object, "thickness", (double)material->thickness);
+    // null: no attenuation at any distance
+    glint_json_put_real(object, "attenuation_distance", (double)material->attenuation_distance);
+    glint_json_put(object, "attenuation_color", color(material->attenuation_color));
+    glint_json_put_flag(object, "unlit", material->unlit);
+    glint_json_put(object, "mirror",
+                   material->mirror < 0 ? json_null() : json_real((double)material->mirror));
+    return object;
+}
+
+static json_t *topology_object(const glint_topology *topology)
+{
+    size_t closed = 0;
+    size_t convex = 0;
+    for (size_t i = 0; i < topology->component_count; i++) {
+        closed += topology->components[i].closed;
+        convex += topology->components[i].convex;
+    }
+    json_t *object = json_object();
+    glint_json_put_count(object, "components", topology->component_count);
+    glint_json_put_count(object, "closed", closed);
+    glint_json_put_count(object, "convex", convex);
+    glint_json_put_count(object, "boundary_edges", topology->boundary_edges);
+    return object;
+}
+
+static json_t *instance_object(const glint_instance *instance)
+{
+    json_t *object = json_object();
+    glint_json_put_text(object, "node", instance->node);
+    glint_json_put(object, "node_index", json_integer(instance->node_index));
+    glint_json_put_count(object, "triangles", instance->triangle_count);
+    glint_json_put_count(object, "material", instance->material);
+    return object;
+}
+
+static void put_lists(json_t *object, const glint_scene *scene)
+{
+    json_t *materials = json_array();
+    for (size_t i = 0; i < scene->material_count; i++) {
+        (void)json_array_append_new(materials, material_object(&scene->materials[i]));
+    }
+    glint_json_put(object, "materials", materials);
+    json_t *instances = json_array();
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        (void)json_array_append_new(instances, instance_object(&scene->instances[i]));
+    }
+    glint_json_put(object, "instances", instances);
+    json_t *cameras = json_array();
+    for (size_t i = 0; i < scene->camera_count; i++) {
+        (void)json_array_append_new(cameras, glint_json_camera(&scene->cameras[i]));
+    }
+    glint_json_put(object, "cameras", cameras);
+}
+
+json_t *glint_json_scene(const glint_scene *scene, const glint_topology *topology, bool everything)
+{
+    json_t *object = json_object();
+    glint_json_put_text(object, "name", scene->path);
+    glint_json_put_count(object, "triangle_count", scene->triangle_count);
+    glint_json_put_count(object, "instance_count", scene->instance_count);
+    glint_json_put_count(object, "material_count", scene->material_count);
+    glint_json_put_count(object, "camera_count", scene->camera_count);
+    glint_json_put_count(object, "degenerate_triangles", scene->degenerate_triangles);
+    glint_json_put_count(object, "skipped_points", scene->skipped_points);
+    glint_json_put_count(object, "skipped_lines", scene->skipped_lines);
+    if (scene->triangle_count > 0) {
+        glint_json_put(object, "low", vector(scene->low));
+        glint_json_put(object, "high", vector(scene->high));
+    }
+    if (topology != NULL) {
+        glint_json_put(object, "topology", topology_object(topology));
+    }
+    if (everything) {
+        put_lists(object, scene);
+    }
+    return object;
+}

@@ -1,0 +1,515 @@
+#!/usr/bin/env bash
+# Command-line tests: every option, every mistake. run_cli.sh GLINT JSON_GET
+# A mistake gets its exit status, one line on stderr that begins with "glint: ", nothing on stdout
+# and no file. Prints TAP; exit status 1 when a test failed.
+set -u
+
+glint=$(readlink -f -- "$1")
+json_get=$(readlink -f -- "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/in" "$work/out"
+cd "$work" || exit 1
+count=0
+failures=0
+
+verdict() { # ok|"not ok" NAME [WHY]
+    count=$((count + 1))
+    printf '%s %d - %s\n' "$1" "$count" "$2"
+    if [ "$1" != ok ]; then
+        failures=$((failures + 1))
+        printf '# %s\n' "${3-}"
+        [ ! -s stderr ] || sed 's/^/# stderr: /' stderr
+    fi
+}
+
+# check NAME COMMAND…: passes when the command does.
+check() {
+    local name=$1
+    shift
+    if "$@" >check.log 2>&1; then
+        verdict ok "$name"
+    else
+        verdict 'not ok' "$name" "$* $(head -c 300 check.log)"
+    fi
+}
+
+skip() {
+    count=$((count + 1))
+    printf 'ok %d - %s # SKIP %s\n' "$count" "$1" "$2"
+}
+
+run() {
+    "$glint" "$@" >stdout 2>stderr
+    status=$?
+}
+
+# refuses STATUS TEXT ARGUMENT…: a mistake; TEXT is part of the line that it gets.
+refuses() {
+    local wanted=$1 text=$2
+    shift 2
+    run "$@"
+    local why=
+    [ "$status" -eq "$wanted" ] || why="exit status $status instead of $wanted"
+    [ "$(wc -l <stderr)" -eq 1 ] || why="$why; not one line on stderr"
+    grep -q '^glint: ' stderr || why="$why; no line that begins with 'glint: '"
+    grep -qF -- "$text" stderr || why="$why; '$text' is not said"
+    [ ! -s stdout ] || why="$why; stdout is not empty"
+    [ -z "$(ls -A out)" ] || why="$why; left behind: $(ls -A out)"
+    rm -rf out/* out/.[!.]*
+    if [ -z "$why" ]; then
+        verdict ok "refused: glint $*"
+    else
+        verdict 'not ok' "refused: glint $*" "$why"
+    fi
+}
+
+# renders NAME FILE ARGUMENT…: a frame is written to FILE; stdout stays empty.
+renders() {
+    local name=$1 file=$2
+    shift 2
+    run render in/mirror.gltf --size 24x16 -o "$file" "$@"
+    local why=
+    [ "$status" -eq 0 ] || why="exit status $status"
+    [ -s "$file" ] || why="$why; no file"
+    [ ! -s stdout ] || why="$why; stdout is not empty"
+    [ "$(ls -A out)" = "${file#out/}" ] || why="$why; in the folder: $(echo out/* out/.*)"
+    if [ -z "$why" ]; then
+        verdict ok "$name"
+    else
+        verdict 'not ok' "$name" "$why"
+    fi
+}
+
+clean() {
+    rm -rf out/* out/.[!.]*
+}
+
+begins_with() { # FILE HEX
+    [ "$(od -An -tx1 -N $((${#2} / 2)) "$1" | tr -d ' \n')" = "$2" ]
+}
+
+stat_is() { # WANTED KEY…
+    local wanted=$1 got
+    shift
+    got=$("$json_get" out/stats.json "$@") || return 1
+    [ "$got" = "$wanted" ] || { echo "$* is $got"; return 1; }
+}
+
+stat_is_positive() { # KEY…
+    local got
+    got=$("$json_get" out/stats.json "$@") || return 1
+    echo "$* is $got"
+    awk -v value="$got" 'BEGIN { exit !(value + 0 > 0) }'
+}
+
+# ---- inputs -------------------------------------------------------------------------------------
+
+# A mirror triangle in the plane z = 0, seen by two cameras. The buffer holds three positions.
+buffer=$(printf '\0\0\200\277\0\0\200\277\0\0\0\0\0\0\200\077\0\0\200\277\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0' |
+    base64 -w 0)
+cat >in/mirror.gltf <<JSON
+{"asset": {"version": "2.0"}, "scene": 0,
+ "scenes": [{"name": "main", "nodes": [0, 1, 2]}, {"name": "empty", "nodes": [1]}],
+ "nodes": [{"mesh": 0, "name": "triangle"},
+           {"camera": 0, "name": "front", "translation": [0, 0, 3]},
+           {"camera": 1, "name": "flat", "translation": [0, 0, 3]}],
+ "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}},
+             {"type": "orthographic", "orthographic": {"xmag": 1.5, "ymag": 1.5, "zfar": 9, "znear": 0}}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+ "materials": [{"name": "chrome", "pbrMetallicRoughness":
+   {"metallicFactor": 1, "roughnessFactor": 0, "baseColorFactor": [0.9, 0.9, 0.9, 1]}}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                "min": [-1, -1, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,$buffer"}]}
+JSON
+# The same with a rough mirror, which is said once.
+sed 's/"roughnessFactor": 0/"roughnessFactor": 0.5/' in/mirror.gltf >in/rough.gltf
+# Radiance, flat: 8 × 4 pixels of (1, 1, 1).
+{
+    printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
+    for _ in $(seq 32); do printf '\200\200\200\201'; done
+} >in/sky.hdr
+head -c 60 in/sky.hdr >in/short.hdr
+printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 40000 +X 40000\n' >in/huge.hdr
+printf 'not an image' >in/text.png
+printf '{"asset": ' >in/broken.gltf
+mkdir in/folder.gltf in/empty
+
+# ---- help ---------------------------------------------------------------------------------------
+
+render_options='output exposure compression exr-type stats progress kernel-dir env env-layout
+    env-rotate camera scene size samples depth min-weight background precision device
+    kernel-width help'
+info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
+    precision device kernel-width help'
+
+help_mentions() { # COMMAND OPTION…
+    local command=$1 option
+    shift
+    "$glint" "$command" --help >help.txt || return 1
+    "$glint" help "$command" | cmp - help.txt || return 1
+    [ "$(wc -L <help.txt)" -le 100 ] || return 1
+    for option in "$@"; do
+        grep -qE "^ +(-., )?--$option( |$)" help.txt || { echo "--$option is not there"; return 1; }
+    done
+    # And no option that the list of this test does not know.
+    [ "$(grep -cE '^ {2,6}(-., )?--[a-z]' help.txt)" -eq $# ]
+}
+
+# shellcheck disable=SC2086 # lists of words
+{
+    check 'render --help tells every option' help_mentions render $render_options
+    check 'info --help tells every option' help_mentions info $info_options
+}
+check 'devices --help tells every option' help_mentions devices json help
+for words in '' '--help' '-h' 'help'; do
+    # shellcheck disable=SC2086 # none or one word
+    run $words
+    check "glint $words lists the commands" grep -q '^  render ' stdout
+    check "glint $words succeeds quietly" test "$status" -eq 0 -a ! -s stderr
+done
+run --version
+check '--version prints one version' grep -qxE 'glint [0-9]+\.[0-9]+\.[0-9]+.*' stdout
+run render --help in/missing.gltf --depth 3
+check 'help is given before anything is looked at' test "$status" -eq 0
+
+# ---- usage --------------------------------------------------------------------------------------
+
+ok=(in/mirror.gltf -o out/x.png)
+refuses 2 "did you mean render?" rendr
+refuses 2 "unknown command 'frobnicate'" frobnicate
+refuses 2 'unknown option --verbose' --verbose
+refuses 2 'did you mean devices?' help device
+refuses 2 'SCENE is missing' render
+refuses 2 'SCENE is missing' render -o out/x.png
+refuses 2 'SCENE is missing' info
+refuses 2 'SCENE is missing' render '' -o out/x.png
+refuses 2 'no output' render in/mirror.gltf
+refuses 2 "unexpected argument 'in/rough.gltf'" render "${ok[@]}" in/rough.gltf
+refuses 2 "unexpected argument '--depth'" render -o out/x.png -- in/rough.gltf --depth
+refuses 2 "unexpected argument" devices extra
+refuses 2 'unknown option --fraems' render "${ok[@]}" --fraems 3
+refuses 2 'did you mean --depth?' render "${ok[@]}" --dept 3
+refuses 2 'did you mean --samples?' render "${ok[@]}" --sample=4
+refuses 2 'unknown option -x' render "${ok[@]}" -x
+refuses 2 '--json takes no value' info in/mirror.gltf --json=yes
+refuses 2 '--output' render in/mirror.gltf -o
+refuses 2 '--output' render in/mirror.gltf -o ''
+for option in env env-layout env-rotate camera scene size samples depth min-weight background \
+    precision device kernel-width exposure compression exr-type stats progress kernel-dir; do
+    refuses 2 "--$option" render "${ok[@]}" "--$option"
+done
+for size in 0x10 10x0 -4x4 10 x10 10x 10x10x10 1.5x2 axb 100000x10 99999999999999999999x1 '10 x10'; do
+    refuses 2 '--size' render "${ok[@]}" --size "$size"
+done
+for depth in 0 -1 1.5 x 99999999999 ''; do
+    refuses 2 '--depth' render "${ok[@]}" --depth "$depth"
+done
+for samples in 0 2 3 5 -4 x 4x 10000000000; do
+    refuses 2 '--samples' render "${ok[@]}" --samples "$samples"
+done
+for value in x 1x nan inf -inf 1e9 ''; do
+    refuses 2 '--exposure' render "${ok[@]}" --exposure "$value"
+    refuses 2 '--env-rotate' render "${ok[@]}" --env-rotate "$value"
+    refuses 2 '--min-weight' render "${ok[@]}" --min-weight "$value"
+done
+refuses 2 '--min-weight' render "${ok[@]}" --min-weight -0.1
+refuses 2 '--precision half' render "${ok[@]}" --precision half
+refuses 2 '--background plate.png' render "${ok[@]}" --background plate.png
+refuses 2 '--progress loud' render "${ok[@]}" --progress loud
+refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
+refuses 2 '--exr-type' render "${ok[@]}" --exr-type float
+refuses 2 '--kernel-width 4' render "${ok[@]}" --kernel-width 4
+refuses 2 'latlong' render "${ok[@]}" --env in/sky.hdr --env-layout mercator
+refuses 2 '--env-layout' render "${ok[@]}" --env-layout latlong
+refuses 2 'out/x.gif' render in/mirror.gltf -o out/x.gif
+refuses 2 'out/x' render in/mirror.gltf -o out/x
+refuses 2 'out/x.png' render "${ok[@]}" --compression zip
+refuses 2 'out/x.exr' render in/mirror.gltf -o out/x.exr --compression lzw
+refuses 2 'is an input' render "${ok[@]}" --stats in/mirror.gltf
+refuses 2 'is an input' render in/mirror.gltf --env in/sky.hdr -o "$work/in/sky.hdr"
+refuses 2 'is the image' render "${ok[@]}" --stats out/x.png
+check 'inputs are whole after that' cmp -s in/mirror.gltf <(sed 's/"roughnessFactor": 0.5/"roughnessFactor": 0/' in/rough.gltf)
+
+# ---- bad input ----------------------------------------------------------------------------------
+
+refuses 3 'in/missing.gltf: ' render in/missing.gltf -o out/x.png
+refuses 3 'in/missing.gltf: ' info in/missing.gltf
+refuses 3 'in/broken.gltf: ' render in/broken.gltf -o out/x.png
+refuses 3 'in/folder.gltf: ' render in/folder.gltf -o out/x.png
+refuses 3 '/dev/null: ' render /dev/null -o out/x.png
+refuses 3 'in/missing.hdr: ' render "${ok[@]}" --env in/missing.hdr
+refuses 3 'in/missing.hdr: ' info in/mirror.gltf --env in/missing.hdr
+refuses 3 'in/short.hdr: ' render "${ok[@]}" --env in/short.hdr
+refuses 3 'in/huge.hdr: ' render "${ok[@]}" --env in/huge.hdr
+refuses 3 'in/text.png: ' render "${ok[@]}" --env in/text.png
+refuses 3 'in/empty' render "${ok[@]}" --env in/empty
+refuses 3 'in/none_%s.png' render "${ok[@]}" --env 'in/none_%s.png'
+refuses 3 'in/mirror.gltf' render "${ok[@]}" --env in/mirror.gltf
+refuses 3 'front' render "${ok[@]}" --camera nobody
+refuses 3 '7' render "${ok[@]}" --camera 7
+refuses 3 'nowhere' render "${ok[@]}" --scene nowhere
+refuses 3 'in/missing' render "${ok[@]}" --kernel-dir in/missing
+refuses 3 'in/sky.hdr' render "${ok[@]}" --kernel-dir in/sky.hdr
+run render "${ok[@]}" --kernel-dir in/empty
+check 'a folder without kernels fails' test "$status" -ne 0
+check 'and leaves no file' test -z "$(ls -A out)"
+clean
+refuses 4 'nonsense' render "${ok[@]}" --device nonsense
+refuses 4 'nonsense' info in/mirror.gltf --device nonsense
+refuses 4 '99' render "${ok[@]}" --device 99
+
+# ---- output that cannot be written --------------------------------------------------------------
+
+refuses 5 'out/missing' render in/mirror.gltf -o out/missing/x.png
+refuses 5 'in/mirror.gltf' render in/mirror.gltf -o in/mirror.gltf/x.png
+refuses 5 'out/missing' render "${ok[@]}" --stats out/missing/stats.json
+mkdir in/folder.png
+refuses 5 'in/folder.png' render in/mirror.gltf -o in/folder.png
+mkfifo in/pipe.png
+refuses 5 'in/pipe.png' render in/mirror.gltf -o in/pipe.png
+mkdir sealed
+chmod 555 sealed
+chmod 755 "$work"
+if [ "$(id -u)" -ne 0 ]; then
+    refuses 5 'sealed' render in/mirror.gltf -o sealed/x.png
+elif command -v setpriv >/dev/null && setpriv --reuid 65534 --clear-groups test -x "$glint"; then
+    setpriv --reuid 65534 --clear-groups "$glint" render in/mirror.gltf -o sealed/x.png \
+        >stdout 2>stderr
+    check 'a folder without permission: exit status 5' test $? -eq 5
+    check 'a folder without permission: one line' test "$(wc -l <stderr)" -eq 1
+else
+    skip 'a folder without permission' 'nobody here to try it as'
+fi
+mkdir disk
+if [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=16k tmpfs disk 2>/dev/null; then
+    run render in/mirror.gltf -o disk/x.exr --exr-type float --compression none --size 96x64 \
+        --progress none
+    check 'a full disk: exit status 5' test "$status" -eq 5
+    check 'a full disk: nothing left behind' test -z "$(ls -A disk)"
+    check 'a full disk: one line' test "$(grep -c '^glint: ' stderr)" -eq 1 -a "$(wc -l <stderr)" -eq 1
+    umount disk
+else
+    skip 'a full disk' 'no small file system can be mounted'
+fi
+"$glint" info in/mirror.gltf >/dev/full 2>stderr
+check 'results onto a full device: exit status 5' test $? -eq 5
+"$glint" info in/mirror.gltf 2>stderr | head -n 1 >/dev/null
+check 'a reader that leaves is no error' test "${PIPESTATUS[0]}" -eq 0 -a ! -s stderr
+
+# ---- what is written ----------------------------------------------------------------------------
+
+renders 'EXR' out/x.exr && check 'EXR: signature' begins_with out/x.exr 762f3101
+clean
+renders 'PNG' out/x.png && check 'PNG: signature' begins_with out/x.png 89504e470d0a1a0a
+clean
+renders 'HDR' out/x.hdr && check 'HDR: signature' begins_with out/x.hdr 233f5241444941
+clean
+renders 'JPEG' out/x.jpg && check 'JPEG: signature' begins_with out/x.jpg ffd8ff
+clean
+renders 'TIFF' out/x.tiff && check 'TIFF: signature' begins_with out/x.tiff 49492a00
+clean
+renders 'an upper-case extension' out/X.PNG
+clean
+printf 'old' >out/x.png
+renders 'an existing file is replaced' out/x.png
+check 'replaced: signature' begins_with out/x.png 89504e47
+clean
+for name in none rle zip zips piz pxr24 b44 b44a dwaa dwab; do
+    renders "EXR, compression $name" out/x.exr --compression "$name"
+    clean
+done
+for attribute in worldToCamera worldToNDC capDate imageCounter glint:scene glint:environment \
+    glint:plan glint:device; do
+    [ -f out/x.exr ] || renders 'EXR with metadata' out/x.exr
+    check "EXR: $attribute" grep -qa "$attribute" out/x.exr
+done
+clean
+renders 'float channels' out/x.exr --exr-type float
+clean
+
+# ---- every option works -------------------------------------------------------------------------
+
+renders '--env' out/x.png --env in/sky.hdr
+clean
+renders '--env-layout' out/x.png --env in/sky.hdr --env-layout latlong
+clean
+renders '--env-rotate' out/x.png --env-rotate -90.5
+clean
+renders '--camera by name, orthographic' out/x.png --camera flat
+clean
+renders '--camera by index' out/x.png --camera 1
+clean
+renders '--scene by name, without triangles' out/x.png --scene empty
+clean
+renders '--depth' out/x.png --depth 2
+clean
+renders '--depth auto' out/x.png --depth auto
+clean
+renders '--samples' out/x.png --samples 9
+clean
+renders '--background transparent' out/x.png --background transparent
+clean
+renders '--min-weight 0' out/x.png --min-weight 0 --depth 4
+clean
+renders '--exposure' out/x.png --exposure -2
+clean
+renders '--device cpu' out/x.png --device 0
+clean
+for width in 1 8 16; do
+    renders "--kernel-width $width" out/x.png --kernel-width "$width"
+    clean
+done
+run devices --json
+if grep -q '"fp64": true' stdout; then
+    renders '--precision double' out/x.exr --precision double --exr-type float
+    clean
+fi
+run render -o out/x.png --size 8x8 -- in/mirror.gltf
+check 'options before the scene, and --' test "$status" -eq 0 -a -s out/x.png
+clean
+run render in/mirror.gltf --size 4x4 --size 8x8 -o out/y.png --output=out/x.png --stats out/stats.json
+check 'the last value of an option counts' stat_is 8 settings width
+check 'also across its two names' test -s out/x.png -a ! -e out/y.png
+clean
+run render in/rough.gltf --size 8x8 -o out/x.png --progress none
+check 'a warning is said once' test "$(grep -c '^glint: warning: .*rough' stderr)" -eq 1
+clean
+run render in/mirror.gltf --size 8x8 -o out/x.exr --exposure 1 --progress none
+check 'an exposure that is left out is said' grep -q 'warning: .*exposure' stderr
+clean
+run render in/mirror.gltf --size 8x8 -o out/x.jpg --background transparent --progress none
+check 'an alpha that is not kept is said' grep -q 'warning: .*alpha' stderr
+clean
+(exec 2>&- && "$glint" render in/mirror.gltf --size 8x8 -o out/x.png)
+check 'stderr closed: the image is whole' begins_with out/x.png 89504e470d0a1a0a
+clean
+
+# ---- progress -----------------------------------------------------------------------------------
+
+run render "${ok[@]}" --size 8x8 --progress none
+check '--progress none is silent' test "$status" -eq 0 -a ! -s stderr
+clean
+run render "${ok[@]}" --size 8x8
+check 'plain lines where stderr is no terminal' test "$(grep -vc '^glint: ' stderr)" -eq 0
+check 'and a summary' grep -q '^glint: out/x.png: 8x8, ' stderr
+clean
+run render "${ok[@]}" --size 8x8 --progress json
+cp stderr progress.jsonl
+check '--progress json: an object a line' test "$(grep -vc '^{"event": ".*}$' progress.jsonl)" -eq 0
+while IFS= read -r line; do
+    printf '%s\n' "$line" >line.json
+    "$json_get" line.json event || echo bad
+done <progress.jsonl >events
+check '--progress json: valid, done at the end' test "$(tail -n 1 events)" = 'done'
+check '--progress json: phases in order' test "$(grep -c phase events)" -ge 4
+check '--progress json: all valid' test "$(grep -c bad events)" -eq 0
+clean
+run render "${ok[@]}" --size 8x8 --progress bar
+check '--progress bar is erased before the summary' grep -qE $'\033\\[Kglint: out/x.png: 8x8' stderr
+clean
+
+# ---- statistics ---------------------------------------------------------------------------------
+
+run render in/mirror.gltf --env in/sky.hdr --size 24x16 --samples 4 -o out/x.png \
+    --stats out/stats.json --exposure 1.5
+check '--stats: the frame' stat_is 24 settings width
+check '--stats: samples' stat_is 4 settings samples
+check '--stats: exposure' stat_is 1.5 settings exposure
+check '--stats: depth' stat_is auto settings depth
+check '--stats: primary rays' stat_is $((24 * 16 * 4)) rays primary
+check '--stats: reflected rays' stat_is_positive rays reflected
+check '--stats: no refracted rays' stat_is 0 rays refracted_in
+check '--stats: no NaN' stat_is 0 nonfinite_pixels
+check '--stats: one surface' stat_is 1 deepest_path
+check '--stats: the scene' stat_is in/mirror.gltf scene name
+check '--stats: its triangles' stat_is 1 scene triangle_count
+check '--stats: the environment' stat_is in/sky.hdr environment name
+check '--stats: its layout' stat_is latlong environment layout
+check '--stats: the output' stat_is out/x.png output
+check '--stats: metal is compiled' stat_is true plan features MIRROR compiled
+check '--stats: glass is left out' stat_is false plan features GLASS compiled
+for phase in load_scene load_environment analysis bvh irradiance kernel_build upload kernel \
+    readback encode total; do
+    check "--stats: milliseconds of $phase" "$json_get" out/stats.json milliseconds "$phase"
+done
+check '--stats: kernel time' stat_is_positive milliseconds kernel
+check '--stats: rate' stat_is_positive mrays_per_second all
+check '--stats: memory' stat_is_positive memory peak_resident_bytes
+check '--stats: truncated weight' "$json_get" out/stats.json truncated_weight total
+check '--stats: device' "$json_get" out/stats.json device name
+check '--stats: no warnings' stat_is '[]' warnings
+clean
+
+# ---- info and devices ---------------------------------------------------------------------------
+
+run info in/rough.gltf --env in/sky.hdr
+check 'info succeeds' test "$status" -eq 0 -a ! -s stderr
+for text in 'Scene in/rough.gltf' '1 triangles' 'chrome: metal' 'front: perspective' \
+    'flat: orthographic' 'Environment in/sky.hdr' 'layout latlong' 'MIRROR' 'GLASS' 'left out' \
+    'MiB on the device' 'rough'; do
+    check "info says: $text" grep -qF "$text" stdout
+done
+run info in/rough.gltf --depth 2 --size 64x64 --samples 4 --json
+cp stdout out/stats.json
+check 'info --json: triangles' stat_is 1 scene triangle_count
+check 'info --json: material' stat_is metal scene materials 0 kind
+check 'info --json: depth' stat_is 2 settings depth
+check 'info --json: features' stat_is true plan features SUPERSAMPLING compiled
+check 'info --json: memory' stat_is_positive device_bytes
+check 'info --json: the warning' "$json_get" out/stats.json warnings 0
+clean
+OCL_ICD_VENDORS=$work/in/empty "$glint" info in/mirror.gltf >stdout 2>stderr
+check 'info works without a device' test $? -eq 0
+check 'and says that there is no plan' grep -q '  none: ' stdout
+OCL_ICD_VENDORS=$work/in/empty "$glint" devices >stdout 2>stderr
+check 'devices without a device: exit status 4' test $? -eq 4
+OCL_ICD_VENDORS=$work/in/empty "$glint" render in/mirror.gltf -o out/x.png >stdout 2>stderr
+check 'render without a device: exit status 4' test $? -eq 4 -a "$(wc -l <stderr)" -eq 1
+check 'and no file' test -z "$(ls -A out)"
+run devices
+check 'devices prints a table' grep -q '^ *0  ' stdout
+run devices --json
+cp stdout out/stats.json
+check 'devices --json: an index' stat_is 0 0 index
+clean
+
+# ---- signals ------------------------------------------------------------------------------------
+
+# stops SIGNAL STATUS: in the middle of a frame.
+stops() {
+    "$glint" render in/mirror.gltf --size 8192x4096 --samples 256 -o out/x.png --stats out/x.json \
+        --progress plain >stdout 2>stderr &
+    local process=$! waited=0
+    until grep -q 'rendering' stderr || [ "$waited" -ge 600 ]; do
+        sleep 0.1
+        waited=$((waited + 1))
+    done
+    sleep 0.3
+    kill "-$1" "$process"
+    local begun=$SECONDS
+    wait "$process"
+    status=$?
+    check "$1 in the middle of a frame: exit status $2" test "$status" -eq "$2"
+    check "$1: promptly" test $((SECONDS - begun)) -le 5
+    check "$1: nothing left behind" test -z "$(ls -A out)"
+    clean
+}
+stops INT 130
+stops TERM 143
+for delay in 0.01 0.05 0.2; do
+    "$glint" render in/mirror.gltf --size 4096x4096 --samples 64 -o out/x.png >stdout 2>stderr &
+    process=$!
+    sleep "$delay"
+    kill -TERM "$process"
+    wait "$process"
+    check "TERM after $delay s: exit status 143" test $? -eq 143
+    check "TERM after $delay s: nothing left behind" test -z "$(ls -A out)"
+    clean
+done
+
+printf '1..%d\n' "$count"
+[ "$failures" -eq 0 ] || printf '# %d failed\n' "$failures"
+[ "$failures" -eq 0 ]
