@@ -1,0 +1,93 @@
+// A scene before it is written: geometries, materials, nodes and cameras, in fixed rooms.
+#ifndef GLINT_SCENES_MODEL_H
+#define GLINT_SCENES_MODEL_H
+
+#include "base/status.h"
+#include "mesh.h"
+#include "rotation.h"
+
+#include <stdbool.h>
+
+// glTF 2.0's factors, linear Rec.709. Zero is valid: black matte metal-free paint of roughness 0.
+typedef struct material {
+    const char *name;
+    double base_color[3];
+    double metallic, roughness;
+    double emission[3];
+    double emissive_strength;    // KHR_materials_emissive_strength; written above 0
+    double transmission;         // KHR_materials_transmission; written above 0
+    double ior;                  // KHR_materials_ior; written above 0
+    double thickness;            // KHR_materials_volume, metres; written above 0
+    double attenuation_distance; // metres; 0: none
+    double attenuation_color[3];
+    bool unlit;
+    bool blend;    // the lecture's blend: `mirror` is written
+    double mirror; // its share of reflection
+} material;
+
+typedef struct node {
+    const char *name;
+    int geometry; // −1: none
+    int material;
+    int camera; // −1: none
+    double translation[3];
+    double rotation[4];
+    double scale; // 0 means 1
+} node;
+
+typedef struct camera {
+    const char *name;
+    bool orthographic;
+    double yfov; // degrees, perspective
+    double ymag; // metres, orthographic: half the height
+} camera;
+
+#define MODEL_CAPACITY 64
+
+// Zero is valid: an empty scene. Strings are borrowed. Adding past the capacity sets `overflow`,
+// which model_check reports.
+typedef struct model {
+    const char *name; // also the files' name
+    int geometry_count, material_count, node_count, camera_count;
+    struct {
+        const char *name;
+        mesh mesh;
+    } geometries[MODEL_CAPACITY];
+    material materials[MODEL_CAPACITY];
+    node nodes[MODEL_CAPACITY];
+    camera cameras[MODEL_CAPACITY];
+    bool overflow;
+} model;
+
+void model_free(model *scene);
+
+// A new empty mesh; its index is geometry_count − 1. The pointer stays valid.
+mesh *model_add_geometry(model *scene, const char *name);
+int model_add_material(model *scene, const material *m);
+
+// A node that shows the newest geometry in a material, moved to (x, y, z).
+node *model_add_object(model *scene, const char *name, int material_index, glint_vec3 position);
+
+// Sets the node down at its x and z: the lowest vertex, after its rotation and scale, comes to
+// `height` metres.
+void model_rest(model *scene, node *object, double height);
+
+// `yfov` in degrees; looks from `eye` to `target` with +Y up.
+void model_add_perspective(model *scene, const char *name, double yfov, glint_vec3 eye,
+                           glint_vec3 target);
+void model_add_orthographic(model *scene, const char *name, double ymag, glint_vec3 eye,
+                            glint_vec3 target);
+
+material material_metal(const char *name, double r, double g, double b);
+material material_paint(const char *name, double r, double g, double b, double roughness);
+material material_glass(const char *name, double ior); // clear, solid
+material material_thin(const char *name, double ior);  // clear, a thin wall
+
+// The triangles that the scene shows: a geometry counts once for each node.
+size_t model_count_triangles(const model *scene);
+
+// GLINT_MISMATCH when a geometry is not what its scene needs: out of memory, past the capacity, or
+// not closed and counter-clockwise from outside (sheets are let through).
+glint_status model_check(const model *scene, glint_error *error);
+
+#endif

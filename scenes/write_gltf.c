@@ -1,0 +1,384 @@
+// Writes a scene as glTF 2.0. See write_gltf.h.
+//
+// The binary file holds, for each geometry, its positions, its normals unless it is flat, and its
+// indices (16 bits wide where they suffice, padded to four bytes). A glTF mesh is a geometry in a
+// material, so nodes that share a shape share its bytes.
+#include "write_gltf.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COMPONENT_UINT16 = 5123, COMPONENT_UINT32 = 5125, COMPONENT_FLOAT = 5126 };
+enum { TARGET_VERTICES = 34962, TARGET_INDICES = 34963 };
+
+typedef struct gltf_writer {
+    const model *scene;
+    FILE *binary;
+    size_t offset; // bytes written so far
+    json_t *views, *accessors, *meshes;
+    // The accessors of each geometry; −1: none.
+    int position[MODEL_CAPACITY], normal[MODEL_CAPACITY], index[MODEL_CAPACITY];
+    int mesh_of[MODEL_CAPACITY][MODEL_CAPACITY]; // [geometry][material]: mesh, −1: not yet
+} gltf_writer;
+
+// ---- Numbers -----------------------------------------------------------------------------------
+
+// Whole numbers are written without a fraction.
+static json_t *exact(double x)
+{
+    return x == floor(x) && fabs(x) < 1e9 ? json_integer((json_int_t)x) : json_real(x);
+}
+
+// Rounded to 10⁻⁹: what sin and cos leave of a zero would be written with an exponent, whose form
+// differs between versions of the JSON library.
+static json_t *number(double x)
+{
+    return exact(floor(x * 1e9 + 0.5) / 1e9);
+}
+
+static json_t *numbers(const double *values, int count)
+{
+    json_t *array = json_array();
+    for (int i = 0; i < count; i++) {
+        json_array_append_new(array, number(values[i]));
+    }
+    return array;
+}
+
+// Nine digits give a float back bit for bit: an accessor's bounds have to equal what they bound.
+static json_t *vector(glint_vec3 v)
+{
+    json_t *array = json_array();
+    json_array_append_new(array, exact(v.x));
+    json_array_append_new(array, exact(v.y));
+    json_array_append_new(array, exact(v.z));
+    return array;
+}
+
+// ---- Binary ------------------------------------------------------------------------------------
+
+static void put_bytes(gltf_writer *w, uint32_t value, int bytes)
+{
+    for (int i = 0; i < bytes; i++) {
+        putc((int)(value >> 8 * i & 0xff), w->binary);
+    }
+    w->offset += (size_t)bytes;
+}
+
+static void put_float(gltf_writer *w, double value)
+{
+    float rounded = (float)value;
+    uint32_t bits;
+    memcpy(&bits, &rounded, sizeof bits);
+    put_bytes(w, bits, 4);
+}
+
+static void put_vectors(gltf_writer *w, const glint_vec3 *vectors, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        put_float(w, vectors[i].x);
+        put_float(w, vectors[i].y);
+        put_float(w, vectors[i].z);
+    }
+}
+
+// Describes the bytes from `start` to here as one accessor; its index.
+static int add_accessor(gltf_writer *w, size_t start, json_t *accessor, int target)
+{
+    json_t *view = json_object();
+    json_object_set_new(view, "buffer", json_integer(0));
+    json_object_set_new(view, "byteOffset", json_integer((json_int_t)start));
+    json_object_set_new(view, "byteLength", json_integer((json_int_t)(w->offset - start)));
+    json_object_set_new(view, "target", json_integer(target));
+    json_object_set_new(accessor, "bufferView",
+                        json_integer((json_int_t)json_array_size(w->views)));
+    json_array_append_new(w->views, view);
+    json_array_append_new(w->accessors, accessor);
+    return (int)json_array_size(w->accessors) - 1;
+}
+
+static json_t *accessor(int component_type, size_t count, const char *type)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "componentType", json_integer(component_type));
+    json_object_set_new(object, "count", json_integer((json_int_t)count));
+    json_object_set_new(object, "type", json_string(type));
+    return object;
+}
+
+static int write_positions(gltf_writer *w, const mesh *m)
+{
+    glint_vec3 low = {INFINITY, INFINITY, INFINITY};
+    glint_vec3 high = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < m->vertex_count; i++) {
+        glint_vec3 p = m->positions[i];
+        low = (glint_vec3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
+        high = (glint_vec3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
+    }
+    size_t start = w->offset;
+    put_vectors(w, m->positions, m->vertex_count);
+    json_t *positions = accessor(COMPONENT_FLOAT, m->vertex_count, "VEC3");
+    json_object_set_new(positions, "min", vector(low));
+    json_object_set_new(positions, "max", vector(high));
+    return add_accessor(w, start, positions, TARGET_VERTICES);
+}
+
+static int write_normals(gltf_writer *w, const mesh *m)
+{
+    size_t start = w->offset;
+    put_vectors(w, m->normals, m->vertex_count);
+    return add_accessor(w, start, accessor(COMPONENT_FLOAT, m->vertex_count, "VEC3"),
+                        TARGET_VERTICES);
+}
+
+static int write_indices(gltf_writer *w, const mesh *m)
+{
+    size_t start = w->offset;
+    bool narrow = m->vertex_count < 65535; // 65535 itself is reserved
+    for (size_t i = 0; i < 3 * m->triangle_count; i++) {
+        put_bytes(w, m->triangles[i / 3][i % 3], narrow ? 2 : 4);
+    }
+    int added = add_accessor(
+        w, start,
+        accessor(narrow ? COMPONENT_UINT16 : COMPONENT_UINT32, 3 * m->triangle_count, "SCALAR"),
+        TARGET_INDICES);
+    put_bytes(w, 0, (int)(w->offset % 4)); // indices are of even length: 0 or 2 bytes more
+    return added;
+}
+
+static void write_geometries(gltf_writer *w)
+{
+    for (int i = 0; i < w->scene->geometry_count; i++) {
+        const mesh *m = &w->scene->geometries[i].mesh;
+        w->position[i] = write_positions(w, m);
+        w->normal[i] = m->flat ? -1 : write_normals(w, m);
+        w->index[i] = write_indices(w, m);
+    }
+}
+
+// ---- Materials ---------------------------------------------------------------------------------
+
+static json_t *material_extensions(const material *m, json_t *used)
+{
+    json_t *all = json_object();
+    if (m->transmission > 0) {
+        json_object_set_new(all, "KHR_materials_transmission",
+                            json_pack("{s:o}", "transmissionFactor", number(m->transmission)));
+    }
+    if (m->ior > 0) {
+        json_object_set_new(all, "KHR_materials_ior", json_pack("{s:o}", "ior", number(m->ior)));
+    }
+    if (m->thickness > 0) {
+        json_t *volume = json_pack("{s:o}", "thicknessFactor", number(m->thickness));
+        if (m->attenuation_distance > 0) {
+            json_object_set_new(volume, "attenuationDistance", number(m->attenuation_distance));
+            json_object_set_new(volume, "attenuationColor", numbers(m->attenuation_color, 3));
+        }
+        json_object_set_new(all, "KHR_materials_volume", volume);
+    }
+    if (m->emissive_strength > 0) {
+        json_object_set_new(all, "KHR_materials_emissive_strength",
+                            json_pack("{s:o}", "emissiveStrength", number(m->emissive_strength)));
+    }
+    if (m->unlit) {
+        json_object_set_new(all, "KHR_materials_unlit", json_object());
+    }
+    const char *name;
+    json_t *value;
+    json_object_foreach(all, name, value)
+    {
+        json_object_set_new(used, name, json_true());
+    }
+    return all;
+}
+
+// A member is written only where it says something: empty objects are dropped.
+static void set_unless_empty(json_t *object, const char *key, json_t *value)
+{
+    if (json_object_size(value) > 0) {
+        json_object_set(object, key, value);
+    }
+    json_decref(value);
+}
+
+static json_t *material_to_json(const material *m, json_t *used)
+{
+    json_t *factors = json_object();
+    double color[4] = {m->base_color[0], m->base_color[1], m->base_color[2], 1};
+    json_object_set_new(factors, "baseColorFactor", numbers(color, 4));
+    json_object_set_new(factors, "metallicFactor", number(m->metallic));
+    json_object_set_new(factors, "roughnessFactor", number(m->roughness));
+    json_t *object = json_object();
+    json_object_set_new(object, "name", json_string(m->name));
+    json_object_set_new(object, "pbrMetallicRoughness", factors);
+    if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0) {
+        json_object_set_new(object, "emissiveFactor", numbers(m->emission, 3));
+    }
+    set_unless_empty(object, "extensions", material_extensions(m, used));
+    if (m->blend) {
+        json_object_set_new(object, "extras",
+                            json_pack("{s:{s:o}}", "glint", "mirror", number(m->mirror)));
+    }
+    return object;
+}
+
+// ---- Nodes and cameras -------------------------------------------------------------------------
+
+static int find_or_add_mesh(gltf_writer *w, const node *n)
+{
+    int *found = &w->mesh_of[n->geometry][n->material];
+    if (*found >= 0) {
+        return *found;
+    }
+    json_t *attributes = json_pack("{s:i}", "POSITION", w->position[n->geometry]);
+    if (w->normal[n->geometry] >= 0) {
+        json_object_set_new(attributes, "NORMAL", json_integer(w->normal[n->geometry]));
+    }
+    json_t *primitive = json_pack("{s:o, s:i, s:i}", "attributes", attributes, "indices",
+                                  w->index[n->geometry], "material", n->material);
+    *found = (int)json_array_size(w->meshes);
+    json_array_append_new(w->meshes,
+                          json_pack("{s:s, s:[o]}", "name", w->scene->geometries[n->geometry].name,
+                                    "primitives", primitive));
+    return *found;
+}
+
+static json_t *node_to_json(gltf_writer *w, const node *n)
+{
+    json_t *object = json_pack("{s:s}", "name", n->name);
+    if (n->geometry >= 0) {
+        json_object_set_new(object, "mesh", json_integer(find_or_add_mesh(w, n)));
+    }
+    if (n->camera >= 0) {
+        json_object_set_new(object, "camera", json_integer(n->camera));
+    }
+    json_object_set_new(object, "translation", numbers(n->translation, 3));
+    if (n->rotation[3] != 1) {
+        json_object_set_new(object, "rotation", numbers(n->rotation, 4));
+    }
+    if (n->scale > 0 && n->scale != 1) {
+        json_object_set_new(object, "scale",
+                            numbers((const double[3]){n->scale, n->scale, n->scale}, 3));
+    }
+    return object;
+}
+
+// znear and zfar have to be there for validity; they do not clip.
+static json_t *camera_to_json(const camera *c)
+{
+    if (c->orthographic) {
+        return json_pack("{s:s, s:s, s:{s:o, s:o, s:o, s:i}}", "name", c->name, "type",
+                         "orthographic", "orthographic", "xmag", number(c->ymag * 16 / 9), "ymag",
+                         number(c->ymag), "znear", number(0.01), "zfar", 100);
+    }
+    return json_pack("{s:s, s:s, s:{s:o, s:o, s:o}}", "name", c->name, "type", "perspective",
+                     "perspective", "aspectRatio", number(16.0 / 9), "yfov",
+                     number(c->yfov * GLINT_PI / 180), "znear", number(0.01));
+}
+
+// ---- The file ----------------------------------------------------------------------------------
+
+static json_t *asset(void)
+{
+    return json_pack("{s:s, s:s, s:s}", "version", "2.0", "generator", "glint scenes", "copyright",
+                     "2026 the glint authors, Apache-2.0");
+}
+
+static json_t *scene_to_json(gltf_writer *w)
+{
+    const model *scene = w->scene;
+    json_t *used = json_object();
+    json_t *materials = json_array();
+    json_t *nodes = json_array();
+    json_t *cameras = json_array();
+    json_t *roots = json_array();
+    for (int i = 0; i < scene->material_count; i++) {
+        json_array_append_new(materials, material_to_json(&scene->materials[i], used));
+    }
+    for (int i = 0; i < scene->node_count; i++) {
+        json_array_append_new(nodes, node_to_json(w, &scene->nodes[i]));
+        json_array_append_new(roots, json_integer(i));
+    }
+    for (int i = 0; i < scene->camera_count; i++) {
+        json_array_append_new(cameras, camera_to_json(&scene->cameras[i]));
+    }
+    json_t *file = json_pack("{s:o}", "asset", asset());
+    json_t *extensions = json_array();
+    const char *name;
+    json_t *value;
+    json_object_foreach(used, name, value)
+    {
+        json_array_append_new(extensions, json_string(name));
+    }
+    if (json_array_size(extensions) > 0) {
+        json_object_set(file, "extensionsUsed", extensions);
+    }
+    json_decref(extensions);
+    json_decref(used);
+    json_object_set_new(file, "scene", json_integer(0));
+    json_object_set_new(file, "scenes",
+                        json_pack("[{s:s, s:o}]", "name", scene->name, "nodes", roots));
+    json_object_set_new(file, "nodes", nodes);
+    json_object_set_new(file, "cameras", cameras);
+    json_object_set_new(file, "materials", materials);
+    json_object_set(file, "meshes", w->meshes);
+    json_object_set(file, "accessors", w->accessors);
+    json_object_set(file, "bufferViews", w->views);
+    return file;
+}
+
+static glint_status write_json(gltf_writer *w, const char *path, glint_error *error)
+{
+    FILE *text = fopen(path, "wb");
+    if (text == NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: %s", path, strerror(errno));
+    }
+    json_t *file = scene_to_json(w);
+    char binary_name[128];
+    snprintf(binary_name, sizeof binary_name, "%s.bin", w->scene->name);
+    json_object_set_new(
+        file, "buffers",
+        json_pack("[{s:s, s:I}]", "uri", binary_name, "byteLength", (json_int_t)w->offset));
+    bool failed = json_dumpf(file, text, JSON_INDENT(1) | JSON_REAL_PRECISION(9)) != 0;
+    json_decref(file);
+    failed = putc('\n', text) == EOF || failed;
+    failed = fclose(text) != 0 || failed;
+    return failed ? glint_fail(error, GLINT_OUTPUT_FAILED, "%s: cannot be written", path)
+                  : GLINT_OK;
+}
+
+glint_status write_gltf(const model *scene, const char *folder, glint_error *error)
+{
+    glint_status status = model_check(scene, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    gltf_writer w = {.scene = scene};
+    memset(w.mesh_of, -1, sizeof w.mesh_of);
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s.bin", folder, scene->name);
+    w.binary = fopen(path, "wb");
+    if (w.binary == NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: %s", path, strerror(errno));
+    }
+    w.views = json_array();
+    w.accessors = json_array();
+    w.meshes = json_array();
+    write_geometries(&w);
+    bool failed = ferror(w.binary) != 0;
+    failed = fclose(w.binary) != 0 || failed;
+    if (failed) {
+        status = glint_fail(error, GLINT_OUTPUT_FAILED, "%s: cannot be written", path);
+    } else {
+        snprintf(path, sizeof path, "%s/%s.gltf", folder, scene->name);
+        status = write_json(&w, path, error);
+    }
+    json_decref(w.views);
+    json_decref(w.accessors);
+    json_decref(w.meshes);
+    return status;
+}
