@@ -1,0 +1,49 @@
+// The oracle's optics: reflection, refraction, Fresnel, absorption.
+#include "oracle.h"
+#include "vector.h"
+
+void oracle_reflect(const double normal[3], const double viewer[3], double reflected[3])
+{
+    vector n = vector_of(normal), v = vector_of(viewer);
+    vector_store(minus(scaled(n, 2.0 * dot(n, v)), v), reflected);
+}
+
+bool oracle_refract(const double normal[3], const double viewer[3], double eta, double refracted[3])
+{
+    vector n = vector_of(normal), v = vector_of(viewer);
+    double cos_incident = fmin(dot(n, v), 1.0);
+    // Snell: sin θt = η sin θi, so cos²θt = 1 − η²(1 − cos²θi); negative: total reflection.
+    double cos_squared = 1.0 - eta * eta * (1.0 - cos_incident * cos_incident);
+    if (!(cos_squared >= 0.0))
+        return false;
+    double along_normal = eta * cos_incident - sqrt(cos_squared);
+    vector_store(plus(scaled(v, -eta), scaled(n, along_normal)), refracted);
+    return true;
+}
+
+double oracle_fresnel(double cos_incident, double ior_incident, double ior_transmitted)
+{
+    if (ior_incident == ior_transmitted)
+        return 0.0; // no interface, even at 90°, where the quotients would be 0/0
+    double c = fmin(fmax(cos_incident, 0.0), 1.0);
+    double eta = ior_incident / ior_transmitted;
+    double cos_squared = 1.0 - eta * eta * (1.0 - c * c);
+    if (!(cos_squared >= 0.0))
+        return 1.0;
+    double ct = sqrt(cos_squared);
+    // Amplitudes for light polarised across (s) and within (p) the plane of incidence.
+    double rs =
+        (ior_incident * c - ior_transmitted * ct) / (ior_incident * c + ior_transmitted * ct);
+    double rp =
+        (ior_transmitted * c - ior_incident * ct) / (ior_transmitted * c + ior_incident * ct);
+    return 0.5 * (rs * rs + rp * rp);
+}
+
+double oracle_transmittance(double colour, double colour_distance, double length_inside)
+{
+    if (!(length_inside > 0.0) || colour >= 1.0)
+        return 1.0;
+    if (colour <= 0.0)
+        return 0.0; // σ is infinite
+    return exp(log(colour) / colour_distance * length_inside);
+}

@@ -1,0 +1,144 @@
+// The oracle: a tracer in double precision that judges the renderer. It is written from the light
+// transport rules of DESIGN.md and from nothing else, and shares no code with host/ or kernels/.
+//
+// Limits: plain C, one thread; the Fresnel tree is followed by recursion. No allocation, except
+// in oracle_tree_create. Everything is in world space: right-handed, +Y up, metres; colours are
+// linear RGB.
+#ifndef GLINT_TESTS_ORACLE_H
+#define GLINT_TESTS_ORACLE_H
+
+#include <stdbool.h>
+
+// Most surfaces that a path may meet; a view's depth is cut to it.
+enum { ORACLE_DEPTH_LIMIT = 64 };
+
+// Rays of one sample's tree after which every further branch takes the environment, reported as
+// `exhausted`. Without it depth 64 and min_weight 0 would follow 2⁶⁴ branches.
+enum { ORACLE_RAY_LIMIT = 1 << 20 };
+
+// Edges that pass a ray within this ratio (distance from the ray to the edge ÷ length of the path
+// up to there) are measured for oracle_report.edge.
+#define ORACLE_EDGE_REACH 1e-3
+
+typedef struct oracle_triangle {
+    double position[3][3]; // counter-clockwise seen from outside
+    double normal[3][3];   // unit; (0, 0, 0) = none
+    int material;
+} oracle_triangle;
+
+typedef struct oracle_material {
+    double base[3]; // base colour factor
+    double metallic, roughness;
+    double emission[3];          // radiance, strength included
+    double transmission, ior;    // KHR_materials_transmission, _ior
+    double thickness;            // KHR_materials_volume: > 0 bounds a solid, 0 is a thin wall
+    double attenuation[3];       // colour that white light has after attenuation_distance
+    double attenuation_distance; // metres; INFINITY: clear
+    bool unlit;
+    double mirror; // the lecture's blend, in [0, 1]; < 0: not asked for
+} oracle_material;
+
+// White, rough 0, metallic 0, opaque, ior 1.5, clear, no blend: smooth white paint.
+extern const oracle_material oracle_material_default;
+
+// Light by direction. `direction` is a unit vector in world space, away from the surface.
+typedef void (*oracle_light)(const void *context, const double direction[3], double rgb[3]);
+
+typedef struct oracle_tree oracle_tree;
+
+typedef struct oracle_scene {
+    const oracle_triangle *triangles; // borrowed, as all pointers here
+    int triangle_count;
+    const oracle_material *materials;
+    oracle_light radiance;       // E(d)
+    oracle_light irradiance;     // E(n)/π: cosine-weighted mean of the radiance about n
+    const void *context;         // handed to both
+    double environment_rotation; // degrees about +Y, counter-clockwise seen from above
+    const oracle_tree *tree;     // NULL: every ray tries every triangle
+} oracle_scene;
+
+typedef struct oracle_view {
+    double eye[3];
+    double right[3], up[3], back[3]; // orthonormal; the camera looks along −back
+    double yfov;                     // whole vertical angle in radians; 0 = orthographic
+    double ymag;                     // orthographic: half the vertical extent
+    int width, height;
+    int samples;       // k: k × k samples a pixel; 0 means 1
+    int depth;         // N: surfaces that a path may meet; 0 means ORACLE_DEPTH_LIMIT
+    double min_weight; // a branch whose largest component is less takes E at once
+    bool transparent;  // primary misses are (0, 0, 0, 0)
+    bool edges;        // measure oracle_report.edge, at about twice the time
+} oracle_view;
+
+typedef struct oracle_ray {
+    double origin[3], direction[3]; // direction: unit
+} oracle_ray;
+
+typedef struct oracle_hit {
+    int triangle;          // −1: none
+    double distance;       // along the unit direction
+    double barycentric[3]; // weights of the triangle's vertices, ≥ 0, sum 1
+} oracle_hit;
+
+// What happened on the way to a pixel. Weights are the largest of R, G and B, summed over
+// branches; for a pixel they are the mean, counts the sum, and margins the least over samples.
+typedef struct oracle_report {
+    double truncated_by_depth, truncated_by_weight;
+    long rays;              // traced, primaries included
+    long surfaces;          // surfaces met
+    long total_reflections; // glass surfaces met beyond the critical angle
+    int deepest;            // surfaces met by the longest path
+    bool exhausted;         // ORACLE_RAY_LIMIT reached
+
+    // How near the pixel is to one that looks different. A renderer of precision u may differ
+    // freely where a margin is within some multiple of u: that is a flip, not an error.
+    double edge;     // least (distance from ray to a triangle's edge)/(path length), ≤ EDGE_REACH
+    double critical; // least |1 − η²(1 − cos²θi)| over glass surfaces
+    double threshold; // least |weight/min_weight − 1| over branches that were judged by it
+} oracle_report;
+
+// Renders pixel (i, j), counted from the top left: premultiplied RGB and alpha. `report` may be
+// NULL.
+void oracle_pixel(const oracle_scene *scene, const oracle_view *view, const int pixel[2],
+                  double rgba[4], oracle_report *report);
+
+// The same for one sample at (x, y) in pixels from the top left corner, so that pixel (i, j) has
+// its centre at (i + ½, j + ½).
+void oracle_sample(const oracle_scene *scene, const oracle_view *view, const double position[2],
+                   double rgba[4], oracle_report *report);
+
+// The primary ray through (x, y) in pixels.
+oracle_ray oracle_primary_ray(const oracle_view *view, const double position[2]);
+
+// Radiance that arrives along a ray, followed by the view's depth and min_weight; true if it met a
+// surface. The direction is made unit. `report` may be NULL.
+bool oracle_radiance(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
+                     double rgb[3], oracle_report *report);
+
+// The nearest triangle at distance > 0; of those that lie at one distance, the lowest index.
+// `left` is the triangle on which the ray starts, which is never hit again (a straight ray cannot
+// meet its own plane twice), or −1.
+oracle_hit oracle_closest_hit(const oracle_scene *scene, const oracle_ray *ray, int left);
+
+// A binary tree over the scene's triangles, for scenes too large for brute force. It finds the
+// same hits. NULL if memory ran out. The triangles must outlive it, unchanged.
+oracle_tree *oracle_tree_create(const oracle_triangle *triangles, int triangle_count);
+void oracle_tree_free(oracle_tree *tree); // NULL is allowed
+
+// Optics, as the rules state them. All vectors unit; `normal` on the viewer's side.
+
+// r = 2n(n·v) − v.
+void oracle_reflect(const double normal[3], const double viewer[3], double reflected[3]);
+
+// t = ηd + (η cos θi − cos θt)n with η = n_i/n_t and d = −v; false beyond the critical angle.
+bool oracle_refract(const double normal[3], const double viewer[3], double eta,
+                    double refracted[3]);
+
+// Share of unpolarised light that an interface reflects, for cos θi in [0, 1]; 1 beyond the
+// critical angle, 0 where both indices are equal.
+double oracle_fresnel(double cos_incident, double ior_incident, double ior_transmitted);
+
+// exp(−σs), σ = −ln(colour)/distance, for one channel.
+double oracle_transmittance(double colour, double colour_distance, double length);
+
+#endif

@@ -1,0 +1,233 @@
+// What glint loads, as the oracle takes it. See bridge.h.
+#include "support/bridge.h"
+
+#include "kernels/layout.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+struct bridge {
+    oracle_scene scene;
+    oracle_triangle *triangles;
+    oracle_material *materials;
+    const glint_cube *cube;
+    // Every texel as a vector: its direction, and its colour times its solid angle over π.
+    double (*directions)[3], (*weighted)[3];
+    int texel_count;
+};
+
+static const int s_axis[6] = GLINT_CUBE_S_AXIS, s_sign[6] = GLINT_CUBE_S_SIGN;
+static const int t_axis[6] = GLINT_CUBE_T_AXIS, t_sign[6] = GLINT_CUBE_T_SIGN;
+
+static void texel_direction(int face, double s, double t, double d[3])
+{
+    d[face / 2] = face % 2 ? -1 : 1;
+    d[s_axis[face]] = s * s_sign[face];
+    d[t_axis[face]] = t * t_sign[face];
+    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++) {
+        d[k] /= length;
+    }
+}
+
+// Bilinear in the face whose axis is nearest; the border of one texel is part of the data.
+static void look_up(const void *context, const double d[3], double rgb[3])
+{
+    const glint_cube *cube = ((const bridge *)context)->cube;
+    int face = 0;
+    double most = -1;
+    for (int f = 0; f < 6; f++) {
+        double along = d[f / 2] * (f % 2 ? -1 : 1);
+        if (along > most) {
+            most = along;
+            face = f;
+        }
+    }
+    double n = cube->edge;
+    double x = (d[s_axis[face]] * s_sign[face] / most + 1) / 2 * n + 0.5;
+    double y = (d[t_axis[face]] * t_sign[face] / most + 1) / 2 * n + 0.5;
+    int i = (int)floor(x), j = (int)floor(y);
+    size_t pitch = (size_t)cube->edge + 2;
+    for (int k = 0; k < 3; k++) {
+        double sum = 0;
+        for (int corner = 0; corner < 4; corner++) {
+            int right = corner & 1, down = corner >> 1;
+            size_t texel =
+                ((size_t)face * pitch + (size_t)(j + down)) * pitch + (size_t)(i + right);
+            double weight = (right ? x - i : 1 - (x - i)) * (down ? y - j : 1 - (y - j));
+            sum += weight * (double)cube->texels[4 * texel + (size_t)k];
+        }
+        rgb[k] = sum;
+    }
+}
+
+static void sum_irradiance(const void *context, const double n[3], double rgb[3])
+{
+    const bridge *b = context;
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int i = 0; i < b->texel_count; i++) {
+        const double *d = b->directions[i];
+        double cosine = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+        for (int k = 0; cosine > 0 && k < 3; k++) {
+            rgb[k] += cosine * b->weighted[i][k];
+        }
+    }
+}
+
+// The solid angle between the axis and (x, y) on the face's plane at distance 1.
+static double corner_angle(double x, double y)
+{
+    return atan2(x * y, sqrt(x * x + y * y + 1));
+}
+
+static void weigh_texels(bridge *b)
+{
+    int n = b->cube->edge;
+    size_t pitch = (size_t)n + 2;
+    b->texel_count = 6 * n * n;
+    b->directions = calloc((size_t)b->texel_count, sizeof *b->directions);
+    b->weighted = calloc((size_t)b->texel_count, sizeof *b->weighted);
+    assert_non_null(b->directions);
+    assert_non_null(b->weighted);
+    for (int texel = 0; texel < b->texel_count; texel++) {
+        int face = texel / (n * n), j = texel / n % n, i = texel % n;
+        double x0 = 2.0 * i / n - 1, x1 = 2.0 * (i + 1) / n - 1;
+        double y0 = 2.0 * j / n - 1, y1 = 2.0 * (j + 1) / n - 1;
+        double angle = corner_angle(x1, y1) - corner_angle(x0, y1) - corner_angle(x1, y0) +
+                       corner_angle(x0, y0);
+        texel_direction(face, (x0 + x1) / 2, (y0 + y1) / 2, b->directions[texel]);
+        const float *color =
+            b->cube->texels + 4 * (((size_t)face * pitch + (size_t)j + 1) * pitch + (size_t)i + 1);
+        for (int k = 0; k < 3; k++) {
+            b->weighted[texel][k] = (double)color[k] * angle / GLINT_PI;
+        }
+    }
+}
+
+static oracle_material convert_material(const glint_material *m)
+{
+    oracle_material o = oracle_material_default;
+    for (int k = 0; k < 3; k++) {
+        o.base[k] = (double)m->base_color[k];
+        o.emission[k] = (double)m->emission[k];
+        o.attenuation[k] = (double)m->attenuation_color[k];
+    }
+    o.metallic = (double)m->metallic;
+    o.roughness = (double)m->roughness;
+    o.transmission = (double)m->transmission;
+    o.ior = (double)m->ior;
+    o.thickness = (double)m->thickness;
+    o.attenuation_distance = (double)m->attenuation_distance;
+    o.unlit = m->unlit;
+    o.mirror = (double)m->mirror;
+    return o;
+}
+
+static void convert_triangle(const glint_scene *scene, size_t i, oracle_triangle *t)
+{
+    const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
+    for (size_t v = 0; v < 9; v++) {
+        t->position[v / 3][v % 3] =
+            origin[v % 3] + scene->unit * (double)scene->positions[9 * i + v];
+        t->normal[v / 3][v % 3] = scene->normals != NULL ? (double)scene->normals[9 * i + v] : 0;
+    }
+    t->material = (int)scene->material_of[i];
+}
+
+bridge *bridge_create(const glint_scene *scene, const glint_environment *environment)
+{
+    bridge *b = calloc(1, sizeof *b);
+    assert_non_null(b);
+    b->cube = &environment->radiance;
+    b->triangles = calloc(scene->triangle_count + 1, sizeof *b->triangles);
+    b->materials = calloc(scene->material_count + 1, sizeof *b->materials);
+    assert_non_null(b->triangles);
+    assert_non_null(b->materials);
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        convert_triangle(scene, i, &b->triangles[i]);
+    }
+    for (size_t i = 0; i < scene->material_count; i++) {
+        b->materials[i] = convert_material(&scene->materials[i]);
+    }
+    weigh_texels(b);
+    int count = (int)scene->triangle_count;
+    b->scene = (oracle_scene){
+        .triangles = b->triangles,
+        .triangle_count = count,
+        .materials = b->materials,
+        .radiance = look_up,
+        .irradiance = sum_irradiance,
+        .context = b,
+        .tree = count > 0 ? oracle_tree_create(b->triangles, count) : NULL,
+    };
+    return b;
+}
+
+void bridge_free(bridge *b)
+{
+    oracle_tree_free((oracle_tree *)(uintptr_t)b->scene.tree);
+    free(b->triangles);
+    free(b->materials);
+    free(b->directions);
+    free(b->weighted);
+    free(b);
+}
+
+const oracle_scene *bridge_scene(const bridge *b)
+{
+    return &b->scene;
+}
+
+static void copy_vector(glint_vec3 from, double to[3])
+{
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+oracle_view bridge_view(const glint_camera *camera, const glint_settings *settings)
+{
+    oracle_view view = {
+        .yfov = camera->orthographic ? 0 : camera->yfov,
+        .ymag = camera->ymag,
+        .width = settings->width,
+        .height = settings->height,
+        .samples = settings->samples_per_axis,
+        .depth = settings->depth,
+        .min_weight = settings->min_weight,
+        .transparent = settings->transparent,
+        .edges = true,
+    };
+    copy_vector(camera->eye, view.eye);
+    copy_vector(camera->right, view.right);
+    copy_vector(camera->up, view.up);
+    copy_vector(camera->back, view.back);
+    return view;
+}
+
+void bridge_direction_environment(int edge, glint_environment *environment)
+{
+    *environment = (glint_environment){0};
+    glint_cube *cube = &environment->radiance;
+    assert_int_equal(glint_cube_create(edge, cube, NULL), GLINT_OK);
+    for (int face = 0; face < 6; face++) {
+        for (int j = 0; j < edge; j++) {
+            for (int i = 0; i < edge; i++) {
+                double d[3];
+                texel_direction(face, (2.0 * i + 1) / edge - 1, (2.0 * j + 1) / edge - 1, d);
+                float *texel = glint_cube_texel(cube, face, i, j);
+                for (int k = 0; k < 3; k++) {
+                    texel[k] = (float)(0.5 + 0.5 * d[k]);
+                }
+            }
+        }
+    }
+    glint_cube_fill_border(cube);
+}

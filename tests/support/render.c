@@ -1,0 +1,90 @@
+// Rendering in tests. See render.h.
+#include "support/render.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static glint_device *shared_device;
+
+// cmocka leaves the test at fail(), so what went wrong is said first.
+static void require(glint_status status, const glint_error *error)
+{
+    if (status != GLINT_OK) {
+        print_error("%s\n%s\n", error->message, error->details != NULL ? error->details : "");
+        fail();
+    }
+}
+
+glint_device *test_device(void)
+{
+    if (shared_device == NULL) {
+        glint_error error = {0};
+        require(glint_device_open(NULL, &shared_device, &error), &error);
+    }
+    return shared_device;
+}
+
+void test_device_close(void)
+{
+    glint_device_close(shared_device);
+    shared_device = NULL;
+}
+
+void test_scene_load(const char *name, glint_scene *scene)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/scenes/%s.gltf", GLINT_SOURCE_DIR, name);
+    glint_error error = {0};
+    require(glint_scene_load(path, NULL, scene, NULL, &error), &error);
+}
+
+void test_render(const glint_scene *scene, const glint_environment *environment,
+                 const char *camera_name, const glint_settings *settings, test_frame *frame)
+{
+    *frame = (test_frame){0};
+    glint_error error = {0};
+    glint_camera camera;
+    require(glint_scene_camera(scene, camera_name, &camera, &error), &error);
+    const glint_renderer_inputs inputs = {
+        .device = test_device(),
+        .scene = scene,
+        .environment = environment,
+        .camera = &camera,
+        .settings = settings,
+    };
+    glint_renderer *renderer;
+    require(glint_renderer_create(&inputs, &renderer, &error), &error);
+    frame->plan = *glint_renderer_plan(renderer);
+    require(glint_renderer_frame(renderer, &camera, NULL, &frame->image, &frame->report, &error),
+            &error);
+    require(glint_renderer_exact_pixels(renderer, &frame->exact, &error), &error);
+    glint_renderer_free(renderer);
+}
+
+void test_frame_free(test_frame *frame)
+{
+    glint_image_free(&frame->image);
+    free(frame->exact);
+    *frame = (test_frame){0};
+}
+
+size_t test_count_different(const glint_image *a, const glint_image *b)
+{
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_int_equal(a->channels, b->channels);
+    size_t different = 0, pixels = (size_t)a->width * (size_t)a->height;
+    size_t bytes = (size_t)a->channels * sizeof(float);
+    for (size_t i = 0; i < pixels; i++) {
+        different += memcmp((const char *)a->pixels + i * bytes,
+                            (const char *)b->pixels + i * bytes, bytes) != 0;
+    }
+    return different;
+}

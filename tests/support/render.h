@@ -1,0 +1,33 @@
+// Rendering in tests: one call from a file of scenes/ to pixels.
+#ifndef GLINT_TESTS_SUPPORT_RENDER_H
+#define GLINT_TESTS_SUPPORT_RENDER_H
+
+#include "device/device.h"
+#include "environment/environment.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+
+// The device that all tests of a program share; opened at the first call, closed by
+// test_device_close.
+glint_device *test_device(void);
+void test_device_close(void);
+
+// Loads scenes/NAME.gltf; fails the running test, with the error, if it cannot.
+void test_scene_load(const char *name, glint_scene *scene);
+
+typedef struct test_frame {
+    glint_image image;
+    glint_frame_report report;
+    glint_plan plan;
+    double *exact; // as the device computed it, [height][width][4]
+} test_frame;
+
+// Renders with the scene's camera of that name (NULL: the first). Fails the test on any error.
+void test_render(const glint_scene *scene, const glint_environment *environment, const char *camera,
+                 const glint_settings *settings, test_frame *frame);
+void test_frame_free(test_frame *frame);
+
+// The number of pixels of two images of one size that are not equal bit for bit.
+size_t test_count_different(const glint_image *a, const glint_image *b);
+
+#endif

@@ -1,0 +1,981 @@
+// Environments: which way every layout faces, seams, poles, file names, bad shapes and bad values.
+//
+// The oracle is colour that encodes direction, rgb = ½ + ½ d: any look-up then tells where it
+// looked. The pictures are made from the layouts' own definitions, written out here face by face:
+// OpenEXR's ImfEnvmap.h and the table of OpenGL's specification (section "Cube Map Texture
+// Selection").
+//
+// Errors of a look-up in a map of this colour: along a great circle d has second derivative 1,
+// across a face the gnomonic d(s, t) has at most 1.3 in any direction. Bilinear interpolation over
+// cells of side h errs by at most h²/8 an axis of that: with h = 2/N, the colour's half, and both
+// axes, ½ · 2 · 1.3 · (2/N)²/8 = 0.65/N² for one interpolation.
+#include "environment/environment.h"
+#include "environment/layouts.h"
+#include "image/image_io.h"
+#include "support/image_bytes.h"
+#include "support/scratch.h"
+
+#include <math.h>
+#include <sched.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define ASSETS GLINT_SOURCE_DIR "/../shared/assets/env/"
+
+static int make_folder(void **state)
+{
+    (void)state;
+    scratch_make();
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    scratch_remove();
+    return 0;
+}
+
+// ---- Directions ---------------------------------------------------------------------------------
+
+static double next_random(void)
+{
+    static uint64_t seed = 88172645463325252u;
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
+    return (double)(seed >> 11) / 9007199254740992.0 * 2.0 - 1.0;
+}
+
+static glint_vec3 random_direction(void)
+{
+    for (;;) {
+        glint_vec3 d = {next_random(), next_random(), next_random()};
+        double length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+        if (length > 0.1 && length <= 1.0) {
+            return (glint_vec3){d.x / length, d.y / length, d.z / length};
+        }
+    }
+}
+
+static void color_of(glint_vec3 d, double rgb[3])
+{
+    double length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    rgb[0] = 0.5 + 0.5 * d.x / length;
+    rgb[1] = 0.5 + 0.5 * d.y / length;
+    rgb[2] = 0.5 + 0.5 * d.z / length;
+}
+
+// How far a look-up's colour is from the direction's, the worst of three channels.
+static double error_along(const glint_cube *cube, glint_vec3 d)
+{
+    double found[3], wanted[3], worst = 0.0;
+    glint_cube_sample(cube, d, found);
+    color_of(d, wanted);
+    for (int c = 0; c < 3; c++) {
+        worst = fmax(worst, fabs(found[c] - wanted[c]));
+    }
+    return isfinite(found[0] + found[1] + found[2]) ? worst : INFINITY;
+}
+
+// Directions that are hard for maps: axes, edges, corners and what lies next to them.
+static double worst_error(const glint_cube *cube)
+{
+    double worst = 0.0;
+    for (int i = 0; i < 20000; i++) {
+        worst = fmax(worst, error_along(cube, random_direction()));
+    }
+    const double near[] = {0.0, 1e-12, 1e-6, 1e-3, 0.999, 1.0 - 1e-9, 1.0};
+    for (int i = 0; i < 7 * 7 * 8 * 3; i++) {
+        double a = near[i % 7] * (i / 49 % 2 ? 1 : -1), b = near[i / 7 % 7] * (i / 98 % 2 ? 1 : -1);
+        double c = i / 196 % 2 ? 1.0 : -1.0;
+        int axis = i / 392;
+        glint_vec3 d = axis == 0   ? (glint_vec3){c, a, b}
+                       : axis == 1 ? (glint_vec3){a, c, b}
+                                   : (glint_vec3){a, b, c};
+        worst = fmax(worst, error_along(cube, d));
+    }
+    return worst;
+}
+
+// Within half a texel of an edge of the cube the neighbour's texel stands where the border's
+// should. On the edge, at height t, the two texels' mean is (1 + h(1/L² − ½)) and (1 + h/L²) times
+// what it should be across and along the edge, h = 1/N, L² = 2 + t²: colour errs by up to ½ h t/L³
+// = 0.0963/N, plus terms of h².
+static double copied_border_bound(int edge)
+{
+    return 0.0963 / edge + 1.5 / ((double)edge * edge);
+}
+
+// ---- The cube -----------------------------------------------------------------------------------
+
+// OpenEXR's cube, ImfEnvmap.h, face by face: pixel (column, row) to direction, in [0, 1].
+static glint_vec3 openexr_cube_direction(int face, double column, double row)
+{
+    double across = 2.0 * column - 1.0, down = 2.0 * row - 1.0;
+    switch (face) {
+    case 0:
+        return (glint_vec3){1.0, -down, across};
+    case 1:
+        return (glint_vec3){-1.0, -down, -across};
+    case 2:
+        return (glint_vec3){across, 1.0, -down};
+    case 3:
+        return (glint_vec3){across, -1.0, down};
+    case 4:
+        return (glint_vec3){-across, -down, 1.0};
+    default:
+        return (glint_vec3){across, -down, -1.0};
+    }
+}
+
+static glint_cube direction_cube(int edge)
+{
+    glint_cube cube;
+    assert_int_equal(glint_cube_create(edge, &cube, NULL), GLINT_OK);
+    for (int face = 0; face < 6; face++) {
+        for (int j = 0; j < edge; j++) {
+            for (int i = 0; i < edge; i++) {
+                double rgb[3];
+                color_of(openexr_cube_direction(face, (i + 0.5) / edge, (j + 0.5) / edge), rgb);
+                for (int c = 0; c < 3; c++) {
+                    glint_cube_texel(&cube, face, i, j)[c] = (float)rgb[c];
+                }
+            }
+        }
+    }
+    glint_cube_fill_border(&cube);
+    return cube;
+}
+
+static void cube_faces_are_openexrs(void **state)
+{
+    (void)state;
+    for (int face = 0; face < 6; face++) {
+        for (int k = 0; k < 25; k++) {
+            double s = (k % 5) / 2.0 - 1.0, t = (k / 5) / 2.0 - 1.0;
+            glint_vec3 d = glint_cube_direction(face, s, t);
+            glint_vec3 wanted = openexr_cube_direction(face, (s + 1.0) / 2.0, (t + 1.0) / 2.0);
+            assert_true(d.x == wanted.x && d.y == wanted.y && d.z == wanted.z);
+        }
+    }
+}
+
+static void look_up_at_texel_centres_is_exact(void **state)
+{
+    (void)state;
+    glint_cube cube = direction_cube(8);
+    for (int k = 0; k < 6 * 64; k++) {
+        int face = k / 64, i = k % 8, j = k / 8 % 8;
+        double s = (2 * i + 1) / 8.0 - 1.0, t = (2 * j + 1) / 8.0 - 1.0, rgb[3];
+        glint_cube_sample(&cube, glint_cube_direction(face, 3.0 * s, 3.0 * t), rgb);
+        glint_vec3 d = glint_cube_direction(face, s, t);
+        glint_cube_sample(&cube, (glint_vec3){7.0 * d.x, 7.0 * d.y, 7.0 * d.z}, rgb);
+        for (int c = 0; c < 3; c++) {
+            // The place is computed to some units in the last place of a double.
+            assert_true(fabs(rgb[c] - (double)glint_cube_texel(&cube, face, i, j)[c]) < 1e-13);
+        }
+    }
+    glint_cube_free(&cube);
+}
+
+// The texel across an edge is the one whose centre is nearest to that of the border texel.
+static void border_holds_the_neighbours_texels(void **state)
+{
+    (void)state;
+    for (int edge = 1; edge <= 9; edge++) {
+        glint_cube cube = direction_cube(edge);
+        for (int face = 0; face < 6; face++) {
+            for (int k = 0; k < 4 * edge; k++) {
+                int along = k / 4;
+                int i = k % 4 == 0 ? -1 : (k % 4 == 1 ? edge : along);
+                int j = k % 4 == 2 ? -1 : (k % 4 == 3 ? edge : along);
+                double wanted[3];
+                color_of(openexr_cube_direction(face, (i + 0.5) / edge, (j + 0.5) / edge), wanted);
+                const float *nearest = NULL;
+                double best = INFINITY;
+                for (int t = 0; t < 6 * edge * edge; t++) {
+                    const float *texel =
+                        glint_cube_texel(&cube, t / edge / edge, t % edge, t / edge % edge);
+                    double distance =
+                        hypot(hypot((double)texel[0] - wanted[0], (double)texel[1] - wanted[1]),
+                              (double)texel[2] - wanted[2]);
+                    if (distance < best && t / edge / edge != face) {
+                        best = distance;
+                        nearest = texel;
+                    }
+                }
+                assert_memory_equal(glint_cube_texel(&cube, face, i, j), nearest, 12);
+            }
+            for (int corner = 0; corner < 4; corner++) {
+                int i = corner % 2 ? edge : -1, j = corner / 2 ? edge : -1;
+                int in_i = corner % 2 ? edge - 1 : 0, in_j = corner / 2 ? edge - 1 : 0;
+                for (int c = 0; c < 3; c++) {
+                    double mean = ((double)glint_cube_texel(&cube, face, in_i, in_j)[c] +
+                                   (double)glint_cube_texel(&cube, face, i, in_j)[c] +
+                                   (double)glint_cube_texel(&cube, face, in_i, j)[c]) /
+                                  3.0;
+                    double found = (double)glint_cube_texel(&cube, face, i, j)[c];
+                    assert_true(fabs(found - mean) <= 6e-8 * mean); // rounded to float once
+                }
+            }
+        }
+        glint_cube_free(&cube);
+    }
+}
+
+static void fill_with_noise(glint_cube *cube)
+{
+    for (int t = 0; t < 6 * cube->edge * cube->edge; t++) {
+        for (int c = 0; c < 3; c++) {
+            glint_cube_texel(cube, t / cube->edge / cube->edge, t % cube->edge,
+                             t / cube->edge % cube->edge)[c] = (float)(next_random() + 1.0);
+        }
+    }
+    glint_cube_fill_border(cube);
+}
+
+// Noise is the hardest for a seam: a step of 10⁻⁹ across an edge or a corner changes the value by
+// no more than 10⁻⁹ times the steepest slope, N/2 a texel of contrast 2, and float rounding at
+// corners.
+static void look_up_is_continuous_across_edges_and_corners(void **state)
+{
+    (void)state;
+    for (int edge = 1; edge <= 16; edge *= 2) {
+        glint_cube cube;
+        assert_int_equal(glint_cube_create(edge, &cube, NULL), GLINT_OK);
+        fill_with_noise(&cube);
+        for (int k = 0; k < 3000; k++) {
+            double along = k % 10 == 0 ? 1.0 : next_random();
+            double e = 1e-9, sign = k % 2 ? 1.0 : -1.0, other = k / 2 % 2 ? 1.0 : -1.0;
+            glint_vec3 a = {sign * (1.0 + e), other, along}, b = {sign * (1.0 - e), other, along};
+            if (k % 3 == 1) {
+                a = (glint_vec3){along, sign * (1.0 + e), other};
+                b = (glint_vec3){along, sign * (1.0 - e), other};
+            } else if (k % 3 == 2) {
+                a = (glint_vec3){other, along, sign * (1.0 + e)};
+                b = (glint_vec3){other, along, sign * (1.0 - e)};
+            }
+            double at_a[3], at_b[3];
+            glint_cube_sample(&cube, a, at_a);
+            glint_cube_sample(&cube, b, at_b);
+            for (int c = 0; c < 3; c++) {
+                assert_true(fabs(at_a[c] - at_b[c]) <= 1e-6);
+            }
+        }
+        glint_cube_free(&cube);
+    }
+}
+
+static void colour_linear_in_direction_is_kept(void **state)
+{
+    (void)state;
+    for (int edge = 4; edge <= 256; edge *= 2) {
+        glint_cube cube = direction_cube(edge);
+        double worst = worst_error(&cube);
+        assert_true(worst <= copied_border_bound(edge) + 1e-7);
+        // Off the edges it is interpolation alone.
+        double inner = 0.0;
+        for (int k = 0; k < 20000; k++) {
+            double s = next_random() * (1.0 - 1.0 / edge), t = next_random() * (1.0 - 1.0 / edge);
+            inner = fmax(inner, error_along(&cube, glint_cube_direction(k % 6, s, t)));
+        }
+        assert_true(inner <= 0.65 / ((double)edge * edge) + 1e-7);
+        glint_cube_free(&cube);
+    }
+}
+
+static void ties_and_odd_directions_have_an_answer(void **state)
+{
+    (void)state;
+    glint_cube cube = direction_cube(4);
+    const double odd[] = {0.0, -0.0, 1.0, -1.0, INFINITY, -INFINITY, NAN, 1e-320, 1e300};
+    for (int k = 0; k < 9 * 9 * 9; k++) {
+        glint_vec3 d = {odd[k % 9], odd[k / 9 % 9], odd[k / 81]};
+        double rgb[3];
+        glint_cube_sample(&cube, d, rgb); // under the sanitizers: reads nothing outside
+    }
+    glint_cube_free(&cube);
+    assert_int_equal(glint_cube_create(0, &cube, NULL), GLINT_BAD_INPUT);
+    assert_int_equal(glint_cube_create(-1, &cube, NULL), GLINT_BAD_INPUT);
+    assert_int_equal(glint_cube_create(1 << 30, &cube, NULL), GLINT_BAD_INPUT);
+    glint_cube_free(&cube);
+}
+
+// ---- Lat-long -----------------------------------------------------------------------------------
+
+// OpenEXR's lat-long map: u = 0 at the left, v = 0 at the top, both in [0, 1].
+static glint_vec3 latlong_direction(double u, double v)
+{
+    double longitude = -2.0 * GLINT_PI * (u - 0.5), latitude = GLINT_PI * (0.5 - v);
+    return (glint_vec3){sin(longitude) * cos(latitude), sin(latitude),
+                        cos(longitude) * cos(latitude)};
+}
+
+static glint_image direction_latlong(int height, bool on_edges)
+{
+    glint_image image;
+    int width = 2 * height;
+    assert_int_equal(glint_image_create(width, height, 3, &image, NULL), GLINT_OK);
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            double u = on_edges ? x / (width - 1.0) : (x + 0.5) / width;
+            double v = on_edges ? y / (height - 1.0) : (y + 0.5) / height;
+            double rgb[3];
+            color_of(latlong_direction(u, v), rgb);
+            for (int c = 0; c < 3; c++) {
+                glint_image_pixel(&image, x, y)[c] = (float)rgb[c];
+            }
+        }
+    }
+    return image;
+}
+
+// Second derivatives of d by longitude and latitude are at most 1: spacing π/H, two axes, the
+// colour's half, (π/H)²/8 each; maps with texels on the edges have spacings of 2π/(2H − 1) at most
+// and π/(H − 1).
+static double latlong_bound(int height, bool on_edges)
+{
+    double h = GLINT_PI / (on_edges ? height - 1 : height);
+    return 0.125 * h * h + 1e-7;
+}
+
+static void latlong_look_up_wraps_and_crosses_the_poles(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        int height = 4 << (k / 2);
+        bool on_edges = k % 2;
+        glint_image image = direction_latlong(height, on_edges);
+        double worst = 0.0;
+        for (int i = 0; i < 20000; i++) {
+            glint_vec3 d = random_direction();
+            if (i % 4 == 1) { // near a pole
+                d = (glint_vec3){d.x * 0.1, d.y < 0.0 ? -1.0 : 1.0, d.z * 0.1};
+            } else if (i % 4 == 2) { // near the seam
+                d = (glint_vec3){d.x * 1e-3, d.y, -fabs(d.z)};
+            } else if (i < 8) {
+                d = (glint_vec3){i % 8 < 4 ? 0.0 : -0.0, i % 2 ? 1.0 : -1.0, 0.0};
+            }
+            double found[3], wanted[3];
+            glint_latlong_sample(&image, on_edges, d, found);
+            color_of(d, wanted);
+            for (int c = 0; c < 3; c++) {
+                worst = fmax(worst, fabs(found[c] - wanted[c]));
+            }
+        }
+        assert_true(worst <= latlong_bound(height, on_edges));
+        // Both sides of the seam, and all longitudes at a pole.
+        double left[3], right[3], pole[3], turned[3];
+        glint_latlong_sample(&image, on_edges, (glint_vec3){1e-300, 0.3, -1.0}, left);
+        glint_latlong_sample(&image, on_edges, (glint_vec3){-1e-300, 0.3, -1.0}, right);
+        glint_latlong_sample(&image, on_edges, (glint_vec3){0.0, 1.0, 0.0}, pole);
+        glint_latlong_sample(&image, on_edges, (glint_vec3){1e-17, 1.0, 1e-17}, turned);
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabs(left[c] - right[c]) < 1e-6);
+            assert_true(isfinite(pole[c]));
+            assert_true(fabs(pole[c] - turned[c]) <= latlong_bound(height, on_edges));
+        }
+        glint_image_free(&image);
+    }
+}
+
+static void latlong_becomes_a_cube_that_agrees_with_it(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        int height = k < 2 ? 8 : (k < 4 ? 64 : 300);
+        bool on_edges = k % 2;
+        glint_image image = direction_latlong(height, on_edges);
+        glint_cube cube;
+        int edge = glint_latlong_edge(height);
+        assert_true(edge >= 256 && edge >= height);
+        assert_int_equal(glint_cube_from_latlong(&image, on_edges, edge, &cube, NULL), GLINT_OK);
+        // The mean of taps over a texel differs from the middle by another interpolation's error.
+        double bound = latlong_bound(height, on_edges) + copied_border_bound(edge) +
+                       0.65 / ((double)edge * edge);
+        assert_true(worst_error(&cube) <= bound);
+        glint_cube_free(&cube);
+        glint_image_free(&image);
+    }
+}
+
+static void latlong_edge_is_kept_between_its_limits(void **state)
+{
+    (void)state;
+    assert_int_equal(glint_latlong_edge(1), 256);
+    assert_int_equal(glint_latlong_edge(512), 512);
+    assert_int_equal(glint_latlong_edge(1000), 1000);
+    assert_int_equal(glint_latlong_edge(20000), 2048);
+}
+
+// A fine pattern in a small cube: each texel must be near the mean of what it covers, not a sample.
+static void texels_that_cover_many_pixels_are_means(void **state)
+{
+    (void)state;
+    glint_image image;
+    assert_int_equal(glint_image_create(1024, 512, 3, &image, NULL), GLINT_OK);
+    for (int p = 0; p < 1024 * 512; p++) {
+        float bright = (p % 1024 + p / 1024) % 2 == 0 ? 1.0f : 0.0f;
+        for (int c = 0; c < 3; c++) {
+            image.pixels[3 * p + c] = bright;
+        }
+    }
+    glint_cube cube;
+    assert_int_equal(glint_cube_from_latlong(&image, false, 32, &cube, NULL), GLINT_OK);
+    for (int k = 0; k < 6 * 32 * 32; k++) {
+        double value = (double)glint_cube_texel(&cube, k / 1024, k % 32, k / 32 % 32)[0];
+        assert_true(fabs(value - 0.5) < 0.15);
+    }
+    glint_cube_free(&cube);
+    glint_image_free(&image);
+}
+
+static void threads_do_not_change_the_bits(void **state)
+{
+    (void)state;
+    glint_image image = direction_latlong(100, false);
+    glint_cube many, one;
+    cpu_set_t before, single;
+    assert_int_equal(glint_cube_from_latlong(&image, false, 64, &many, NULL), GLINT_OK);
+    assert_int_equal(sched_getaffinity(0, sizeof before, &before), 0);
+    CPU_ZERO(&single);
+    for (size_t cpu = 0; cpu < CPU_SETSIZE; cpu++) {
+        if (CPU_ISSET(cpu, &before)) {
+            CPU_SET(cpu, &single);
+            break;
+        }
+    }
+    assert_int_equal(sched_setaffinity(0, sizeof single, &single), 0);
+    assert_int_equal(glint_cube_from_latlong(&image, false, 64, &one, NULL), GLINT_OK);
+    sched_setaffinity(0, sizeof before, &before);
+    assert_memory_equal(many.texels, one.texels, glint_cube_size(&one) * sizeof(float));
+    glint_cube_free(&many);
+    glint_cube_free(&one);
+    glint_image_free(&image);
+}
+
+// ---- Files --------------------------------------------------------------------------------------
+
+static void write_image(const char *name, const glint_image *image, glint_envmap envmap)
+{
+    glint_write_options options = {.exr_float = true, .envmap = envmap};
+    glint_error error = {0};
+    if (glint_image_write(scratch_path(name), image, &options, &error) != GLINT_OK) {
+        fail_msg("%s", error.message);
+    }
+}
+
+static glint_environment load(const char *path, glint_layout layout, glint_warnings *warnings)
+{
+    glint_environment environment;
+    glint_error error = {0};
+    if (glint_environment_load(path, layout, &environment, warnings, &error) != GLINT_OK) {
+        fail_msg("%s", error.message);
+    }
+    return environment;
+}
+
+static void refuse(const char *path, glint_layout layout, const char *said)
+{
+    glint_environment environment;
+    glint_error error = {0};
+    assert_int_equal(glint_environment_load(path, layout, &environment, NULL, &error),
+                     GLINT_BAD_INPUT);
+    assert_null(environment.name);
+    assert_null(environment.radiance.texels);
+    if (strstr(error.message, said) == NULL) {
+        fail_msg("'%s' does not say '%s'", error.message, said);
+    }
+}
+
+static void latlong_files_face_the_right_way(void **state)
+{
+    (void)state;
+    for (int on_edges = 0; on_edges < 2; on_edges++) {
+        glint_image image = direction_latlong(64, on_edges);
+        write_image("map.exr", &image, on_edges ? GLINT_ENVMAP_LATLONG : GLINT_ENVMAP_NONE);
+        glint_image_free(&image);
+        glint_environment environment = load(scratch_path("map.exr"), GLINT_LAYOUT_UNKNOWN, NULL);
+        assert_int_equal(environment.layout, GLINT_LAYOUT_LATLONG);
+        assert_string_equal(environment.reason, on_edges ? "envmap attribute" : "shape 2:1");
+        assert_int_equal(environment.source_width, 128);
+        assert_int_equal(environment.mended_texels, 0);
+        assert_true(worst_error(&environment.radiance) <=
+                    latlong_bound(64, on_edges) + copied_border_bound(256));
+        glint_environment_free(&environment);
+    }
+}
+
+// OpenEXR's 1 × 6 strip, texels on the edges with the attribute, at (i + ½)/N without.
+static void openexr_cube_files_face_the_right_way(void **state)
+{
+    (void)state;
+    enum { EDGE = 32 };
+    for (int on_edges = 0; on_edges < 2; on_edges++) {
+        glint_image image;
+        assert_int_equal(glint_image_create(EDGE, 6 * EDGE, 3, &image, NULL), GLINT_OK);
+        for (int p = 0; p < 6 * EDGE * EDGE; p++) {
+            int x = p % EDGE, y = p / EDGE % EDGE;
+            double u = on_edges ? x / (EDGE - 1.0) : (x + 0.5) / EDGE;
+            double v = on_edges ? y / (EDGE - 1.0) : (y + 0.5) / EDGE;
+            double rgb[3];
+            color_of(openexr_cube_direction(p / EDGE / EDGE, u, v), rgb);
+            for (int c = 0; c < 3; c++) {
+                image.pixels[3 * p + c] = (float)rgb[c];
+            }
+        }
+        write_image("cube.exr", &image, on_edges ? GLINT_ENVMAP_CUBE : GLINT_ENVMAP_NONE);
+        glint_image_free(&image);
+        const char *path = scratch_path("cube.exr");
+        if (!on_edges) {
+            refuse(path, GLINT_LAYOUT_UNKNOWN, "--env-layout cube");
+        }
+        glint_environment environment =
+            load(path, on_edges ? GLINT_LAYOUT_UNKNOWN : GLINT_LAYOUT_CUBE, NULL);
+        assert_int_equal(environment.layout, GLINT_LAYOUT_CUBE);
+        assert_int_equal(environment.radiance.edge, EDGE);
+        double once_more = 0.65 / ((EDGE - 1.0) * (EDGE - 1.0));
+        assert_true(worst_error(&environment.radiance) <= copied_border_bound(EDGE) + once_more);
+        glint_environment_free(&environment);
+    }
+}
+
+// OpenGL's table: the face is chosen by the major axis, s = (sc/|ma| + 1)/2, t = (tc/|ma| + 1)/2,
+// t = 0 being the picture's first row. Solved for the direction (rx, ry, rz).
+static glint_vec3 opengl_direction(int face, double s, double t)
+{
+    double sc = 2.0 * s - 1.0, tc = 2.0 * t - 1.0;
+    switch (face) {
+    case 0: // +rx: sc = −rz, tc = −ry
+        return (glint_vec3){1.0, -tc, -sc};
+    case 1: // −rx: sc = +rz, tc = −ry
+        return (glint_vec3){-1.0, -tc, sc};
+    case 2: // +ry: sc = +rx, tc = +rz
+        return (glint_vec3){sc, 1.0, tc};
+    case 3: // −ry: sc = +rx, tc = −rz
+        return (glint_vec3){sc, -1.0, -tc};
+    case 4: // +rz: sc = +rx, tc = −ry
+        return (glint_vec3){sc, -tc, 1.0};
+    default: // −rz: sc = −rx, tc = −ry
+        return (glint_vec3){-sc, -tc, -1.0};
+    }
+}
+
+static void write_face(const char *name, int face, int width, int height)
+{
+    glint_image image;
+    assert_int_equal(glint_image_create(width, height, 3, &image, NULL), GLINT_OK);
+    for (int p = 0; p < width * height; p++) {
+        glint_vec3 r = opengl_direction(face, (p % width + 0.5) / width,
+                                        ((p - p % width) / width + 0.5) / height);
+        double rgb[3];
+        // World (x, y, z) looks up (x, y, −z).
+        color_of((glint_vec3){r.x, r.y, -r.z}, rgb);
+        for (int c = 0; c < 3; c++) {
+            image.pixels[3 * p + c] = (float)rgb[c];
+        }
+    }
+    write_image(name, &image, GLINT_ENVMAP_NONE);
+    glint_image_free(&image);
+}
+
+// Six faces "before + name + .exr".
+static void write_faces(const char *before, const char *const names[6], int edge)
+{
+    for (int face = 0; face < 6; face++) {
+        char name[128];
+        snprintf(name, sizeof name, "%s%s.exr", before, names[face]);
+        write_face(name, face, edge, edge);
+    }
+}
+
+static const char *const posx[6] = {"posx", "negx", "posy", "negy", "posz", "negz"};
+static const char *const right[6] = {"right", "left", "top", "bottom", "front", "back"};
+
+static void assert_faces_load(const char *path)
+{
+    glint_environment environment = load(path, GLINT_LAYOUT_UNKNOWN, NULL);
+    assert_int_equal(environment.layout, GLINT_LAYOUT_FACES);
+    assert_int_equal(environment.radiance.edge, 16);
+    assert_true(worst_error(&environment.radiance) <= copied_border_bound(16));
+    // The first face ahead of the default camera, which looks along −Z, is posz, unmirrored: its
+    // right half is towards +X.
+    double ahead[3], to_the_right[3];
+    glint_cube_sample(&environment.radiance, (glint_vec3){0.0, 0.0, -1.0}, ahead);
+    glint_cube_sample(&environment.radiance, (glint_vec3){0.5, 0.0, -1.0}, to_the_right);
+    assert_true(ahead[2] < 0.01 && to_the_right[0] > 0.7);
+    glint_environment_free(&environment);
+}
+
+static void six_faces_face_the_right_way_under_all_names(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *folder, *before, *names[6];
+    } sets[] = {
+        {"a", "", {"posx", "negx", "posy", "negy", "posz", "negz"}},
+        {"b", "xmas_", {"posx", "negx", "posy", "negy", "posz", "negz"}},
+        {"c", "", {"px", "nx", "py", "ny", "pz", "nz"}},
+        {"d", "sky-", {"PX", "NX", "PY", "NY", "PZ", "NZ"}},
+        {"e", "", {"right", "left", "top", "bottom", "front", "back"}},
+        {"f", "Sky.", {"Right", "Left", "Top", "Bottom", "Front", "Back"}},
+        {"g", "sky ", {"right", "left", "up", "down", "front", "back"}},
+        {"h", "", {"+x", "-x", "+y", "-y", "+z", "-z"}},
+        {"i", "env", {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}},
+        {"j", "a_", {"posX", "negX", "posY", "negY", "posZ", "negZ"}},
+    };
+    for (size_t k = 0; k < sizeof sets / sizeof sets[0]; k++) {
+        char before[64], pattern[80];
+        assert_int_equal(mkdir(scratch_path(sets[k].folder), 0777), 0);
+        snprintf(before, sizeof before, "%s/%s", sets[k].folder, sets[k].before);
+        write_faces(before, sets[k].names, 16);
+        assert_faces_load(scratch_path(sets[k].folder));
+        snprintf(pattern, sizeof pattern, "%s%%s.exr", before);
+        assert_faces_load(scratch_path(pattern));
+    }
+    refuse(scratch_path("a"), GLINT_LAYOUT_LATLONG, "six faces");
+}
+
+static void faces_that_are_missing_or_doubtful_are_named(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir(scratch_path("none"), 0777), 0);
+    refuse(scratch_path("none"), GLINT_LAYOUT_UNKNOWN, "no faces there");
+    refuse(scratch_path("none/%s.exr"), GLINT_LAYOUT_UNKNOWN, "no faces there");
+    refuse(scratch_path("none/%s_%s.exr"), GLINT_LAYOUT_UNKNOWN, "once");
+
+    assert_int_equal(mkdir(scratch_path("five"), 0777), 0);
+    write_faces("five/", posx, 8);
+    unlink(scratch_path("five/negy.exr"));
+    refuse(scratch_path("five"), GLINT_LAYOUT_UNKNOWN, "missing is negy");
+    refuse(scratch_path("five/%s.exr"), GLINT_LAYOUT_UNKNOWN, "missing is negy");
+
+    assert_int_equal(mkdir(scratch_path("two"), 0777), 0);
+    write_faces("two/day_", posx, 8);
+    write_faces("two/night_", right, 8);
+    refuse(scratch_path("two"), GLINT_LAYOUT_UNKNOWN, "more than one set");
+    glint_environment environment =
+        load(scratch_path("two/day_%s.exr"), GLINT_LAYOUT_UNKNOWN, NULL);
+    glint_environment_free(&environment);
+
+    assert_int_equal(mkdir(scratch_path("odd"), 0777), 0);
+    write_faces("odd/", posx, 8);
+    write_face("odd/posy.exr", 2, 8, 9);
+    refuse(scratch_path("odd"), GLINT_LAYOUT_UNKNOWN, "posy.exr: 8 × 9");
+    write_face("odd/posy.exr", 2, 16, 16);
+    refuse(scratch_path("odd"), GLINT_LAYOUT_UNKNOWN, "posy.exr: 16 pixels");
+    scratch_write("odd/posy.exr", "no picture at all", -1);
+    refuse(scratch_path("odd"), GLINT_LAYOUT_UNKNOWN, "posy.exr");
+}
+
+static void shapes_that_say_too_little_are_refused_with_choices(void **state)
+{
+    (void)state;
+    static const struct {
+        int width, height;
+        glint_layout layout;
+        const char *said;
+    } shapes[] = {
+        {12, 9, GLINT_LAYOUT_UNKNOWN, "horizontal cross"},
+        {9, 12, GLINT_LAYOUT_UNKNOWN, "vertical cross"},
+        {24, 4, GLINT_LAYOUT_UNKNOWN, "strip of faces"},
+        {4, 24, GLINT_LAYOUT_UNKNOWN, "--env-layout cube"},
+        {8, 8, GLINT_LAYOUT_UNKNOWN, "mirror ball or angular"},
+        {17, 8, GLINT_LAYOUT_UNKNOWN, "shape of no layout"},
+        {16, 8, GLINT_LAYOUT_CUBE, "six squares"},
+        {16, 8, GLINT_LAYOUT_FACES, "takes six"},
+    };
+    for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++) {
+        glint_image image;
+        assert_int_equal(glint_image_create(shapes[k].width, shapes[k].height, 3, &image, NULL),
+                         GLINT_OK);
+        write_image("map.exr", &image, GLINT_ENVMAP_NONE);
+        glint_image_free(&image);
+        refuse(scratch_path("map.exr"), shapes[k].layout, shapes[k].said);
+    }
+    refuse(scratch_path("missing.hdr"), GLINT_LAYOUT_UNKNOWN, "No such file");
+}
+
+static void an_odd_latlong_is_taken_when_asked_and_warned_of(void **state)
+{
+    (void)state;
+    glint_image image;
+    assert_int_equal(glint_image_create(17, 8, 3, &image, NULL), GLINT_OK);
+    write_image("map.exr", &image, GLINT_ENVMAP_NONE);
+    glint_image_free(&image);
+    glint_warnings warnings = {0};
+    glint_environment environment = load(scratch_path("map.exr"), GLINT_LAYOUT_LATLONG, &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.texts[0], "17 × 8"));
+    glint_warnings_free(&warnings);
+    glint_environment_free(&environment);
+}
+
+static void layout_names_are_known_both_ways(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"cube", "faces", "latlong", "studio"};
+    for (int k = 0; k < 4; k++) {
+        glint_layout layout = glint_layout_from_name(names[k]);
+        assert_int_not_equal(layout, GLINT_LAYOUT_UNKNOWN);
+        assert_string_equal(glint_layout_name(layout), names[k]);
+    }
+    assert_int_equal(glint_layout_from_name("hcross"), GLINT_LAYOUT_UNKNOWN);
+    assert_null(glint_layout_name(GLINT_LAYOUT_UNKNOWN));
+}
+
+// Grey in the middle of a map of grey pixels, so that all that is read there is known.
+static void values_that_are_no_radiance_are_mended_and_counted(void **state)
+{
+    (void)state;
+    glint_image image;
+    assert_int_equal(glint_image_create(512, 256, 3, &image, NULL), GLINT_OK);
+    for (int i = 0; i < 512 * 256 * 3; i++) {
+        image.pixels[i] = 0.5f;
+    }
+    image.pixels[3 * (100 * 512 + 100)] = NAN;
+    image.pixels[3 * (100 * 512 + 101) + 1] = -3.0f;
+    image.pixels[3 * (100 * 512 + 102) + 2] = -INFINITY;
+    image.pixels[3 * (200 * 512 + 300)] = INFINITY;
+    image.pixels[3 * (200 * 512 + 300) + 1] = NAN; // the same texel counts once
+    image.pixels[3 * (50 * 512 + 7)] = 1e30f;      // large and finite: stays
+    write_image("map.exr", &image, GLINT_ENVMAP_NONE);
+    glint_warnings warnings = {0};
+    glint_environment environment = load(scratch_path("map.exr"), GLINT_LAYOUT_UNKNOWN, &warnings);
+    assert_int_equal(environment.mended_texels, 4);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.texts[0], "4 texels"));
+    double largest = 0.0;
+    for (size_t i = 0; i < glint_cube_size(&environment.radiance); i++) {
+        float value = environment.radiance.texels[i];
+        assert_true(isfinite(value) && value >= 0.0f);
+        largest = fmax(largest, (double)value);
+    }
+    assert_true(largest > 1e29 && largest <= 1e30 * 1.000001);
+    // Away from the footprints nothing changed.
+    double rgb[3];
+    glint_cube_sample(&environment.radiance, (glint_vec3){0.0, 0.1, 1.0}, rgb);
+    assert_true(rgb[0] == 0.5 && rgb[1] == 0.5 && rgb[2] == 0.5);
+    glint_warnings_free(&warnings);
+    glint_environment_free(&environment);
+    glint_image_free(&image);
+}
+
+static void grey_is_repeated_and_alpha_is_not_used(void **state)
+{
+    (void)state;
+    for (int channels = 1; channels <= 4; channels++) {
+        glint_image image;
+        assert_int_equal(glint_image_create(8, 4, channels, &image, NULL), GLINT_OK);
+        for (int p = 0; p < 32; p++) {
+            for (int c = 0; c < channels; c++) {
+                image.pixels[p * channels + c] =
+                    channels >= 3 && c < 3 ? 0.25f * (float)(c + 1) : 0.25f;
+            }
+            if (channels % 2 == 0) {
+                image.pixels[p * channels + channels - 1] = 0.75f;
+            }
+        }
+        write_image("map.exr", &image, GLINT_ENVMAP_NONE);
+        glint_image_free(&image);
+        glint_environment environment = load(scratch_path("map.exr"), GLINT_LAYOUT_UNKNOWN, NULL);
+        double rgb[3];
+        glint_cube_sample(&environment.radiance, random_direction(), rgb);
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabs(rgb[c] - (channels >= 3 ? 0.25 * (c + 1) : 0.25)) < 1e-6);
+        }
+        glint_environment_free(&environment);
+    }
+}
+
+// ---- The studio ---------------------------------------------------------------------------------
+
+static void studio_is_bright_and_dark_and_smooth(void **state)
+{
+    (void)state;
+    glint_environment studio;
+    assert_int_equal(glint_environment_studio(&studio, NULL), GLINT_OK);
+    assert_string_equal(studio.name, "studio");
+    assert_int_equal(studio.layout, GLINT_LAYOUT_STUDIO);
+    double darkest = INFINITY, brightest = 0.0, steepest = 0.0;
+    int edge = studio.radiance.edge;
+    for (int k = 0; k < 6 * edge * edge; k++) {
+        const float *texel =
+            glint_cube_texel(&studio.radiance, k / edge / edge, k % edge, k / edge % edge);
+        assert_true(texel[0] > 0.0f && texel[1] > 0.0f && texel[2] > 0.0f);
+        darkest = fmin(darkest, (double)texel[1]);
+        brightest = fmax(brightest, (double)texel[1]);
+        steepest = fmax(steepest, fabs((double)texel[5] - (double)texel[1]));
+    }
+    assert_true(darkest < 0.06 && brightest > 8.0 && brightest <= 20.0);
+    // Soft edges: no step from texel to texel takes a tenth of the brightest light.
+    assert_true(steepest < 2.0);
+    glint_environment_free(&studio);
+}
+
+// ---- Files made elsewhere -----------------------------------------------------------------------
+
+static bool is_there(const char *path)
+{
+    if (access(path, R_OK) != 0) {
+        print_message("skipped: %s is not there\n", path);
+        return false;
+    }
+    return true;
+}
+
+typedef struct difference {
+    double relative; // RMS difference relative to the mean
+    double mirrored; // the same with one of them mirrored left to right, as a control
+    double greatest;
+} difference;
+
+// Two environments over random directions. Values above 1 count as 1, as the place of a sun within
+// its texel would decide otherwise.
+static difference compare(const char *one, const char *other)
+{
+    glint_environment a = load(one, GLINT_LAYOUT_UNKNOWN, NULL);
+    glint_environment b = load(other, GLINT_LAYOUT_UNKNOWN, NULL);
+    difference found = {0};
+    double sum = 0.0;
+    for (int k = 0; k < 200000; k++) {
+        glint_vec3 d = random_direction();
+        double at_a[3], at_b[3], mirrored[3];
+        glint_cube_sample(&a.radiance, d, at_a);
+        glint_cube_sample(&b.radiance, d, at_b);
+        glint_cube_sample(&b.radiance, (glint_vec3){-d.x, d.y, d.z}, mirrored);
+        for (int c = 0; c < 3; c++) {
+            double value = fmin(at_a[c], 1.0), off = value - fmin(at_b[c], 1.0);
+            double control = value - fmin(mirrored[c], 1.0);
+            sum += value;
+            found.relative += off * off;
+            found.mirrored += control * control;
+            found.greatest = fmax(found.greatest, fabs(off));
+        }
+    }
+    found.relative = sqrt(found.relative / 600000) / (sum / 600000);
+    found.mirrored = sqrt(found.mirrored / 600000) / (sum / 600000);
+    glint_environment_free(&a);
+    glint_environment_free(&b);
+    print_message("relative RMSE %.4f (mirrored %.4f), greatest difference %.3f\n", found.relative,
+                  found.mirrored, found.greatest);
+    return found;
+}
+
+// The same labels as a cube and as a lat-long map. Thin lines differ by how each was drawn; a map
+// that faces the wrong way differs several times as much.
+static void openexrs_labelled_pair_is_the_same(void **state)
+{
+    (void)state;
+    const char *cube = ASSETS "openexr-images/OrientationCube.exr";
+    const char *latlong = ASSETS "openexr-images/OrientationLatLong.exr";
+    if (!is_there(cube) || !is_there(latlong)) {
+        skip();
+    }
+    difference found = compare(cube, latlong);
+    assert_true(found.relative < 0.05 && found.relative < 0.4 * found.mirrored);
+}
+
+static void openexrs_photographed_pair_is_alike(void **state)
+{
+    (void)state;
+    const char *cube = ASSETS "openexr-images/KernerEnvCube.exr";
+    const char *latlong = ASSETS "openexr-images/KernerEnvLatLong.exr";
+    if (!is_there(cube) || !is_there(latlong)) {
+        skip();
+    }
+    difference found = compare(cube, latlong);
+    assert_true(found.relative < 0.1 && found.relative < 0.2 * found.mirrored);
+}
+
+static void openexrs_nan_and_infinity_are_counted(void **state)
+{
+    (void)state;
+    const char *path = ASSETS "openexr-images/BrightRingsNanInf.exr";
+    if (!is_there(path)) {
+        skip();
+    }
+    refuse(path, GLINT_LAYOUT_UNKNOWN, "mirror ball");
+    glint_warnings warnings = {0};
+    glint_environment environment = load(path, GLINT_LAYOUT_LATLONG, &warnings);
+    print_message("mended texels: %zu\n", environment.mended_texels);
+    assert_true(environment.mended_texels > 0);
+    assert_int_equal(warnings.count, 2); // its shape is odd as well
+    glint_warnings_free(&warnings);
+    glint_environment_free(&environment);
+}
+
+// The faces of a picture fit together: along the cube's edges the step from face to face is no
+// greater than the steps within faces. A face turned or exchanged breaks that.
+static void photographed_faces_fit_together(void **state)
+{
+    (void)state;
+    const char *path = ASSETS "playcanvas/xmas_faces";
+    if (!is_there(path)) {
+        skip();
+    }
+    glint_environment environment = load(path, GLINT_LAYOUT_UNKNOWN, NULL);
+    const glint_cube *cube = &environment.radiance;
+    int edge = cube->edge;
+    double across = 0.0, within = 0.0;
+    for (int k = 0; k < 6 * edge; k++) {
+        int face = k / edge, along = k % edge;
+        const int places[4][6] = {{0, along, -1, along, 1, along},
+                                  {edge - 1, along, edge, along, edge - 2, along},
+                                  {along, 0, along, -1, along, 1},
+                                  {along, edge - 1, along, edge, along, edge - 2}};
+        for (int side = 0; side < 4; side++) {
+            const int *p = places[side];
+            double last = (double)glint_cube_texel(cube, face, p[0], p[1])[1];
+            across += fabs(last - (double)glint_cube_texel(cube, face, p[2], p[3])[1]);
+            within += fabs(last - (double)glint_cube_texel(cube, face, p[4], p[5])[1]);
+        }
+    }
+    print_message("steps across edges %.4f, within faces %.4f\n", across / (24 * edge),
+                  within / (24 * edge));
+    assert_true(across < 1.5 * within);
+    glint_environment_free(&environment);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cube_faces_are_openexrs),
+        cmocka_unit_test(look_up_at_texel_centres_is_exact),
+        cmocka_unit_test(border_holds_the_neighbours_texels),
+        cmocka_unit_test(look_up_is_continuous_across_edges_and_corners),
+        cmocka_unit_test(colour_linear_in_direction_is_kept),
+        cmocka_unit_test(ties_and_odd_directions_have_an_answer),
+        cmocka_unit_test(latlong_look_up_wraps_and_crosses_the_poles),
+        cmocka_unit_test(latlong_becomes_a_cube_that_agrees_with_it),
+        cmocka_unit_test(latlong_edge_is_kept_between_its_limits),
+        cmocka_unit_test(texels_that_cover_many_pixels_are_means),
+        cmocka_unit_test(threads_do_not_change_the_bits),
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
+        IN_FOLDER(latlong_files_face_the_right_way),
+        IN_FOLDER(openexr_cube_files_face_the_right_way),
+        IN_FOLDER(six_faces_face_the_right_way_under_all_names),
+        IN_FOLDER(faces_that_are_missing_or_doubtful_are_named),
+        IN_FOLDER(shapes_that_say_too_little_are_refused_with_choices),
+        IN_FOLDER(an_odd_latlong_is_taken_when_asked_and_warned_of),
+        cmocka_unit_test(layout_names_are_known_both_ways),
+        IN_FOLDER(values_that_are_no_radiance_are_mended_and_counted),
+        IN_FOLDER(grey_is_repeated_and_alpha_is_not_used),
+        cmocka_unit_test(studio_is_bright_and_dark_and_smooth),
+        cmocka_unit_test(openexrs_labelled_pair_is_the_same),
+        cmocka_unit_test(openexrs_photographed_pair_is_alike),
+        cmocka_unit_test(openexrs_nan_and_infinity_are_counted),
+        cmocka_unit_test(photographed_faces_fit_together),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,291 @@
+// Properties of a rendered frame that hold whatever the scene: the same bits at every packet width
+// and with every feature compiled, exact environments, alpha, samples, counters, interruption.
+#include "support/bridge.h"
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static glint_settings small_frame(int depth)
+{
+    glint_settings settings = glint_settings_default;
+    // Not multiples of the packet, so that packets hang over both edges.
+    settings.width = 61;
+    settings.height = 43;
+    settings.depth = depth;
+    return settings;
+}
+
+static void render_named(const char *name, const glint_settings *settings, test_frame *frame)
+{
+    glint_scene scene = {0};
+    test_scene_load(name, &scene);
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    test_render(&scene, &environment, NULL, settings, frame);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
+static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"materials", "nested_glass", "absorption_box"};
+    static const int widths[] = {8, 16};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        for (int precision = 0; precision < (i == 0 ? 2 : 1); precision++) {
+            glint_settings settings = small_frame(0);
+            settings.precision = precision ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
+            settings.kernel_width = 1;
+            test_frame one, more;
+            render_named(names[i], &settings, &one);
+            for (size_t w = 0; w < 2; w++) {
+                settings.kernel_width = widths[w];
+                render_named(names[i], &settings, &more);
+                assert_int_equal(test_count_different(&one.image, &more.image), 0);
+                assert_memory_equal(&one.report.rays, &more.report.rays, sizeof one.report.rays);
+                test_frame_free(&more);
+            }
+            test_frame_free(&one);
+        }
+    }
+}
+
+static void features_that_a_scene_does_not_need_change_nothing(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"mirror_sphere", "glass_sphere", "thin_wall",
+                                        "lecture_example_2", "materials"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        glint_settings settings = small_frame(4);
+        test_frame minimal, everything;
+        render_named(names[i], &settings, &minimal);
+        settings.all_features = true;
+        render_named(names[i], &settings, &everything);
+        assert_int_equal(test_count_different(&minimal.image, &everything.image), 0);
+        assert_true(glint_plan_feature_count(&minimal.plan) <
+                    glint_plan_feature_count(&everything.plan));
+        test_frame_free(&minimal);
+        test_frame_free(&everything);
+    }
+}
+
+// The environment that the oracle sees, turned; and the device's.
+static void the_environment_turns_counter_clockwise_seen_from_above(void **state)
+{
+    (void)state;
+    glint_scene scene = {0}; // nothing but the environment
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    bridge *b = bridge_create(&scene, &environment);
+    glint_settings settings = small_frame(1);
+    settings.env_rotate = 90;
+    test_frame frame;
+    test_render(&scene, &environment, NULL, &settings, &frame);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    oracle_view view = bridge_view(&camera, &settings);
+    oracle_scene turned = *bridge_scene(b);
+    turned.environment_rotation = 90;
+    for (int i = 0; i < settings.width * settings.height; i++) {
+        const int pixel[2] = {i % settings.width, i / settings.width};
+        double rgba[4];
+        oracle_pixel(&turned, &view, pixel, rgba, NULL);
+        for (int k = 0; k < 4; k++) {
+            assert_true(fabs(frame.exact[4 * i + k] - rgba[k]) < 2e-6);
+        }
+    }
+    // The default camera looks along −Z; turned by 90°, what was at +X is now there, at the centre.
+    const float *centre = glint_image_pixel(&frame.image, settings.width / 2, settings.height / 2);
+    assert_true(fabsf(centre[0] - 1) < 0.01f && fabsf(centre[2] - 0.5f) < 0.05f);
+    test_frame_free(&frame);
+    bridge_free(b);
+    glint_environment_free(&environment);
+}
+
+static void a_sample_grid_is_the_mean_of_its_samples(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(2);
+    settings.samples_per_axis = 3;
+    glint_scene scene = {0};
+    test_scene_load("mirror_sphere", &scene);
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    test_frame frame;
+    test_render(&scene, &environment, NULL, &settings, &frame);
+    bridge *b = bridge_create(&scene, &environment);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    oracle_view view = bridge_view(&camera, &settings);
+    size_t different = 0;
+    for (int i = 0; i < settings.width * settings.height; i++) {
+        const int pixel[2] = {i % settings.width, i / settings.width};
+        double rgba[4];
+        oracle_pixel(bridge_scene(b), &view, pixel, rgba, NULL);
+        different += fabs(frame.exact[4 * i] - rgba[0]) > 1e-3;
+    }
+    assert_true(different <= 3);
+    assert_int_equal(frame.report.rays.primary, 61 * 43 * 9);
+    bridge_free(b);
+    test_frame_free(&frame);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
+static void a_transparent_background_is_left_out_and_surfaces_stay_whole(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(0);
+    test_frame opaque, transparent;
+    render_named("glass_sphere", &settings, &opaque);
+    settings.transparent = true;
+    render_named("glass_sphere", &settings, &transparent);
+    size_t covered = 0, left_out = 0;
+    for (size_t i = 0; i < 61 * 43; i++) {
+        const float *a = opaque.image.pixels + 4 * i, *b = transparent.image.pixels + 4 * i;
+        assert_true(a[3] == 1);
+        if (b[3] == 1) { // glass too is whole: its colour holds what is seen through it
+            assert_memory_equal(a, b, 4 * sizeof *a);
+            covered++;
+        } else {
+            assert_true(b[0] == 0 && b[1] == 0 && b[2] == 0 && b[3] == 0);
+            left_out++;
+        }
+    }
+    assert_true(covered > 300 && left_out > 300);
+    test_frame_free(&opaque);
+    test_frame_free(&transparent);
+}
+
+static void light_that_is_cut_off_is_reported_and_never_black(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(1);
+    test_frame frame;
+    render_named("facing_mirrors", &settings, &frame);
+    assert_true(frame.report.truncation.by_depth > 0.3);
+    for (size_t i = 0; i < 61 * 43; i++) {
+        const float *p = frame.image.pixels + 4 * i;
+        assert_true(p[0] + p[1] + p[2] > 0.1f);
+    }
+    test_frame_free(&frame);
+    settings = small_frame(0);
+    settings.min_weight = 0.25;
+    render_named("glass_sphere", &settings, &frame);
+    assert_true(frame.report.truncation.by_min_weight > 0.01);
+    assert_true(frame.report.truncation.by_stack == 0);
+    test_frame_free(&frame);
+}
+
+static void rays_are_counted_by_class(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(1);
+    test_frame frame;
+    render_named("mirror_sphere", &settings, &frame);
+    const glint_ray_counts *rays = &frame.report.rays;
+    assert_int_equal(rays->primary, 61 * 43);
+    assert_true(rays->reflected > 0 && rays->reflected < rays->primary);
+    assert_int_equal(rays->refracted_in + rays->refracted_out + rays->transmitted, 0);
+    assert_int_equal(frame.report.deepest, 1);
+    test_frame_free(&frame);
+    render_named("glass_sphere", &settings, &frame);
+    assert_int_equal(rays->refracted_in, rays->reflected);
+    assert_int_equal(rays->refracted_out, 0);
+    test_frame_free(&frame);
+}
+
+static bool stop_at_once(void *context, uint64_t done, uint64_t total)
+{
+    int *calls = context;
+    (*calls)++;
+    assert_true(done > 0 && done <= total);
+    return false;
+}
+
+static void a_frame_that_is_stopped_leaves_no_image(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    test_scene_load("mirror_sphere", &scene);
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    glint_settings settings = small_frame(1);
+    const glint_renderer_inputs inputs = {.device = test_device(),
+                                          .scene = &scene,
+                                          .environment = &environment,
+                                          .camera = &camera,
+                                          .settings = &settings};
+    glint_renderer *renderer;
+    assert_int_equal(glint_renderer_create(&inputs, &renderer, NULL), GLINT_OK);
+    int calls = 0;
+    const glint_progress progress = {stop_at_once, &calls};
+    glint_image image;
+    glint_error error = {0};
+    assert_int_equal(glint_renderer_frame(renderer, &camera, &progress, &image, NULL, &error),
+                     GLINT_INTERRUPTED);
+    assert_int_equal(calls, 1);
+    assert_null(image.pixels);
+    glint_renderer_free(renderer);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
+static void a_kernel_that_does_not_compile_is_reported_with_its_file(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    glint_settings settings = small_frame(1);
+    glint_renderer_inputs inputs = {.device = test_device(),
+                                    .scene = &scene,
+                                    .environment = &environment,
+                                    .camera = &camera,
+                                    .settings = &settings,
+                                    .kernel_dir = GLINT_SOURCE_DIR "/tests/broken_kernels"};
+    glint_renderer *renderer;
+    glint_error error = {0};
+    assert_int_equal(glint_renderer_create(&inputs, &renderer, &error), GLINT_DEVICE_FAILED);
+    assert_non_null(error.details);
+    assert_non_null(strstr(error.details, "render.cl"));
+    glint_error_free(&error);
+    inputs.kernel_dir = GLINT_SOURCE_DIR "/tests";
+    assert_int_equal(glint_renderer_create(&inputs, &renderer, &error), GLINT_BAD_INPUT);
+    glint_environment_free(&environment);
+}
+
+static int close_device(void **state)
+{
+    (void)state;
+    test_device_close();
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(packets_of_1_8_and_16_rays_give_the_same_bits),
+        cmocka_unit_test(features_that_a_scene_does_not_need_change_nothing),
+        cmocka_unit_test(the_environment_turns_counter_clockwise_seen_from_above),
+        cmocka_unit_test(a_sample_grid_is_the_mean_of_its_samples),
+        cmocka_unit_test(a_transparent_background_is_left_out_and_surfaces_stay_whole),
+        cmocka_unit_test(light_that_is_cut_off_is_reported_and_never_black),
+        cmocka_unit_test(rays_are_counted_by_class),
+        cmocka_unit_test(a_frame_that_is_stopped_leaves_no_image),
+        cmocka_unit_test(a_kernel_that_does_not_compile_is_reported_with_its_file),
+    };
+    return cmocka_run_group_tests(tests, NULL, close_device);
+}

@@ -1,0 +1,277 @@
+// Irradiance against closed forms and against sums over finely divided texels.
+#include "environment/irradiance.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// What irradiance.c promises for the blocks on the horizon over a uniform environment of radiance
+// 1, its blocks being at most 2/128 wide, and float's rounding of the result.
+#define BLOCK (2.0 / 128)
+#define HORIZON 4e-6
+#define ROUNDING 1.2e-7
+
+static glint_vec3 unit(double x, double y, double z)
+{
+    double length = sqrt(x * x + y * y + z * z);
+    return (glint_vec3){x / length, y / length, z / length};
+}
+
+static glint_vec3 texel_direction(int edge, int face, double i, double j)
+{
+    glint_vec3 d =
+        glint_cube_direction(face, (2.0 * i + 1.0) / edge - 1.0, (2.0 * j + 1.0) / edge - 1.0);
+    return unit(d.x, d.y, d.z);
+}
+
+typedef void (*radiance_function)(glint_vec3 d, double rgb[3]);
+
+static glint_cube make_cube(int edge, radiance_function radiance)
+{
+    glint_cube cube;
+    assert_int_equal(glint_cube_create(edge, &cube, NULL), GLINT_OK);
+    for (int k = 0; k < 6 * edge * edge; k++) {
+        int face = k / edge / edge, i = k % edge, j = k / edge % edge;
+        double rgb[3];
+        radiance(texel_direction(edge, face, i, j), rgb);
+        for (int c = 0; c < 3; c++) {
+            glint_cube_texel(&cube, face, i, j)[c] = (float)rgb[c];
+        }
+    }
+    glint_cube_fill_border(&cube);
+    return cube;
+}
+
+static glint_cube irradiance_of(const glint_cube *radiance, int edge)
+{
+    glint_cube map;
+    assert_int_equal(glint_irradiance_map(radiance, edge, &map, NULL), GLINT_OK);
+    assert_int_equal(map.edge, edge);
+    return map;
+}
+
+static void uniform(glint_vec3 d, double rgb[3])
+{
+    (void)d;
+    rgb[0] = 1.0;
+    rgb[1] = 0.25;
+    rgb[2] = 7.0;
+}
+
+// A furnace: every texel and the border, for edges that are powers of two and not, below, at and
+// above the number of blocks.
+static void uniform_radiance_gives_itself(void **state)
+{
+    (void)state;
+    const int edges[] = {1, 2, 3, 7, 64, 100, 128, 129, 200, 257, 384};
+    for (size_t k = 0; k < sizeof edges / sizeof edges[0]; k++) {
+        glint_cube radiance = make_cube(edges[k], uniform);
+        glint_cube map = irradiance_of(&radiance, 9);
+        for (size_t i = 0; i < glint_cube_size(&map); i += 4) {
+            const double wanted[3] = {1.0, 0.25, 7.0};
+            for (int c = 0; c < 3; c++) {
+                double relative = (double)map.texels[i + (size_t)c] / wanted[c] - 1.0;
+                assert_true(fabs(relative) <= HORIZON + ROUNDING);
+            }
+        }
+        glint_cube_free(&map);
+        glint_cube_free(&radiance);
+    }
+}
+
+static void linear(glint_vec3 d, double rgb[3])
+{
+    rgb[0] = 1.0 + d.x;
+    rgb[1] = 1.0 + d.y;
+    rgb[2] = 1.0 + d.z;
+}
+
+// ∫ (1 + d·a) max(0, n·d) dω = π + (2π/3) a·n: the first band of Ramamoorthi and Hanrahan 2001.
+// A texel's middle stands for its mean up to (2/N)²/24 · |Laplacian| ≤ 1.4 · 4/(24 N²).
+static void linear_radiance_gives_two_thirds(void **state)
+{
+    (void)state;
+    glint_cube radiance = make_cube(96, linear);
+    glint_cube map = irradiance_of(&radiance, 16);
+    for (int k = 0; k < 6 * 18 * 18; k++) {
+        int face = k / 18 / 18, i = k % 18 - 1, j = k / 18 % 18 - 1;
+        glint_vec3 n = texel_direction(16, face, i, j);
+        const double wanted[3] = {1.0 + 2.0 / 3.0 * n.x, 1.0 + 2.0 / 3.0 * n.y,
+                                  1.0 + 2.0 / 3.0 * n.z};
+        for (int c = 0; c < 3; c++) {
+            double error = (double)glint_cube_texel(&map, face, i, j)[c] - wanted[c];
+            assert_true(fabs(error) <= 2 * HORIZON + 0.24 / (96.0 * 96.0) + 2 * ROUNDING);
+        }
+    }
+    glint_cube_free(&map);
+    glint_cube_free(&radiance);
+}
+
+static const glint_vec3 lobe_axis = {0.48, 0.64, 0.6};
+
+static void clamped_cosine(glint_vec3 d, double rgb[3])
+{
+    double cosine = d.x * lobe_axis.x + d.y * lobe_axis.y + d.z * lobe_axis.z;
+    rgb[0] = rgb[1] = rgb[2] = cosine > 0.0 ? cosine : 0.0;
+}
+
+// ∫ max(0, d·a) max(0, d·n) dω = (2/3)(sin θ + (π − θ) cos θ), θ the angle between a and n (the
+// autocorrelation of the clamped cosine).
+static void clamped_cosine_gives_its_autocorrelation(void **state)
+{
+    (void)state;
+    glint_cube radiance = make_cube(256, clamped_cosine);
+    glint_cube map = irradiance_of(&radiance, 16);
+    for (int k = 0; k < 6 * 256; k++) {
+        glint_vec3 n = texel_direction(16, k / 256, k % 16, k / 16 % 16);
+        double cosine = n.x * lobe_axis.x + n.y * lobe_axis.y + n.z * lobe_axis.z;
+        double angle = acos(fmax(-1.0, fmin(1.0, cosine)));
+        double wanted = 2.0 / 3.0 * (sin(angle) + (GLINT_PI - angle) * cosine) / GLINT_PI;
+        double found = (double)glint_cube_texel(&map, k / 256, k % 16, k / 16 % 16)[0];
+        // The kink along the great circle costs a texel's width times its slope there, squared.
+        assert_true(fabs(found - wanted) <= HORIZON + 1.0 / (256.0 * 256.0) + ROUNDING);
+    }
+    glint_cube_free(&map);
+    glint_cube_free(&radiance);
+}
+
+// The solid angle of [s0, s1] × [t0, t1] in the plane at distance 1.
+static double solid_angle(double s0, double s1, double t0, double t1)
+{
+    const double s[2] = {s0, s1}, t[2] = {t0, t1};
+    double sum = 0.0;
+    for (int k = 0; k < 4; k++) {
+        double a = s[k % 2], b = t[k / 2];
+        sum += ((k % 2) == (k / 2) ? 1.0 : -1.0) * atan2(a * b, sqrt(1.0 + a * a + b * b));
+    }
+    return sum;
+}
+
+// One bright texel, as the sun is: a clamped cosine times its solid angle; on the horizon to within
+// an eighth of a block's width of what it brings at most.
+static void one_bright_texel_gives_a_clamped_cosine(void **state)
+{
+    (void)state;
+    enum { EDGE = 512, AT_I = 77, AT_J = 410, FACE = 4 };
+    glint_cube radiance;
+    assert_int_equal(glint_cube_create(EDGE, &radiance, NULL), GLINT_OK);
+    glint_cube_texel(&radiance, FACE, AT_I, AT_J)[0] = 1e6f;
+    glint_cube map = irradiance_of(&radiance, 32);
+    double s = 2.0 * AT_I / EDGE - 1.0, t = 2.0 * AT_J / EDGE - 1.0, h = 2.0 / EDGE;
+    double flux = 1e6 / GLINT_PI * solid_angle(s, s + h, t, t + h);
+    glint_vec3 sun = texel_direction(EDGE, FACE, AT_I, AT_J);
+    for (int k = 0; k < 6 * 1024; k++) {
+        glint_vec3 n = texel_direction(32, k / 1024, k % 32, k / 32 % 32);
+        double cosine = n.x * sun.x + n.y * sun.y + n.z * sun.z;
+        double found = (double)glint_cube_texel(&map, k / 1024, k % 32, k / 32 % 32)[0];
+        double wanted = flux * fmax(0.0, cosine);
+        // Off the horizon: the texel's solid angle lies towards the face's middle, at a relative
+        // slope of 3 s/(1 + s² + t²) < 3, which moves its mean direction by less than 3 h²/12.
+        bool on_horizon = fabs(cosine) < 2.0 * BLOCK;
+        double bound = on_horizon ? flux * BLOCK / 8 : flux * h * h / 4 + 1e-6 * wanted;
+        assert_true(fabs(found - wanted) <= bound);
+        assert_true(glint_cube_texel(&map, k / 1024, k % 32, k / 32 % 32)[1] == 0.0f);
+    }
+    glint_cube_free(&map);
+    glint_cube_free(&radiance);
+}
+
+static void noise(glint_vec3 d, double rgb[3])
+{
+    static uint32_t seed = 1;
+    (void)d;
+    for (int c = 0; c < 3; c++) {
+        seed = seed * 1664525u + 1013904223u;
+        // Mostly dim, rarely bright.
+        rgb[c] = seed >> 28 == 0 ? 10.0 : (double)(seed >> 8) / 16777216.0;
+    }
+}
+
+// The sum over all texels, each divided into k × k parts with their exact solid angles.
+static void brute_force(const glint_cube *radiance, glint_vec3 n, int k, double rgb[3])
+{
+    int edge = radiance->edge, fine = edge * k;
+    rgb[0] = rgb[1] = rgb[2] = 0.0;
+    for (int p = 0; p < 6 * fine * fine; p++) {
+        int face = p / fine / fine, i = p % fine, j = p / fine % fine;
+        glint_vec3 d = texel_direction(fine, face, i, j);
+        double cosine = n.x * d.x + n.y * d.y + n.z * d.z;
+        if (cosine <= 0.0) {
+            continue;
+        }
+        double s = 2.0 * i / fine - 1.0, t = 2.0 * j / fine - 1.0;
+        double weight = cosine * solid_angle(s, s + 2.0 / fine, t, t + 2.0 / fine) / GLINT_PI;
+        const float *texel = glint_cube_texel(radiance, face, i / k, j / k);
+        for (int c = 0; c < 3; c++) {
+            rgb[c] += weight * (double)texel[c];
+        }
+    }
+}
+
+static void noise_agrees_with_brute_force(void **state)
+{
+    (void)state;
+    const int edges[] = {5, 32, 150};
+    for (int k = 0; k < 3; k++) {
+        glint_cube radiance = make_cube(edges[k], noise);
+        glint_cube map = irradiance_of(&radiance, 3);
+        for (int p = 0; p < 54; p += 5) {
+            glint_vec3 n = texel_direction(3, p / 9, p % 3, p / 3 % 3);
+            double wanted[3];
+            int parts = 600 / edges[k];
+            brute_force(&radiance, n, parts, wanted);
+            for (int c = 0; c < 3; c++) {
+                double found = (double)glint_cube_texel(&map, p / 9, p % 3, p / 3 % 3)[c];
+                // Blocks on the horizon hold anything between 0 and 10: each errs by up to 10
+                // h³/16, at random, and 500 of them by √500 times that. The sum itself errs by
+                // (2/600)²/8 of the radiance along the horizon.
+                double random = 10.0 * BLOCK * BLOCK * BLOCK / 16 * sqrt(500.0) / GLINT_PI;
+                assert_true(fabs(found - wanted[c]) <= random + 1e-5);
+            }
+        }
+        glint_cube_free(&map);
+        glint_cube_free(&radiance);
+    }
+}
+
+// Bilinear look-up in the map meets no visible edge: both faces' borders are the true values there.
+static void look_up_is_smooth_across_the_cubes_edges(void **state)
+{
+    (void)state;
+    glint_cube radiance = make_cube(128, clamped_cosine);
+    glint_cube map = irradiance_of(&radiance, 64);
+    double worst = 0.0;
+    for (int k = 0; k < 30000; k++) {
+        double t = 2.0 * (k % 1000) / 999.0 - 1.0, e = 1e-9;
+        double one = k / 1000 % 2 ? 1.0 : -1.0, two = k / 2000 % 2 ? 1.0 : -1.0;
+        int axis = k / 4000 % 3;
+        const double a[3] = {one * (1.0 + e), two, t}, b[3] = {one * (1.0 - e), two, t};
+        double left[3], right[3];
+        glint_cube_sample(&map, (glint_vec3){a[axis], a[(axis + 1) % 3], a[(axis + 2) % 3]}, left);
+        glint_cube_sample(&map, (glint_vec3){b[axis], b[(axis + 1) % 3], b[(axis + 2) % 3]}, right);
+        worst = fmax(worst, fabs(left[0] - right[0]));
+    }
+    // Two interpolations, each within 1.3 (2/64)²/8 · 2 of a function with slope and curvature < 1.
+    assert_true(worst <= 4.0 * 1.3 * (2.0 / 64) * (2.0 / 64) / 8);
+    glint_cube_free(&map);
+    glint_cube_free(&radiance);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(uniform_radiance_gives_itself),
+        cmocka_unit_test(linear_radiance_gives_two_thirds),
+        cmocka_unit_test(clamped_cosine_gives_its_autocorrelation),
+        cmocka_unit_test(one_bright_texel_gives_a_clamped_cosine),
+        cmocka_unit_test(noise_agrees_with_brute_force),
+        cmocka_unit_test(look_up_is_smooth_across_the_cubes_edges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

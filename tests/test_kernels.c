@@ -1,0 +1,308 @@
+// Properties of single kernel functions, run on the device at every width and precision, judged by
+// the oracle's formulas and by closed forms. u is the largest relative rounding error, 2⁻²⁴ or
+// 2⁻⁵³.
+#include "device/opencl.h"
+#include "oracle/oracle.h"
+#include "render/upload.h"
+#include "support/bridge.h"
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define ELEMENTS 4096
+
+typedef struct probe {
+    int width;
+    bool is_double;
+    double u;
+    double in[ELEMENTS][4], out[ELEMENTS][4];
+} probe;
+
+static cl_kernel build(const probe *p, const char *name)
+{
+    static const char *source = "#include \"probe.cl\"\n";
+    const struct glint_device *device = test_device();
+    char options[8192];
+    snprintf(options, sizeof options,
+             "-cl-std=CL1.2 -I %s/kernels -I %s/tests/kernels -DGLINT_WIDTH=%d -DGLINT_DOUBLE=%d",
+             GLINT_SOURCE_DIR, GLINT_SOURCE_DIR, p->width, p->is_double);
+    cl_int code;
+    cl_program program = clCreateProgramWithSource(device->context, 1, &source, NULL, &code);
+    assert_int_equal(code, CL_SUCCESS);
+    code = clBuildProgram(program, 1, &device->id, options, NULL, NULL);
+    if (code != CL_SUCCESS) {
+        static char log[65536];
+        clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, sizeof log - 1, log, NULL);
+        print_error("%s\n", log);
+    }
+    assert_int_equal(code, CL_SUCCESS);
+    cl_kernel kernel = clCreateKernel(program, name, &code);
+    assert_int_equal(code, CL_SUCCESS);
+    clReleaseProgram(program);
+    return kernel;
+}
+
+static cl_mem buffer_of(const void *data, size_t bytes)
+{
+    cl_mem buffer;
+    assert_int_equal(glint_buffer_create(test_device(), "a test", bytes, data, &buffer, NULL),
+                     GLINT_OK);
+    return buffer;
+}
+
+// Runs one kernel of probe.cl over p->in; `cube` may be NULL.
+static void run(probe *p, const char *name, const glint_cube *cube)
+{
+    static float narrow[ELEMENTS][4];
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        for (size_t k = 0; k < 4; k++) {
+            narrow[i][k] = (float)p->in[i][k];
+            p->in[i][k] = p->is_double ? p->in[i][k] : (double)narrow[i][k];
+        }
+    }
+    size_t bytes = p->is_double ? sizeof p->in : sizeof narrow;
+    cl_mem in = buffer_of(p->is_double ? (void *)p->in : narrow, bytes),
+           out = buffer_of(NULL, bytes);
+    cl_mem texels = cube != NULL ? buffer_of(cube->texels, glint_cube_size(cube) * sizeof(float))
+                                 : buffer_of(NULL, 0);
+    cl_int edge = cube != NULL ? cube->edge : 0;
+    cl_kernel kernel = build(p, name);
+    clSetKernelArg(kernel, 0, sizeof in, &in);
+    clSetKernelArg(kernel, 1, sizeof out, &out);
+    clSetKernelArg(kernel, 2, sizeof texels, &texels);
+    clSetKernelArg(kernel, 3, sizeof edge, &edge);
+    const size_t global = ELEMENTS / (size_t)p->width, local = 1;
+    cl_command_queue queue = test_device()->queue;
+    assert_int_equal(clEnqueueNDRangeKernel(queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
+                     CL_SUCCESS);
+    void *result = p->is_double ? (void *)p->out : narrow;
+    assert_int_equal(clEnqueueReadBuffer(queue, out, CL_TRUE, 0, bytes, result, 0, NULL, NULL),
+                     CL_SUCCESS);
+    for (size_t i = 0; !p->is_double && i < ELEMENTS; i++) {
+        for (size_t k = 0; k < 4; k++) {
+            p->out[i][k] = (double)narrow[i][k];
+        }
+    }
+    clReleaseKernel(kernel);
+    clReleaseMemObject(in);
+    clReleaseMemObject(out);
+    clReleaseMemObject(texels);
+}
+
+// Calls `check` at every width and precision.
+static void at_every_width_and_precision(void (*check)(probe *p))
+{
+    static const int widths[] = {1, 8, 16};
+    static probe p;
+    for (size_t w = 0; w < 3; w++) {
+        for (int precision = 0; precision < 2; precision++) {
+            p.width = widths[w];
+            p.is_double = precision == 1;
+            p.u = p.is_double ? 0x1p-53 : 0x1p-24;
+            check(&p);
+        }
+    }
+}
+
+// cos θi in (0, 1] and η from 0.4 to 2.5, the ends and 1 among them.
+static void fill_angles(probe *p)
+{
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        size_t row = i / 64, column = i % 64;
+        p->in[i][0] = (double)(column + 1) / 64;
+        p->in[i][1] = row == 0 ? 1 : 0.4 * pow(2.5 / 0.4, (double)row / 63);
+    }
+}
+
+static void check_fresnel(probe *p)
+{
+    fill_angles(p);
+    run(p, "probe_fresnel", NULL);
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        double cosine = p->in[i][0], eta = p->in[i][1];
+        double squared = 1 - eta * eta * (1 - cosine * cosine);
+        assert_true(fabs(p->out[i][0] - squared) <= 8 * p->u * fmax(1, eta * eta));
+        // Near the critical angle the reflectance changes as the root of the distance to it.
+        if (squared > 1e-3) {
+            assert_true(fabs(p->out[i][1] - oracle_fresnel(cosine, eta, 1)) <= 200 * p->u);
+        }
+        if (eta >= 1) {
+            assert_true(fabs(p->out[i][2] - oracle_fresnel(cosine, 1, eta)) <= 200 * p->u);
+        }
+        if (eta == 1) {
+            assert_true(p->out[i][1] == 0); // no interface, no reflection
+        }
+    }
+}
+
+static void fresnel_agrees_with_the_oracle(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_fresnel);
+}
+
+static void check_directions(probe *p)
+{
+    fill_angles(p);
+    run(p, "probe_directions", NULL);
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        double cosine = p->in[i][0], eta = p->in[i][1];
+        double viewer[3] = {sqrt(1 - cosine * cosine), 0, cosine}, n[3] = {0, 0, 1};
+        double r[3], t[3];
+        oracle_reflect(n, viewer, r);
+        assert_true(fabs(p->out[i][2] - r[0]) <= 8 * p->u);
+        assert_true(fabs(p->out[i][3] - r[2]) <= 8 * p->u);
+        double squared = 1 - eta * eta * (1 - cosine * cosine);
+        if (squared > 1e-3 && oracle_refract(n, viewer, eta, t)) {
+            assert_true(fabs(p->out[i][0] - t[0]) <= 8 * p->u * fmax(1, eta));
+            // The error of the root is that of its argument over twice the root.
+            assert_true(fabs(p->out[i][1] - t[2]) <= 8 * p->u * fmax(1, eta * eta) / sqrt(squared));
+        }
+    }
+}
+
+static void directions_agree_with_the_oracle(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_directions);
+}
+
+static void check_exponential(probe *p)
+{
+    const double least = p->is_double ? -708 : -87;
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        p->in[i][0] = -120 * (double)i / ELEMENTS;
+    }
+    p->in[0][0] = 0;
+    p->in[1][0] = -0.0;
+    p->in[2][0] = -1e-30;
+    p->in[3][0] = -INFINITY;
+    p->in[4][0] = -1e30;
+    run(p, "probe_exponential", NULL);
+    assert_true(p->out[0][0] == 1 && p->out[1][0] == 1 && p->out[2][0] == 1);
+    assert_true(p->out[3][0] == 0 && p->out[4][0] == 0);
+    for (size_t i = 5; i < ELEMENTS; i++) {
+        double expected = p->in[i][0] > least ? exp(p->in[i][0]) : 0;
+        assert_true(fabs(p->out[i][0] - expected) <= 4 * p->u * expected);
+    }
+}
+
+static void the_exponential_is_within_four_rounding_errors(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_exponential);
+}
+
+static void check_normalized(probe *p)
+{
+    static const double hopeless[][3] = {{0, 0, 0},   {-0.0, 0, -0.0},  {NAN, 1, 0},
+                                         {0, NAN, 1}, {1, 0, INFINITY}, {-INFINITY, 0, 0}};
+    const size_t hopeless_count = sizeof hopeless / sizeof *hopeless;
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        double size = pow(10, -20 + 40 * (double)(i % 64) / 63);
+        p->in[i][0] = size * cos((double)i);
+        p->in[i][1] = size * sin((double)i) * 1e-3;
+        p->in[i][2] = size * sin((double)i * 3);
+    }
+    for (size_t i = 0; i < hopeless_count; i++) {
+        memcpy(p->in[i], hopeless[i], sizeof hopeless[i]);
+    }
+    run(p, "probe_normalized", NULL);
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        const double *v = p->in[i], *n = p->out[i];
+        assert_true(n[3] == (i < hopeless_count ? 0 : 1));
+        if (i >= hopeless_count) {
+            double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+            for (size_t k = 0; k < 3; k++) {
+                assert_true(fabs(n[k] - v[k] / length) <= 4 * p->u);
+            }
+        }
+    }
+}
+
+static void vectors_of_any_length_are_normalized_and_hopeless_ones_are_told(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_normalized);
+}
+
+static void check_cube(probe *p)
+{
+    glint_environment environment;
+    bridge_direction_environment(16, &environment);
+    const glint_cube *cube = &environment.radiance;
+    static float expected[6 * 16 * 16][3];
+    size_t count = 0;
+    for (int face = 0; face < 6; face++) {
+        for (int texel = 0; texel < 256; texel++, count++) {
+            int i = texel % 16, j = texel / 16;
+            glint_vec3 d =
+                glint_cube_direction(face, (2.0 * i + 1) / 16 - 1, (2.0 * j + 1) / 16 - 1);
+            const double values[3] = {d.x, d.y, d.z};
+            memcpy(p->in[count], values, sizeof values);
+            memcpy(expected[count], glint_cube_texel(cube, face, i, j), 3 * sizeof(float));
+        }
+    }
+    // Ties of two and of three components, and what is no direction at all: finite, in range.
+    size_t ties = count;
+    for (int code = 0; code < 27; code++, count++) {
+        const int axes[3] = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+        const double d[3] = {axes[0], axes[1], axes[2]};
+        memcpy(p->in[count], d, sizeof d);
+    }
+    size_t odd = count;
+    for (; count < ELEMENTS; count++) {
+        const double d[3] = {NAN, count % 2 ? INFINITY : NAN, -1};
+        memcpy(p->in[count], d, sizeof d);
+    }
+    run(p, "probe_cube", cube);
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            double got = p->out[i][k];
+            if (i < ties) {
+                assert_true(fabs(got - (double)expected[i][k]) <= 16 * 16 * p->u);
+            } else if (i < odd && i != ties + 13) {
+                const double *d = p->in[i];
+                double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+                assert_true(fabs(got - (0.5 + 0.5 * d[k] / length)) <= 2.0 / (16 * 16));
+            } else {
+                assert_true(got >= 0 && got <= 1);
+            }
+        }
+    }
+    glint_environment_free(&environment);
+}
+
+static void the_cube_is_exact_at_texel_centres_and_seamless_on_ties(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_cube);
+}
+
+static int close_device(void **state)
+{
+    (void)state;
+    test_device_close();
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fresnel_agrees_with_the_oracle),
+        cmocka_unit_test(directions_agree_with_the_oracle),
+        cmocka_unit_test(the_exponential_is_within_four_rounding_errors),
+        cmocka_unit_test(vectors_of_any_length_are_normalized_and_hopeless_ones_are_told),
+        cmocka_unit_test(the_cube_is_exact_at_texel_centres_and_seamless_on_ties),
+    };
+    return cmocka_run_group_tests(tests, NULL, close_device);
+}
