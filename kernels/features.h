@@ -21,7 +21,7 @@
     FEATURE(BLEND, "the lecture's blend of paint and mirror")                                      \
     FEATURE(UNLIT, "unlit surfaces end a path with their colour")                                  \
     FEATURE(EMISSION, "surfaces emit")                                                             \
-    FEATURE(INTERREFLECTION, "paths go on to further surfaces (depth above 1)")                    \
+    FEATURE(INTERREFLECTION, "paths go on to the surfaces that they meet next")                    \
     FEATURE(SUPERSAMPLING, "several samples a pixel")                                              \
     FEATURE(TRANSPARENT, "the background is left out and alpha kept")                              \
     FEATURE(ENV_ROTATION, "the environment is turned about +Y")

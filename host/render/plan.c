@@ -107,32 +107,28 @@ static void decide(glint_plan *plan, glint_feature feature, bool compiled, const
     va_end(arguments);
 }
 
-// "2 of 5 materials are metal" / "no material is metal"
+// "2 of 5 materials with transmission"
 static void decide_by_count(glint_plan *plan, glint_feature feature, size_t count, size_t of,
                             const char *what)
 {
-    if (count == 0) {
-        decide(plan, feature, false, "no material %s", what);
-    } else {
-        decide(plan, feature, true, "%zu of %zu material%s: %s", count, of, of == 1 ? "" : "s",
-               what);
-    }
+    decide(plan, feature, count > 0, "%zu of %zu material%s with %s", count, of, of == 1 ? "" : "s",
+           what);
 }
 
 static void decide_materials(const material_census *c, glint_plan *plan)
 {
     decide(plan, GLINT_FEATURE_MANY_MATERIALS, c->used > 1, "%zu material%s in use", c->used,
            c->used == 1 ? "" : "s");
-    decide_by_count(plan, GLINT_FEATURE_MIRROR, c->metal, c->used, "has a metallic share");
-    decide_by_count(plan, GLINT_FEATURE_GLASS, c->glass, c->used, "transmits");
-    decide_by_count(plan, GLINT_FEATURE_SOLID, c->solid, c->used, "bounds a solid (has a volume)");
-    decide_by_count(plan, GLINT_FEATURE_THIN_WALL, c->thin, c->used, "transmits without a volume");
-    decide_by_count(plan, GLINT_FEATURE_ABSORPTION, c->absorbing, c->used, "absorbs inside");
-    decide_by_count(plan, GLINT_FEATURE_PAINT, c->paint, c->used, "has a share of paint");
-    decide_by_count(plan, GLINT_FEATURE_GLOSS, c->gloss, c->used, "is smooth paint");
-    decide_by_count(plan, GLINT_FEATURE_BLEND, c->blend, c->used, "has the lecture's blend");
-    decide_by_count(plan, GLINT_FEATURE_UNLIT, c->unlit, c->used, "is unlit");
-    decide_by_count(plan, GLINT_FEATURE_EMISSION, c->emissive, c->used, "emits");
+    decide_by_count(plan, GLINT_FEATURE_MIRROR, c->metal, c->used, "a metallic share");
+    decide_by_count(plan, GLINT_FEATURE_GLASS, c->glass, c->used, "transmission");
+    decide_by_count(plan, GLINT_FEATURE_SOLID, c->solid, c->used, "a volume");
+    decide_by_count(plan, GLINT_FEATURE_THIN_WALL, c->thin, c->used, "transmission and no volume");
+    decide_by_count(plan, GLINT_FEATURE_ABSORPTION, c->absorbing, c->used, "absorption inside");
+    decide_by_count(plan, GLINT_FEATURE_PAINT, c->paint, c->used, "a share of paint");
+    decide_by_count(plan, GLINT_FEATURE_GLOSS, c->gloss, c->used, "paint of roughness 0");
+    decide_by_count(plan, GLINT_FEATURE_BLEND, c->blend, c->used, "the lecture's blend");
+    decide_by_count(plan, GLINT_FEATURE_UNLIT, c->unlit, c->used, "KHR_materials_unlit");
+    decide_by_count(plan, GLINT_FEATURE_EMISSION, c->emissive, c->used, "emission");
 }
 
 static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
@@ -143,7 +139,7 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     decide(plan, GLINT_FEATURE_SMOOTH_NORMALS, scene->normals != NULL, "%s",
            scene->normals != NULL ? "some primitive has normals" : "no primitive has normals");
     if (!plan->features[GLINT_FEATURE_SOLID].compiled) {
-        decide(plan, GLINT_FEATURE_NESTED_MEDIA, false, "no material bounds a solid");
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, false, "no material with a volume");
     } else if (glint_topology_solids_may_nest(scene, in->topology)) {
         decide(plan, GLINT_FEATURE_NESTED_MEDIA, true,
                "solids may nest: not all are convex and apart from each other");
@@ -156,8 +152,8 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
 static void decide_settings(const glint_settings *settings, glint_plan *plan)
 {
     decide(plan, GLINT_FEATURE_INTERREFLECTION,
-           plan->features[GLINT_FEATURE_GEOMETRY].compiled && plan->depth > 1, "depth %d",
-           plan->depth);
+           plan->features[GLINT_FEATURE_GEOMETRY].compiled && plan->depth > 1,
+           plan->depth_is_auto ? "depth auto, %d at most" : "depth %d", plan->depth);
     int samples = settings->samples_per_axis * settings->samples_per_axis;
     decide(plan, GLINT_FEATURE_SUPERSAMPLING, samples > 1, "%d sample%s a pixel", samples,
            samples == 1 ? "" : "s");
