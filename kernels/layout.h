@@ -100,7 +100,7 @@ typedef struct glint_frame_record {
 // other there are GLINT_COUNTER_SLOTS sets; the host adds them up. Whole numbers, so that the sum
 // does not depend on the order. Weights are in units of 2^−GLINT_WEIGHT_BITS.
 #define GLINT_COUNTER_SLOTS 64
-#define GLINT_WEIGHT_BITS 16
+#define GLINT_WEIGHT_BITS 32
 enum glint_counter {
     GLINT_COUNT_PRIMARY,
     GLINT_COUNT_REFLECTED,

@@ -29,7 +29,7 @@
 
 // What one work-item counts; added to the counters at its end.
 typedef struct tally {
-    uint counts[GLINT_COUNTERS];
+    ulong counts[GLINT_COUNTERS];
     real weight_by_depth, weight_by_min_weight, weight_by_stack;
 } tally;
 
@@ -134,9 +134,9 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
 static inline void count_transmissions(const surface *s, mask transmits, tally *tally)
 {
     mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
-    tally->counts[GLINT_COUNT_REFRACTED_IN] += (uint)count_lanes(transmits & solid & s->outside);
-    tally->counts[GLINT_COUNT_REFRACTED_OUT] += (uint)count_lanes(transmits & solid & !s->outside);
-    tally->counts[GLINT_COUNT_TRANSMITTED] += (uint)count_lanes(transmits & !solid);
+    tally->counts[GLINT_COUNT_REFRACTED_IN] += (ulong)count_lanes(transmits & solid & s->outside);
+    tally->counts[GLINT_COUNT_REFRACTED_OUT] += (ulong)count_lanes(transmits & solid & !s->outside);
+    tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
 }
 
 // Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack has
@@ -190,7 +190,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
     real3 gathered = add(*radiance, multiply(ray->weight, out.emitted));
     *radiance = select3(met, gathered, *radiance);
-    tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (uint)count_lanes(met & media_lost);
+    tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
 
     path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
     reflected.weight = multiply(ray->weight, out.reflected_weight);
@@ -198,7 +198,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, tally);
-    tally->counts[GLINT_COUNT_REFLECTED] += (uint)count_lanes(reflects);
+    tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
 #if GLINT_GLASS
     path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
     transmitted.weight = multiply(ray->weight, out.transmitted_weight);
@@ -207,7 +207,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     end_branch(frame, &transmitted, transmits, tally);
     count_transmissions(&s, transmits, tally);
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
-        (uint)count_lanes(reflects & out.total_reflection);
+        (ulong)count_lanes(reflects & out.total_reflection);
     return split_path(waiting, &reflected, &transmitted, reflects, transmits, ray, tally);
 #else
     assign_path(ray, &reflected, reflects);
@@ -277,35 +277,39 @@ static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_r
         primary = false;
     }
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        uint depth = (uint)LANE_INT(deepest, lane);
+        ulong depth = (ulong)LANE_INT(deepest, lane);
         tally->counts[GLINT_COUNT_DEEPEST] = max(tally->counts[GLINT_COUNT_DEEPEST], depth);
     }
     return radiance;
 }
 
-// Adds to a counter of 64 bits in two words.
-static inline void add_to_counter(global uint *counter, uint amount)
+// Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
+static inline void add_to_counter(global uint *counter, ulong amount)
 {
-    if (amount != 0) {
-        uint before = atomic_add(counter, amount);
-        if (before + amount < before) {
-            atomic_inc(counter + 1);
-        }
+    uint low = (uint)amount, high = (uint)(amount >> 32);
+    uint before = low != 0 ? atomic_add(counter, low) : 0;
+    high += before + low < before ? 1 : 0;
+    if (high != 0) {
+        atomic_add(counter + 1, high);
     }
+}
+
+// A sum of weights in the counters' unit.
+static inline ulong weight_units(real weights)
+{
+    return (ulong)(sum_of_lanes(weights) * (scalar)(1UL << GLINT_WEIGHT_BITS));
 }
 
 static inline void report(tally *tally, global uint *counters, uint slot)
 {
-    const scalar unit = (scalar)(1 << GLINT_WEIGHT_BITS);
-    uint *counts = tally->counts;
-    counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = convert_uint_sat(sum_of_lanes(tally->weight_by_depth) * unit);
-    counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] =
-        convert_uint_sat(sum_of_lanes(tally->weight_by_min_weight) * unit);
-    counts[GLINT_COUNT_WEIGHT_BY_STACK] = convert_uint_sat(sum_of_lanes(tally->weight_by_stack) * unit);
+    ulong *counts = tally->counts;
+    counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = weight_units(tally->weight_by_depth);
+    counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] = weight_units(tally->weight_by_min_weight);
+    counts[GLINT_COUNT_WEIGHT_BY_STACK] = weight_units(tally->weight_by_stack);
     global uint *mine = counters + 2 * GLINT_COUNTERS * (slot % GLINT_COUNTER_SLOTS);
     for (int i = 0; i < GLINT_COUNTERS; i++) {
         if (i == GLINT_COUNT_DEEPEST) {
-            atomic_max(mine + 2 * i, counts[i]);
+            atomic_max(mine + 2 * i, (uint)counts[i]);
         } else {
             add_to_counter(mine + 2 * i, counts[i]);
         }
@@ -379,7 +383,7 @@ kernel void render_packets(global const float *nodes, global const float *positi
         alpha += R(1.0);
 #endif
     }
-    tally.counts[GLINT_COUNT_PRIMARY] = (uint)(count_lanes(inside) * k * k);
+    tally.counts[GLINT_COUNT_PRIMARY] = (ulong)(count_lanes(inside) * k * k);
     scalar share = R(1.0) / (scalar)(k * k);
     store_pixels(pixels, &frame, x0, y0, scale(color, real_of(share)), alpha * share);
     report(&tally, counters, (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0)));

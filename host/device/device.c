@@ -138,6 +138,7 @@ static void sort_devices(found_device *devices, size_t count)
     }
 }
 
+// `*devices` is NULL if, and only if, that fails.
 static glint_status find_devices(found_device **devices, size_t *count, glint_error *error)
 {
     *devices = NULL;
@@ -186,7 +187,7 @@ glint_status glint_device_list(glint_capabilities **list, size_t *count, glint_e
     *list = NULL;
     found_device *devices;
     glint_status status = find_devices(&devices, count, error);
-    if (status != GLINT_OK) {
+    if (devices == NULL) {
         return status;
     }
     *list = calloc(*count, sizeof **list);
@@ -263,7 +264,7 @@ glint_status glint_device_open(const char *selector, glint_device **device, glin
     found_device *devices;
     size_t count, chosen;
     glint_status status = find_devices(&devices, &count, error);
-    if (status != GLINT_OK) {
+    if (devices == NULL) {
         return status;
     }
     glint_device *opened = NULL;

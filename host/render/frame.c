@@ -19,6 +19,8 @@
 #define IRRADIANCE_EDGE 64
 // Launches are made long enough to keep a device busy and short enough for progress and signals.
 #define LAUNCH_MS 100.0
+// The first one tells the speed.
+#define FIRST_LAUNCH_SAMPLES 32768.0
 
 struct glint_renderer {
     glint_device *device;
@@ -123,8 +125,8 @@ static size_t round_up(size_t value, size_t multiple)
 }
 
 // Renders the packets of `rows` rows from `first` on, and waits for the end.
-static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t first,
-                           size_t rows, glint_error *error)
+static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t first, size_t rows,
+                           glint_error *error)
 {
     record->first_row = (int)first;
     glint_status status = set_argument(r, FRAME_ARGUMENT, sizeof *record, record, error);
@@ -137,8 +139,8 @@ static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t
     local_size(&r->plan, local);
     size_t columns = ((size_t)r->settings.width + (size_t)packet_width - 1) / (size_t)packet_width;
     const size_t global[2] = {round_up(columns, local[0]), round_up(rows, local[1])};
-    cl_int code = clEnqueueNDRangeKernel(r->device->queue, r->kernel, 2, NULL, global, local, 0,
-                                         NULL, NULL);
+    cl_int code =
+        clEnqueueNDRangeKernel(r->device->queue, r->kernel, 2, NULL, global, local, 0, NULL, NULL);
     if (code == CL_SUCCESS) {
         code = clFinish(r->device->queue);
     }
@@ -329,13 +331,22 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
     report->rays.transmitted = total_of(counters, GLINT_COUNT_TRANSMITTED);
     report->rays.total_reflections = total_of(counters, GLINT_COUNT_TOTAL_REFLECTIONS);
     report->deepest = (uint32_t)total_of(counters, GLINT_COUNT_DEEPEST);
-    double all = (double)report->rays.primary * (1 << GLINT_WEIGHT_BITS);
+    double all = ldexp((double)report->rays.primary, GLINT_WEIGHT_BITS);
     glint_truncation *t = &report->truncation;
     t->by_depth = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH) / all;
     t->by_min_weight = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT) / all;
     t->by_stack = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_STACK) / all;
     t->media_overflows = total_of(counters, GLINT_COUNT_MEDIA_OVERFLOWS);
     return GLINT_OK;
+}
+
+// The rows of packets of the next launch: as many as would have taken LAUNCH_MS at the last one's
+// speed, and at most four times as many, as the next part of the frame may be much slower.
+static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
+{
+    double factor = fmin(4, LAUNCH_MS / fmax(elapsed_ms, 1e-3));
+    double wanted = fmax(1, (double)step * factor);
+    return round_up((size_t)wanted, multiple);
 }
 
 // Rows of packets, in launches of about LAUNCH_MS; asks `progress` between them.
@@ -347,7 +358,9 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
     size_t local[2];
     local_size(&r->plan, local);
     size_t rows = ((size_t)record->height + (size_t)packet_height - 1) / (size_t)packet_height;
-    size_t step = round_up(rows / 16 > 0 ? rows / 16 : 1, local[1]);
+    double row_samples =
+        (double)record->width * packet_height * record->samples_per_axis * record->samples_per_axis;
+    size_t step = round_up((size_t)fmax(1, FIRST_LAUNCH_SAMPLES / row_samples), local[1]);
     for (size_t first = 0; first < rows;) {
         size_t count = first + step < rows ? step : rows - first;
         double clock = now_ms();
@@ -356,15 +369,9 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
             return status;
         }
         first += count;
+        step = next_step(step, lap(&clock), local[1]);
         if (progress != NULL && !progress->step(progress->context, first, rows)) {
             return glint_fail(error, GLINT_INTERRUPTED, "stopped");
-        }
-        // Twice as many rows while launches are short, half as many when they are long.
-        double elapsed = lap(&clock);
-        if (elapsed < LAUNCH_MS / 2) {
-            step *= 2;
-        } else if (elapsed > LAUNCH_MS * 2 && step >= 2 * local[1]) {
-            step = round_up(step / 2, local[1]);
         }
     }
     return GLINT_OK;
@@ -378,20 +385,33 @@ static glint_status read_scalars(const glint_renderer *r, void *values, glint_er
                               : glint_fail_opencl(error, r->device, "reading the frame", code);
 }
 
+// The frame as float and, if `exact` is not NULL, as double; one of the two is a copy of the other.
+static glint_status read_pixels(const glint_renderer *r, float *rounded, double *exact,
+                                glint_error *error)
+{
+    const size_t values = r->pixel_count * 4;
+    const bool is_double = r->plan.precision == GLINT_PRECISION_DOUBLE;
+    void *read = is_double ? (void *)exact : (void *)rounded;
+    glint_status status = read_scalars(r, read, error);
+    for (size_t i = 0; status == GLINT_OK && is_double && rounded != NULL && i < values; i++) {
+        rounded[i] = (float)exact[i];
+    }
+    for (size_t i = 0; status == GLINT_OK && !is_double && exact != NULL && i < values; i++) {
+        exact[i] = (double)rounded[i];
+    }
+    return status;
+}
+
 static glint_status read_image(const glint_renderer *r, glint_image *image, glint_error *error)
 {
-    if (r->plan.precision == GLINT_PRECISION_FLOAT) {
-        return read_scalars(r, image->pixels, error);
+    double *exact = NULL;
+    if (r->plan.precision == GLINT_PRECISION_DOUBLE) {
+        exact = glint_allocate(r->pixel_count * 4, sizeof *exact);
+        if (exact == NULL) {
+            return glint_fail_memory(error, "the frame");
+        }
     }
-    size_t values = r->pixel_count * 4;
-    double *exact = glint_allocate(values, sizeof *exact);
-    if (exact == NULL) {
-        return glint_fail_memory(error, "the frame");
-    }
-    glint_status status = read_scalars(r, exact, error);
-    for (size_t i = 0; status == GLINT_OK && i < values; i++) {
-        image->pixels[i] = (float)exact[i];
-    }
+    glint_status status = read_pixels(r, image->pixels, exact, error);
     free(exact);
     return status;
 }
@@ -413,7 +433,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
                                   glint_frame_report *report, glint_error *error)
 {
     glint_renderer *r = renderer;
-    glint_frame_report own_report;
+    glint_frame_report own_report = {0};
     report = report != NULL ? report : &own_report;
     *report = (glint_frame_report){0};
     glint_frame_record record;
@@ -451,19 +471,12 @@ glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixe
                                          glint_error *error)
 {
     size_t values = renderer->pixel_count * 4;
+    float *rounded = glint_allocate(values, sizeof *rounded);
     *pixels = glint_allocate(values, sizeof **pixels);
-    if (*pixels == NULL) {
-        return glint_fail_memory(error, "the frame");
-    }
-    // Floats are read into the upper half and spread from the front, so that none is overwritten
-    // before it is read.
-    bool is_double = renderer->plan.precision == GLINT_PRECISION_DOUBLE;
-    float *floats = (float *)*pixels + values;
-    glint_status status = read_scalars(renderer, is_double ? (void *)*pixels : floats, error);
-    for (size_t i = 0; status == GLINT_OK && !is_double && i < values; i++) {
-        float value = floats[i];
-        (*pixels)[i] = (double)value;
-    }
+    glint_status status = rounded == NULL || *pixels == NULL
+                              ? glint_fail_memory(error, "the frame")
+                              : read_pixels(renderer, rounded, *pixels, error);
+    free(rounded);
     if (status != GLINT_OK) {
         free(*pixels);
         *pixels = NULL;
