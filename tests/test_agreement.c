@@ -153,13 +153,6 @@ static void in_double_precision_only_rounding_is_left(void **state)
     }
 }
 
-static int close_device(void **state)
-{
-    (void)state;
-    test_device_close();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -168,5 +161,5 @@ int main(void)
         cmocka_unit_test(at_depth_8_the_device_agrees_with_the_oracle),
         cmocka_unit_test(in_double_precision_only_rounding_is_left),
     };
-    return cmocka_run_group_tests(tests, NULL, close_device);
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

@@ -162,7 +162,8 @@ static void cube_faces_are_openexrs(void **state)
     (void)state;
     for (int face = 0; face < 6; face++) {
         for (int k = 0; k < 25; k++) {
-            double s = (k % 5) / 2.0 - 1.0, t = (k / 5) / 2.0 - 1.0;
+            int column = k % 5, row = k / 5;
+            double s = column / 2.0 - 1.0, t = row / 2.0 - 1.0;
             glint_vec3 d = glint_cube_direction(face, s, t);
             glint_vec3 wanted = openexr_cube_direction(face, (s + 1.0) / 2.0, (t + 1.0) / 2.0);
             assert_true(d.x == wanted.x && d.y == wanted.y && d.z == wanted.z);
@@ -576,8 +577,8 @@ static void write_face(const char *name, int face, int width, int height)
     glint_image image;
     assert_int_equal(glint_image_create(width, height, 3, &image, NULL), GLINT_OK);
     for (int p = 0; p < width * height; p++) {
-        glint_vec3 r = opengl_direction(face, (p % width + 0.5) / width,
-                                        ((p - p % width) / width + 0.5) / height);
+        int column = p % width, row = p / width;
+        glint_vec3 r = opengl_direction(face, (column + 0.5) / width, (row + 0.5) / height);
         double rgb[3];
         // World (x, y, z) looks up (x, y, −z).
         color_of((glint_vec3){r.x, r.y, -r.z}, rgb);

@@ -267,13 +267,6 @@ static void a_kernel_that_does_not_compile_is_reported_with_its_file(void **stat
     glint_environment_free(&environment);
 }
 
-static int close_device(void **state)
-{
-    (void)state;
-    test_device_close();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,5 +280,5 @@ int main(void)
         cmocka_unit_test(a_frame_that_is_stopped_leaves_no_image),
         cmocka_unit_test(a_kernel_that_does_not_compile_is_reported_with_its_file),
     };
-    return cmocka_run_group_tests(tests, NULL, close_device);
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

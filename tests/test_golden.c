@@ -109,18 +109,11 @@ static void update_goldens(void **state)
     }
 }
 
-static int close_device(void **state)
-{
-    (void)state;
-    test_device_close();
-    return 0;
-}
-
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(scenes_look_as_they_did)};
     const struct CMUnitTest update[] = {cmocka_unit_test(update_goldens)};
     bool updating = argc > 1 && strcmp(argv[1], "--update") == 0;
-    return updating ? cmocka_run_group_tests(update, NULL, close_device)
-                    : cmocka_run_group_tests(tests, NULL, close_device);
+    return updating ? cmocka_run_group_tests(update, NULL, test_close_device)
+                    : cmocka_run_group_tests(tests, NULL, test_close_device);
 }

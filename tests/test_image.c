@@ -446,7 +446,8 @@ static glint_image make_ramp(int channels)
     glint_image image;
     assert_int_equal(glint_image_create(64, 16, channels, &image, NULL), GLINT_OK);
     for (int p = 0; p < 64 * 16; p++) {
-        float alpha = channels % 2 == 0 ? (float)(p / 64 + 1) / 16.0f : 1.0f;
+        int row = p / 64;
+        float alpha = channels % 2 == 0 ? (float)(row + 1) / 16.0f : 1.0f;
         for (int c = 0; c < channels; c++) {
             bool is_alpha = channels % 2 == 0 && c == channels - 1;
             float color = (float)((p * (c + 3)) % 64) / 63.0f;

@@ -288,13 +288,6 @@ static void the_cube_is_exact_at_texel_centres_and_seamless_on_ties(void **state
     at_every_width_and_precision(check_cube);
 }
 
-static int close_device(void **state)
-{
-    (void)state;
-    test_device_close();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -304,5 +297,5 @@ int main(void)
         cmocka_unit_test(vectors_of_any_length_are_normalized_and_hopeless_ones_are_told),
         cmocka_unit_test(the_cube_is_exact_at_texel_centres_and_seamless_on_ties),
     };
-    return cmocka_run_group_tests(tests, NULL, close_device);
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

@@ -300,6 +300,7 @@ static void models_load_as_their_makers_meant(void **state)
         if (file == NULL) {
             print_message("%s is not there: skipped\n", path);
             skip();
+            return;
         }
         fclose(file);
         glint_scene scene;

@@ -46,9 +46,11 @@ size_t glint_cube_size(const glint_cube *cube)
 
 float *glint_cube_texel(const glint_cube *cube, int face, int i, int j)
 {
-    size_t pitch = (size_t)cube->edge + 2 * GLINT_CUBE_BORDER;
-    size_t row = (size_t)(j + GLINT_CUBE_BORDER), column = (size_t)(i + GLINT_CUBE_BORDER);
-    return cube->texels + (((size_t)face * pitch + row) * pitch + column) * 4;
+    ptrdiff_t pitch = cube->edge, row = j, column = i;
+    pitch += 2 * GLINT_CUBE_BORDER;
+    row += GLINT_CUBE_BORDER;
+    column += GLINT_CUBE_BORDER;
+    return cube->texels + ((face * pitch + row) * pitch + column) * 4;
 }
 
 glint_vec3 glint_cube_direction(int face, double s, double t)

@@ -116,8 +116,9 @@ static glint_status keep_better(const char *given, glint_face_files *best, glint
 {
     int found = count_found(best), more = count_found(other);
     glint_status status = GLINT_OK;
-    if (found == 6 && more == 6 && !is_same_file(best->paths[0], other->paths[0])) {
-        status = refuse_ambiguous(given, best->paths[0], other->paths[0], error);
+    const char *one = best->paths[0], *two = other->paths[0];
+    if (found == 6 && more == 6 && one != NULL && two != NULL && !is_same_file(one, two)) {
+        status = refuse_ambiguous(given, one, two, error);
     } else if (more > found) {
         glint_face_files swap = *best;
         *best = *other;

@@ -9,10 +9,12 @@
 extern "C" {
 #endif
 
-// Fills `irradiance` (edge texels a face, border included) with E(n)/π, where
+// Fills `irradiance` (edge texels a face) with E(n)/π, where
 // E(n) = ∫ L(ω) max(0, n·ω) dω over the sphere: 1 under a uniform environment of radiance 1.
-// Exact for the environment as a set of texels, each with its exact solid angle; blocks of texels
-// wholly on one side of n's horizon are taken together by their first moment, which is exact too.
+// The environment is taken as its texels, each with its exact solid angle and first moment; only
+// blocks of texels that n's horizon runs through are approximated (4e-6, see irradiance.c). The
+// border is not copied from the neighbours as a radiance map's is: it holds E(n)/π at its own place
+// in the plane of the face, which a smooth function is better interpolated by.
 glint_status glint_irradiance_map(const glint_cube *radiance, int edge, glint_cube *irradiance,
                                   glint_error *error);
 

@@ -163,8 +163,9 @@ void glint_face_views_from_named(const glint_face_view named[6], glint_face_view
 static void load_pixel(const glint_image *image, int x, int y, double rgb[3])
 {
     const float *pixel = glint_image_pixel(image, x, y);
+    int step = image->channels >= 3; // grey is repeated
     for (int c = 0; c < 3; c++) {
-        rgb[c] = (double)pixel[image->channels >= 3 ? c : 0];
+        rgb[c] = (double)pixel[c * step];
     }
 }
 
@@ -237,8 +238,14 @@ int glint_latlong_edge(int height)
     return height < LATLONG_EDGE_MAX ? height : LATLONG_EDGE_MAX;
 }
 
-// The map at column x of row j, linear between pixels; a row beyond a pole is the row as far on
-// this side of it, half a turn away.
+// Of a value above −1. (floor is a call where the processor is not told.)
+static int round_down(double value)
+{
+    return (int)(value + 1.0) - 1;
+}
+
+// The map at column x, in [−½, 3/2 width), of row j, linear between pixels; a row beyond a pole is
+// the row as far on this side of it, half a turn away.
 static void sample_row(const glint_image *image, int j, double x, double rgb[3])
 {
     int width = image->width, height = image->height;
@@ -246,14 +253,14 @@ static void sample_row(const glint_image *image, int j, double x, double rgb[3])
         j = j < 0 ? -1 - j : 2 * height - 1 - j;
         x += 0.5 * width;
     }
-    double below = floor(x);
-    int left = (int)below % width;
-    left = left < 0 ? left + width : left;
+    int left = round_down(x);
+    double weight = x - left;
+    left = left < 0 ? left + width : (left >= width ? left - width : left);
     int right = left + 1 < width ? left + 1 : 0;
     double a[3], b[3];
     load_pixel(image, left, j, a);
     load_pixel(image, right, j, b);
-    mix(a, b, x - below, rgb);
+    mix(a, b, weight, rgb);
 }
 
 static void sample_map(const glint_image *image, bool on_edges, double u, double v, double rgb[3])
@@ -267,10 +274,10 @@ static void sample_map(const glint_image *image, bool on_edges, double u, double
         x = u * image->width - 0.5;
         y = v * image->height - 0.5;
     }
-    double upper = floor(y);
+    int upper = round_down(y);
     double above[3], below[3];
-    sample_row(image, (int)upper, x, above);
-    sample_row(image, (int)upper + 1, x, below);
+    sample_row(image, upper, x, above);
+    sample_row(image, upper + 1, x, below);
     mix(above, below, y - upper, rgb);
 }
 
@@ -294,7 +301,7 @@ typedef struct resampling {
 // the map, in pixels, rounded. A bilinear look-up is good for one and a half.
 static int count_taps(const resampling *job, glint_vec3 d)
 {
-    double length = glint_vec3_length(d);
+    double length = sqrt(glint_vec3_dot(d, d));
     double size = 2.0 / job->cube->edge / length; // radians, or less
     // Meridians crowd towards the poles; the middle of the texel's half nearer the equator counts.
     double from_axis = sqrt(d.x * d.x + d.z * d.z) / length + 0.25 * size;
@@ -304,27 +311,64 @@ static int count_taps(const resampling *job, glint_vec3 d)
     return taps < 1.0 ? 1 : (taps < TAPS_MAX ? (int)taps : TAPS_MAX);
 }
 
+static void resample_texel(const resampling *job, int face, int i, int j, int taps)
+{
+    double edge = job->cube->edge, sum[3] = {0.0, 0.0, 0.0};
+    double s = (2.0 * i + 1.0) / edge - 1.0, t = (2.0 * j + 1.0) / edge - 1.0;
+    for (int tap = 0; tap < taps * taps; tap++) {
+        int column = tap % taps, row = tap / taps;
+        double across = (2.0 * column + 1.0) / taps - 1.0;
+        double down = (2.0 * row + 1.0) / taps - 1.0;
+        double rgb[3];
+        glint_latlong_sample(job->image, job->on_edges,
+                             glint_cube_direction(face, s + across / edge, t + down / edge), rgb);
+        for (int c = 0; c < 3; c++) {
+            sum[c] += rgb[c] / (taps * taps);
+        }
+    }
+    store_texel(sum, glint_cube_texel(job->cube, face, i, j));
+}
+
+// One row of the four faces around the horizon. They see the same latitudes, and longitudes that
+// differ by quarter turns: the trigonometry, which is most of the work, is done once for all four.
+static void resample_sides(const resampling *job, int j)
+{
+    static const struct {
+        int face;
+        double middle; // u at s = 0
+    } sides[] = {{4, 0.5}, {1, 0.75}, {5, 0.0}, {0, 0.25}};
+    int edge = job->cube->edge;
+    double t = (2.0 * j + 1.0) / edge - 1.0;
+    for (int i = 0; i < edge; i++) {
+        double s = (2.0 * i + 1.0) / edge - 1.0;
+        int taps = count_taps(job, glint_cube_direction(sides[0].face, s, t));
+        double turn = atan(s) / (2.0 * GLINT_PI);
+        double v = 0.5 + atan(t / sqrt(1.0 + s * s)) / GLINT_PI;
+        for (int side = 0; side < 4; side++) {
+            if (taps > 1) {
+                resample_texel(job, sides[side].face, i, j, taps);
+                continue;
+            }
+            double u = sides[side].middle + turn, rgb[3];
+            sample_map(job->image, job->on_edges, u < 0.0 ? u + 1.0 : u, v, rgb);
+            store_texel(rgb, glint_cube_texel(job->cube, sides[side].face, i, j));
+        }
+    }
+}
+
 static void resample_row(size_t index, void *context)
 {
     const resampling *job = context;
-    int edge = job->cube->edge;
-    int face = (int)index / edge, j = (int)index % edge;
+    int edge = job->cube->edge, j = (int)index % edge;
+    if (index < (size_t)edge) {
+        resample_sides(job, j);
+        return;
+    }
+    int face = 1 + (int)index / edge; // +Y, then −Y
     for (int i = 0; i < edge; i++) {
         double s = (2.0 * i + 1.0) / edge - 1.0, t = (2.0 * j + 1.0) / edge - 1.0;
         int taps = count_taps(job, glint_cube_direction(face, s, t));
-        double sum[3] = {0.0, 0.0, 0.0};
-        for (int tap = 0; tap < taps * taps; tap++) {
-            double across = (2.0 * (tap % taps) + 1.0) / taps - 1.0;
-            double down = (2.0 * (tap / taps) + 1.0) / taps - 1.0;
-            double rgb[3];
-            glint_latlong_sample(job->image, job->on_edges,
-                                 glint_cube_direction(face, s + across / edge, t + down / edge),
-                                 rgb);
-            for (int c = 0; c < 3; c++) {
-                sum[c] += rgb[c] / (taps * taps);
-            }
-        }
-        store_texel(sum, glint_cube_texel(job->cube, face, i, j));
+        resample_texel(job, face, i, j, taps);
     }
 }
 
@@ -336,7 +380,7 @@ glint_status glint_cube_from_latlong(const glint_image *image, bool on_edges, in
         return status;
     }
     resampling job = {image, on_edges, cube};
-    glint_parallel_for((size_t)edge * GLINT_CUBE_FACES, resample_row, &job);
+    glint_parallel_for((size_t)edge * 3, resample_row, &job);
     glint_cube_fill_border(cube);
     return GLINT_OK;
 }

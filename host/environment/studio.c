@@ -42,9 +42,11 @@ static const panel panels[] = {
 };
 #define PANELS (sizeof panels / sizeof panels[0])
 
-// A panel's plane: unit vectors towards its centre, to its right and upwards.
+// A panel's plane: unit vectors towards its centre, to its right and upwards; and the cosine of the
+// angle from the centre to its farthest corner, beyond which it has no light.
 typedef struct frame {
     glint_vec3 forward, right, up;
+    double farthest;
 } frame;
 
 typedef struct studio {
@@ -72,6 +74,9 @@ static frame frame_of(const panel *which)
     made.forward = glint_vec3_normalize((glint_vec3){c[0], c[1], c[2]});
     made.right = glint_vec3_normalize(glint_vec3_cross(made.forward, (glint_vec3){0.0, 1.0, 0.0}));
     made.up = glint_vec3_cross(made.right, made.forward);
+    double width = which->half_width + which->softness;
+    double height = which->half_height + which->softness;
+    made.farthest = 1.0 / sqrt(1.0 + width * width + height * height);
     return made;
 }
 
@@ -79,7 +84,7 @@ static frame frame_of(const panel *which)
 static double panel_share(const panel *which, const frame *plane, glint_vec3 d)
 {
     double ahead = glint_vec3_dot(d, plane->forward);
-    if (ahead < 0.3) {
+    if (ahead <= plane->farthest) {
         return 0.0;
     }
     double x = fabs(glint_vec3_dot(d, plane->right)) / ahead / which->half_width;

@@ -35,7 +35,7 @@ namespace
 std::string cause_of(ImageInput &input, const char *path)
 {
     std::string text = input.geterror();
-    text = text.substr(0, text.find('\n'));
+    text.resize(std::min(text.size(), text.find('\n')));
     for (const std::string &lead : {"\"" + std::string(path) + "\"", std::string(path)}) {
         std::size_t at = text.find(lead);
         if (at != std::string::npos) {

@@ -75,8 +75,8 @@ glint_status find_format(const char *path, const char **plugin, glint_error *err
     for (const Magic &known : magics) {
         if (length >= known.offset + known.length &&
             std::memcmp(start + known.offset, known.bytes, known.length) == 0) {
-            *plugin = known.plugin;
             if (known.plugin != nullptr) {
+                *plugin = known.plugin;
                 return GLINT_OK;
             }
             return glint_fail(error, GLINT_BAD_INPUT,
@@ -283,7 +283,7 @@ glint_status read(const char *path, glint_image *image, glint_image_facts *facts
                   glint_error *error)
 {
     std::uint64_t size = 0;
-    const char *plugin = nullptr;
+    const char *plugin = "";
     glint_status status = find_size(path, &size, error);
     if (status == GLINT_OK) {
         status = find_format(path, &plugin, error);

@@ -130,6 +130,8 @@ float clamp_to_half(float value)
 }
 
 #if defined(__x86_64__)
+// Every processor with AVX2 has these conversions (and not every compiler can ask for them by
+// name).
 __attribute__((target("avx,f16c"))) std::size_t halves_by_eight(const float *from, half *to,
                                                                 std::size_t count)
 {
@@ -149,7 +151,7 @@ void to_halves(const float *from, half *to, std::size_t count)
 {
     std::size_t i = 0;
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("f16c")) {
+    if (__builtin_cpu_supports("avx2")) {
         i = halves_by_eight(from, to, count);
     }
 #endif
@@ -217,7 +219,7 @@ void fill_codes(const glint_image &image, Channels wanted, float exposure,
         }
         if (wanted.total > wanted.color) {
             float clamped = alpha > 0.0f ? std::min(alpha, 1.0f) : 0.0f;
-            *to++ = static_cast<unsigned char>(clamped * 255.0f + 0.5f);
+            *to++ = static_cast<unsigned char>(std::lround(clamped * 255.0f));
         }
     }
 }
@@ -355,7 +357,7 @@ Encoded prepare(const glint_image &image, Format format, const glint_write_optio
 std::string cause_of(const ImageOutput &output)
 {
     std::string text = output.geterror();
-    text = text.substr(0, text.find('\n'));
+    text.resize(std::min(text.size(), text.find('\n')));
     return text.empty() ? "the encoder failed without saying why" : text;
 }
 

@@ -109,15 +109,16 @@ static void place_free(place *where)
     *where = (place){0};
 }
 
-static glint_status place_split(const char *path, place *where, glint_error *error)
+static glint_status place_split(place *where, glint_error *error)
 {
-    const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
-    size_t folder = slash == NULL ? 0 : (slash == path ? 1 : (size_t)(slash - path));
+    const char *slash = strrchr(where->path, '/');
+    const char *name = slash != NULL ? slash + 1 : where->path;
+    size_t folder = slash == where->path ? 1 : (size_t)(name - where->path) - (slash != NULL);
     where->name = strdup(name);
-    where->folder = slash == NULL ? strdup(".") : strndup(path, folder);
-    if (where->path == NULL || where->name == NULL || where->folder == NULL) {
-        return glint_fail_memory(error, "a file name");
+    where->folder = slash == NULL ? strdup(".") : strndup(where->path, folder);
+    if (where->name == NULL || where->folder == NULL) {
+        glint_fail_memory(error, "a file name");
+        return GLINT_DEVICE_FAILED;
     }
     return GLINT_OK;
 }
@@ -130,10 +131,13 @@ static glint_status place_find(const char *path, place *where, glint_error *erro
     bool is_link = lstat(path, &facts) == 0 && S_ISLNK(facts.st_mode);
     where->path = is_link ? realpath(path, NULL) : strdup(path);
     if (where->path == NULL) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED,
-                          "%s: a symbolic link that leads nowhere (remove it or mend it)", path);
+        glint_fail(error, GLINT_OUTPUT_FAILED,
+                   is_link ? "%s: a symbolic link that leads nowhere (remove it or mend it)"
+                           : "%s: not enough memory for its name",
+                   path);
+        return GLINT_OUTPUT_FAILED;
     }
-    glint_status status = place_split(where->path, where, error);
+    glint_status status = place_split(where, error);
     if (status != GLINT_OK) {
         return status;
     }

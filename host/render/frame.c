@@ -58,10 +58,22 @@ static size_t scalar_bytes(const glint_renderer *r)
 
 // ---- Creation ----------------------------------------------------------------------------------
 
+static bool has_solids(const glint_scene *scene)
+{
+    for (size_t i = 0; i < scene->material_count; i++) {
+        if (glint_material_is_solid(&scene->materials[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The topology is found only where the plan asks for it: millions of triangles take seconds.
 static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r, glint_error *error)
 {
     glint_topology topology = {0};
-    glint_status status = glint_topology_find(in->scene, &topology, error);
+    glint_status status =
+        has_solids(in->scene) ? glint_topology_find(in->scene, &topology, error) : GLINT_OK;
     if (status == GLINT_OK) {
         const glint_plan_inputs inputs = {
             .scene = in->scene,

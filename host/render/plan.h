@@ -69,7 +69,8 @@ typedef struct glint_plan {
 const char *glint_feature_name(glint_feature feature);
 const char *glint_feature_meaning(glint_feature feature);
 
-// Everything the decision rests on. Pointers are borrowed.
+// Everything the decision rests on. Pointers are borrowed. The topology is read only where some
+// material bounds a solid; it may be empty where none does.
 typedef struct glint_plan_inputs {
     const glint_scene *scene;
     const glint_topology *topology;

@@ -148,7 +148,8 @@ std::string syntax_cause(const std::string &what)
         std::string tail = expected != std::string::npos && expected > token
                                ? cause.substr(expected)
                                : std::string();
-        cause = cause.substr(0, token) + tail;
+        cause.resize(token);
+        cause += tail;
     }
     return cause;
 }

@@ -13,13 +13,9 @@ namespace glint
 using Bytes = std::vector<unsigned char>;
 
 struct Document {
-    Document() = default;
-    Document(const Document &) = delete;
-    Document &operator=(const Document &) = delete;
-
     std::string path;   // as the user gave it
     std::string folder; // resolved: what the file may refer to lies under it
-    json root;
+    json root = json::object();
     bool has_bin = false; // a GLB with a BIN chunk
     Bytes bin;
     std::vector<Bytes> buffers; // cut to byteLength each

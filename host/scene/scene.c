@@ -48,8 +48,9 @@ static void list_cameras(const glint_scene *scene, char *text, size_t capacity)
     text[0] = '\0';
     for (size_t i = 0; i < scene->camera_count; i++) {
         const char *name = scene->cameras[i].name;
-        int length = snprintf(text + used, room - used, name ? "%s%zu \"%s\"" : "%s%zu",
-                              i > 0 ? ", " : "", i, name);
+        const char *comma = i > 0 ? ", " : "";
+        int length = name ? snprintf(text + used, room - used, "%s%zu \"%s\"", comma, i, name)
+                          : snprintf(text + used, room - used, "%s%zu", comma, i);
         if (length < 0 || (size_t)length >= room - used) {
             memcpy(text + used, more, sizeof more);
             return;
@@ -77,11 +78,15 @@ glint_status glint_scene_camera(const glint_scene *scene, const char *name, glin
                                 glint_error *error)
 {
     *camera = (glint_camera){0};
-    if (name == NULL && scene->camera_count == 0) {
-        glint_camera_frame_bounds(scene->low, scene->high, camera);
+    if (name == NULL) {
+        if (scene->camera_count == 0) {
+            glint_camera_frame_bounds(scene->low, scene->high, camera);
+        } else {
+            *camera = scene->cameras[0];
+        }
         return GLINT_OK;
     }
-    const glint_camera *found = name == NULL ? &scene->cameras[0] : find_camera(scene, name);
+    const glint_camera *found = find_camera(scene, name);
     if (found != NULL) {
         *camera = *found;
         return GLINT_OK;

@@ -23,11 +23,11 @@ int folder_make(void **state)
     char *path = malloc(4096);
     assert_non_null(path);
     snprintf(path, 4096, "%s/glint_test_XXXXXX", base ? base : "/tmp");
-    *state = mkdtemp(path);
-    if (*state == NULL) {
+    if (mkdtemp(path) == NULL) {
         free(path);
         return 1;
     }
+    *state = path;
     return 0;
 }
 

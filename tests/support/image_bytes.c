@@ -13,7 +13,7 @@ void image_bytes_free(image_bytes *file)
 
 static void put(image_bytes *file, const void *bytes, size_t length)
 {
-    if (file->length + length > file->capacity) {
+    if (file->bytes == NULL || file->length + length > file->capacity) {
         file->capacity = 2 * (file->length + length);
         file->bytes = realloc(file->bytes, file->capacity);
         if (file->bytes == NULL) {

@@ -31,10 +31,12 @@ glint_device *test_device(void)
     return shared_device;
 }
 
-void test_device_close(void)
+int test_close_device(void **state)
 {
+    (void)state;
     glint_device_close(shared_device);
     shared_device = NULL;
+    return 0;
 }
 
 void test_scene_load(const char *name, glint_scene *scene)
