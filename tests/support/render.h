@@ -7,10 +7,10 @@
 #include "render/frame.h"
 #include "scene/scene.h"
 
-// The device that all tests of a program share; opened at the first call, closed by
-// test_device_close.
+// The device that all tests of a program share; opened at the first call, closed by the group's
+// teardown, test_close_device.
 glint_device *test_device(void);
-void test_device_close(void);
+int test_close_device(void **state);
 
 // Loads scenes/NAME.gltf; fails the running test, with the error, if it cannot.
 void test_scene_load(const char *name, glint_scene *scene);
