@@ -7,7 +7,7 @@
 packages_to_build='
     cmake/cmake ninja-build/ninja gcc/gcc g++/g++ pkg-config/pkg-config
     pocl-opencl-icd ocl-icd-opencl-dev opencl-c-headers
-    libopenimageio-dev openimageio-tools libtinygltf-dev nlohmann-json3-dev libjansson-dev'
+    libopenimageio-dev libtinygltf-dev nlohmann-json3-dev libjansson-dev'
 
 packages_to_test='
     libcmocka-dev oclgrind/oclgrind clang/clang clang-tidy/clang-tidy

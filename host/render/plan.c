@@ -322,7 +322,7 @@ void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacit
 {
     size_t used = (size_t)snprintf(
         text, capacity,
-        "-cl-std=CL1.2 -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d -DGLINT_DOUBLE=%d "
+        "-cl-std=CL1.2 -w -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d -DGLINT_DOUBLE=%d "
         "-DGLINT_STACK_CAPACITY=%d -DGLINT_MEDIA_BITS=%d -DGLINT_MEDIA_CAPACITY=%d "
         "-DGLINT_TRAVERSAL_STACK=%d",
         plan->kernel_width, plan->bvh_width, plan->precision == GLINT_PRECISION_DOUBLE,
