@@ -12,7 +12,7 @@
 // differ from the map by second-order terms in h each, except within half a texel of the cube's
 // edges. There the border, copied from the neighbours' texels, stands up to half a texel from where
 // the plane of the face would have it: up to 0.193 |∇E|/N away, at the ends of the edges (see
-// test_environment.c). In exchange both faces agree on their common edge, exactly.
+// tests/support/direction_maps.c). In exchange both faces agree on their common edge, exactly.
 #include "environment/layouts.h"
 
 #include "environment/parallel.h"

@@ -4,8 +4,9 @@
 // box overhead on the left, in front, as the key light; a tall cool strip on the right and a warm
 // one behind on the left, whose long reflections draw an object's outline; a lit backdrop straight
 // ahead, for glass to refract; a floor that darkens towards the viewer and meets the backdrop in a
-// horizon; and three small lamps, for the sparkle of cut stones. Lights 8 to 20, walls 0.03 to 0.6.
-// All edges are soft over several texels, so that the map is free of steps at any zoom.
+// horizon; and three small lamps, for the sparkle of cut stones. Lights 7 to 20, walls 0.03 to 0.6;
+// white paint is about 1 on the lit side. All edges are soft over several texels, so that the map
+// is free of steps at any zoom.
 #include "environment/environment.h"
 
 #include "environment/parallel.h"
@@ -28,17 +29,17 @@ typedef struct panel {
 // Positions by the camera that looks along −Z: −X is on its left, +Z behind it.
 static const panel panels[] = {
     // The key: a soft box.
-    {{-0.62, 0.80, 0.42}, 0.62, 0.42, 0.09, 0.35, {13.5, 12.8, 11.6}},
+    {{-0.64, 0.78, 0.42}, 0.44, 0.30, 0.08, 0.40, {9.6, 9.1, 8.3}},
     // The fill: a tall strip, cool.
-    {{0.95, 0.22, 0.34}, 0.11, 0.80, 0.07, 0.25, {8.4, 9.4, 10.6}},
+    {{0.95, 0.22, 0.34}, 0.085, 0.72, 0.06, 0.25, {7.0, 7.8, 8.8}},
     // The rim: a strip behind, warm.
-    {{-0.86, 0.14, -0.58}, 0.075, 0.66, 0.055, 0.25, {9.6, 8.4, 6.6}},
+    {{-0.86, 0.14, -0.58}, 0.06, 0.60, 0.05, 0.25, {8.8, 7.7, 6.1}},
     // A bank from behind on the right, low and wide.
-    {{0.70, 0.52, -0.72}, 0.30, 0.09, 0.06, 0.2, {8.0, 8.1, 8.3}},
+    {{0.70, 0.52, -0.72}, 0.26, 0.07, 0.05, 0.2, {8.0, 8.1, 8.3}},
     // The lamps.
     {{0.25, 0.92, 0.18}, 0.045, 0.045, 0.045, 0.0, {20.0, 19.6, 18.8}},
     {{0.42, 0.86, 0.40}, 0.045, 0.045, 0.045, 0.0, {20.0, 19.6, 18.8}},
-    {{0.05, 0.80, 0.62}, 0.045, 0.045, 0.045, 0.0, {20.0, 19.6, 18.8}},
+    {{0.14, 0.80, 0.66}, 0.045, 0.045, 0.045, 0.0, {20.0, 19.6, 18.8}},
 };
 #define PANELS (sizeof panels / sizeof panels[0])
 

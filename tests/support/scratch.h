@@ -10,7 +10,7 @@ const char *scratch_make(void);
 // Removes it and all that is in it.
 void scratch_remove(void);
 
-// The path of `name` in the folder, in one of eight buffers that take turns.
+// The path of `name` in the folder, in one of eight buffers of this thread that take turns.
 const char *scratch_path(const char *name);
 
 // Writes bytes; a length of −1 takes the text's own.

@@ -1,0 +1,448 @@
+// Writing image files: what is written can be read again to within the format's own rounding, says
+// what OpenEXR's file layout wants, and is refused before any work where it cannot be. The reader
+// is judged by itself in test_image.c.
+#include "image/image_io.h"
+#include "support/scratch.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static int make_folder(void **state)
+{
+    (void)state;
+    scratch_make();
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    scratch_remove();
+    return 0;
+}
+
+static double curve(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+static glint_image read_image(const char *name, glint_image_facts *facts)
+{
+    glint_image image;
+    glint_error error = {0};
+    if (glint_image_read(scratch_path(name), &image, facts, &error) != GLINT_OK) {
+        fail_msg("%s", error.message);
+    }
+    return image;
+}
+
+// Noise, so that no encoding makes it short, and every part of the file matters.
+static void write_noise(const char *name, int channels)
+{
+    glint_image image;
+    glint_error error = {0};
+    assert_int_equal(glint_image_create(40, 30, channels, &image, &error), GLINT_OK);
+    unsigned seed = 1;
+    for (int i = 0; i < 40 * 30 * channels; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        image.pixels[i] = (float)(seed >> 8) / 16777216.0f;
+    }
+    if (glint_image_write(scratch_path(name), &image, NULL, &error) != GLINT_OK) {
+        fail_msg("%s", error.message);
+    }
+    glint_image_free(&image);
+}
+
+// ---- Writing and reading again ------------------------------------------------------------------
+
+// A ramp of colours with alpha, premultiplied.
+static glint_image make_ramp(int channels)
+{
+    glint_image image;
+    assert_int_equal(glint_image_create(64, 16, channels, &image, NULL), GLINT_OK);
+    for (int p = 0; p < 64 * 16; p++) {
+        int row = p / 64;
+        float alpha = channels % 2 == 0 ? (float)(row + 1) / 16.0f : 1.0f;
+        for (int c = 0; c < channels; c++) {
+            bool is_alpha = channels % 2 == 0 && c == channels - 1;
+            float color = (float)((p * (c + 3)) % 64) / 63.0f;
+            image.pixels[p * channels + c] = is_alpha ? alpha : color * alpha;
+        }
+    }
+    return image;
+}
+
+// How far apart linear values may be that a format holds: relative to the largest of a pixel, and
+// in sRGB codes of the colour beside alpha.
+typedef struct tolerance {
+    const char *name;
+    int channels_back[5]; // by the number of channels written
+    double relative, codes;
+} tolerance;
+
+static void compare_pixel(const float *wrote, const float *read, int channels,
+                          const tolerance *allowed)
+{
+    bool has_alpha = channels % 2 == 0;
+    int colors = has_alpha ? channels - 1 : channels;
+    double alpha = has_alpha ? (double)wrote[colors] : 1.0;
+    double most = 0.0;
+    for (int c = 0; c < colors; c++) {
+        most = fmax(most, (double)wrote[c]);
+    }
+    for (int c = 0; c < colors; c++) {
+        double error = fabs((double)wrote[c] - (double)read[c]);
+        if (allowed->codes > 0.0) {
+            // Eight bits of alpha too: dividing by what was rounded is not what is asked here.
+            double before = curve((double)wrote[c] / alpha), after = curve((double)read[c] / alpha);
+            error = 255.0 * fabs(before - after) - (has_alpha ? 0.5 / alpha : 0.0);
+            assert_true(error <= allowed->codes);
+        } else {
+            assert_true(error <= allowed->relative * most);
+        }
+    }
+}
+
+static void what_is_written_is_read_again(void **state)
+{
+    (void)state;
+    // Half: 11 bits, rounded: 2⁻¹¹. RGBE: 8 bits, cut off or rounded, of a mantissa of at least ½:
+    // 2⁻⁷. Eight bits: half a code, and what float makes of it.
+    static const tolerance formats[] = {
+        {"a.exr", {0, 1, 2, 3, 4}, 1.0 / 2048, 0.0}, {"a.hdr", {0, 3, 3, 3, 3}, 1.0 / 128, 0.0},
+        {"a.png", {0, 1, 2, 3, 4}, 0.0, 0.5001},     {"a.tif", {0, 1, 2, 3, 4}, 0.0, 0.5001},
+        {"a.tiff", {0, 1, 2, 3, 4}, 0.0, 0.5001},
+    };
+    for (size_t k = 0; k < sizeof formats / sizeof formats[0]; k++) {
+        for (int channels = 1; channels <= 4; channels++) {
+            glint_error error = {0};
+            glint_image wrote = make_ramp(channels);
+            if (glint_image_write(scratch_path(formats[k].name), &wrote, NULL, &error) !=
+                GLINT_OK) {
+                fail_msg("%s", error.message);
+            }
+            glint_image read = read_image(formats[k].name, NULL);
+            assert_int_equal(read.channels, formats[k].channels_back[channels]);
+            for (int p = 0; p < 64 * 16 && read.channels == channels; p++) {
+                compare_pixel(wrote.pixels + p * channels, read.pixels + p * channels, channels,
+                              &formats[k]);
+            }
+            glint_image_free(&wrote);
+            glint_image_free(&read);
+        }
+    }
+    assert_int_equal(scratch_count(), 5);
+}
+
+static void float_exr_is_exact_and_every_compression_reads_back(void **state)
+{
+    (void)state;
+    static const char *const lossless[] = {"none", "rle", "zip", "zips", "piz"};
+    static const char *const lossy[] = {"pxr24", "b44", "b44a", "dwaa", "dwab"};
+    glint_image wrote = make_ramp(4);
+    for (int k = 0; k < 10; k++) {
+        glint_write_options options = {.exr_float = true,
+                                       .compression = k < 5 ? lossless[k] : lossy[k - 5]};
+        glint_error error = {0};
+        if (glint_image_write(scratch_path("a.exr"), &wrote, &options, &error) != GLINT_OK) {
+            fail_msg("%s", error.message);
+        }
+        glint_image read = read_image("a.exr", NULL);
+        if (k < 5) {
+            assert_memory_equal(wrote.pixels, read.pixels, 64 * 16 * 4 * sizeof(float));
+        }
+        glint_image_free(&read);
+    }
+    glint_image_free(&wrote);
+}
+
+static void jpeg_is_close_and_over_black(void **state)
+{
+    (void)state;
+    glint_image wrote, read;
+    assert_int_equal(glint_image_create(64, 64, 4, &wrote, NULL), GLINT_OK);
+    for (int p = 0; p < 64 * 64; p++) {
+        for (int c = 0; c < 3; c++) {
+            wrote.pixels[4 * p + c] = 0.25f * (float)(p % 64) / 64.0f * (float)(c + 1);
+        }
+        wrote.pixels[4 * p + 3] = 0.5f;
+    }
+    assert_int_equal(glint_image_write(scratch_path("a.jpg"), &wrote, NULL, NULL), GLINT_OK);
+    read = read_image("a.jpg", NULL);
+    assert_int_equal(read.channels, 3);
+    double worst = 0.0;
+    for (int p = 0; p < 64 * 64; p++) {
+        for (int c = 0; c < 3; c++) {
+            worst = fmax(worst, fabs(curve((double)wrote.pixels[4 * p + c]) -
+                                     curve((double)read.pixels[3 * p + c])));
+        }
+    }
+    // At quality 95 the largest quantisation step is 12 of 255 for the finest luma detail, and a
+    // smooth ramp has none: a handful of codes.
+    assert_true(worst * 255.0 < 6.0);
+    glint_image_free(&wrote);
+    glint_image_free(&read);
+}
+
+static void jpeg_orientation_is_applied(void **state)
+{
+    (void)state;
+    // APP1 with one EXIF entry: orientation 6, the stored top row is on the right.
+    static const unsigned char exif[] = {0xff, 0xe1, 0, 34, 'E', 'x', 'i', 'f', 0, 0,  'M', 'M',
+                                         0,    42,   0, 0,  0,   8,   0,   1,   1, 18, 0,   3,
+                                         0,    0,    0, 1,  0,   6,   0,   0,   0, 0,  0,   0};
+    write_noise("a.jpg", 3);
+    glint_image plain = read_image("a.jpg", NULL);
+    size_t length;
+    unsigned char *bytes = scratch_read("a.jpg", &length);
+    assert_non_null(bytes);
+    // After the start of image; the file's own EXIF, which follows, comes too late.
+    unsigned char *longer = malloc(length + sizeof exif);
+    assert_non_null(longer);
+    memcpy(longer, bytes, 2);
+    memcpy(longer + 2, exif, sizeof exif);
+    memcpy(longer + 2 + sizeof exif, bytes + 2, length - 2);
+    scratch_write("b.jpg", longer, (long)(length + sizeof exif));
+    free(bytes);
+    free(longer);
+    glint_image turned = read_image("b.jpg", NULL);
+    assert_int_equal(turned.width, plain.height);
+    assert_int_equal(turned.height, plain.width);
+    for (int y = 0; y < turned.height; y++) {
+        for (int x = 0; x < turned.width; x++) {
+            const float *from = glint_image_pixel(&plain, y, turned.width - 1 - x);
+            assert_memory_equal(glint_image_pixel(&turned, x, y), from, 3 * sizeof(float));
+        }
+    }
+    glint_image_free(&plain);
+    glint_image_free(&turned);
+}
+
+// Half has 65504 as its largest: larger values must not become infinite, and NaN must stay visible.
+static void values_that_half_cannot_hold_are_clamped(void **state)
+{
+    (void)state;
+    const float values[24] = {65504.0f, 65519.9f,  65520.0f,  1e6f,      3e38f, INFINITY,
+                              -1e6f,    -INFINITY, NAN,       -65504.0f, 1e-9f, 0.5f,
+                              65504.0f, 7e4f,      -7e4f,     INFINITY,  NAN,   NAN,
+                              1.0f,     2.0f,      -INFINITY, 3.0f,      1e30f, 4.0f};
+    glint_image image = {8, 1, 3, (float *)values};
+    assert_int_equal(glint_image_write(scratch_path("a.exr"), &image, NULL, NULL), GLINT_OK);
+    glint_image read = read_image("a.exr", NULL);
+    for (int i = 0; i < 24; i++) {
+        if (isnan(values[i])) {
+            assert_true(isnan(read.pixels[i]));
+            continue;
+        }
+        double wanted = fmax(-65504.0, fmin(65504.0, (double)values[i]));
+        assert_true(fabs((double)read.pixels[i] - wanted) <= fabs(wanted) / 2048 + 6e-8);
+    }
+    glint_image_free(&read);
+    // RGBE keeps one exponent for three: a pixel with 1e30 has no room for small ones.
+    assert_int_equal(glint_image_write(scratch_path("a.hdr"), &image, NULL, NULL), GLINT_OK);
+    read = read_image("a.hdr", NULL);
+    for (int i = 0; i < 24; i++) {
+        assert_true(isfinite(read.pixels[i]) && read.pixels[i] >= 0.0f);
+    }
+    glint_image_free(&read);
+}
+
+static void exposure_is_stops_and_leaves_exr_alone(void **state)
+{
+    (void)state;
+    float gray[3] = {0.05f, 0.1f, 0.2f};
+    glint_image image = {1, 1, 3, gray};
+    glint_write_options options = {.exposure = 2.0f};
+    assert_int_equal(glint_image_write(scratch_path("a.png"), &image, &options, NULL), GLINT_OK);
+    assert_int_equal(glint_image_write(scratch_path("a.exr"), &image, &options, NULL), GLINT_OK);
+    glint_image png = read_image("a.png", NULL), exr = read_image("a.exr", NULL);
+    for (int c = 0; c < 3; c++) {
+        assert_true(fabs(255.0 * (curve((double)png.pixels[c]) - curve(4.0 * (double)gray[c]))) <
+                    0.5001);
+        assert_true(fabs((double)(exr.pixels[c] - gray[c])) <= (double)gray[c] / 2048);
+    }
+    glint_image_free(&png);
+    glint_image_free(&exr);
+}
+
+// JPEG and PNG are decoded in a child process: the fork must find no lock of OpenImageIO's held by
+// a thread that the child does not have.
+static void *read_and_write(void *argument)
+{
+    const char *name = argument;
+    for (int round = 0; round < 12; round++) {
+        glint_image read;
+        if (glint_image_read(scratch_path("shared.jpg"), &read, NULL, NULL) != GLINT_OK ||
+            glint_image_write(name, &read, NULL, NULL) != GLINT_OK) {
+            return argument;
+        }
+        glint_image_free(&read);
+    }
+    return NULL;
+}
+
+static void threads_may_read_and_write_at_once(void **state)
+{
+    (void)state;
+    enum { THREADS = 4 };
+    static const char *const names[THREADS] = {"t.exr", "t.png", "t.tif", "t.hdr"};
+    static char paths[THREADS][512];
+    pthread_t threads[THREADS];
+    write_noise("shared.jpg", 3);
+    for (int i = 0; i < THREADS; i++) {
+        snprintf(paths[i], sizeof paths[i], "%s", scratch_path(names[i]));
+        assert_int_equal(pthread_create(&threads[i], NULL, read_and_write, paths[i]), 0);
+    }
+    for (int i = 0; i < THREADS; i++) {
+        void *failed = NULL;
+        pthread_join(threads[i], &failed);
+        assert_null(failed);
+    }
+    assert_int_equal(scratch_count(), THREADS + 1);
+}
+
+// ---- Metadata, as OpenEXR's file layout has it --------------------------------------------------
+
+static const unsigned char *find_attribute(const unsigned char *bytes, size_t length,
+                                           const char *name, const char *type)
+{
+    char wanted[256];
+    size_t size = strlen(name) + strlen(type) + 2;
+    snprintf(wanted, sizeof wanted, "%s%c%s", name, 0, type);
+    for (size_t i = 0; i + size + 4 < length; i++) {
+        if (memcmp(bytes + i, wanted, size - 1) == 0 && bytes[i + size - 1] == 0) {
+            return bytes + i + size + 4; // after the size
+        }
+    }
+    return NULL;
+}
+
+static void exr_metadata_has_openexrs_types(void **state)
+{
+    (void)state;
+    glint_metadata metadata[] = {
+        {.name = "worldToCamera", .type = GLINT_METADATA_MATRIX},
+        {.name = "worldToNDC", .type = GLINT_METADATA_MATRIX},
+        {.name = "glint:frame", .type = GLINT_METADATA_INT, .integer = 42},
+        {.name = "glint:seconds", .type = GLINT_METADATA_FLOAT, .real = 1.5f},
+        {.name = "glint:scene", .type = GLINT_METADATA_STRING, .string = "gallery.gltf"},
+    };
+    for (int i = 0; i < 16; i++) {
+        metadata[0].matrix[i] = (float)i + 0.25f;
+        metadata[1].matrix[i] = (float)i + 100.25f;
+    }
+    glint_image image = make_ramp(3);
+    glint_write_options options = {
+        .metadata = metadata, .metadata_count = 5, .envmap = GLINT_ENVMAP_LATLONG};
+    assert_int_equal(glint_image_write(scratch_path("a.exr"), &image, &options, NULL), GLINT_OK);
+    size_t length;
+    unsigned char *bytes = scratch_read("a.exr", &length);
+    assert_non_null(bytes);
+    for (int k = 0; k < 2; k++) {
+        const unsigned char *matrix = find_attribute(bytes, length, metadata[k].name, "m44f");
+        assert_non_null(matrix);
+        assert_memory_equal(matrix, metadata[k].matrix, sizeof metadata[k].matrix);
+    }
+    const unsigned char *number = find_attribute(bytes, length, "glint:frame", "int");
+    assert_non_null(number);
+    assert_int_equal(number[0], 42);
+    const unsigned char *real = find_attribute(bytes, length, "glint:seconds", "float");
+    assert_non_null(real);
+    assert_memory_equal(real, &metadata[3].real, sizeof(float));
+    const unsigned char *text = find_attribute(bytes, length, "glint:scene", "string");
+    assert_non_null(text);
+    assert_memory_equal(text, "gallery.gltf", 12);
+    const unsigned char *envmap = find_attribute(bytes, length, "envmap", "envmap");
+    assert_non_null(envmap);
+    assert_int_equal(envmap[0], 0);
+    free(bytes);
+    // The others take what they can.
+    assert_int_equal(glint_image_write(scratch_path("a.png"), &image, &options, NULL), GLINT_OK);
+    assert_int_equal(glint_image_write(scratch_path("a.tif"), &image, &options, NULL), GLINT_OK);
+    assert_int_equal(glint_image_write(scratch_path("a.jpg"), &image, &options, NULL), GLINT_OK);
+    assert_int_equal(glint_image_write(scratch_path("a.hdr"), &image, &options, NULL), GLINT_OK);
+    for (int k = 0; k < 4; k++) {
+        static const char *const names[] = {"a.png", "a.tif", "a.jpg", "a.hdr"};
+        glint_image read = read_image(names[k], NULL);
+        glint_image_free(&read);
+    }
+    glint_image_free(&image);
+}
+
+static void envmap_cube_is_written_as_the_attribute(void **state)
+{
+    (void)state;
+    glint_image image;
+    assert_int_equal(glint_image_create(4, 24, 3, &image, NULL), GLINT_OK);
+    glint_write_options options = {.envmap = GLINT_ENVMAP_CUBE};
+    assert_int_equal(glint_image_write(scratch_path("a.exr"), &image, &options, NULL), GLINT_OK);
+    glint_image_free(&image);
+    size_t length;
+    unsigned char *bytes = scratch_read("a.exr", &length);
+    assert_non_null(bytes);
+    const unsigned char *envmap = find_attribute(bytes, length, "envmap", "envmap");
+    assert_non_null(envmap);
+    assert_int_equal(envmap[0], 1);
+    free(bytes);
+    glint_image_facts facts = {0};
+    image = read_image("a.exr", &facts);
+    assert_int_equal(facts.envmap, GLINT_ENVMAP_CUBE);
+    assert_int_equal(image.height, 24);
+    glint_image_free(&image);
+}
+
+static void output_is_checked_before_work_is_done(void **state)
+{
+    (void)state;
+    static const char *const good[] = {"a.exr",  "b/c.HDR", "a.b.png", "x.jpg",
+                                       "x.jpeg", "x.tif",   "x.tiff"};
+    static const char *const bad[] = {"a", "a.bmp", "exr", ".exr", "a.exr/b", "a.png~", ""};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        assert_true(glint_image_can_write(good[i]));
+        assert_int_equal(glint_image_check_output(good[i], NULL, NULL), GLINT_OK);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        assert_false(glint_image_can_write(bad[i]));
+        assert_int_equal(glint_image_check_output(bad[i], NULL, NULL), GLINT_USAGE);
+    }
+    static const struct {
+        const char *path, *compression;
+        glint_status status;
+    } given[] = {
+        {"a.exr", "piz", GLINT_OK},    {"a.exr", "lzw", GLINT_USAGE}, {"a.exr", "0", GLINT_USAGE},
+        {"a.tif", "lzw", GLINT_OK},    {"a.tif", "piz", GLINT_USAGE}, {"a.png", "9", GLINT_OK},
+        {"a.png", "10", GLINT_USAGE},  {"a.png", "zip", GLINT_USAGE}, {"a.jpg", "100", GLINT_OK},
+        {"a.jpg", "0", GLINT_USAGE},   {"a.jpg", "9x", GLINT_USAGE},  {"a.hdr", "rle", GLINT_USAGE},
+        {"a.jpg", " 90", GLINT_USAGE}, {"a.exr", "", GLINT_USAGE},
+    };
+    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
+        glint_write_options options = {.compression = given[i].compression};
+        assert_int_equal(glint_image_check_output(given[i].path, &options, NULL), given[i].status);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
+        IN_FOLDER(what_is_written_is_read_again),
+        IN_FOLDER(float_exr_is_exact_and_every_compression_reads_back),
+        IN_FOLDER(jpeg_is_close_and_over_black),
+        IN_FOLDER(jpeg_orientation_is_applied),
+        IN_FOLDER(values_that_half_cannot_hold_are_clamped),
+        IN_FOLDER(exposure_is_stops_and_leaves_exr_alone),
+        IN_FOLDER(threads_may_read_and_write_at_once),
+        IN_FOLDER(exr_metadata_has_openexrs_types),
+        IN_FOLDER(envmap_cube_is_written_as_the_attribute),
+        IN_FOLDER(output_is_checked_before_work_is_done),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

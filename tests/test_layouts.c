@@ -1,0 +1,326 @@
+// Cube and lat-long maps in memory: which way they face, seams, poles, and what resampling keeps.
+// The oracle is colour that encodes direction (support/direction_maps.h).
+#include "environment/environment.h"
+#include "environment/layouts.h"
+#include "support/direction_maps.h"
+
+#include <math.h>
+#include <sched.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// ---- The cube -----------------------------------------------------------------------------------
+
+static glint_cube direction_cube(int edge)
+{
+    glint_cube cube;
+    assert_int_equal(glint_cube_create(edge, &cube, NULL), GLINT_OK);
+    for (int face = 0; face < 6; face++) {
+        for (int j = 0; j < edge; j++) {
+            for (int i = 0; i < edge; i++) {
+                double rgb[3];
+                color_of(openexr_cube_direction(face, (i + 0.5) / edge, (j + 0.5) / edge), rgb);
+                for (int c = 0; c < 3; c++) {
+                    glint_cube_texel(&cube, face, i, j)[c] = (float)rgb[c];
+                }
+            }
+        }
+    }
+    glint_cube_fill_border(&cube);
+    return cube;
+}
+
+static void cube_faces_are_openexrs(void **state)
+{
+    (void)state;
+    for (int face = 0; face < 6; face++) {
+        for (int k = 0; k < 25; k++) {
+            int column = k % 5, row = k / 5;
+            double s = column / 2.0 - 1.0, t = row / 2.0 - 1.0;
+            glint_vec3 d = glint_cube_direction(face, s, t);
+            glint_vec3 wanted = openexr_cube_direction(face, (s + 1.0) / 2.0, (t + 1.0) / 2.0);
+            assert_true(d.x == wanted.x && d.y == wanted.y && d.z == wanted.z);
+        }
+    }
+}
+
+static void look_up_at_texel_centres_is_exact(void **state)
+{
+    (void)state;
+    glint_cube cube = direction_cube(8);
+    for (int k = 0; k < 6 * 64; k++) {
+        int face = k / 64, i = k % 8, j = k / 8 % 8;
+        double s = (2 * i + 1) / 8.0 - 1.0, t = (2 * j + 1) / 8.0 - 1.0, rgb[3];
+        glint_cube_sample(&cube, glint_cube_direction(face, 3.0 * s, 3.0 * t), rgb);
+        glint_vec3 d = glint_cube_direction(face, s, t);
+        glint_cube_sample(&cube, (glint_vec3){7.0 * d.x, 7.0 * d.y, 7.0 * d.z}, rgb);
+        for (int c = 0; c < 3; c++) {
+            // The place is computed to some units in the last place of a double.
+            assert_true(fabs(rgb[c] - (double)glint_cube_texel(&cube, face, i, j)[c]) < 1e-13);
+        }
+    }
+    glint_cube_free(&cube);
+}
+
+// The texel across an edge is the one whose centre is nearest to that of the border texel.
+static void border_holds_the_neighbours_texels(void **state)
+{
+    (void)state;
+    for (int edge = 1; edge <= 9; edge++) {
+        glint_cube cube = direction_cube(edge);
+        for (int face = 0; face < 6; face++) {
+            for (int k = 0; k < 4 * edge; k++) {
+                int along = k / 4;
+                int i = k % 4 == 0 ? -1 : (k % 4 == 1 ? edge : along);
+                int j = k % 4 == 2 ? -1 : (k % 4 == 3 ? edge : along);
+                double wanted[3];
+                color_of(openexr_cube_direction(face, (i + 0.5) / edge, (j + 0.5) / edge), wanted);
+                const float *nearest = NULL;
+                double best = INFINITY;
+                for (int t = 0; t < 6 * edge * edge; t++) {
+                    const float *texel =
+                        glint_cube_texel(&cube, t / edge / edge, t % edge, t / edge % edge);
+                    double distance =
+                        hypot(hypot((double)texel[0] - wanted[0], (double)texel[1] - wanted[1]),
+                              (double)texel[2] - wanted[2]);
+                    if (distance < best && t / edge / edge != face) {
+                        best = distance;
+                        nearest = texel;
+                    }
+                }
+                assert_memory_equal(glint_cube_texel(&cube, face, i, j), nearest, 12);
+            }
+            for (int corner = 0; corner < 4; corner++) {
+                int i = corner % 2 ? edge : -1, j = corner / 2 ? edge : -1;
+                int in_i = corner % 2 ? edge - 1 : 0, in_j = corner / 2 ? edge - 1 : 0;
+                for (int c = 0; c < 3; c++) {
+                    double mean = ((double)glint_cube_texel(&cube, face, in_i, in_j)[c] +
+                                   (double)glint_cube_texel(&cube, face, i, in_j)[c] +
+                                   (double)glint_cube_texel(&cube, face, in_i, j)[c]) /
+                                  3.0;
+                    double found = (double)glint_cube_texel(&cube, face, i, j)[c];
+                    assert_true(fabs(found - mean) <= 6e-8 * mean); // rounded to float once
+                }
+            }
+        }
+        glint_cube_free(&cube);
+    }
+}
+
+static void fill_with_noise(glint_cube *cube)
+{
+    for (int t = 0; t < 6 * cube->edge * cube->edge; t++) {
+        for (int c = 0; c < 3; c++) {
+            glint_cube_texel(cube, t / cube->edge / cube->edge, t % cube->edge,
+                             t / cube->edge % cube->edge)[c] = (float)(next_random() + 1.0);
+        }
+    }
+    glint_cube_fill_border(cube);
+}
+
+// Noise is the hardest for a seam: a step of 10⁻⁹ across an edge or a corner changes the value by
+// no more than 10⁻⁹ times the steepest slope, N/2 a texel of contrast 2, and float rounding at
+// corners.
+static void look_up_is_continuous_across_edges_and_corners(void **state)
+{
+    (void)state;
+    for (int edge = 1; edge <= 16; edge *= 2) {
+        glint_cube cube;
+        assert_int_equal(glint_cube_create(edge, &cube, NULL), GLINT_OK);
+        fill_with_noise(&cube);
+        for (int k = 0; k < 3000; k++) {
+            double along = k % 10 == 0 ? 1.0 : next_random();
+            double e = 1e-9, sign = k % 2 ? 1.0 : -1.0, other = k / 2 % 2 ? 1.0 : -1.0;
+            glint_vec3 a = {sign * (1.0 + e), other, along}, b = {sign * (1.0 - e), other, along};
+            if (k % 3 == 1) {
+                a = (glint_vec3){along, sign * (1.0 + e), other};
+                b = (glint_vec3){along, sign * (1.0 - e), other};
+            } else if (k % 3 == 2) {
+                a = (glint_vec3){other, along, sign * (1.0 + e)};
+                b = (glint_vec3){other, along, sign * (1.0 - e)};
+            }
+            double at_a[3], at_b[3];
+            glint_cube_sample(&cube, a, at_a);
+            glint_cube_sample(&cube, b, at_b);
+            for (int c = 0; c < 3; c++) {
+                assert_true(fabs(at_a[c] - at_b[c]) <= 1e-6);
+            }
+        }
+        glint_cube_free(&cube);
+    }
+}
+
+static void colour_linear_in_direction_is_kept(void **state)
+{
+    (void)state;
+    for (int edge = 4; edge <= 256; edge *= 2) {
+        glint_cube cube = direction_cube(edge);
+        double worst = worst_error(&cube);
+        assert_true(worst <= copied_border_bound(edge) + 1e-7);
+        // Off the edges it is interpolation alone.
+        double inner = 0.0;
+        for (int k = 0; k < 20000; k++) {
+            double s = next_random() * (1.0 - 1.0 / edge), t = next_random() * (1.0 - 1.0 / edge);
+            inner = fmax(inner, error_along(&cube, glint_cube_direction(k % 6, s, t)));
+        }
+        assert_true(inner <= 0.65 / ((double)edge * edge) + 1e-7);
+        glint_cube_free(&cube);
+    }
+}
+
+static void ties_and_odd_directions_have_an_answer(void **state)
+{
+    (void)state;
+    glint_cube cube = direction_cube(4);
+    const double odd[] = {0.0, -0.0, 1.0, -1.0, INFINITY, -INFINITY, NAN, 1e-320, 1e300};
+    for (int k = 0; k < 9 * 9 * 9; k++) {
+        glint_vec3 d = {odd[k % 9], odd[k / 9 % 9], odd[k / 81]};
+        double rgb[3];
+        glint_cube_sample(&cube, d, rgb); // under the sanitizers: reads nothing outside
+    }
+    glint_cube_free(&cube);
+    assert_int_equal(glint_cube_create(0, &cube, NULL), GLINT_BAD_INPUT);
+    assert_int_equal(glint_cube_create(-1, &cube, NULL), GLINT_BAD_INPUT);
+    assert_int_equal(glint_cube_create(1 << 30, &cube, NULL), GLINT_BAD_INPUT);
+    glint_cube_free(&cube);
+}
+
+// ---- Lat-long -----------------------------------------------------------------------------------
+
+static void latlong_look_up_wraps_and_crosses_the_poles(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        int height = 4 << (k / 2);
+        bool on_edges = k % 2;
+        glint_image image = direction_latlong(height, on_edges);
+        double worst = 0.0;
+        for (int i = 0; i < 20000; i++) {
+            glint_vec3 d = random_direction();
+            if (i % 4 == 1) { // near a pole
+                d = (glint_vec3){d.x * 0.1, d.y < 0.0 ? -1.0 : 1.0, d.z * 0.1};
+            } else if (i % 4 == 2) { // near the seam
+                d = (glint_vec3){d.x * 1e-3, d.y, -fabs(d.z)};
+            } else if (i < 8) {
+                d = (glint_vec3){i % 8 < 4 ? 0.0 : -0.0, i % 2 ? 1.0 : -1.0, 0.0};
+            }
+            double found[3], wanted[3];
+            glint_latlong_sample(&image, on_edges, d, found);
+            color_of(d, wanted);
+            for (int c = 0; c < 3; c++) {
+                worst = fmax(worst, fabs(found[c] - wanted[c]));
+            }
+        }
+        assert_true(worst <= latlong_bound(height, on_edges));
+        // Both sides of the seam, and all longitudes at a pole.
+        double left[3], right[3], pole[3], turned[3];
+        glint_latlong_sample(&image, on_edges, (glint_vec3){1e-300, 0.3, -1.0}, left);
+        glint_latlong_sample(&image, on_edges, (glint_vec3){-1e-300, 0.3, -1.0}, right);
+        glint_latlong_sample(&image, on_edges, (glint_vec3){0.0, 1.0, 0.0}, pole);
+        glint_latlong_sample(&image, on_edges, (glint_vec3){1e-17, 1.0, 1e-17}, turned);
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabs(left[c] - right[c]) < 1e-6);
+            assert_true(isfinite(pole[c]));
+            assert_true(fabs(pole[c] - turned[c]) <= latlong_bound(height, on_edges));
+        }
+        glint_image_free(&image);
+    }
+}
+
+static void latlong_becomes_a_cube_that_agrees_with_it(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        int height = k < 2 ? 8 : (k < 4 ? 64 : 300);
+        bool on_edges = k % 2;
+        glint_image image = direction_latlong(height, on_edges);
+        glint_cube cube;
+        int edge = glint_latlong_edge(height);
+        assert_true(edge >= 256 && edge >= height);
+        assert_int_equal(glint_cube_from_latlong(&image, on_edges, edge, &cube, NULL), GLINT_OK);
+        // The mean of taps over a texel differs from the middle by another interpolation's error.
+        double bound = latlong_bound(height, on_edges) + copied_border_bound(edge) +
+                       0.65 / ((double)edge * edge);
+        assert_true(worst_error(&cube) <= bound);
+        glint_cube_free(&cube);
+        glint_image_free(&image);
+    }
+}
+
+static void latlong_edge_is_kept_between_its_limits(void **state)
+{
+    (void)state;
+    assert_int_equal(glint_latlong_edge(1), 256);
+    assert_int_equal(glint_latlong_edge(512), 512);
+    assert_int_equal(glint_latlong_edge(1000), 1000);
+    assert_int_equal(glint_latlong_edge(20000), 2048);
+}
+
+// A fine pattern in a small cube: each texel must be near the mean of what it covers, not a sample.
+static void texels_that_cover_many_pixels_are_means(void **state)
+{
+    (void)state;
+    glint_image image;
+    assert_int_equal(glint_image_create(1024, 512, 3, &image, NULL), GLINT_OK);
+    for (int p = 0; p < 1024 * 512; p++) {
+        float bright = (p % 1024 + p / 1024) % 2 == 0 ? 1.0f : 0.0f;
+        for (int c = 0; c < 3; c++) {
+            image.pixels[3 * p + c] = bright;
+        }
+    }
+    glint_cube cube;
+    assert_int_equal(glint_cube_from_latlong(&image, false, 32, &cube, NULL), GLINT_OK);
+    for (int k = 0; k < 6 * 32 * 32; k++) {
+        double value = (double)glint_cube_texel(&cube, k / 1024, k % 32, k / 32 % 32)[0];
+        assert_true(fabs(value - 0.5) < 0.15);
+    }
+    glint_cube_free(&cube);
+    glint_image_free(&image);
+}
+
+static void threads_do_not_change_the_bits(void **state)
+{
+    (void)state;
+    glint_image image = direction_latlong(100, false);
+    glint_cube many, one;
+    cpu_set_t before, single;
+    assert_int_equal(glint_cube_from_latlong(&image, false, 64, &many, NULL), GLINT_OK);
+    assert_int_equal(sched_getaffinity(0, sizeof before, &before), 0);
+    CPU_ZERO(&single);
+    for (size_t cpu = 0; cpu < CPU_SETSIZE; cpu++) {
+        if (CPU_ISSET(cpu, &before)) {
+            CPU_SET(cpu, &single);
+            break;
+        }
+    }
+    assert_int_equal(sched_setaffinity(0, sizeof single, &single), 0);
+    assert_int_equal(glint_cube_from_latlong(&image, false, 64, &one, NULL), GLINT_OK);
+    sched_setaffinity(0, sizeof before, &before);
+    assert_memory_equal(many.texels, one.texels, glint_cube_size(&one) * sizeof(float));
+    glint_cube_free(&many);
+    glint_cube_free(&one);
+    glint_image_free(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cube_faces_are_openexrs),
+        cmocka_unit_test(look_up_at_texel_centres_is_exact),
+        cmocka_unit_test(border_holds_the_neighbours_texels),
+        cmocka_unit_test(look_up_is_continuous_across_edges_and_corners),
+        cmocka_unit_test(colour_linear_in_direction_is_kept),
+        cmocka_unit_test(ties_and_odd_directions_have_an_answer),
+        cmocka_unit_test(latlong_look_up_wraps_and_crosses_the_poles),
+        cmocka_unit_test(latlong_becomes_a_cube_that_agrees_with_it),
+        cmocka_unit_test(latlong_edge_is_kept_between_its_limits),
+        cmocka_unit_test(texels_that_cover_many_pixels_are_means),
+        cmocka_unit_test(threads_do_not_change_the_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
