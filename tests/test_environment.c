@@ -82,7 +82,7 @@ static void latlong_files_face_the_right_way(void **state)
         assert_int_equal(environment.source_width, 128);
         assert_int_equal(environment.mended_texels, 0);
         assert_true(worst_error(&environment.radiance) <=
-                    latlong_bound(64, on_edges) + copied_border_bound(256));
+                    latlong_bound(64, on_edges) + seam_bound(256));
         glint_environment_free(&environment);
     }
 }
@@ -116,7 +116,7 @@ static void openexr_cube_files_face_the_right_way(void **state)
         assert_int_equal(environment.layout, GLINT_LAYOUT_CUBE);
         assert_int_equal(environment.radiance.edge, EDGE);
         double once_more = 0.65 / ((EDGE - 1.0) * (EDGE - 1.0));
-        assert_true(worst_error(&environment.radiance) <= copied_border_bound(EDGE) + once_more);
+        assert_true(worst_error(&environment.radiance) <= seam_bound(EDGE) + once_more);
         glint_environment_free(&environment);
     }
 }
@@ -178,7 +178,7 @@ static void assert_faces_load(const char *path)
     glint_environment environment = load(path, GLINT_LAYOUT_UNKNOWN, NULL);
     assert_int_equal(environment.layout, GLINT_LAYOUT_FACES);
     assert_int_equal(environment.radiance.edge, 16);
-    assert_true(worst_error(&environment.radiance) <= copied_border_bound(16));
+    assert_true(worst_error(&environment.radiance) <= seam_bound(16));
     // The first face ahead of the default camera, which looks along −Z, is posz, unmirrored: its
     // right half is towards +X.
     double ahead[3], to_the_right[3];

@@ -67,51 +67,6 @@ static void look_up_at_texel_centres_is_exact(void **state)
     glint_cube_free(&cube);
 }
 
-// The texel across an edge is the one whose centre is nearest to that of the border texel.
-static void border_holds_the_neighbours_texels(void **state)
-{
-    (void)state;
-    for (int edge = 1; edge <= 9; edge++) {
-        glint_cube cube = direction_cube(edge);
-        for (int face = 0; face < 6; face++) {
-            for (int k = 0; k < 4 * edge; k++) {
-                int along = k / 4;
-                int i = k % 4 == 0 ? -1 : (k % 4 == 1 ? edge : along);
-                int j = k % 4 == 2 ? -1 : (k % 4 == 3 ? edge : along);
-                double wanted[3];
-                color_of(openexr_cube_direction(face, (i + 0.5) / edge, (j + 0.5) / edge), wanted);
-                const float *nearest = NULL;
-                double best = INFINITY;
-                for (int t = 0; t < 6 * edge * edge; t++) {
-                    const float *texel =
-                        glint_cube_texel(&cube, t / edge / edge, t % edge, t / edge % edge);
-                    double distance =
-                        hypot(hypot((double)texel[0] - wanted[0], (double)texel[1] - wanted[1]),
-                              (double)texel[2] - wanted[2]);
-                    if (distance < best && t / edge / edge != face) {
-                        best = distance;
-                        nearest = texel;
-                    }
-                }
-                assert_memory_equal(glint_cube_texel(&cube, face, i, j), nearest, 12);
-            }
-            for (int corner = 0; corner < 4; corner++) {
-                int i = corner % 2 ? edge : -1, j = corner / 2 ? edge : -1;
-                int in_i = corner % 2 ? edge - 1 : 0, in_j = corner / 2 ? edge - 1 : 0;
-                for (int c = 0; c < 3; c++) {
-                    double mean = ((double)glint_cube_texel(&cube, face, in_i, in_j)[c] +
-                                   (double)glint_cube_texel(&cube, face, i, in_j)[c] +
-                                   (double)glint_cube_texel(&cube, face, in_i, j)[c]) /
-                                  3.0;
-                    double found = (double)glint_cube_texel(&cube, face, i, j)[c];
-                    assert_true(fabs(found - mean) <= 6e-8 * mean); // rounded to float once
-                }
-            }
-        }
-        glint_cube_free(&cube);
-    }
-}
-
 static void fill_with_noise(glint_cube *cube)
 {
     for (int t = 0; t < 6 * cube->edge * cube->edge; t++) {
@@ -121,6 +76,61 @@ static void fill_with_noise(glint_cube *cube)
         }
     }
     glint_cube_fill_border(cube);
+}
+
+// On an edge both faces interpolate through one value, whatever the texels: half of a face's
+// outermost texel and its border, seen from either side. At a corner it is the mean of the three
+// texels there.
+static void both_faces_of_an_edge_go_through_the_same_values(void **state)
+{
+    (void)state;
+    for (int edge = 1; edge <= 9; edge++) {
+        glint_cube cube;
+        assert_int_equal(glint_cube_create(edge, &cube, NULL), GLINT_OK);
+        fill_with_noise(&cube);
+        for (int code = 0; code < 8; code++) { // the corners (±1, ±1, ±1)
+            const glint_vec3 d = {code & 1 ? 1 : -1, code & 2 ? 1 : -1, code & 4 ? 1 : -1};
+            double mean[3] = {0}, found[3];
+            for (int axis = 0; axis < 3; axis++) {
+                double inside[3] = {d.x, d.y, d.z};
+                for (int k = 0; k < 3; k++) {
+                    inside[k] *= k == axis ? 1 : 1 - 1.0 / edge;
+                }
+                double texel[3];
+                glint_cube_sample(&cube, (glint_vec3){inside[0], inside[1], inside[2]}, texel);
+                for (int c = 0; c < 3; c++) {
+                    mean[c] += texel[c] / 3;
+                }
+            }
+            glint_cube_sample(&cube, d, found);
+            for (int c = 0; c < 3; c++) {
+                assert_true(fabs(found[c] - mean[c]) <= 1e-6); // borders are rounded to float
+            }
+        }
+        glint_cube_free(&cube);
+    }
+}
+
+// Borders may be negative beside bright texels; what is looked up is not.
+static void no_look_up_leaves_the_range_of_the_texels(void **state)
+{
+    (void)state;
+    glint_cube cube;
+    assert_int_equal(glint_cube_create(8, &cube, NULL), GLINT_OK);
+    for (int t = 0; t < 6 * 64; t++) {
+        for (int c = 0; c < 3; c++) {
+            glint_cube_texel(&cube, t / 64, t % 8, t / 8 % 8)[c] = next_random() > 0.8 ? 1000 : 0;
+        }
+    }
+    glint_cube_fill_border(&cube);
+    for (int k = 0; k < 100000; k++) {
+        double rgb[3], edge = k % 3 == 0 ? 1.0 : next_random();
+        glint_cube_sample(&cube, (glint_vec3){edge, next_random(), k % 2 ? 1.0 : -1.0}, rgb);
+        for (int c = 0; c < 3; c++) {
+            assert_true(rgb[c] >= -1e-3 && rgb[c] <= 1000 + 1e-3); // 1000 times a few roundings
+        }
+    }
+    glint_cube_free(&cube);
 }
 
 // Noise is the hardest for a seam: a step of 10⁻⁹ across an edge or a corner changes the value by
@@ -161,7 +171,7 @@ static void colour_linear_in_direction_is_kept(void **state)
     for (int edge = 4; edge <= 256; edge *= 2) {
         glint_cube cube = direction_cube(edge);
         double worst = worst_error(&cube);
-        assert_true(worst <= copied_border_bound(edge) + 1e-7);
+        assert_true(worst <= seam_bound(edge) + 1e-7);
         // Off the edges it is interpolation alone.
         double inner = 0.0;
         for (int k = 0; k < 20000; k++) {
@@ -244,8 +254,8 @@ static void latlong_becomes_a_cube_that_agrees_with_it(void **state)
         assert_true(edge >= 256 && edge >= height);
         assert_int_equal(glint_cube_from_latlong(&image, on_edges, edge, &cube, NULL), GLINT_OK);
         // The mean of taps over a texel differs from the middle by another interpolation's error.
-        double bound = latlong_bound(height, on_edges) + copied_border_bound(edge) +
-                       0.65 / ((double)edge * edge);
+        double bound =
+            latlong_bound(height, on_edges) + seam_bound(edge) + 0.65 / ((double)edge * edge);
         assert_true(worst_error(&cube) <= bound);
         glint_cube_free(&cube);
         glint_image_free(&image);
@@ -312,7 +322,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_faces_are_openexrs),
         cmocka_unit_test(look_up_at_texel_centres_is_exact),
-        cmocka_unit_test(border_holds_the_neighbours_texels),
+        cmocka_unit_test(both_faces_of_an_edge_go_through_the_same_values),
+        cmocka_unit_test(no_look_up_leaves_the_range_of_the_texels),
         cmocka_unit_test(look_up_is_continuous_across_edges_and_corners),
         cmocka_unit_test(colour_linear_in_direction_is_kept),
         cmocka_unit_test(ties_and_odd_directions_have_an_answer),

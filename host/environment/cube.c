@@ -82,22 +82,57 @@ static int clamp_index(double place, int last)
     return place > 0.0 ? (place < last ? (int)place : last) : 0;
 }
 
-// The texel across the edge is the one that the border texel's own centre looks at: that direction
-// runs from s = 1 + 1/N on this plane to N/(N + 1) on the neighbour's, inside its outermost texels,
-// and shifts by at most (N − 1)/(N(N + 1)) along the edge, less than the half texel of 1/N.
-static void copy_from_neighbour(glint_cube *cube, int face, int i, int j)
+// The neighbour's texel across the edge from border place (i, j): the one that the border's own
+// centre looks at. That direction runs from s = 1 + 1/N on this plane to N/(N + 1) on the
+// neighbour's, inside its outermost texels, and shifts by at most (N − 1)/(N(N + 1)) along the
+// edge, less than the half texel of 1/N.
+static const float *texel_across(const glint_cube *cube, int face, int i, int j)
 {
     double n = cube->edge, s, t;
     glint_vec3 d = glint_cube_direction(face, (2.0 * i + 1.0) / n - 1.0, (2.0 * j + 1.0) / n - 1.0);
     int neighbour = find_point(d, &s, &t);
     int column = clamp_index((s + 1.0) * 0.5 * n, cube->edge - 1);
     int row = clamp_index((t + 1.0) * 0.5 * n, cube->edge - 1);
-    memcpy(glint_cube_texel(cube, face, i, j), glint_cube_texel(cube, neighbour, column, row),
-           4 * sizeof(float));
+    return glint_cube_texel(cube, neighbour, column, row);
 }
 
-// Three faces meet in a corner and no fourth texel is there: with the mean of the three, all three
-// faces give that mean at the corner itself.
+// One side of a face: border place k is (i, j) + k (along_i, along_j), and the face's own texel
+// next to it is (into_i, into_j) further in.
+typedef struct side {
+    int i, j, along_i, along_j, into_i, into_j;
+} side;
+
+// On the edge at height t the value is e = ½(a(t′) + b(t′)) with t′ = t(1 − 1/2N), a and b the
+// outermost texels of the two faces: seen from the centre, the point half way between two such
+// texels lies a little further out along the edge than they do on their planes. Both faces have the
+// same e, so the look-up is continuous, and it is right to second order. The border is what makes
+// bilinear interpolation go through e: 2e − a. It may be negative beside a bright texel; what is
+// looked up, between a and e, never is.
+static void fill_side(glint_cube *cube, int face, const side *at)
+{
+    int n = cube->edge;
+    for (int k = 0; k < n; k++) {
+        double t = (2.0 * k + 1.0) / n - 1.0;
+        int inner = n == 1 ? 0 : (t < 0.0 ? k + 1 : k - 1); // towards the middle of the edge
+        double share = fabs(t) / 4.0;                       // t − t′, in texels
+        int i = at->i + k * at->along_i, j = at->j + k * at->along_j;
+        int inner_i = at->i + inner * at->along_i, inner_j = at->j + inner * at->along_j;
+        const float *own = glint_cube_texel(cube, face, i + at->into_i, j + at->into_j);
+        const float *own_inner =
+            glint_cube_texel(cube, face, inner_i + at->into_i, inner_j + at->into_j);
+        const float *across = texel_across(cube, face, i, j);
+        const float *across_inner = texel_across(cube, face, inner_i, inner_j);
+        float *border = glint_cube_texel(cube, face, i, j);
+        for (int c = 0; c < 4; c++) {
+            double a = (double)own[c], b = (double)across[c];
+            double twice_e =
+                a + b + share * ((double)own_inner[c] - a + (double)across_inner[c] - b);
+            border[c] = (float)(twice_e - a);
+        }
+    }
+}
+
+// Three faces meet in a corner, and its value is the mean of their three texels, for all of them.
 static void fill_corner(glint_cube *cube, int face, int right, int down)
 {
     int n = cube->edge;
@@ -106,22 +141,23 @@ static void fill_corner(glint_cube *cube, int face, int right, int down)
     const float *own = glint_cube_texel(cube, face, inside_i, inside_j);
     const float *beside = glint_cube_texel(cube, face, border_i, inside_j);
     const float *below = glint_cube_texel(cube, face, inside_i, border_j);
+    const float *across_beside = texel_across(cube, face, border_i, inside_j);
+    const float *across_below = texel_across(cube, face, inside_i, border_j);
     float *corner = glint_cube_texel(cube, face, border_i, border_j);
     for (int c = 0; c < 4; c++) {
-        double sum = (double)own[c] + (double)beside[c] + (double)below[c];
-        corner[c] = (float)(sum / 3.0);
+        double mean = ((double)own[c] + (double)across_beside[c] + (double)across_below[c]) / 3.0;
+        corner[c] = (float)(4.0 * mean - (double)own[c] - (double)beside[c] - (double)below[c]);
     }
 }
 
 void glint_cube_fill_border(glint_cube *cube)
 {
     int n = cube->edge;
+    const side sides[4] = {
+        {-1, 0, 0, 1, 1, 0}, {n, 0, 0, 1, -1, 0}, {0, -1, 1, 0, 0, 1}, {0, n, 1, 0, 0, -1}};
     for (int face = 0; face < GLINT_CUBE_FACES && n > 0; face++) {
-        for (int k = 0; k < n; k++) {
-            copy_from_neighbour(cube, face, -1, k);
-            copy_from_neighbour(cube, face, n, k);
-            copy_from_neighbour(cube, face, k, -1);
-            copy_from_neighbour(cube, face, k, n);
+        for (int k = 0; k < 4; k++) {
+            fill_side(cube, face, &sides[k]);
         }
         for (int corner = 0; corner < 4; corner++) {
             fill_corner(cube, face, corner % 2, corner / 2);

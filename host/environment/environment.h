@@ -12,8 +12,8 @@ extern "C" {
 #endif
 
 // A cube map in the layout of kernels/layout.h: linear Rec.709 radiance, texel centres at
-// (i + ½)/edge, each face with a border of one texel copied from its neighbours (the three texels
-// around a cube corner are averaged there), so that bilinear filtering is seamless.
+// (i + ½)/edge, each face with a border of one texel made from its neighbours, so that bilinear
+// filtering is continuous over edges and corners, and right there to second order in 1/edge.
 // Zero is valid: no texels.
 typedef struct glint_cube {
     int edge;      // texels along a face's edge, without the border

@@ -68,13 +68,13 @@ double worst_error(const glint_cube *cube)
     return worst;
 }
 
-// Within half a texel of an edge of the cube the neighbour's texel stands where the border's
-// should. On the edge, at height t, the two texels' mean is (1 + h(1/L² − ½)) and (1 + h/L²) times
-// what it should be across and along the edge, h = 1/N, L² = 2 + t²: colour errs by up to ½ h t/L³
-// = 0.0963/N, plus terms of h².
-double copied_border_bound(int edge)
+// Bilinear interpolation of 0.5 + 0.5 d between texels 2/N apart errs by up to (2/N)²/8 of the
+// second derivatives in s and in t, each at most 1 in size for a unit vector's component: 0.5 (0.5
+// + 0.5)/N². Halfway over an edge, the mean of two unit vectors is too short by their angle's
+// square over 8, at most (√2/N)²/8 of 0.5. Hard case 26 allows 2/N² for d, 1/N² for 0.5 d.
+double seam_bound(int edge)
 {
-    return 0.0963 / edge + 1.5 / ((double)edge * edge);
+    return 1.0 / ((double)edge * edge);
 }
 
 // OpenEXR's cube, ImfEnvmap.h, face by face: pixel (column, row) to direction, in [0, 1].

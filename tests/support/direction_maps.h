@@ -27,9 +27,9 @@ void color_of(glint_vec3 d, double rgb[3]);
 double error_along(const glint_cube *cube, glint_vec3 d);
 double worst_error(const glint_cube *cube);
 
-// The bounds derived above, for a cube with a border copied from the neighbours, and for a lat-long
-// map of this height.
-double copied_border_bound(int edge);
+// The bounds of that error: for a cube, over its edges and corners too, and for a lat-long map of
+// this height.
+double seam_bound(int edge);
 double latlong_bound(int height, bool on_edges);
 
 // OpenEXR's cube and lat-long map: the direction of a place in [0, 1] on a face, or in the map.
