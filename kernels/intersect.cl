@@ -53,9 +53,10 @@ typedef int box_int;
 #define load_boxes(p) load_boxes_float(p)
 #endif
 
-// The far distance is widened by this much, so that rounding never loses a box that is touched
-// (three roundings on either side; Ize, Robust BVH Ray Traversal, 2013).
-#define FAR_SLACK (R(1.0) + R(8.0) * EPSILON)
+// The far distance is widened by this much, so that rounding never loses a box that is touched (Ize,
+// Robust BVH Ray Traversal, 2013): on either side a difference, a product and a division, and OpenCL
+// lets a division be wrong by 2.5 units in the last place, five times EPSILON.
+#define FAR_SLACK (R(1.0) + R(16.0) * EPSILON)
 
 // 1/d, kept finite so that 0 times it is 0 and not NaN: a ray along a box's face is inside it.
 static inline real finite_inverse(real d)

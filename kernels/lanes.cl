@@ -1,4 +1,5 @@
-// Lanes: the only file that knows how wide a packet of rays is.
+// Lanes: what a packet of rays is made of, at each width and precision. Other files loop over
+// GLINT_WIDTH lanes where they gather or scatter, and leave the rest to the types and functions here.
 //
 // `real` is one value per ray of the packet: a scalar for GLINT_WIDTH 1, a vector of 8 or 16
 // otherwise; of float or, with GLINT_DOUBLE, of double. `mask` says yes or no for each ray and
@@ -53,16 +54,8 @@ typedef LANES(int) mask;
 #endif
 
 // The packet covers PACKET_WIDTH × PACKET_HEIGHT pixels, lanes row by row.
-#if GLINT_WIDTH == 16
-#define PACKET_WIDTH 4
-#define PACKET_HEIGHT 4
-#elif GLINT_WIDTH == 8
-#define PACKET_WIDTH 4
-#define PACKET_HEIGHT 2
-#else
-#define PACKET_WIDTH 1
-#define PACKET_HEIGHT 1
-#endif
+#define PACKET_WIDTH GLINT_PACKET_COLUMNS(GLINT_WIDTH)
+#define PACKET_HEIGHT GLINT_PACKET_ROWS(GLINT_WIDTH)
 
 // A number that the host passes as an unevaluated sum of two floats.
 #if GLINT_DOUBLE

@@ -1,6 +1,6 @@
 // The facts that the host and the kernels share: read by a C compiler and by OpenCL C alike.
-// Structs hold 32-bit scalars only, so that both compilers lay them out alike; the host asserts
-// their sizes (host/render/layout_check.c).
+// Structs hold 32-bit scalars only, so that both compilers lay them out alike: the host asserts their
+// sizes (host/render/upload.c), and a test asks the device for its own (tests/test_kernels.c).
 #ifndef GLINT_KERNELS_LAYOUT_H
 #define GLINT_KERNELS_LAYOUT_H
 
@@ -67,6 +67,11 @@ typedef struct glint_medium_record {
     float ior;
     float unused[3];
 } glint_medium_record;
+
+// ---- Packets -----------------------------------------------------------------------------------
+// A packet of rays covers columns × rows of pixels, lanes row by row.
+#define GLINT_PACKET_COLUMNS(lanes) ((lanes) == 1 ? 1 : 4)
+#define GLINT_PACKET_ROWS(lanes) ((lanes) / GLINT_PACKET_COLUMNS(lanes))
 
 // ---- Frame -------------------------------------------------------------------------------------
 // Values that may change from frame to frame without compiling again. A vector is an unevaluated

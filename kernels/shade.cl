@@ -154,6 +154,8 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     mask valid;
     s.geometric_normal = normalized(cross3(subtract(vertices[1], vertices[0]),
                                            subtract(vertices[2], vertices[0])), &valid);
+    // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
+    s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
 #if GLINT_INTERREFLECTION
     place_on_triangle(vertices, hit, &s);
 #endif

@@ -224,7 +224,6 @@ static void a_frame_that_is_stopped_leaves_no_image(void **state)
     const glint_renderer_inputs inputs = {.device = test_device(),
                                           .scene = &scene,
                                           .environment = &environment,
-                                          .camera = &camera,
                                           .settings = &settings};
     glint_renderer *renderer;
     assert_int_equal(glint_renderer_create(&inputs, &renderer, NULL), GLINT_OK);
@@ -253,7 +252,6 @@ static void a_kernel_that_does_not_compile_is_reported_with_its_file(void **stat
     glint_renderer_inputs inputs = {.device = test_device(),
                                     .scene = &scene,
                                     .environment = &environment,
-                                    .camera = &camera,
                                     .settings = &settings,
                                     .kernel_dir = GLINT_SOURCE_DIR "/tests/broken_kernels"};
     glint_renderer *renderer;

@@ -292,6 +292,11 @@ static void *read_and_write(void *argument)
 static void threads_may_read_and_write_at_once(void **state)
 {
     (void)state;
+#ifdef __SANITIZE_ADDRESS__
+    // GCC 12's AddressSanitizer does not take its own locks over fork: the child may find one held.
+    print_message("skipped: AddressSanitizer and fork beside other threads\n");
+    skip();
+#endif
     enum { THREADS = 4 };
     static const char *const names[THREADS] = {"t.exr", "t.png", "t.tif", "t.hdr"};
     static char paths[THREADS][512];

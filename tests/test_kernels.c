@@ -2,6 +2,7 @@
 // the oracle's formulas and by closed forms. u is the largest relative rounding error, 2⁻²⁴ or
 // 2⁻⁵³.
 #include "device/opencl.h"
+#include "kernels/layout.h"
 #include "oracle/oracle.h"
 #include "render/upload.h"
 #include "support/bridge.h"
@@ -111,6 +112,26 @@ static void at_every_width_and_precision(void (*check)(probe *p))
             check(&p);
         }
     }
+}
+
+static void check_layout(probe *p)
+{
+    run(p, "probe_layout", NULL);
+    const size_t expected[2][4] = {
+        {sizeof(glint_material_record), offsetof(glint_material_record, medium),
+         sizeof(glint_medium_record), offsetof(glint_medium_record, ior)},
+        {sizeof(glint_split_vector), sizeof(glint_frame_record),
+         offsetof(glint_frame_record, min_weight), offsetof(glint_frame_record, first_row)},
+    };
+    for (size_t i = 0; i < 8; i++) {
+        assert_true(p->out[i / 4][i % 4] == (double)expected[i / 4][i % 4]);
+    }
+}
+
+static void host_and_device_lay_the_shared_structs_out_alike(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_layout);
 }
 
 // cos θi in (0, 1] and η from 0.4 to 2.5, the ends and 1 among them.
@@ -291,6 +312,7 @@ static void the_cube_is_exact_at_texel_centres_and_seamless_on_ties(void **state
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(host_and_device_lay_the_shared_structs_out_alike),
         cmocka_unit_test(fresnel_agrees_with_the_oracle),
         cmocka_unit_test(directions_agree_with_the_oracle),
         cmocka_unit_test(the_exponential_is_within_four_rounding_errors),

@@ -229,7 +229,6 @@ static glint_status make_plan(const info_request *request, info_work *work, glin
     const glint_plan_inputs inputs = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,
-        .camera = &work->inputs.camera,
         .device = glint_device_capabilities(work->device),
         .settings = &request->inputs.settings,
     };

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-#define TRUNCATION_WORTH_SAYING 1e-3 // share of all weight
+#define TRUNCATION_WORTH_SAYING 5e-3 // share of all weight
 
 typedef struct render_request {
     glint_input_request inputs; // first: the shared tables' offsets count from here
@@ -51,9 +51,9 @@ static const glint_option output_options[] = {
              "truncated light, the plan and the device.",
      .offset = offsetof(render_request, stats)},
     {GLINT_OPTION_CHOICE, .name = "progress", .argument = "MODE",
-     .help =
-         "On stderr: bar (redrawn), plain (lines), json (an object a line) or none; auto is bar "
-         "on a terminal and plain elsewhere.",
+     .help = "On stderr: bar (redrawn), plain (lines), json (an object a line; warnings and errors "
+             "stay text) or none; auto is bar "
+             "on a terminal and plain elsewhere.",
      .fallback = "auto", .offset = offsetof(render_request, progress),
      .choices = GLINT_PROGRESS_CHOICES},
     {GLINT_OPTION_TEXT, .name = "kernel-dir", .argument = "DIR",
@@ -168,7 +168,6 @@ static glint_status create_renderer(const render_request *request, render_work *
         .device = work->device,
         .scene = &work->inputs.scene,
         .environment = &work->inputs.environment,
-        .camera = &work->inputs.camera,
         .settings = &request->inputs.settings,
         .kernel_dir = request->kernel_dir,
     };
@@ -248,6 +247,16 @@ static glint_status write_stats(const render_request *request, const render_work
     return glint_stats_write(request->stats, &stats, error);
 }
 
+static const char *truncation_advice(const glint_truncation *truncation)
+{
+    if (truncation->by_stack > truncation->by_depth + truncation->by_min_weight) {
+        return "a larger --min-weight leaves fewer branches waiting";
+    }
+    return truncation->by_depth >= truncation->by_min_weight
+               ? "a greater --depth follows it further"
+               : "a smaller --min-weight follows it further";
+}
+
 // What the frame's figures give cause to say.
 static void warn_of_report(const glint_frame_report *report, glint_warnings *warnings)
 {
@@ -261,12 +270,9 @@ static void warn_of_report(const glint_frame_report *report, glint_warnings *war
                    (unsigned long long)truncation->media_overflows);
     }
     if (glint_stats_truncated(truncation) > TRUNCATION_WORTH_SAYING) {
-        bool by_depth = truncation->by_depth >= truncation->by_min_weight;
         glint_warn(warnings,
                    "%.2g%% of the light took the environment before its path had ended (%s)",
-                   100 * glint_stats_truncated(truncation),
-                   by_depth ? "a greater --depth follows it further"
-                            : "a smaller --min-weight follows it further");
+                   100 * glint_stats_truncated(truncation), truncation_advice(truncation));
     }
 }
 

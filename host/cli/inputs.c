@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define SIZE_MAX_PIXELS 65536.0 // of one side: what the hard cases ask for, and image formats hold
-#define SAMPLES_MAX 4096        // 64²
+#define SAMPLES_MAX (GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX)
 #define DEPTH_MAX 65535
 
 // Writes "cube, faces or latlong" from the layouts there are.

@@ -117,10 +117,18 @@ typedef struct found_device {
     glint_capabilities capabilities;
 } found_device;
 
-// GPUs first, then other devices that are no CPUs, then CPUs; platforms keep the loader's order.
+// GPUs first, then CPUs, then what is neither; platforms keep the loader's order.
 static int rank(const glint_capabilities *c)
 {
-    return c->is_gpu ? 0 : c->is_cpu ? 2 : 1;
+    return c->is_gpu ? 0 : c->is_cpu ? 1 : 2;
+}
+
+static bool can_compile(cl_device_id id)
+{
+    cl_bool compiler = CL_FALSE;
+    cl_int code =
+        clGetDeviceInfo(id, CL_DEVICE_COMPILER_AVAILABLE, sizeof compiler, &compiler, NULL);
+    return code == CL_SUCCESS && compiler == CL_TRUE;
 }
 
 static void sort_devices(found_device *devices, size_t count)
@@ -165,6 +173,9 @@ static glint_status find_devices(found_device **devices, size_t *count, glint_er
             continue; // a platform without devices
         }
         for (cl_uint d = 0; d < id_count && d < MAX_DEVICES; d++) {
+            if (!can_compile(ids[d])) {
+                continue;
+            }
             list[found].id = ids[d];
             describe(platforms[p], ids[d], &list[found].capabilities);
             found++;

@@ -9,8 +9,9 @@
 
 typedef struct glint_device glint_device; // opaque: context, queue, OpenCL's handles
 
-// All devices of all platforms, GPUs first, then by platform. `*list` is malloc'd, for free().
-// GLINT_DEVICE_FAILED, saying what to install, when there is no platform or no device.
+// All devices of all platforms that can compile kernels: GPUs first, then CPUs, then others.
+// `*list` is malloc'd, for free(). GLINT_DEVICE_FAILED, saying what to install, when there is no
+// platform or no device.
 glint_status glint_device_list(glint_capabilities **list, size_t *count, glint_error *error);
 
 // `selector`: an index into the list ("0"), "cpu", "gpu", or a part of the device's or platform's

@@ -14,10 +14,10 @@ struct glint_device {
     glint_capabilities capabilities;
 };
 
-// "CL_OUT_OF_RESOURCES"; "OpenCL error −9999" in a static buffer's stead is "unknown OpenCL error".
+// "CL_OUT_OF_RESOURCES"; "unknown OpenCL error" for a code without a name here. Static text.
 const char *glint_opencl_error_name(cl_int code);
 
-// Fails with "DEVICE: what: CL_NAME (−5)".
+// Fails with GLINT_DEVICE_FAILED and "device 'NAME': what: CL_NAME (−5)".
 glint_status glint_fail_opencl(glint_error *error, const struct glint_device *device,
                                const char *what, cl_int code);
 

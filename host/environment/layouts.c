@@ -21,9 +21,10 @@
 #include <math.h>
 #include <string.h>
 
-#define LATLONG_EDGE_MIN 256  // keeps second-order errors of tiny maps below 10⁻⁴
-#define LATLONG_EDGE_MAX 2048 // 0.4 GB of cube
-#define TAPS_MAX 16           // an axis; a cap for the few texels at the poles
+#define LATLONG_EDGE_MIN 256 // keeps second-order errors of tiny maps below 10⁻⁴
+#define LATLONG_EDGE_MAX                                                                           \
+    2048            // 0.4 GB of cube; maps of more than 3200 rows lose their finest detail
+#define TAPS_MAX 16 // an axis; a cap for the few texels at the poles
 
 // ---- Names and recognition ----------------------------------------------------------------------
 

@@ -43,7 +43,8 @@ glint_status glint_cube_from_faces(const glint_face_view views[6], bool on_edges
 // looks along −Z. Sets views[] from the i-th face of `named`.
 void glint_face_views_from_named(const glint_face_view named[6], glint_face_view views[6]);
 
-// The edge of the cube that keeps what a lat-long map of this height holds.
+// The edge of the cube that keeps what a lat-long map of this height holds, between 256 and 2048:
+// of maps of more than 3200 rows the finest detail is lost.
 int glint_latlong_edge(int height);
 
 // Resamples a lat-long map into a cube of `edge` texels and fills the border. Bilinear; where a

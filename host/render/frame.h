@@ -53,8 +53,8 @@ typedef struct glint_frame_report {
     double kernel_ms, readback_ms; // of this frame
 } glint_frame_report;
 
-// Called between launches. `done` and `total` are pixel rows × samples in launch order. Returning
-// false stops the frame with GLINT_INTERRUPTED.
+// Called between launches with how many rows of packets, of all there are, have been rendered.
+// Returning false stops the frame with GLINT_INTERRUPTED.
 typedef struct glint_progress {
     bool (*step)(void *context, uint64_t done, uint64_t total);
     void *context;
@@ -67,7 +67,6 @@ typedef struct glint_renderer_inputs {
     glint_device *device;                 // borrowed, must outlive the renderer
     const glint_scene *scene;             // borrowed during creation only
     const glint_environment *environment; // borrowed during creation only
-    const glint_camera *camera;           // decides what is compiled (orthographic or not)
     const glint_settings *settings;       // borrowed during creation only
     const char *kernel_dir;               // NULL: the embedded kernels
 } glint_renderer_inputs;

@@ -169,8 +169,9 @@ static glint_status check_settings(const glint_plan_inputs *in, glint_error *err
     if (s->width < 1 || s->height < 1) {
         return glint_fail(error, GLINT_USAGE, "--size: %dx%d has no pixels", s->width, s->height);
     }
-    if (s->samples_per_axis < 1 || s->samples_per_axis > 256) {
-        return glint_fail(error, GLINT_USAGE, "--samples: 1 to 65536, a square number");
+    if (s->samples_per_axis < 1 || s->samples_per_axis > GLINT_SAMPLES_PER_AXIS_MAX) {
+        return glint_fail(error, GLINT_USAGE, "--samples: a square number from 1 to %d",
+                          GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX);
     }
     if (s->depth < 0) {
         return glint_fail(error, GLINT_USAGE, "--depth: 1 or more, or auto");
@@ -211,7 +212,8 @@ static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
         snprintf(plan->width_reason, sizeof plan->width_reason, "not a CPU: one ray a work-item");
     } else {
         plan->kernel_width = lanes >= 16 ? 16 : 8;
-        snprintf(plan->width_reason, sizeof plan->width_reason, "the device's vectors hold %d %ss",
+        snprintf(plan->width_reason, sizeof plan->width_reason,
+                 "%sthe device's vectors hold %d %ss", lanes < 8 ? "the narrowest packet; " : "",
                  lanes, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float");
     }
 }

@@ -24,6 +24,7 @@ typedef enum glint_feature {
         GLINT_FEATURE_COUNT
 } glint_feature;
 
+#define GLINT_SAMPLES_PER_AXIS_MAX 64
 #define GLINT_DEPTH_MAX 64 // what --depth auto stops at; larger depths may be asked for by number
 #define GLINT_DEFAULT_MIN_WEIGHT (1.0 / 1024)
 
@@ -74,7 +75,6 @@ const char *glint_feature_meaning(glint_feature feature);
 typedef struct glint_plan_inputs {
     const glint_scene *scene;
     const glint_topology *topology;
-    const glint_camera *camera;
     const glint_capabilities *device;
     const glint_settings *settings;
 } glint_plan_inputs;
@@ -89,7 +89,8 @@ int glint_plan_feature_count(const glint_plan *plan);
 // Writes the kernel build options ("-DGLINT_WIDTH=16 …") of at most `capacity` bytes.
 void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity);
 
-// One line that names the plan: "pixel, depth auto (≤ 64), float, width 16, 11 of 20 features".
+// One line that names the plan: "shading pixel, depth auto (at most 64), precision float, width 16,
+// 12 of 18 features".
 void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity);
 
 #endif

@@ -31,6 +31,25 @@ static void store3(global scalar *out, real3 v, real fourth)
     store(out, 3, fourth);
 }
 
+// The sizes and last offsets of the structs that the host shares, in the order of test_kernels.c.
+kernel void probe_layout(global const scalar *in, global scalar *out, global const float *texels,
+                         int edge)
+{
+    glint_material_record m;
+    glint_medium_record d;
+    glint_frame_record f;
+    if (get_global_id(0) == 0) {
+        out[0] = sizeof(glint_material_record);
+        out[1] = (scalar)((private char *)&m.medium - (private char *)&m);
+        out[2] = sizeof(glint_medium_record);
+        out[3] = (scalar)((private char *)&d.ior - (private char *)&d);
+        out[4] = sizeof(glint_split_vector);
+        out[5] = sizeof(glint_frame_record);
+        out[6] = (scalar)((private char *)&f.min_weight - (private char *)&f);
+        out[7] = (scalar)((private char *)&f.first_row - (private char *)&f);
+    }
+}
+
 // in: cos θi, η. out: cos² θt, reflectance (where there is no total reflection), and for η as an index
 // of refraction the reflectance of its surface.
 kernel void probe_fresnel(global const scalar *in, global scalar *out, global const float *texels,

@@ -58,7 +58,6 @@ void test_render(const glint_scene *scene, const glint_environment *environment,
         .device = test_device(),
         .scene = scene,
         .environment = environment,
-        .camera = &camera,
         .settings = settings,
     };
     glint_renderer *renderer;
