@@ -240,6 +240,26 @@ static void a_frame_that_is_stopped_leaves_no_image(void **state)
     glint_scene_free(&scene);
 }
 
+static void a_frame_that_the_device_cannot_hold_is_refused_at_once(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    glint_settings settings = small_frame(1);
+    settings.width = settings.height = 65536; // 64 GiB
+    const glint_renderer_inputs inputs = {.device = test_device(),
+                                          .scene = &scene,
+                                          .environment = &environment,
+                                          .settings = &settings};
+    glint_renderer *renderer;
+    glint_error error = {0};
+    assert_int_equal(glint_renderer_create(&inputs, &renderer, &error), GLINT_DEVICE_FAILED);
+    assert_null(renderer);
+    assert_non_null(strstr(error.message, "the frame needs 65536 MiB"));
+    glint_environment_free(&environment);
+}
+
 static void a_kernel_that_does_not_compile_is_reported_with_its_file(void **state)
 {
     (void)state;
@@ -276,6 +296,7 @@ int main(void)
         cmocka_unit_test(light_that_is_cut_off_is_reported_and_never_black),
         cmocka_unit_test(rays_are_counted_by_class),
         cmocka_unit_test(a_frame_that_is_stopped_leaves_no_image),
+        cmocka_unit_test(a_frame_that_the_device_cannot_hold_is_refused_at_once),
         cmocka_unit_test(a_kernel_that_does_not_compile_is_reported_with_its_file),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

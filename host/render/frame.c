@@ -180,14 +180,20 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
     return status;
 }
 
-static glint_status create_outputs(glint_renderer *r, glint_error *error)
+// Sets the pixel count; *bytes is what the frame takes on the device.
+static glint_status size_frame(glint_renderer *r, size_t *bytes, glint_error *error)
 {
-    size_t bytes;
     if (!glint_multiply((size_t)r->settings.width, (size_t)r->settings.height, &r->pixel_count) ||
-        !glint_multiply(r->pixel_count, 4 * scalar_bytes(r), &bytes)) {
+        !glint_multiply(r->pixel_count, 4 * scalar_bytes(r), bytes)) {
         return glint_fail(error, GLINT_USAGE, "--size: %dx%d is too large", r->settings.width,
                           r->settings.height);
     }
+    return GLINT_OK;
+}
+
+static glint_status create_outputs(glint_renderer *r, glint_error *error)
+{
+    const size_t bytes = r->pixel_count * 4 * scalar_bytes(r);
     glint_status status =
         glint_buffer_create(r->device, "the frame", bytes, NULL, &r->pixels, error);
     if (status == GLINT_OK) {
@@ -213,7 +219,15 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
     double clock = now_ms();
     glint_bvh bvh = {0};
     glint_cube irradiance = {0};
+    size_t frame_bytes = 0;
     glint_status status = analyse(in, r, error);
+    if (status == GLINT_OK) {
+        status = size_frame(r, &frame_bytes, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_upload_check(in->device, in->scene, &in->environment->radiance, frame_bytes,
+                                    error);
+    }
     r->phases.analysis = lap(&clock);
     if (status == GLINT_OK) {
         status = glint_bvh_build(in->scene->positions, in->scene->triangle_count, r->plan.bvh_width,

@@ -14,16 +14,61 @@ _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps"
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_frame_record) == 6 * 32 + 16 * 4, "glint_frame_record has gaps");
 
+#define MEBIBYTE 1048576.0
+
+static glint_status check_size(const struct glint_device *device, const char *what, size_t bytes,
+                               glint_error *error)
+{
+    const glint_capabilities *c = &device->capabilities;
+    if (bytes <= c->largest_allocation_bytes) {
+        return GLINT_OK;
+    }
+    return glint_fail(error, GLINT_DEVICE_FAILED,
+                      "device '%s': %s needs %.0f MiB in one buffer and the device allows %.0f",
+                      c->name, what, (double)bytes / MEBIBYTE,
+                      (double)c->largest_allocation_bytes / MEBIBYTE);
+}
+
+glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
+                                const glint_cube *environment, size_t frame_bytes,
+                                glint_error *error)
+{
+    const size_t vertices = scene->triangle_count * 9 * sizeof(float);
+    const struct {
+        const char *what;
+        size_t bytes;
+    } buffers[] = {
+        {"the triangles", vertices},
+        {"the normals", scene->normals != NULL ? vertices : 0},
+        {"the triangles' facts", scene->triangle_count * GLINT_FACTS * sizeof(cl_uint)},
+        {"the environment", glint_cube_size(environment) * sizeof(float)},
+        {"the frame", frame_bytes},
+    };
+    double total = 0;
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) {
+        glint_status status = check_size(device, buffers[i].what, buffers[i].bytes, error);
+        if (status != GLINT_OK) {
+            return status;
+        }
+        total += (double)buffers[i].bytes;
+    }
+    if (total > (double)device->capabilities.memory_bytes) {
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "device '%s': scene, environment and frame need %.0f MiB and it has %.0f",
+                          device->capabilities.name, total / MEBIBYTE,
+                          (double)device->capabilities.memory_bytes / MEBIBYTE);
+    }
+    return GLINT_OK;
+}
+
 glint_status glint_buffer_create(const struct glint_device *device, const char *what, size_t bytes,
                                  const void *data, cl_mem *buffer, glint_error *error)
 {
     static const char nothing[16] = {0};
     size_t least = sizeof nothing;
-    if (bytes > device->capabilities.largest_allocation_bytes) {
-        return glint_fail(error, GLINT_DEVICE_FAILED,
-                          "device '%s': %s needs %.0f MiB in one buffer and the device allows %.0f",
-                          device->capabilities.name, what, (double)bytes / 1048576,
-                          (double)device->capabilities.largest_allocation_bytes / 1048576);
+    glint_status status = check_size(device, what, bytes, error);
+    if (status != GLINT_OK) {
+        return status;
     }
     if (bytes < least) {
         data = bytes == 0 || data == NULL ? nothing : data;

@@ -25,8 +25,14 @@ typedef struct glint_upload_inputs {
     const glint_cube *irradiance;
 } glint_upload_inputs;
 
-// Errors: GLINT_DEVICE_FAILED, also when a buffer is larger than the device allows: said before
-// anything is uploaded.
+// Fails with GLINT_DEVICE_FAILED if one of the scene's buffers or the frame, of `frame_bytes`, is
+// larger than the device allows, or all of them together than its memory: asked before the long
+// work begins. The tree is not built yet, so it is not counted.
+glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
+                                const glint_cube *environment, size_t frame_bytes,
+                                glint_error *error);
+
+// Errors: GLINT_DEVICE_FAILED.
 glint_status glint_scene_upload(const glint_upload_inputs *inputs, glint_scene_memory *memory,
                                 glint_error *error);
 void glint_scene_memory_free(glint_scene_memory *memory);
