@@ -330,6 +330,25 @@ static const unsigned char *find_attribute(const unsigned char *bytes, size_t le
     return NULL;
 }
 
+// A regression: numbers once stood there with empty values.
+static void png_metadata_is_text_with_its_values(void **state)
+{
+    (void)state;
+    const glint_metadata metadata[] = {
+        {.name = "glint:frame", .type = GLINT_METADATA_INT, .integer = 42},
+        {.name = "glint:exposure", .type = GLINT_METADATA_FLOAT, .real = 1.5f}};
+    glint_image image = make_ramp(3);
+    const glint_write_options options = {.metadata = metadata, .metadata_count = 2};
+    assert_int_equal(glint_image_write(scratch_path("m.png"), &image, &options, NULL), GLINT_OK);
+    size_t length;
+    unsigned char *bytes = scratch_read("m.png", &length);
+    assert_non_null(bytes);
+    assert_non_null(memmem(bytes, length, "glint:frame: 42\n", 16));
+    assert_non_null(memmem(bytes, length, "glint:exposure: 1.5\n", 20));
+    free(bytes);
+    glint_image_free(&image);
+}
+
 static void exr_metadata_has_openexrs_types(void **state)
 {
     (void)state;
@@ -445,6 +464,7 @@ int main(void)
         IN_FOLDER(values_that_half_cannot_hold_are_clamped),
         IN_FOLDER(exposure_is_stops_and_leaves_exr_alone),
         IN_FOLDER(threads_may_read_and_write_at_once),
+        IN_FOLDER(png_metadata_is_text_with_its_values),
         IN_FOLDER(exr_metadata_has_openexrs_types),
         IN_FOLDER(envmap_cube_is_written_as_the_attribute),
         IN_FOLDER(output_is_checked_before_work_is_done),

@@ -123,8 +123,10 @@ static void check_layout(probe *p)
         {sizeof(glint_split_vector), sizeof(glint_frame_record),
          offsetof(glint_frame_record, min_weight), offsetof(glint_frame_record, first_row)},
     };
-    for (size_t i = 0; i < 8; i++) {
-        assert_true(p->out[i / 4][i % 4] == (double)expected[i / 4][i % 4]);
+    for (size_t row = 0; row < 2; row++) {
+        for (size_t k = 0; k < 4; k++) {
+            assert_true(p->out[row][k] == (double)expected[row][k]);
+        }
     }
 }
 

@@ -254,7 +254,7 @@ static const char *truncation_advice(const glint_truncation *truncation)
     }
     return truncation->by_depth >= truncation->by_min_weight
                ? "a greater --depth follows it further"
-               : "a smaller --min-weight follows it further";
+               : "a smaller --min-weight, say 1e-5, follows it further";
 }
 
 // What the frame's figures give cause to say.

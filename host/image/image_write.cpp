@@ -253,8 +253,10 @@ std::string as_text(const glint_write_options &options)
         if (entry.type != GLINT_METADATA_MATRIX) {
             ImageSpec single;
             add_attribute(single, entry);
+            // Numbers too: get_string_attribute would give "" for them.
+            const OIIO::ParamValue *value = single.find_attribute(entry.name);
             text += std::string(entry.name) + ": " +
-                    std::string(single.get_string_attribute(entry.name)) + "\n";
+                    (value != nullptr ? value->get_string() : std::string()) + "\n";
         }
     }
     return text;
