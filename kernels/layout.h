@@ -1,6 +1,7 @@
 // The facts that the host and the kernels share: read by a C compiler and by OpenCL C alike.
-// Structs hold 32-bit scalars only, so that both compilers lay them out alike: the host asserts their
-// sizes (host/render/upload.c), and a test asks the device for its own (tests/test_kernels.c).
+// Structs hold 32-bit scalars only, so that both compilers lay them out alike: the host asserts
+// their sizes (host/render/upload.c), and a test asks the device for its own
+// (tests/test_kernels.c).
 #ifndef GLINT_KERNELS_LAYOUT_H
 #define GLINT_KERNELS_LAYOUT_H
 
@@ -15,10 +16,22 @@
 // each face carries a border of one texel: [6][N + 2][N + 2][4] floats (R, G, B, unused).
 // (Keep the lists: both compilers initialise constant arrays from them.)
 #define GLINT_CUBE_FACES 6
-#define GLINT_CUBE_S_AXIS {2, 2, 0, 0, 0, 0}
-#define GLINT_CUBE_S_SIGN {1, -1, 1, 1, -1, 1}
-#define GLINT_CUBE_T_AXIS {1, 1, 2, 2, 1, 1}
-#define GLINT_CUBE_T_SIGN {-1, -1, -1, 1, -1, -1}
+#define GLINT_CUBE_S_AXIS                                                                          \
+    {                                                                                              \
+        2, 2, 0, 0, 0, 0                                                                           \
+    }
+#define GLINT_CUBE_S_SIGN                                                                          \
+    {                                                                                              \
+        1, -1, 1, 1, -1, 1                                                                         \
+    }
+#define GLINT_CUBE_T_AXIS                                                                          \
+    {                                                                                              \
+        1, 1, 2, 2, 1, 1                                                                           \
+    }
+#define GLINT_CUBE_T_SIGN                                                                          \
+    {                                                                                              \
+        -1, -1, -1, 1, -1, -1                                                                      \
+    }
 #define GLINT_CUBE_BORDER 1
 
 // ---- Tree --------------------------------------------------------------------------------------
@@ -82,9 +95,9 @@ typedef struct glint_split_vector {
 
 // The primary ray through the point (px, py) of the image plane, in pixels from the top left, with
 // X = px − width/2 and Y = height/2 − py, starts at origin + X origin_x + Y origin_y and runs along
-// direction + X direction_x + Y direction_y (stored coordinates, not normalised). The start has been
-// moved forwards from the eye to where the scene begins, by `start` times the direction: a distant
-// camera then loses no digits in the differences between vertices and origin.
+// direction + X direction_x + Y direction_y (stored coordinates, not normalised). The start has
+// been moved forwards from the eye to where the scene begins, by `start` times the direction: a
+// distant camera then loses no digits in the differences between vertices and origin.
 typedef struct glint_frame_record {
     glint_split_vector origin, origin_x, origin_y;
     glint_split_vector direction, direction_x, direction_y;
@@ -96,7 +109,7 @@ typedef struct glint_frame_record {
     int depth;             // surfaces that a path meets at most, 1 or more
     int environment_edge;  // texels, without border
     int irradiance_edge;
-    int first_row;         // of packets: where this launch begins
+    int first_row; // of packets: where this launch begins
     int unused[2];
 } glint_frame_record;
 

@@ -21,20 +21,6 @@
 
 #define ASSETS GLINT_SOURCE_DIR "/../shared/assets/env/"
 
-static int make_folder(void **state)
-{
-    (void)state;
-    scratch_make();
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    scratch_remove();
-    return 0;
-}
-
 // ---- Files --------------------------------------------------------------------------------------
 
 static void write_image(const char *name, const glint_image *image, glint_envmap envmap)
@@ -527,7 +513,7 @@ int main(void)
         cmocka_unit_test(openexrs_photographed_pair_is_alike),
         cmocka_unit_test(openexrs_nan_and_infinity_are_counted),
         cmocka_unit_test(photographed_faces_fit_together),
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, scratch_setup, scratch_teardown)
         IN_FOLDER(latlong_files_face_the_right_way),
         IN_FOLDER(openexr_cube_files_face_the_right_way),
         IN_FOLDER(six_faces_face_the_right_way_under_all_names),

@@ -18,20 +18,6 @@
 
 #include <cmocka.h>
 
-static int make_folder(void **state)
-{
-    (void)state;
-    scratch_make();
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    scratch_remove();
-    return 0;
-}
-
 // ---- Colour -------------------------------------------------------------------------------------
 
 static double curve(double linear)
@@ -444,7 +430,7 @@ int main(void)
         cmocka_unit_test(srgb_codes_survive_decoding_and_encoding),
         cmocka_unit_test(eight_bit_codes_are_the_rounded_curve),
         cmocka_unit_test(values_outside_the_range_are_clamped),
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, scratch_setup, scratch_teardown)
         IN_FOLDER(radiance_pixels_are_mantissas_times_a_power),
         IN_FOLDER(whole_numbers_are_linearised_and_floats_are_not),
         IN_FOLDER(alpha_is_premultiplied_after_linearising),

@@ -15,20 +15,6 @@
 
 #include <cmocka.h>
 
-static int make_folder(void **state)
-{
-    (void)state;
-    scratch_make();
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    scratch_remove();
-    return 0;
-}
-
 static double curve(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
@@ -456,7 +442,7 @@ static void output_is_checked_before_work_is_done(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, scratch_setup, scratch_teardown)
         IN_FOLDER(what_is_written_is_read_again),
         IN_FOLDER(float_exr_is_exact_and_every_compression_reads_back),
         IN_FOLDER(jpeg_is_close_and_over_black),

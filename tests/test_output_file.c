@@ -19,20 +19,6 @@
 
 #include <cmocka.h>
 
-static int make_folder(void **state)
-{
-    (void)state;
-    scratch_make();
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    scratch_remove();
-    return 0;
-}
-
 static glint_status write_text(const char *name, const char *text, glint_error *error)
 {
     return glint_output_file_write(scratch_path(name), text, strlen(text), error);
@@ -241,7 +227,7 @@ static void long_names_find_a_temporary(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, scratch_setup, scratch_teardown)
         IN_FOLDER(a_file_is_written_and_replaced_and_nothing_else_stays),
         IN_FOLDER(permissions_follow_the_umask),
         IN_FOLDER(impossible_places_are_named),

@@ -10,6 +10,10 @@ const char *scratch_make(void);
 // Removes it and all that is in it.
 void scratch_remove(void);
 
+// The same as cmocka's setup and teardown of a test.
+int scratch_setup(void **state);
+int scratch_teardown(void **state);
+
 // The path of `name` in the folder, in one of eight buffers of this thread that take turns.
 const char *scratch_path(const char *name);
 
