@@ -2,7 +2,7 @@
 // with the lighter of two branches and the heavier waits: as the lighter has at most half of the
 // weight, at most log2(1/min-weight) + 1 branches ever wait (the argument that bounds quicksort's
 // stack), and GLINT_STACK_CAPACITY, chosen by the plan, holds them all unless the plan says not.
-#if GLINT_GLASS
+#if GLINT_SPLIT
 
 #define BRANCH_REALS 9 // weight, direction, origin
 #define BRANCH_INTS 4  // from, met, media, looked up

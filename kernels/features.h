@@ -10,8 +10,10 @@
     FEATURE(GEOMETRY, "rays are traced against triangles")                                         \
     FEATURE(SMOOTH_NORMALS, "shading normals are interpolated from vertices")                      \
     FEATURE(MANY_MATERIALS, "materials are looked up for each hit")                                \
-    FEATURE(MIRROR, "metal reflects with Schlick's Fresnel term")                                  \
-    FEATURE(GLASS, "paths split in two by the exact Fresnel term of dielectrics")                  \
+    FEATURE(FRESNEL, "reflectance rises towards grazing angles")                                   \
+    FEATURE(MIRROR, "metal reflects")                                                              \
+    FEATURE(GLASS, "light passes through transmitting surfaces")                                   \
+    FEATURE(SPLIT, "a path may go on both ways: reflected and transmitted")                        \
     FEATURE(SOLID, "light refracts into and out of solids by Snell's law")                         \
     FEATURE(THIN_WALL, "light passes straight through walls without thickness")                    \
     FEATURE(NESTED_MEDIA, "a path keeps the stack of solids that it is inside")                    \
@@ -24,6 +26,7 @@
     FEATURE(INTERREFLECTION, "paths go on to the surfaces that they meet next")                    \
     FEATURE(SUPERSAMPLING, "several samples a pixel")                                              \
     FEATURE(TRANSPARENT, "the background is left out and alpha kept")                              \
-    FEATURE(ENV_ROTATION, "the environment is turned about +Y")
+    FEATURE(ENV_ROTATION, "the environment is turned about +Y")                                    \
+    FEATURE(HITS, "a pixel holds what its ray met instead of a colour")
 
 #endif

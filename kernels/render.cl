@@ -13,6 +13,12 @@
 #if GLINT_GLOSS && !GLINT_PAINT
 #error "GLOSS needs PAINT"
 #endif
+#if GLINT_SPLIT && !GLINT_GLASS
+#error "SPLIT needs GLASS"
+#endif
+#if GLINT_HITS && !GLINT_GEOMETRY
+#error "HITS needs GEOMETRY"
+#endif
 
 #include "layout.h"
 #include "lanes.cl"
@@ -139,6 +145,7 @@ static inline void count_transmissions(const surface *s, mask transmits, tally *
     tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
 }
 
+#if GLINT_SPLIT
 // Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack has
 // room for one more only, both are looked up, and counted.
 static inline mask split_path(branches *waiting, path *reflected, path *transmitted, mask reflects,
@@ -164,12 +171,13 @@ static inline mask split_path(branches *waiting, path *reflected, path *transmit
     return reflects | transmits;
 }
 #endif
+#endif
 
 // Shades the rays in `met`, adds what the surfaces emit to `radiance`, and puts the branch that goes
 // on into `ray`. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
                                  const closest *hit, mask met, path *ray, real3 *radiance,
-#if GLINT_GLASS
+#if GLINT_SPLIT
                                  branches *waiting,
 #endif
                                  tally *tally)
@@ -208,7 +216,13 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     count_transmissions(&s, transmits, tally);
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);
+#if GLINT_SPLIT
     return split_path(waiting, &reflected, &transmitted, reflects, transmits, ray, tally);
+#else
+    assign_path(ray, &transmitted, transmits);
+    assign_path(ray, &reflected, reflects);
+    return reflects | transmits;
+#endif
 #else
     assign_path(ray, &reflected, reflects);
     return reflects;
@@ -222,7 +236,7 @@ static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_r
 {
     real3 radiance = real3_of(real_of(0), real_of(0), real_of(0));
     lanes_int deepest = int_of(0);
-#if GLINT_GLASS
+#if GLINT_SPLIT
     branches waiting;
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
         waiting.count[lane] = 0;
@@ -262,13 +276,13 @@ static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_r
         if (any_lane(met)) {
             deepest = SELECT(met & (ray->met >= deepest), ray->met + (lane_int)1, deepest);
             active = meet_surfaces(scene, frame, &hit, met, ray, &radiance,
-#if GLINT_GLASS
+#if GLINT_SPLIT
                                    &waiting,
 #endif
                                    tally);
             ended = ended | (met & !active);
         }
-#if GLINT_GLASS
+#if GLINT_SPLIT
         if (any_lane(ended)) {
             active = active | pop_branch(&waiting, ray, ended);
         }
@@ -315,6 +329,21 @@ static inline void report(tally *tally, global uint *counters, uint slot)
         }
     }
 }
+
+#if GLINT_HITS
+// Instead of a colour: distance, barycentric weights, and the triangle's number as the alpha.
+static inline real3 describe_hits(const scene_buffers *scene, const path *ray, mask active,
+                                  real *number)
+{
+    closest hit = trace_packet(scene->nodes, scene->positions, scene->facts, ray->origin,
+                               ray->direction, ray->from, active);
+    mask met = hit.place >= (lane_int)0;
+    const real zero = real_of(0);
+    *number = SELECT(met, to_real(hit.triangle), real_of(-1));
+    return real3_of(SELECT(met, hit.t, zero), SELECT(met, hit.b1, zero),
+                    SELECT(met, hit.b2, zero));
+}
+#endif
 
 // Writes the packet's pixels that lie inside the image.
 static inline void store_pixels(global scalar *pixels, const glint_frame_record *frame, int x0,
@@ -375,12 +404,16 @@ kernel void render_packets(global const float *nodes, global const float *positi
         real right = real_of(((scalar)(sample % k) + R(0.5)) / (scalar)k);
         real down = real_of(((scalar)(sample / k) + R(0.5)) / (scalar)k);
         path ray = primary_rays(&frame, left + right, up - down);
+#if GLINT_HITS
+        color = describe_hits(&scene, &ray, inside, &alpha);
+#else
         mask missed;
         color = add(color, follow_paths(&scene, &frame, &ray, inside, &missed, &tally));
 #if GLINT_TRANSPARENT
         alpha += SELECT(missed, zero, real_of(1));
 #else
         alpha += R(1.0);
+#endif
 #endif
     }
     tally.counts[GLINT_COUNT_PRIMARY] = (ulong)(count_lanes(inside) * k * k);

@@ -21,7 +21,11 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
     real squared = transmitted_cosine_squared(s->cosine, eta);
     *total_reflection = !(squared >= R(0.0));
     real cosine_t = sqrt(SELECT(*total_reflection, real_of(0), squared));
+#if GLINT_FRESNEL
     real reflectance = dielectric_reflectance(s->cosine, cosine_t, eta);
+#else
+    real reflectance = real_of(0);
+#endif
     reflectance = SELECT(*total_reflection, real_of(1), reflectance);
     *transmitted = fold_to_side(refract_direction(v, s->normal, s->cosine, eta, cosine_t),
                                 s->geometric_normal, R(-1.0));

@@ -109,10 +109,11 @@ static glint_settings small_frame(int depth)
     return settings;
 }
 
-static void check_depth(int depth, double allowed)
+static void check_depth(int depth, glint_fresnel fresnel, double allowed)
 {
     for (size_t i = 0; i < SCENE_COUNT; i++) {
         glint_settings settings = small_frame(depth);
+        settings.fresnel = fresnel;
         const agreement_bounds limits = {64, FLOAT_MARGIN, TOLERANCE};
         agreement a = render_and_compare(scene_names[i], &settings, &limits);
         assert_true((double)a.different <= allowed * (double)a.pixels);
@@ -122,19 +123,25 @@ static void check_depth(int depth, double allowed)
 static void at_depth_1_the_device_agrees_with_the_oracle(void **state)
 {
     (void)state;
-    check_depth(1, 0.002);
+    check_depth(1, GLINT_FRESNEL_EXACT, 0.002);
 }
 
 static void at_depth_2_the_device_agrees_with_the_oracle(void **state)
 {
     (void)state;
-    check_depth(2, 0.01);
+    check_depth(2, GLINT_FRESNEL_EXACT, 0.01);
 }
 
 static void at_depth_8_the_device_agrees_with_the_oracle(void **state)
 {
     (void)state;
-    check_depth(8, 0.01);
+    check_depth(8, GLINT_FRESNEL_EXACT, 0.01);
+}
+
+static void without_fresnel_the_device_agrees_with_the_oracle(void **state)
+{
+    (void)state;
+    check_depth(3, GLINT_FRESNEL_NONE, 0.01);
 }
 
 // What is left in double: where a direction ties between two faces of the cube, rounding decides in
@@ -159,6 +166,7 @@ int main(void)
         cmocka_unit_test(at_depth_1_the_device_agrees_with_the_oracle),
         cmocka_unit_test(at_depth_2_the_device_agrees_with_the_oracle),
         cmocka_unit_test(at_depth_8_the_device_agrees_with_the_oracle),
+        cmocka_unit_test(without_fresnel_the_device_agrees_with_the_oracle),
         cmocka_unit_test(in_double_precision_only_rounding_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

@@ -75,7 +75,7 @@ static void a_mirror_compiles_no_glass_and_no_paint(void **state)
     assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
     assert_true(compiles(&plan, GLINT_FEATURE_MIRROR));
     assert_true(compiles(&plan, GLINT_FEATURE_INTERREFLECTION));
-    assert_int_equal(glint_plan_feature_count(&plan), 3); // and GEOMETRY
+    assert_int_equal(glint_plan_feature_count(&plan), 3); // and GEOMETRY, as it is white
     assert_int_equal(plan.stack_capacity, 0);
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         assert_true(plan.features[i].reason[0] != '\0');

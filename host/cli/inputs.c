@@ -145,6 +145,10 @@ const glint_option glint_settings_options[] = {
     {GLINT_OPTION_CHOICE, .name = "precision", .argument = "KIND",
      .help = "float or double arithmetic on the device.", .fallback = "float",
      .offset = OFFSET(precision), .choices = "float|double"},
+    {GLINT_OPTION_CHOICE, .name = "fresnel", .argument = "KIND",
+     .help = "exact: reflectance depends on the angle. none: metal reflects its base colour, glass "
+             "only where it reflects all, paint nothing.",
+     .fallback = "exact", .offset = OFFSET(fresnel), .choices = "exact|none"},
     {GLINT_OPTION_TEXT, .name = "device", .argument = "SELECTOR",
      .help = "The OpenCL device: an index of `glint devices`, cpu, gpu, or a part of a name.",
      .fallback = "the first GPU, else the CPU", .offset = OFFSET(device)},
@@ -172,6 +176,7 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
     request->settings.height = request->size[1];
     request->settings.precision =
         request->precision == 0 ? GLINT_PRECISION_FLOAT : GLINT_PRECISION_DOUBLE;
+    request->settings.fresnel = request->fresnel == 0 ? GLINT_FRESNEL_EXACT : GLINT_FRESNEL_NONE;
     return GLINT_OK;
 }
 

@@ -19,7 +19,8 @@ typedef struct glint_input_request {
     glint_layout env_layout;
     const char *device;
     int size[2];
-    int precision; // a glint_precision
+    int precision; // 0 float, 1 double
+    int fresnel;   // 0 exact, 1 none
     glint_settings settings;
 } glint_input_request;
 

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define HITS_TRIANGLES_MAX (1u << 24) // numbers that a float holds exactly
+
 const glint_settings glint_settings_default = {
     .width = 1280,
     .height = 720,
@@ -40,6 +42,8 @@ const char *glint_feature_meaning(glint_feature feature)
 typedef struct material_census {
     size_t used;
     size_t metal, glass, solid, thin, absorbing, paint, gloss, blend, unlit, emissive;
+    size_t angular_metal;   // metal whose reflectance depends on the angle: not of base colour 1
+    size_t metal_and_glass; // both at once
 } material_census;
 
 static bool is_absorbing(const glint_material *m)
@@ -65,6 +69,9 @@ static void count_material(const glint_material *m, material_census *census)
     bool paint = m->metallic < 1 && m->transmission < 1;
     census->metal += m->metallic > 0;
     census->glass += glass;
+    bool white = m->base_color[0] == 1 && m->base_color[1] == 1 && m->base_color[2] == 1;
+    census->angular_metal += m->metallic > 0 && !white;
+    census->metal_and_glass += glass && m->metallic > 0;
     census->solid += glint_material_is_solid(m);
     census->thin += glass && !glint_material_is_solid(m);
     census->absorbing += glint_material_is_solid(m) && is_absorbing(m);
@@ -131,6 +138,26 @@ static void decide_materials(const material_census *c, glint_plan *plan)
     decide_by_count(plan, GLINT_FEATURE_EMISSION, c->emissive, c->used, "emission");
 }
 
+// Without Fresnel's equations a path splits only where a material is metal and glass at once.
+static void decide_optics(const material_census *c, glint_fresnel fresnel, glint_plan *plan)
+{
+    bool exact = fresnel == GLINT_FRESNEL_EXACT;
+    bool angular = c->angular_metal > 0 || c->glass > 0 || c->gloss > 0;
+    decide(plan, GLINT_FEATURE_FRESNEL, exact && angular, "%s",
+           !exact    ? "no Fresnel term was asked for"
+           : angular ? "coloured metal, glass or smooth paint"
+                     : "no coloured metal, glass or smooth paint");
+    if (c->glass > 0 && exact) {
+        decide_by_count(plan, GLINT_FEATURE_SPLIT, c->glass, c->used, "transmission and Fresnel");
+    } else {
+        decide_by_count(plan, GLINT_FEATURE_SPLIT, c->metal_and_glass, c->used,
+                        "both metal and transmission");
+    }
+    if (!exact) {
+        decide(plan, GLINT_FEATURE_GLOSS, false, "no Fresnel term was asked for");
+    }
+}
+
 static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
 {
     const glint_scene *scene = in->scene;
@@ -159,6 +186,9 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
            samples == 1 ? "" : "s");
     decide(plan, GLINT_FEATURE_TRANSPARENT, settings->transparent, "background %s",
            settings->transparent ? "transparent" : "env");
+    bool hits =
+        settings->output == GLINT_OUTPUT_HITS && plan->features[GLINT_FEATURE_GEOMETRY].compiled;
+    decide(plan, GLINT_FEATURE_HITS, hits, "%s", hits ? "hits were asked for" : "colour is wanted");
     bool turned = fmod(settings->env_rotate, 360) != 0;
     decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
 }
@@ -175,6 +205,12 @@ static glint_status check_settings(const glint_plan_inputs *in, glint_error *err
     }
     if (s->depth < 0) {
         return glint_fail(error, GLINT_USAGE, "--depth: 1 or more, or auto");
+    }
+    if (s->output == GLINT_OUTPUT_HITS &&
+        (s->samples_per_axis > 1 || in->scene->triangle_count > HITS_TRIANGLES_MAX)) {
+        return glint_fail(error, GLINT_USAGE,
+                          "hits can be had for one sample a pixel and %u triangles at most",
+                          HITS_TRIANGLES_MAX);
     }
     if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
         return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
@@ -223,7 +259,7 @@ static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
 static void choose_stack(const glint_settings *settings, glint_plan *plan)
 {
     plan->stack_capacity = 0;
-    if (!plan->features[GLINT_FEATURE_GLASS].compiled) {
+    if (!plan->features[GLINT_FEATURE_SPLIT].compiled) {
         snprintf(plan->stack_reason, sizeof plan->stack_reason, "no path splits");
         return;
     }
@@ -270,11 +306,11 @@ static size_t scene_bytes(const glint_scene *scene)
 static void compile_everything(glint_plan *plan)
 {
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
-        if (i == GLINT_FEATURE_TRANSPARENT || plan->features[i].compiled ||
-            (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1)) {
-            continue;
-        }
-        if (!plan->features[GLINT_FEATURE_GEOMETRY].compiled) {
+        bool changes_picture = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
+                               i == GLINT_FEATURE_HITS ||
+                               (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
+        if (changes_picture || plan->features[i].compiled ||
+            !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {
             continue;
         }
         decide(plan, (glint_feature)i, true, "not needed, but all features were asked for");
@@ -297,7 +333,12 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     plan->precision = settings->precision;
     plan->depth_is_auto = settings->depth == 0;
     plan->depth = plan->depth_is_auto ? GLINT_DEPTH_MAX : settings->depth;
+    if (settings->output == GLINT_OUTPUT_HITS) {
+        census = (material_census){.used = census.used};
+        plan->depth = 1;
+    }
     decide_materials(&census, plan);
+    decide_optics(&census, settings->fresnel, plan);
     decide_scene(in, plan);
     decide_settings(settings, plan);
     if (settings->all_features) {

@@ -17,6 +17,21 @@ typedef enum glint_precision {
     GLINT_PRECISION_DOUBLE,
 } glint_precision;
 
+// How reflectance depends on the angle.
+typedef enum glint_fresnel {
+    GLINT_FRESNEL_EXACT, // exactly for dielectrics, by Schlick's approximation for metal (glTF 2.0)
+    GLINT_FRESNEL_NONE,  // not at all: metal reflects its base colour, glass only where it reflects
+                         // all, paint nothing
+} glint_fresnel;
+
+// What a pixel holds.
+typedef enum glint_output {
+    GLINT_OUTPUT_COLOR, // radiance R, G, B, premultiplied; alpha
+    GLINT_OUTPUT_HITS, // what its ray met: the distance from its start in stored units, barycentric
+                       // weights of the second and third vertex, the triangle's number in the
+                       // scene; without a hit 0, 0, 0, −1. One sample, primary rays alone.
+} glint_output;
+
 typedef enum glint_feature {
 #define GLINT_FEATURE_NAME(name, meaning) GLINT_FEATURE_##name,
     GLINT_FEATURES(GLINT_FEATURE_NAME)
@@ -37,6 +52,8 @@ typedef struct glint_settings {
     bool transparent;     // background transparent, else the environment
     double env_rotate;    // degrees about +Y, counter-clockwise seen from above
     glint_precision precision;
+    glint_fresnel fresnel;
+    glint_output output;
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     bool all_features; // compile everything, needed or not (to test that it changes nothing)
 } glint_settings;

@@ -140,10 +140,10 @@ mkdir in/folder.gltf in/empty
 # ---- help ---------------------------------------------------------------------------------------
 
 render_options='output exposure compression exr-type stats progress kernel-dir env env-layout
-    env-rotate camera scene size samples depth min-weight background precision device
+    env-rotate camera scene size samples depth min-weight background precision fresnel device
     kernel-width help'
 info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
-    precision device kernel-width help'
+    precision fresnel device kernel-width help'
 
 help_mentions() { # COMMAND OPTION…
     local command=$1 option

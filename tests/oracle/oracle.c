@@ -229,7 +229,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
         ior_there = top_ior(w->scene, &glass.beyond);
     }
     double eta = ior_here / ior_there;
-    glass.fresnel = oracle_fresnel(s->cosine, ior_here, ior_there);
+    glass.fresnel = w->view->no_fresnel ? 0.0 : oracle_fresnel(s->cosine, ior_here, ior_there);
     double margin = fabs(1.0 - eta * eta * (1.0 - s->cosine * s->cosine));
     w->report->critical = fmin(w->report->critical, margin);
     glass.through = scaled(s->viewer, -1.0);
@@ -245,9 +245,11 @@ static interface interface_at(walk *w, const path *p, const surface *s)
 }
 
 // Rule 3: F0 + (1 − F0)(1 − n·v)⁵.
-static vector schlick(const oracle_material *m, double cosine)
+static vector schlick(const walk *w, const oracle_material *m, double cosine)
 {
-    vector f;
+    vector f = vector_of(m->base);
+    if (w->view->no_fresnel)
+        return f;
     for (int i = 0; i < 3; i++)
         f.at[i] = m->base[i] + (1.0 - m->base[i]) * pow(1.0 - cosine, 5.0);
     return f;
@@ -262,12 +264,13 @@ static void scatter(walk *w, const path *p, const surface *s)
     double as_metal = m->metallic;
     double as_glass = (1.0 - m->metallic) * m->transmission;
     double as_paint = (1.0 - m->metallic) * (1.0 - m->transmission);
-    vector reflected = scaled(schlick(m, s->cosine), as_metal);
+    vector reflected = scaled(schlick(w, m, s->cosine), as_metal);
     vector matte = {{0.0, 0.0, 0.0}}, through = matte;
     interface glass = {0};
 
     if (as_paint > 0.0) {
-        double f = m->roughness > 0.0 ? 0.0 : oracle_fresnel(s->cosine, 1.0, m->ior);
+        bool smooth = !(m->roughness > 0.0) && !w->view->no_fresnel;
+        double f = smooth ? oracle_fresnel(s->cosine, 1.0, m->ior) : 0.0;
         reflected = plus(reflected, (vector){{as_paint * f, as_paint * f, as_paint * f}});
         matte = scaled(base, as_paint * (1.0 - f));
     }

@@ -66,6 +66,7 @@ typedef struct oracle_view {
     int samples;       // k: k × k samples a pixel; 0 means 1
     int depth;         // N: surfaces that a path may meet; 0 means ORACLE_DEPTH_LIMIT
     double min_weight; // a branch whose largest component is less takes E at once
+    bool no_fresnel;   // metal reflects its base, glass only where it reflects all, paint nothing
     bool transparent;  // primary misses are (0, 0, 0, 0)
     bool edges;        // measure oracle_report.edge, at about twice the time
 } oracle_view;

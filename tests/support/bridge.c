@@ -202,6 +202,7 @@ oracle_view bridge_view(const glint_camera *camera, const glint_settings *settin
         .samples = settings->samples_per_axis,
         .depth = settings->depth,
         .min_weight = settings->min_weight,
+        .no_fresnel = settings->fresnel == GLINT_FRESNEL_NONE,
         .transparent = settings->transparent,
         .edges = true,
     };
