@@ -23,7 +23,7 @@
 #include "environment/irradiance.h"
 
 #include "base/memory.h"
-#include "environment/parallel.h"
+#include "base/parallel.h"
 #include "kernels/layout.h"
 
 #include <stdlib.h>

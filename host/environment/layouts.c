@@ -15,7 +15,7 @@
 // tests/support/direction_maps.c). In exchange both faces agree on their common edge, exactly.
 #include "environment/layouts.h"
 
-#include "environment/parallel.h"
+#include "base/parallel.h"
 #include "kernels/layout.h"
 
 #include <math.h>

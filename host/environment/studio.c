@@ -9,7 +9,7 @@
 // is free of steps at any zoom.
 #include "environment/environment.h"
 
-#include "environment/parallel.h"
+#include "base/parallel.h"
 #include "kernels/layout.h"
 
 #include <stdlib.h>

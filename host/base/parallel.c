@@ -1,5 +1,5 @@
 // Independent pieces of work spread over the machine's cores. See parallel.h.
-#include "environment/parallel.h"
+#include "base/parallel.h"
 
 #include <pthread.h>
 #include <sched.h>

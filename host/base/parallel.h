@@ -1,6 +1,6 @@
 // Independent pieces of work spread over the machine's cores.
-#ifndef GLINT_ENVIRONMENT_PARALLEL_H
-#define GLINT_ENVIRONMENT_PARALLEL_H
+#ifndef GLINT_BASE_PARALLEL_H
+#define GLINT_BASE_PARALLEL_H
 
 #include <stddef.h>
 
