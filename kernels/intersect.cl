@@ -161,9 +161,21 @@ static inline mask rays_meet_box(const packet *p, global const float *node, int 
 }
 #endif
 
+// Reads the three vertices, x y z each, of the triangle in one lane of a cluster.
+static inline void load_triangle(global const float *cluster, int lane, float vertices[9])
+{
+    global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
+    for (int i = 0; i < 3; i++) {
+        int vertex = corners[i * GLINT_CLUSTER_LANES + lane];
+        for (int k = 0; k < 3; k++) {
+            vertices[3 * i + k] = cluster[k * GLINT_CLUSTER_LANES + vertex];
+        }
+    }
+}
+
 // Tests one triangle against the rays in `active` and keeps the nearer hit. At equal distance the
 // triangle with the lower number in the scene wins, whatever the order of the tests.
-static inline void intersect_triangle(const packet *p, global const float *vertices, int place,
+static inline void intersect_triangle(const packet *p, const float vertices[9], int place,
                                       int triangle, mask active, closest *hit)
 {
     for (int k = 0; k < 3; k++) {

@@ -37,21 +37,30 @@
 // ---- Tree --------------------------------------------------------------------------------------
 // A node of width B is 7 × B 32-bit values: the children's low x, low y, low z, high x, high y,
 // high z (floats, B of each), then B ints that name the children: 0 or more is a node's index;
-// below 0 is a leaf, whose complement holds the place of its first triangle and their number:
-// ~child = first × GLINT_LEAF_MAX + (number − 1). A child that is not there has both corners of
-// its box at (GLINT_FAR, GLINT_FAR, GLINT_FAR), where no ray arrives.
+// below 0 is a leaf, the complement of a cluster's index. A child that is not there has both
+// corners of its box at (GLINT_FAR, GLINT_FAR, GLINT_FAR), where no ray arrives, and is named 0.
 #define GLINT_NODE_VALUES 7
 #define GLINT_FAR 1e30f // farther than any hit; finite, as ∞ would give NaN when multiplied by 0
-#define GLINT_LEAF_MAX 16
-// The largest number of triangles that a leaf's int can name.
-#define GLINT_TRIANGLES_MAX ((1u << 27) - 1)
 
-// Triangles stand in the order of the leaves. Positions (and normals) are [place][3 vertices][3]
-// floats in stored coordinates; beside each place stand its facts: the triangle's number in the
-// scene, which decides ties, and its material.
-#define GLINT_FACTS 2
-#define GLINT_FACT_TRIANGLE 0
-#define GLINT_FACT_MATERIAL 1
+// A leaf is one cluster: up to 16 triangles of one material and the vertices that they share, at
+// most 16. It is 64 32-bit values, 256 bytes aligned to 64:
+//   x[16], y[16], z[16]     floats: the vertices' positions in stored coordinates
+//   3 × 16 bytes            the triangles' first, second and third corner, each a vertex's lane
+//   count, material, 0, 0   ints: how many triangles there are, 1 to 16, and their material
+// Lanes past the last vertex repeat the first; triangles past the last have corners 0, 0, 0.
+// Clusters stand in the order of the leaves, left to right, whatever the nodes' width. A triangle's
+// place is cluster × 16 + its lane. Beside the clusters stand
+//   the shading normals     floats, per cluster x[16], y[16], z[16] by vertex, (0, 0, 0) for none
+//   the triangles' numbers  ints, by place: the triangle's number in the scene, which decides
+//                           ties; −1 in lanes without a triangle
+#define GLINT_CLUSTER_LANES 16
+#define GLINT_CLUSTER_VALUES 64
+#define GLINT_CLUSTER_CORNERS 48  // where the corners begin, in values
+#define GLINT_CLUSTER_COUNT 60    // of triangles
+#define GLINT_CLUSTER_MATERIAL 61 // their common material
+#define GLINT_CLUSTER_NORMALS 48  // values of normals per cluster
+// The largest number of triangles that a place can name even if each has a cluster of its own.
+#define GLINT_TRIANGLES_MAX ((1u << 27) - 1)
 
 // ---- Materials ---------------------------------------------------------------------------------
 #define GLINT_MATERIAL_SOLID 1u  // transmits, and bounds a solid

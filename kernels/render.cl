@@ -251,7 +251,7 @@ static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_r
         // At depth 1 only primary rays are traced.
         if (GLINT_INTERREFLECTION || primary) {
             mask traced = active & (ray->looked_up == (lane_int)0);
-            hit = trace_packet(scene->nodes, scene->positions, scene->facts, ray->origin,
+            hit = trace_packet(scene->nodes, scene->clusters, scene->numbers, ray->origin,
                                ray->direction, ray->from, traced);
             met = traced & (hit.place >= (lane_int)0);
         }
@@ -364,15 +364,15 @@ static inline void store_pixels(global scalar *pixels, const glint_frame_record 
 //  pixels: [height][width][4] (R, G, B premultiplied, alpha). counters: see layout.h. The
 // other buffers are described in layout.h too; those that no compiled feature needs may be of any
 // size.
-kernel void render_packets(global const float *nodes, global const float *positions,
-                           global const float *normals, global const uint *facts,
+kernel void render_packets(global const float *nodes, global const float *clusters,
+                           global const float *normals, global const int *numbers,
                            global const glint_material_record *materials,
                            global const glint_medium_record *media,
                            global const float *environment, global const float *irradiance,
                            global scalar *pixels, global uint *counters,
                            const glint_frame_record frame)
 {
-    const scene_buffers scene = {nodes, positions, normals, facts,
+    const scene_buffers scene = {nodes, clusters, normals, numbers,
                                  materials, media, environment, irradiance};
     const int x0 = (int)get_global_id(0) * PACKET_WIDTH;
     const int y0 = ((int)get_global_id(1) + frame.first_row) * PACKET_HEIGHT;

@@ -17,9 +17,9 @@ typedef struct path {
 // The scene's buffers, as every part of the shading gets them.
 typedef struct scene_buffers {
     global const float *nodes;
-    global const float *positions;
+    global const float *clusters;
     global const float *normals;
-    global const uint *facts;
+    global const int *numbers;
     global const glint_material_record *materials;
     global const glint_medium_record *media;
     global const float *environment;
@@ -41,9 +41,10 @@ typedef struct surface {
 
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 
-// Three vertices (or normals) of the triangles hit, as [vertex][coordinate]; zeros for other rays.
-static inline void load_vertices(global const float *values, lanes_int place, mask wanted,
-                                 real3 vertices[3])
+// Three vertices (or normals) of the triangles hit; zeros for other rays. `values` holds x[16], y[16]
+// and z[16] at the start of each `stride` values, a cluster's.
+static inline void load_vertices(const scene_buffers *scene, global const float *values, int stride,
+                                 lanes_int place, mask wanted, real3 vertices[3])
 {
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
     vertices[0] = vertices[1] = vertices[2] = zero;
@@ -51,11 +52,17 @@ static inline void load_vertices(global const float *values, lanes_int place, ma
         if (!lane_is_set(wanted, lane)) {
             continue;
         }
-        global const float *v = values + 9 * (size_t)LANE_INT(place, lane);
+        const size_t cluster = (size_t)LANE_INT(place, lane) / GLINT_CLUSTER_LANES;
+        const size_t triangle = (size_t)LANE_INT(place, lane) % GLINT_CLUSTER_LANES;
+        global const uchar *corners =
+            (global const uchar *)(scene->clusters + cluster * GLINT_CLUSTER_VALUES +
+                                   GLINT_CLUSTER_CORNERS);
         for (int i = 0; i < 3; i++) {
-            LANE(vertices[i].x, lane) = v[3 * i];
-            LANE(vertices[i].y, lane) = v[3 * i + 1];
-            LANE(vertices[i].z, lane) = v[3 * i + 2];
+            global const float *v =
+                values + cluster * stride + corners[i * GLINT_CLUSTER_LANES + triangle];
+            LANE(vertices[i].x, lane) = v[0];
+            LANE(vertices[i].y, lane) = v[GLINT_CLUSTER_LANES];
+            LANE(vertices[i].z, lane) = v[2 * GLINT_CLUSTER_LANES];
         }
     }
 }
@@ -93,7 +100,7 @@ static inline void orient_normals(const scene_buffers *scene, const path *ray, c
     s->normal = s->geometric_normal;
 #if GLINT_SMOOTH_NORMALS
     real3 normals[3];
-    load_vertices(scene->normals, hit->place, met, normals);
+    load_vertices(scene, scene->normals, GLINT_CLUSTER_NORMALS, hit->place, met, normals);
     // A vertex without a usable normal is (0, 0, 0); then the geometric normal serves.
     real smallest = largest_magnitude3(normals[0]);
     smallest = SMALLER(largest_magnitude3(normals[1]), smallest);
@@ -137,8 +144,10 @@ static inline void load_material(const scene_buffers *scene, lanes_int place, ma
         size_t material = 0;
 #if GLINT_MANY_MATERIALS
         if (lane_is_set(met, lane)) {
-            material = scene->facts[GLINT_FACTS * (size_t)LANE_INT(place, lane) +
-                                    GLINT_FACT_MATERIAL];
+            size_t cluster = (size_t)LANE_INT(place, lane) / GLINT_CLUSTER_LANES;
+            material = (size_t)((global const int *)scene->clusters)[cluster *
+                                                                         GLINT_CLUSTER_VALUES +
+                                                                     GLINT_CLUSTER_MATERIAL];
         }
 #endif
         set_material_lane(s, lane, scene->materials + material);
@@ -150,7 +159,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
 {
     surface s;
     real3 vertices[3];
-    load_vertices(scene->positions, hit->place, met, vertices);
+    load_vertices(scene, scene->clusters, GLINT_CLUSTER_VALUES, hit->place, met, vertices);
     mask valid;
     s.geometric_normal = normalized(cross3(subtract(vertices[1], vertices[0]),
                                            subtract(vertices[2], vertices[0])), &valid);

@@ -38,9 +38,24 @@ static inline int push_children(const packet *p, global const float *node, mask 
     return size;
 }
 
+static inline void intersect_cluster(const packet *p, global const float *clusters,
+                                     global const int *numbers, int index, lanes_int from,
+                                     mask active, closest *hit)
+{
+    global const float *cluster = clusters + (size_t)index * GLINT_CLUSTER_VALUES;
+    int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
+    for (int lane = 0; lane < count; lane++) {
+        int place = index * GLINT_CLUSTER_LANES + lane;
+        float vertices[9];
+        load_triangle(cluster, lane, vertices);
+        intersect_triangle(p, vertices, place, numbers[place], active & (from != (lane_int)place),
+                           hit);
+    }
+}
+
 // `from` is the place of the triangle that each ray starts on, which it cannot hit: −1 for none.
-static inline closest trace_packet(global const float *nodes, global const float *positions,
-                                   global const uint *facts, real3 origin, real3 direction,
+static inline closest trace_packet(global const float *nodes, global const float *clusters,
+                                   global const int *numbers, real3 origin, real3 direction,
                                    lanes_int from, mask active)
 {
     closest hit;
@@ -68,13 +83,7 @@ static inline closest trace_packet(global const float *nodes, global const float
             size = push_children(&p, node, active, &hit, stack, size);
             continue;
         }
-        int leaf = ~next.child;
-        int first = leaf / GLINT_LEAF_MAX, count = leaf % GLINT_LEAF_MAX + 1;
-        for (int place = first; place < first + count; place++) {
-            intersect_triangle(&p, positions + 9 * (size_t)place, place,
-                               (int)facts[GLINT_FACTS * (size_t)place + GLINT_FACT_TRIANGLE],
-                               active & (from != (lane_int)place), &hit);
-        }
+        intersect_cluster(&p, clusters, numbers, ~next.child, from, active, &hit);
     }
     return hit;
 }

@@ -1,10 +1,11 @@
-// Properties of the wide tree: every triangle is in one leaf, inside every box above it.
+// Properties of the wide tree: every triangle is in one cluster, inside every box above it.
 #include "accel/bvh.h"
 #include "kernels/layout.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -25,16 +26,37 @@ static double random_number(void)
 }
 
 typedef struct soup {
-    float *positions;
+    float *positions, *normals; // [count][3][3]
+    uint32_t *material_of;
     size_t count;
 } soup;
+
+// Without positions yet; one material, and one normal for all vertices.
+static soup empty_soup(size_t count)
+{
+    soup s = {malloc(count * 9 * sizeof(float)), calloc(count * 9, sizeof(float)),
+              calloc(count, sizeof(uint32_t)), count};
+    assert_non_null(s.positions);
+    assert_non_null(s.normals);
+    assert_non_null(s.material_of);
+    for (size_t vertex = 0; vertex < 3 * count; vertex++) {
+        s.normals[3 * vertex + 1] = 1;
+    }
+    return s;
+}
+
+static void free_soup(soup *s)
+{
+    free(s->positions);
+    free(s->normals);
+    free(s->material_of);
+}
 
 // Small triangles whose size and place span many orders of magnitude when `spread` is large.
 static soup random_soup(size_t count, double spread)
 {
     random_state = count;
-    soup s = {malloc(count * 9 * sizeof(float)), count};
-    assert_non_null(s.positions);
+    soup s = empty_soup(count);
     for (size_t i = 0; i < count; i++) {
         double scale = exp2(-spread * random_number());
         for (int v = 0; v < 9; v++) {
@@ -44,6 +66,42 @@ static soup random_soup(size_t count, double spread)
         }
     }
     return s;
+}
+
+// A wavy sheet of 2 × edge² triangles that share their vertices.
+static soup sheet(size_t edge)
+{
+    static const int corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    soup s = empty_soup(2 * edge * edge);
+    for (size_t i = 0; i < 6 * edge * edge; i++) {
+        double x = (double)(i / 6 % edge) + corners[i % 6][0];
+        double z = (double)(i / 6 / edge) + corners[i % 6][1];
+        s.positions[3 * i] = (float)(x / (double)edge);
+        s.positions[3 * i + 1] =
+            (float)(0.1 * sin(9 * x / (double)edge) * cos(7 * z / (double)edge));
+        s.positions[3 * i + 2] = (float)(z / (double)edge);
+    }
+    return s;
+}
+
+static glint_bvh_inputs inputs_of(const soup *s, int width)
+{
+    return (glint_bvh_inputs){
+        .positions = s->positions,
+        .normals = s->normals,
+        .material_of = s->material_of,
+        .triangle_count = s->count,
+        .width = width,
+    };
+}
+
+static glint_bvh build(const soup *s, int width)
+{
+    glint_bvh bvh;
+    glint_bvh_inputs in = inputs_of(s, width);
+    glint_error error = {0};
+    assert_int_equal(glint_bvh_build(&in, &bvh, &error), GLINT_OK);
+    return bvh;
 }
 
 static int32_t child_of(const glint_bvh *bvh, size_t node, int child)
@@ -57,17 +115,78 @@ static int32_t child_of(const glint_bvh *bvh, size_t node, int child)
 typedef struct walk {
     const soup *soup;
     const glint_bvh *bvh;
-    unsigned char *seen;
-    size_t nodes;
+    unsigned char *seen; // by triangle
+    size_t nodes, clusters;
     int stack_need;
 } walk;
 
-static void check_inside(const walk *w, size_t place, const float low[3], const float high[3])
+static void check_box(const float *p, const float low[3], const float high[3])
 {
-    const float *p = w->soup->positions + 9 * (size_t)w->bvh->order[place];
     for (int v = 0; v < 9; v++) {
         assert_true(p[v] >= low[v % 3] && p[v] <= high[v % 3]);
     }
+}
+
+// The values of one corner, [3][GLINT_CLUSTER_LANES] of them, are the vertex's bit for bit.
+static void check_corner(const float *values, const glint_cluster *cluster, int corner, int lane,
+                         const float vertex[3])
+{
+    int vertex_lane = cluster->corners[corner][lane];
+    assert_in_range(vertex_lane, 0, GLINT_CLUSTER_LANES - 1);
+    for (int k = 0; k < 3; k++) {
+        assert_memory_equal(values + k * GLINT_CLUSTER_LANES + vertex_lane, vertex + k,
+                            sizeof(float));
+    }
+}
+
+// No two vertices are the same, and what is past the last repeats the first.
+static void check_vertices(const glint_cluster *cluster, const float *normals)
+{
+    int last = 0;
+    for (int i = 0; i < 3 * GLINT_CLUSTER_LANES; i++) {
+        int lane = (&cluster->corners[0][0])[i];
+        last = lane > last ? lane : last;
+    }
+    for (int a = 0; a < GLINT_CLUSTER_LANES; a++) {
+        for (int b = 0; b < a; b++) {
+            bool same = true;
+            for (int k = 0; k < 3; k++) {
+                const float *p = cluster->positions[k], *n = normals + k * GLINT_CLUSTER_LANES;
+                same = same && memcmp(&p[a], &p[b], sizeof *p) == 0 &&
+                       memcmp(&n[a], &n[b], sizeof *n) == 0;
+            }
+            assert_int_equal(same, a > last && (b == 0 || b > last));
+        }
+    }
+}
+
+static void check_cluster(walk *w, size_t index, const float low[3], const float high[3])
+{
+    const glint_cluster *cluster = &w->bvh->clusters[index];
+    const float *normals = w->bvh->normals + index * GLINT_CLUSTER_NORMALS;
+    const int32_t *numbers = w->bvh->numbers + index * GLINT_CLUSTER_LANES;
+    assert_in_range(cluster->count, 1, GLINT_CLUSTER_LANES);
+    assert_true(cluster->unused[0] == 0 && cluster->unused[1] == 0);
+    for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {
+        if (lane >= cluster->count) {
+            assert_int_equal(numbers[lane], -1);
+            assert_int_equal(cluster->corners[0][lane] | cluster->corners[1][lane] |
+                                 cluster->corners[2][lane],
+                             0);
+            continue;
+        }
+        assert_in_range(numbers[lane], 0, w->soup->count - 1);
+        size_t triangle = (size_t)numbers[lane];
+        assert_int_equal(w->seen[triangle]++, 0);
+        assert_int_equal(w->soup->material_of[triangle], cluster->material);
+        for (int corner = 0; corner < 3; corner++) {
+            size_t value = 9 * triangle + 3 * (size_t)corner;
+            check_corner(cluster->positions[0], cluster, corner, lane, w->soup->positions + value);
+            check_corner(normals, cluster, corner, lane, w->soup->normals + value);
+        }
+        check_box(w->soup->positions + 9 * triangle, low, high);
+    }
+    check_vertices(cluster, normals);
 }
 
 // `low` and `high` are the box of the node; `waiting` what a traversal may have on its stack.
@@ -82,74 +201,128 @@ static void visit(walk *w, size_t node, const float low[3], const float high[3],
     if (waiting + used > w->stack_need) {
         w->stack_need = waiting + used;
     }
-    for (int c = 0; c < used; c++) {
+    for (int c = 0; c < width; c++) {
         float child_low[3], child_high[3];
+        int32_t child = child_of(w->bvh, node, c);
         for (int k = 0; k < 3; k++) {
             child_low[k] = base[k * width + c];
             child_high[k] = base[(3 + k) * width + c];
-            assert_true(child_low[k] <= child_high[k]);
         }
-        int32_t child = child_of(w->bvh, node, c);
+        if (c >= used) {
+            assert_true(child == 0 && child_low[1] == GLINT_FAR && child_low[2] == GLINT_FAR);
+            assert_true(child_high[0] == GLINT_FAR && child_high[1] == GLINT_FAR &&
+                        child_high[2] == GLINT_FAR);
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            assert_true(child_low[k] <= child_high[k]);
+            assert_true(child_low[k] >= low[k] && child_high[k] <= high[k]);
+        }
         if (child >= 0) {
+            assert_in_range(child, 1, w->bvh->node_count - 1);
             visit(w, (size_t)child, child_low, child_high, waiting + used - 1);
             continue;
         }
-        size_t first = (size_t)~child / GLINT_LEAF_MAX, count = (size_t)~child % GLINT_LEAF_MAX + 1;
-        for (size_t place = first; place < first + count; place++) {
-            assert_true(place < w->soup->count);
-            assert_int_equal(w->seen[place]++, 0);
-            check_inside(w, place, child_low, child_high);
-            check_inside(w, place, low, high);
-        }
+        assert_in_range(~child, 0, w->bvh->cluster_count - 1);
+        w->clusters++;
+        check_cluster(w, (size_t)~child, child_low, child_high);
     }
 }
 
-static void check_tree(const soup *s, int width)
+static void check_bvh(const soup *s, const glint_bvh *bvh)
 {
-    glint_bvh bvh;
-    glint_error error = {0};
-    assert_int_equal(glint_bvh_build(s->positions, s->count, width, &bvh, &error), GLINT_OK);
-    walk w = {s, &bvh, calloc(s->count, 1), 0, 0};
-    unsigned char *ordered = calloc(s->count, 1);
+    walk w = {.soup = s, .bvh = bvh, .seen = calloc(s->count, 1)};
     assert_non_null(w.seen);
-    assert_non_null(ordered);
     const float low[3] = {-INFINITY, -INFINITY, -INFINITY};
     const float high[3] = {INFINITY, INFINITY, INFINITY};
     visit(&w, 0, low, high, 0);
     for (size_t i = 0; i < s->count; i++) {
         assert_int_equal(w.seen[i], 1);
-        assert_int_equal(ordered[bvh.order[i]]++, 0);
     }
-    assert_int_equal(w.nodes, bvh.node_count);
-    assert_true(bvh.report.stack_need >= w.stack_need);
-    assert_true(bvh.report.mean_leaf_size <= GLINT_LEAF_MAX);
+    assert_int_equal(w.nodes, bvh->node_count);
+    assert_int_equal(w.clusters, bvh->cluster_count);
+    assert_true(bvh->report.stack_need >= w.stack_need);
     free(w.seen);
-    free(ordered);
-    glint_bvh_free(&bvh);
 }
 
-static void every_triangle_is_in_one_leaf_inside_every_box_above_it(void **state)
+static void check_tree(const soup *s)
+{
+    for (int width = 8; width <= 16; width += 8) {
+        glint_bvh bvh = build(s, width);
+        check_bvh(s, &bvh);
+        glint_bvh_free(&bvh);
+    }
+}
+
+static void every_triangle_is_in_one_cluster_inside_every_box_above_it(void **state)
 {
     (void)state;
     static const size_t counts[] = {1, 2, 15, 16, 17, 100, 5000};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
         soup s = random_soup(counts[i], 0);
-        check_tree(&s, 8);
-        check_tree(&s, 16);
-        free(s.positions);
+        check_tree(&s);
+        free_soup(&s);
     }
+}
+
+static void smooth_meshes_share_vertices_and_fill_the_clusters(void **state)
+{
+    (void)state;
+    soup s = sheet(60);
+    check_tree(&s);
+    glint_bvh bvh = build(&s, 16);
+    print_message("fill %.3f, %.1f bytes a triangle\n", bvh.report.fill,
+                  bvh.report.bytes_per_triangle);
+    assert_true(bvh.report.fill > 0.5);
+    glint_bvh_free(&bvh);
+    free_soup(&s);
+}
+
+static void a_cluster_has_one_material(void **state)
+{
+    (void)state;
+    soup s = sheet(20);
+    for (size_t i = 0; i < s.count; i++) {
+        s.material_of[i] = (uint32_t)(random_number() * 3);
+    }
+    check_tree(&s);
+    free_soup(&s);
+}
+
+static void vertices_of_different_normals_or_signs_of_zero_are_not_shared(void **state)
+{
+    (void)state;
+    soup s = sheet(20);
+    for (size_t i = 0; i < 9 * s.count; i++) {
+        s.normals[i] = i / 9 % 2 == 0 ? s.normals[i] : -s.normals[i];
+        s.positions[i] = s.positions[i] == 0 && i / 9 % 3 == 0 ? -0.0f : s.positions[i];
+    }
+    check_tree(&s);
+    free_soup(&s);
+}
+
+static void without_normals_there_is_no_array_of_them(void **state)
+{
+    (void)state;
+    soup s = sheet(20);
+    glint_bvh_inputs in = inputs_of(&s, 16);
+    in.normals = NULL;
+    glint_bvh bvh;
+    assert_int_equal(glint_bvh_build(&in, &bvh, NULL), GLINT_OK);
+    assert_null(bvh.normals);
+    glint_bvh_free(&bvh);
+    free_soup(&s);
 }
 
 static void triangles_of_every_magnitude_keep_the_tree_shallow(void **state)
 {
     (void)state;
     soup s = random_soup(20000, 100);
-    check_tree(&s, 16);
-    glint_bvh bvh;
-    assert_int_equal(glint_bvh_build(s.positions, s.count, 16, &bvh, NULL), GLINT_OK);
+    check_tree(&s);
+    glint_bvh bvh = build(&s, 16);
     assert_true(bvh.report.depth < 40);
     glint_bvh_free(&bvh);
-    free(s.positions);
+    free_soup(&s);
 }
 
 static void coincident_triangles_are_divided_by_number(void **state)
@@ -159,9 +332,8 @@ static void coincident_triangles_are_divided_by_number(void **state)
     for (size_t i = 1; i < s.count; i++) {
         memcpy(s.positions + 9 * i, s.positions, 9 * sizeof(float));
     }
-    check_tree(&s, 16);
-    check_tree(&s, 8);
-    free(s.positions);
+    check_tree(&s);
+    free_soup(&s);
 }
 
 static void the_largest_finite_coordinates_do_no_harm(void **state)
@@ -171,55 +343,62 @@ static void the_largest_finite_coordinates_do_no_harm(void **state)
     for (size_t i = 0; i < 9 * s.count; i++) {
         s.positions[i] *= 1e29f;
     }
-    check_tree(&s, 16);
-    free(s.positions);
+    check_tree(&s);
+    free_soup(&s);
 }
 
 static void the_same_triangles_give_the_same_tree(void **state)
 {
     (void)state;
     soup s = random_soup(3000, 3);
-    glint_bvh a, b;
-    assert_int_equal(glint_bvh_build(s.positions, s.count, 16, &a, NULL), GLINT_OK);
-    assert_int_equal(glint_bvh_build(s.positions, s.count, 16, &b, NULL), GLINT_OK);
+    glint_bvh a = build(&s, 16), b = build(&s, 16);
     assert_int_equal(a.node_count, b.node_count);
+    assert_int_equal(a.cluster_count, b.cluster_count);
     assert_memory_equal(a.nodes, b.nodes, a.node_count * GLINT_NODE_VALUES * 16 * sizeof(float));
-    assert_memory_equal(a.order, b.order, s.count * sizeof *a.order);
+    assert_memory_equal(a.clusters, b.clusters, a.cluster_count * sizeof *a.clusters);
+    assert_memory_equal(a.numbers, b.numbers,
+                        a.cluster_count * GLINT_CLUSTER_LANES * sizeof *a.numbers);
     glint_bvh_free(&a);
     glint_bvh_free(&b);
-    free(s.positions);
+    free_soup(&s);
 }
 
 static void no_triangles_give_an_empty_tree(void **state)
 {
     (void)state;
     glint_bvh bvh;
-    assert_int_equal(glint_bvh_build(NULL, 0, 16, &bvh, NULL), GLINT_OK);
+    glint_bvh_inputs in = {.width = 16};
+    assert_int_equal(glint_bvh_build(&in, &bvh, NULL), GLINT_OK);
     assert_int_equal(bvh.node_count, 0);
+    assert_int_equal(bvh.cluster_count, 0);
     glint_bvh_free(&bvh);
 }
 
-static void more_triangles_than_a_leaf_can_name_are_refused(void **state)
+static void more_triangles_than_a_place_can_name_are_refused(void **state)
 {
     (void)state;
     glint_bvh bvh;
     glint_error error = {0};
     // Refused before anything is read.
-    assert_int_equal(glint_bvh_build(NULL, (size_t)GLINT_TRIANGLES_MAX + 1, 16, &bvh, &error),
-                     GLINT_BAD_INPUT);
+    glint_bvh_inputs in = {.triangle_count = (size_t)GLINT_TRIANGLES_MAX + 1, .width = 16};
+    assert_int_equal(glint_bvh_build(&in, &bvh, &error), GLINT_BAD_INPUT);
     assert_non_null(strstr(error.message, "134217728 triangles"));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_triangle_is_in_one_leaf_inside_every_box_above_it),
+        cmocka_unit_test(every_triangle_is_in_one_cluster_inside_every_box_above_it),
+        cmocka_unit_test(smooth_meshes_share_vertices_and_fill_the_clusters),
+        cmocka_unit_test(a_cluster_has_one_material),
+        cmocka_unit_test(vertices_of_different_normals_or_signs_of_zero_are_not_shared),
+        cmocka_unit_test(without_normals_there_is_no_array_of_them),
         cmocka_unit_test(triangles_of_every_magnitude_keep_the_tree_shallow),
         cmocka_unit_test(coincident_triangles_are_divided_by_number),
         cmocka_unit_test(the_largest_finite_coordinates_do_no_harm),
         cmocka_unit_test(the_same_triangles_give_the_same_tree),
         cmocka_unit_test(no_triangles_give_an_empty_tree),
-        cmocka_unit_test(more_triangles_than_a_leaf_can_name_are_refused),
+        cmocka_unit_test(more_triangles_than_a_place_can_name_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

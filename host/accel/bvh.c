@@ -3,8 +3,8 @@
 // largest child until a node is full. One thread, iterative, deterministic.
 #include "accel/bvh.h"
 
+#include "accel/cluster.h"
 #include "base/memory.h"
-#include "kernels/layout.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -16,9 +16,9 @@
 // Below this depth splits are made in the middle: what bounds the depth on data that degrade the
 // heuristic to a chain.
 #define SAH_DEPTH_LIMIT 96
-// Testing a node's boxes costs about as much as this many triangles, shared by the binary splits
-// that the collapse folds into one node.
-#define SPLIT_COST 3.0
+// Triangles of a cluster where 16 vertices are what fills it: as many as a compact patch of a mesh
+// makes of them, as a vertex has six neighbours there and a patch many vertices on its rim.
+#define CLUSTER_TRIANGLES 15
 
 typedef struct box {
     float low[3], high[3];
@@ -29,16 +29,18 @@ typedef struct reference {
     uint32_t triangle;
 } reference;
 
-// A node of the binary tree: `count` 0 is an inner node with children `first` and `first` + 1.
+// A node of the binary tree: `count` 0 is an inner node with children `first` and `first` + 1; else
+// it is a leaf, the given cluster of the references from `first` on.
 typedef struct binary_node {
     box bounds;
-    uint32_t first, count;
+    uint32_t first, count, cluster;
 } binary_node;
 
 typedef struct builder {
+    const glint_bvh_inputs *in;
     reference *references;
     binary_node *nodes;
-    size_t node_count;
+    size_t node_count, cluster_count;
 } builder;
 
 static const box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -114,6 +116,12 @@ static binning make_binning(const builder *b, uint32_t first, uint32_t count)
     return result;
 }
 
+// What testing that many triangles costs: clusters, as all lanes of one are tested at once.
+static double cost_of(uint32_t triangles)
+{
+    return (triangles + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;
+}
+
 // The cheapest split on one axis, from the counts and bounds of its bins.
 static void sweep_axis(const box *bounds, const uint32_t *counts, int axis, split *best)
 {
@@ -123,14 +131,15 @@ static void sweep_axis(const box *bounds, const uint32_t *counts, int axis, spli
     for (int i = BINS - 1; i > 0; i--) {
         grow(&right, &bounds[i]);
         right_count += counts[i];
-        right_cost[i] = right_count > 0 ? half_area(&right) * right_count : INFINITY;
+        right_cost[i] = right_count > 0 ? half_area(&right) * cost_of(right_count) : INFINITY;
     }
     box left = empty_box;
     uint32_t left_count = 0;
     for (int i = 1; i < BINS; i++) {
         grow(&left, &bounds[i - 1]);
         left_count += counts[i - 1];
-        double cost = left_count > 0 ? half_area(&left) * left_count + right_cost[i] : INFINITY;
+        double cost =
+            left_count > 0 ? half_area(&left) * cost_of(left_count) + right_cost[i] : INFINITY;
         if (cost < best->cost) {
             *best = (split){axis, i, cost};
         }
@@ -188,26 +197,33 @@ static box bounds_of(const builder *b, uint32_t first, uint32_t count)
     return bounds;
 }
 
+static bool makes_cluster(const builder *b, const binary_node *node)
+{
+    uint32_t triangles[GLINT_CLUSTER_LANES];
+    if (node->count > GLINT_CLUSTER_LANES) {
+        return false;
+    }
+    for (uint32_t i = 0; i < node->count; i++) {
+        triangles[i] = b->references[node->first + i].triangle;
+    }
+    return glint_cluster_fits(b->in, triangles, node->count);
+}
+
 // Decides whether a node is split, and where: the number of its left references, or 0 for a leaf.
 static uint32_t divide(builder *b, const binary_node *node, int depth)
 {
-    if (node->count == 1) {
+    if (makes_cluster(b, node)) {
         return 0;
     }
     if (depth < SAH_DEPTH_LIMIT) {
         binning bins = make_binning(b, node->first, node->count);
         split s = find_split(b, &bins, node->first, node->count);
-        double area = half_area(&node->bounds);
-        double leaf_cost = area * node->count, split_cost = s.cost + SPLIT_COST * area;
-        if (node->count <= GLINT_LEAF_MAX && !(split_cost < leaf_cost)) {
-            return 0;
-        }
         if (s.axis >= 0) {
             return partition(b, &bins, &s, node);
         }
     }
     // Nothing tells the triangles apart (equal centroids), or the tree is too deep: by number.
-    return node->count <= GLINT_LEAF_MAX ? 0 : node->count / 2;
+    return node->count / 2;
 }
 
 typedef struct task {
@@ -220,7 +236,7 @@ static glint_status build_binary(builder *b, size_t count, glint_error *error)
     // A task is one level's right sibling; halving below the limit bounds the depth.
     task stack[SAH_DEPTH_LIMIT + 64];
     int size = 0;
-    b->nodes[0] = (binary_node){bounds_of(b, 0, (uint32_t)count), 0, (uint32_t)count};
+    b->nodes[0] = (binary_node){bounds_of(b, 0, (uint32_t)count), 0, (uint32_t)count, 0};
     b->node_count = 1;
     stack[size++] = (task){0, 0};
     while (size > 0) {
@@ -228,6 +244,8 @@ static glint_status build_binary(builder *b, size_t count, glint_error *error)
         binary_node *node = &b->nodes[next.node];
         uint32_t left = divide(b, node, next.depth);
         if (left == 0) {
+            // The left child's task comes first: leaves are met from left to right.
+            node->cluster = (uint32_t)b->cluster_count++;
             continue;
         }
         if (size + 2 > (int)(sizeof stack / sizeof *stack)) {
@@ -235,8 +253,9 @@ static glint_status build_binary(builder *b, size_t count, glint_error *error)
         }
         uint32_t child = (uint32_t)b->node_count;
         uint32_t first = node->first, right = node->count - left;
-        b->nodes[child] = (binary_node){bounds_of(b, first, left), first, left};
-        b->nodes[child + 1] = (binary_node){bounds_of(b, first + left, right), first + left, right};
+        b->nodes[child] = (binary_node){bounds_of(b, first, left), first, left, 0};
+        b->nodes[child + 1] =
+            (binary_node){bounds_of(b, first + left, right), first + left, right, 0};
         b->node_count += 2;
         node->first = child;
         node->count = 0;
@@ -311,8 +330,7 @@ static void write_node(const builder *b, int width, const uint32_t *children, in
         if (i < count) {
             const binary_node *child = &b->nodes[children[i]];
             store_box(node, width, i, &child->bounds);
-            uint32_t leaf = child->first * GLINT_LEAF_MAX + (child->count - 1);
-            value = child->count > 0 ? ~(int32_t)leaf : (int32_t)first_wide++;
+            value = child->count > 0 ? ~(int32_t)child->cluster : (int32_t)first_wide++;
         }
         memcpy(node + 6 * width + i, &value, sizeof value);
     }
@@ -345,8 +363,7 @@ static void collapse(const builder *b, glint_bvh *bvh, wide_task *stack)
         for (int i = 0; i < count; i++) {
             const binary_node *child = &b->nodes[children[i]];
             if (child->count > 0) {
-                report->leaf_count++;
-                report->sah_cost += half_area(&child->bounds) / root_area * child->count;
+                report->sah_cost += half_area(&child->bounds) / root_area;
             } else {
                 uint32_t wide = (uint32_t)bvh->node_count++;
                 stack[size++] =
@@ -370,7 +387,7 @@ static size_t count_inner(const builder *b)
     return inner > 0 ? inner : 1;
 }
 
-static glint_status make_wide(const builder *b, size_t count, glint_bvh *bvh, glint_error *error)
+static glint_status make_wide(const builder *b, glint_bvh *bvh, glint_error *error)
 {
     size_t inner = count_inner(b);
     size_t values = GLINT_NODE_VALUES * (size_t)bvh->width;
@@ -380,48 +397,87 @@ static glint_status make_wide(const builder *b, size_t count, glint_bvh *bvh, gl
     }
     collapse(b, bvh, stack);
     bvh->nodes = glint_allocate(bvh->node_count, values * sizeof(float));
-    bvh->order = glint_allocate(count, sizeof *bvh->order);
-    if (bvh->nodes == NULL || bvh->order == NULL) {
+    if (bvh->nodes == NULL) {
         free(stack);
         return glint_fail_memory(error, "the tree");
     }
     bvh->report = (glint_bvh_report){0};
     collapse(b, bvh, stack);
     free(stack);
-    for (size_t i = 0; i < count; i++) {
-        bvh->order[i] = b->references[i].triangle;
-    }
-    bvh->report.triangle_count = count;
-    bvh->report.node_count = bvh->node_count;
-    bvh->report.mean_leaf_size = (double)count / (double)bvh->report.leaf_count;
-    bvh->report.bytes = bvh->node_count * values * sizeof(float) + count * sizeof *bvh->order;
     return GLINT_OK;
 }
 
-glint_status glint_bvh_build(const float *positions, size_t triangle_count, int width,
-                             glint_bvh *bvh, glint_error *error)
+static glint_status make_clusters(const builder *b, glint_bvh *bvh, glint_error *error)
 {
-    *bvh = (glint_bvh){.width = width};
-    if (triangle_count == 0) {
+    bvh->cluster_count = b->cluster_count;
+    bvh->clusters = glint_allocate(b->cluster_count, sizeof *bvh->clusters);
+    bvh->numbers = glint_allocate(b->cluster_count, GLINT_CLUSTER_LANES * sizeof *bvh->numbers);
+    if (b->in->normals != NULL) {
+        bvh->normals =
+            glint_allocate(b->cluster_count, GLINT_CLUSTER_NORMALS * sizeof *bvh->normals);
+    }
+    if (bvh->clusters == NULL || bvh->numbers == NULL ||
+        (b->in->normals != NULL && bvh->normals == NULL)) {
+        return glint_fail_memory(error, "the tree");
+    }
+    for (size_t i = 0; i < b->node_count; i++) {
+        const binary_node *node = &b->nodes[i];
+        uint32_t triangles[GLINT_CLUSTER_LANES];
+        for (uint32_t k = 0; k < node->count; k++) {
+            triangles[k] = b->references[node->first + k].triangle;
+        }
+        if (node->count > 0) {
+            glint_cluster_fill(b->in, triangles, node->count, bvh, node->cluster);
+        }
+    }
+    return GLINT_OK;
+}
+
+static void finish_report(glint_bvh *bvh, size_t triangle_count)
+{
+    const size_t node_bytes = GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float);
+    const size_t normals = bvh->normals != NULL ? GLINT_CLUSTER_NORMALS * sizeof(float) : 0;
+    const size_t numbers = GLINT_CLUSTER_LANES * sizeof(int32_t);
+    glint_bvh_report *report = &bvh->report;
+    report->triangle_count = triangle_count;
+    report->node_count = bvh->node_count;
+    report->cluster_count = bvh->cluster_count;
+    report->fill = (double)triangle_count / ((double)bvh->cluster_count * GLINT_CLUSTER_LANES);
+    report->bytes = bvh->node_count * node_bytes +
+                    bvh->cluster_count * (sizeof(glint_cluster) + normals + numbers);
+    report->bytes_per_triangle = (double)report->bytes / (double)triangle_count;
+}
+
+glint_status glint_bvh_build(const glint_bvh_inputs *in, glint_bvh *bvh, glint_error *error)
+{
+    const size_t count = in->triangle_count;
+    *bvh = (glint_bvh){.width = in->width};
+    if (count == 0) {
         return GLINT_OK;
     }
-    if (triangle_count > GLINT_TRIANGLES_MAX) {
+    if (count > GLINT_TRIANGLES_MAX) {
         return glint_fail(error, GLINT_BAD_INPUT,
-                          "%zu triangles are more than this version can index (at most %u)",
-                          triangle_count, GLINT_TRIANGLES_MAX);
+                          "%zu triangles are more than this version can index (at most %u)", count,
+                          GLINT_TRIANGLES_MAX);
     }
-    builder b = {0};
+    builder b = {.in = in};
     glint_status status = GLINT_OK;
-    b.references = glint_allocate(triangle_count, sizeof *b.references);
-    b.nodes = glint_allocate(2 * triangle_count, sizeof *b.nodes);
+    b.references = glint_allocate(count, sizeof *b.references);
+    b.nodes = glint_allocate(2 * count, sizeof *b.nodes);
     if (b.references == NULL || b.nodes == NULL) {
         status = glint_fail_memory(error, "building the tree");
         goto cleanup;
     }
-    make_references(positions, triangle_count, b.references);
-    status = build_binary(&b, triangle_count, error);
+    make_references(in->positions, count, b.references);
+    status = build_binary(&b, count, error);
     if (status == GLINT_OK) {
-        status = make_wide(&b, triangle_count, bvh, error);
+        status = make_wide(&b, bvh, error);
+    }
+    if (status == GLINT_OK) {
+        status = make_clusters(&b, bvh, error);
+    }
+    if (status == GLINT_OK) {
+        finish_report(bvh, count);
     }
 cleanup:
     free(b.references);
@@ -435,6 +491,8 @@ cleanup:
 void glint_bvh_free(glint_bvh *bvh)
 {
     free(bvh->nodes);
-    free(bvh->order);
+    free(bvh->clusters);
+    free(bvh->normals);
+    free(bvh->numbers);
     *bvh = (glint_bvh){0};
 }

@@ -3,39 +3,59 @@
 #define GLINT_ACCEL_BVH_H
 
 #include "base/status.h"
+#include "kernels/layout.h"
 
 #include <stddef.h>
 #include <stdint.h>
+
+// A leaf's triangles as the host sees them; the values are described in kernels/layout.h.
+typedef struct glint_cluster {
+    float positions[3][GLINT_CLUSTER_LANES]; // x, y, z of each vertex
+    uint8_t corners[3][GLINT_CLUSTER_LANES]; // first, second, third corner of each triangle
+    int32_t count, material, unused[2];
+} glint_cluster;
 
 // What was built, for `info` and statistics.
 typedef struct glint_bvh_report {
     size_t triangle_count;
     size_t node_count;
-    size_t leaf_count;
+    size_t cluster_count;
     int depth;       // nodes on the longest way down
-    double sah_cost; // expected cost of a random ray, in triangle tests (surface area heuristic)
-    double mean_leaf_size; // triangles
-    size_t bytes;          // nodes and triangle order
-    int stack_need;        // entries that a traversal may have waiting
+    double sah_cost; // nodes and clusters that a random ray through the root's box may be expected
+                     // to meet (surface area heuristic)
+    double fill;     // share of the clusters' lanes that hold a triangle
+    size_t bytes;    // of all arrays
+    double bytes_per_triangle;
+    int stack_need; // entries that a traversal may have waiting
 } glint_bvh_report;
 
-// Zero is valid: a tree without triangles.
+// Zero is valid: a tree without triangles. All arrays are aligned to 64 bytes.
 typedef struct glint_bvh {
     int width; // children of a node: 8 or 16
-    size_t node_count;
+    size_t node_count, cluster_count;
     // [node_count][7 × width] 32-bit values, see kernels/layout.h; node 0 is the root. Boxes are
     // widened a little beyond their triangles, so that rounding in the tests of boxes and triangles
     // never leaves a gap between them.
     float *nodes;
-    uint32_t *order; // [triangle_count]: the triangle (of the scene) in each place of the leaves
+    glint_cluster *clusters; // [cluster_count]
+    float *normals;          // [cluster_count][GLINT_CLUSTER_NORMALS], or NULL without normals
+    int32_t *numbers;        // [cluster_count][GLINT_CLUSTER_LANES]
     glint_bvh_report report;
 } glint_bvh;
 
-// `positions`: [triangle_count][3][3] finite floats. `width`: 8 or 16. Deterministic: the same
-// input gives the same tree. Errors: GLINT_DEVICE_FAILED (memory), GLINT_BAD_INPUT (too many
-// triangles for the layout).
-glint_status glint_bvh_build(const float *positions, size_t triangle_count, int width,
-                             glint_bvh *bvh, glint_error *error);
+// Triangles as a scene holds them. Pointers are borrowed.
+typedef struct glint_bvh_inputs {
+    const float *positions;      // [triangle_count][3 vertices][3], finite
+    const float *normals;        // the same shape, or NULL
+    const uint32_t *material_of; // [triangle_count]
+    size_t triangle_count;
+    int width; // children of a node: 8 or 16
+} glint_bvh_inputs;
+
+// Deterministic: the same input gives the same tree. Two triangles of a cluster share a vertex
+// where its position and normal have the same bits. Errors: GLINT_DEVICE_FAILED (memory),
+// GLINT_BAD_INPUT (too many triangles for the layout).
+glint_status glint_bvh_build(const glint_bvh_inputs *inputs, glint_bvh *bvh, glint_error *error);
 void glint_bvh_free(glint_bvh *bvh);
 
 #endif

@@ -191,6 +191,14 @@ static void print_plan(const glint_subject *subject)
     }
 }
 
+static void print_tree(const glint_bvh_report *bvh)
+{
+    printf("  tree: %zu nodes, %zu clusters %.0f%% full, depth %d, cost %.1f\n", bvh->node_count,
+           bvh->cluster_count, 100 * bvh->fill, bvh->depth, bvh->sah_cost);
+    printf("  tree: %.1f MiB, %.1f bytes a triangle\n", (double)bvh->bytes / 0x1p20,
+           bvh->bytes_per_triangle);
+}
+
 static void print_text(const glint_subject *subject)
 {
     print_scene(subject->scene, subject->topology);
@@ -201,9 +209,7 @@ static void print_text(const glint_subject *subject)
     printf("\nMemory\n  about %.1f MiB on the device\n",
            (double)glint_inventory_device_bytes(subject) / 0x1p20);
     if (subject->bvh != NULL) {
-        printf("  tree: %zu nodes, %zu leaves of %.1f triangles, depth %d, cost %.1f, %.1f MiB\n",
-               subject->bvh->node_count, subject->bvh->leaf_count, subject->bvh->mean_leaf_size,
-               subject->bvh->depth, subject->bvh->sah_cost, (double)subject->bvh->bytes / 0x1p20);
+        print_tree(subject->bvh);
     }
     printf("\nWarnings\n");
     for (size_t i = 0; i < subject->warnings->count; i++) {
@@ -237,8 +243,7 @@ static glint_status make_plan(const info_request *request, info_work *work, glin
         return status;
     }
     work->has_plan = true;
-    return glint_bvh_build(work->inputs.scene.positions, work->inputs.scene.triangle_count,
-                           work->plan.bvh_width, &work->bvh, error);
+    return glint_plan_build_tree(&work->plan, &work->inputs.scene, &work->bvh, error);
 }
 
 static glint_status gather(const info_request *request, info_work *work, glint_error *error)

@@ -107,8 +107,8 @@ static glint_status set_argument(const glint_renderer *r, cl_uint index, size_t 
 static glint_status set_buffers(const glint_renderer *r, glint_error *error)
 {
     const cl_mem buffers[] = {
-        r->memory.nodes,     r->memory.positions, r->memory.normals,     r->memory.facts,
-        r->memory.materials, r->memory.media,     r->memory.environment, r->memory.irradiance,
+        r->memory.nodes,     r->memory.clusters, r->memory.normals,     r->memory.numbers,
+        r->memory.materials, r->memory.media,    r->memory.environment, r->memory.irradiance,
         r->pixels,           r->counters};
     glint_status status = GLINT_OK;
     for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
@@ -230,8 +230,7 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
     }
     r->phases.analysis = lap(&clock);
     if (status == GLINT_OK) {
-        status = glint_bvh_build(in->scene->positions, in->scene->triangle_count, r->plan.bvh_width,
-                                 &bvh, error);
+        status = glint_plan_build_tree(&r->plan, in->scene, &bvh, error);
         r->bvh = bvh.report;
         r->plan.traversal_stack = traversal_stack(bvh.report.stack_need);
         r->phases.bvh = lap(&clock);

@@ -1,8 +1,6 @@
 // The plan: what is compiled, and why. See plan.h.
 #include "render/plan.h"
 
-#include "kernels/layout.h"
-
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -293,14 +291,6 @@ static void choose_media(const glint_scene *scene, glint_plan *plan)
     plan->media_capacity = nested ? 30 / bits : 1;
 }
 
-static size_t scene_bytes(const glint_scene *scene)
-{
-    size_t per_triangle = 9 * sizeof(float) + GLINT_FACTS * sizeof(unsigned);
-    per_triangle += scene->normals != NULL ? 9 * sizeof(float) : 0;
-    return scene->triangle_count * per_triangle +
-           scene->material_count * sizeof(glint_material_record);
-}
-
 // To show that unneeded features change nothing. A feature that contradicts the settings (a
 // transparent background) would change the picture and stays as it is.
 static void compile_everything(glint_plan *plan)
@@ -347,9 +337,21 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     choose_width(in, plan);
     choose_stack(settings, plan);
     choose_media(in->scene, plan);
-    plan->scene_bytes = scene_bytes(in->scene);
     plan->traversal_stack = 64;
     return GLINT_OK;
+}
+
+glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
+                                   glint_error *error)
+{
+    const glint_bvh_inputs inputs = {
+        .positions = scene->positions,
+        .normals = scene->normals,
+        .material_of = scene->material_of,
+        .triangle_count = scene->triangle_count,
+        .width = plan->bvh_width,
+    };
+    return glint_bvh_build(&inputs, bvh, error);
 }
 
 int glint_plan_feature_count(const glint_plan *plan)

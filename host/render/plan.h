@@ -2,6 +2,7 @@
 #ifndef GLINT_RENDER_PLAN_H
 #define GLINT_RENDER_PLAN_H
 
+#include "accel/bvh.h"
 #include "base/status.h"
 #include "device/capabilities.h"
 #include "environment/environment.h"
@@ -80,7 +81,6 @@ typedef struct glint_plan {
     int media_bits;      // bits of one entry of the stack of media
     int media_capacity;  // entries of that stack
     int traversal_stack; // entries of the traversal's stack; set once the tree is built
-    size_t scene_bytes;  // device memory for triangles, normals and facts, without the tree
 } glint_plan;
 
 // Names of a feature and what it adds, from kernels/features.h.
@@ -99,6 +99,11 @@ typedef struct glint_plan_inputs {
 // Errors: GLINT_USAGE for settings out of range, GLINT_DEVICE_FAILED for what the device cannot do
 // (double precision without cl_khr_fp64).
 glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
+
+// Builds the tree of the scene's triangles that the plan's kernels go through. Errors: as
+// glint_bvh_build.
+glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
+                                   glint_error *error);
 
 // The number of features compiled.
 int glint_plan_feature_count(const glint_plan *plan);

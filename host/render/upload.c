@@ -33,14 +33,16 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
                                 const glint_cube *environment, size_t frame_bytes,
                                 glint_error *error)
 {
-    const size_t vertices = scene->triangle_count * 9 * sizeof(float);
+    // As many as would do if all clusters could be full.
+    const size_t clusters = (scene->triangle_count + GLINT_CLUSTER_LANES - 1) / GLINT_CLUSTER_LANES;
+    const size_t normals = scene->normals != NULL ? clusters * GLINT_CLUSTER_NORMALS : 0;
     const struct {
         const char *what;
         size_t bytes;
     } buffers[] = {
-        {"the triangles", vertices},
-        {"the normals", scene->normals != NULL ? vertices : 0},
-        {"the triangles' facts", scene->triangle_count * GLINT_FACTS * sizeof(cl_uint)},
+        {"the triangles", clusters * sizeof(glint_cluster)},
+        {"the normals", normals * sizeof(float)},
+        {"the triangles' numbers", clusters * GLINT_CLUSTER_LANES * sizeof(cl_int)},
         {"the environment", glint_cube_size(environment) * sizeof(float)},
         {"the frame", frame_bytes},
     };
@@ -82,45 +84,31 @@ glint_status glint_buffer_create(const struct glint_device *device, const char *
     return code == CL_SUCCESS ? GLINT_OK : glint_fail_opencl(error, device, what, code);
 }
 
-// Triangles in the order of the tree's leaves.
-static void reorder(const glint_bvh *bvh, size_t count, const float *from, float *to)
+// The tree's arrays are the device's already.
+static glint_status upload_tree(const glint_upload_inputs *in, glint_scene_memory *memory,
+                                glint_error *error)
 {
-    for (size_t place = 0; place < count; place++) {
-        memcpy(to + 9 * place, from + 9 * (size_t)bvh->order[place], 9 * sizeof(float));
+    const glint_bvh *bvh = in->bvh;
+    const size_t node_bytes = GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float);
+    const size_t normals = bvh->normals != NULL ? GLINT_CLUSTER_NORMALS * sizeof(float) : 0;
+    const struct {
+        const char *what;
+        size_t bytes;
+        const void *data;
+        cl_mem *buffer;
+    } arrays[] = {
+        {"the tree", bvh->node_count * node_bytes, bvh->nodes, &memory->nodes},
+        {"the triangles", bvh->cluster_count * sizeof(glint_cluster), bvh->clusters,
+         &memory->clusters},
+        {"the normals", bvh->cluster_count * normals, bvh->normals, &memory->normals},
+        {"the triangles' numbers", bvh->cluster_count * GLINT_CLUSTER_LANES * sizeof(int32_t),
+         bvh->numbers, &memory->numbers},
+    };
+    glint_status status = GLINT_OK;
+    for (size_t i = 0; status == GLINT_OK && i < sizeof arrays / sizeof *arrays; i++) {
+        status = glint_buffer_create(in->device, arrays[i].what, arrays[i].bytes, arrays[i].data,
+                                     arrays[i].buffer, error);
     }
-}
-
-static glint_status upload_vertices(const glint_upload_inputs *in, const char *what,
-                                    const float *values, cl_mem *buffer, glint_error *error)
-{
-    size_t count = values != NULL ? in->scene->triangle_count : 0;
-    float *ordered = glint_allocate(9 * count, sizeof *ordered);
-    if (ordered == NULL) {
-        return glint_fail_memory(error, what);
-    }
-    reorder(in->bvh, count, values, ordered);
-    glint_status status =
-        glint_buffer_create(in->device, what, 9 * count * sizeof *ordered, ordered, buffer, error);
-    free(ordered);
-    return status;
-}
-
-static glint_status upload_facts(const glint_upload_inputs *in, cl_mem *buffer, glint_error *error)
-{
-    size_t count = in->scene->triangle_count;
-    uint32_t *facts = glint_allocate(GLINT_FACTS * count, sizeof *facts);
-    if (facts == NULL) {
-        return glint_fail_memory(error, "the triangles' facts");
-    }
-    for (size_t place = 0; place < count; place++) {
-        uint32_t triangle = in->bvh->order[place];
-        facts[GLINT_FACTS * place + GLINT_FACT_TRIANGLE] = triangle;
-        facts[GLINT_FACTS * place + GLINT_FACT_MATERIAL] = in->scene->material_of[triangle];
-    }
-    glint_status status =
-        glint_buffer_create(in->device, "the triangles' facts", GLINT_FACTS * count * sizeof *facts,
-                            facts, buffer, error);
-    free(facts);
     return status;
 }
 
@@ -225,19 +213,7 @@ glint_status glint_scene_upload(const glint_upload_inputs *in, glint_scene_memor
                                 glint_error *error)
 {
     *memory = (glint_scene_memory){0};
-    size_t node_bytes = in->bvh->node_count * GLINT_NODE_VALUES * (size_t)in->bvh->width * 4;
-    glint_status status = glint_buffer_create(in->device, "the tree", node_bytes, in->bvh->nodes,
-                                              &memory->nodes, error);
-    if (status == GLINT_OK) {
-        status =
-            upload_vertices(in, "the triangles", in->scene->positions, &memory->positions, error);
-    }
-    if (status == GLINT_OK) {
-        status = upload_vertices(in, "the normals", in->scene->normals, &memory->normals, error);
-    }
-    if (status == GLINT_OK) {
-        status = upload_facts(in, &memory->facts, error);
-    }
+    glint_status status = upload_tree(in, memory, error);
     if (status == GLINT_OK) {
         status = upload_materials(in, memory, error);
     }
@@ -263,9 +239,9 @@ static void release(cl_mem buffer)
 void glint_scene_memory_free(glint_scene_memory *memory)
 {
     release(memory->nodes);
-    release(memory->positions);
+    release(memory->clusters);
     release(memory->normals);
-    release(memory->facts);
+    release(memory->numbers);
     release(memory->materials);
     release(memory->media);
     release(memory->environment);

@@ -12,7 +12,7 @@
 // Zero is valid: no buffers. Each is described in kernels/layout.h; those that the plan does not
 // need are a few bytes long, as a kernel's arguments cannot be left out.
 typedef struct glint_scene_memory {
-    cl_mem nodes, positions, normals, facts, materials, media, environment, irradiance;
+    cl_mem nodes, clusters, normals, numbers, materials, media, environment, irradiance;
 } glint_scene_memory;
 
 // Everything that is uploaded. Pointers are borrowed; `irradiance` may be an empty cube.
@@ -27,7 +27,7 @@ typedef struct glint_upload_inputs {
 
 // Fails with GLINT_DEVICE_FAILED if one of the scene's buffers or the frame, of `frame_bytes`, is
 // larger than the device allows, or all of them together than its memory: asked before the long
-// work begins. The tree is not built yet, so it is not counted.
+// work begins. The tree is not built yet, so the least that its triangles can take is counted.
 glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
                                 const glint_cube *environment, size_t frame_bytes,
                                 glint_error *error);

@@ -1,6 +1,7 @@
 // The inventory of a scene and of the devices as JSON. See inventory.h.
 #include "report/inventory.h"
 
+#include "kernels/layout.h"
 #include "report/json.h"
 
 size_t glint_inventory_device_bytes(const glint_subject *subject)
@@ -9,8 +10,8 @@ size_t glint_inventory_device_bytes(const glint_subject *subject)
     bool is_double = false;
     if (subject->plan != NULL) {
         is_double = subject->plan->precision == GLINT_PRECISION_DOUBLE;
-        bytes += subject->plan->scene_bytes;
     }
+    bytes += subject->scene->material_count * sizeof(glint_material_record);
     if (subject->bvh != NULL) {
         bytes += subject->bvh->bytes;
     }

@@ -43,11 +43,12 @@ json_t *glint_json_bvh(const glint_bvh_report *bvh)
     json_t *object = json_object();
     glint_json_put_count(object, "triangles", bvh->triangle_count);
     glint_json_put_count(object, "nodes", bvh->node_count);
-    glint_json_put_count(object, "leaves", bvh->leaf_count);
+    glint_json_put_count(object, "clusters", bvh->cluster_count);
     glint_json_put(object, "depth", json_integer(bvh->depth));
     glint_json_put_real(object, "sah_cost", bvh->sah_cost);
-    glint_json_put_real(object, "mean_leaf_size", bvh->mean_leaf_size);
+    glint_json_put_real(object, "fill", bvh->fill);
     glint_json_put_count(object, "bytes", bvh->bytes);
+    glint_json_put_real(object, "bytes_per_triangle", bvh->bytes_per_triangle);
     return object;
 }
 

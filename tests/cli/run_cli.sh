@@ -449,7 +449,7 @@ run info in/rough.gltf --env in/sky.hdr
 check 'info succeeds' test "$status" -eq 0 -a ! -s stderr
 for text in 'Scene in/rough.gltf' '1 triangles' 'chrome: metal' 'front: perspective' \
     'flat: orthographic' 'Environment in/sky.hdr' 'layout latlong' 'MIRROR' 'GLASS' 'left out' \
-    'MiB on the device' 'rough'; do
+    'MiB on the device' 'tree: 1 nodes, 1 clusters' 'bytes a triangle' 'rough'; do
     check "info says: $text" grep -qF "$text" stdout
 done
 run info in/rough.gltf --depth 2 --size 64x64 --samples 4 --json
@@ -459,6 +459,9 @@ check 'info --json: material' stat_is metal scene materials 0 kind
 check 'info --json: depth' stat_is 2 settings depth
 check 'info --json: features' stat_is true plan features SUPERSAMPLING compiled
 check 'info --json: memory' stat_is_positive device_bytes
+check 'info --json: clusters' stat_is 1 bvh clusters
+check 'info --json: fill' stat_is 0.0625 bvh fill
+check 'info --json: bytes per triangle' stat_is_positive bvh bytes_per_triangle
 check 'info --json: the warning' "$json_get" out/stats.json warnings 0
 clean
 OCL_ICD_VENDORS=$work/in/empty "$glint" info in/mirror.gltf >stdout 2>stderr
