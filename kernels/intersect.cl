@@ -28,31 +28,6 @@ typedef struct closest {
     lanes_int triangle; // its number in the scene
 } closest;
 
-// The vector of one value per child of a node, in the precision of the rays.
-#if GLINT_BVH_WIDTH == 16
-#define BOXES(type) type##16
-#define load_boxes_float(p) vload16(0, p)
-#define CHILD_BITS                                                                                 \
-    (boxes_mask)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768)
-#elif GLINT_BVH_WIDTH == 8
-#define BOXES(type) type##8
-#define load_boxes_float(p) vload8(0, p)
-#define CHILD_BITS (boxes_mask)(1, 2, 4, 8, 16, 32, 64, 128)
-#else
-#error "GLINT_BVH_WIDTH must be 8 or 16"
-#endif
-#if GLINT_DOUBLE
-typedef BOXES(double) boxes;
-typedef BOXES(long) boxes_mask;
-typedef long box_int;
-#define load_boxes(p) BOXES(convert_double)(load_boxes_float(p))
-#else
-typedef BOXES(float) boxes;
-typedef BOXES(int) boxes_mask;
-typedef int box_int;
-#define load_boxes(p) load_boxes_float(p)
-#endif
-
 // The far distance is widened by this much, so that rounding never loses a box that is touched (Ize,
 // Robust BVH Ray Traversal, 2013): on either side a difference, a product and a division, and OpenCL
 // lets a division be wrong by 2.5 units in the last place, five times EPSILON.
@@ -73,6 +48,7 @@ static inline packet make_packet(real3 origin, real3 direction, mask active)
     p.origin[1] = origin.y;
     p.origin[2] = origin.z;
     real d[3] = {direction.x, direction.y, direction.z};
+#pragma unroll
     for (int k = 0; k < 3; k++) {
         p.inverse[k] = finite_inverse(d[k]);
         // Rays that are not active must not widen the ranges.
@@ -110,6 +86,7 @@ static inline uint packet_meets_boxes(const packet *p, global const float *node,
                                       boxes *entry)
 {
     boxes near = 0, far = HUGE;
+#pragma unroll
     for (int k = 0; k < 3; k++) {
         if (p->sign[k] == 0) {
             continue;
@@ -131,16 +108,7 @@ static inline uint packet_meets_boxes(const packet *p, global const float *node,
     }
     *entry = near;
     boxes_mask met = (near <= far * FAR_SLACK) & (near <= farthest);
-    met &= CHILD_BITS;
-#ifdef REDUCE_OR
-    return (uint)REDUCE_OR(met);
-#else
-    uint bits = 0;
-    for (int c = 0; c < GLINT_BVH_WIDTH; c++) {
-        bits |= (uint)((box_int *)&met)[c];
-    }
-    return bits;
-#endif
+    return box_bits(met);
 }
 
 #if GLINT_WIDTH > 1
@@ -148,6 +116,7 @@ static inline uint packet_meets_boxes(const packet *p, global const float *node,
 static inline mask rays_meet_box(const packet *p, global const float *node, int child, real farthest)
 {
     real near = real_of(0), far = farthest;
+#pragma unroll
     for (int k = 0; k < 3; k++) {
         scalar low = node[k * GLINT_BVH_WIDTH + child];
         scalar high = node[(3 + k) * GLINT_BVH_WIDTH + child];
@@ -165,8 +134,10 @@ static inline mask rays_meet_box(const packet *p, global const float *node, int 
 static inline void load_triangle(global const float *cluster, int lane, float vertices[9])
 {
     global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
+#pragma unroll
     for (int i = 0; i < 3; i++) {
         int vertex = corners[i * GLINT_CLUSTER_LANES + lane];
+#pragma unroll
         for (int k = 0; k < 3; k++) {
             vertices[3 * i + k] = cluster[k * GLINT_CLUSTER_LANES + vertex];
         }
@@ -178,6 +149,7 @@ static inline void load_triangle(global const float *cluster, int lane, float ve
 static inline void intersect_triangle(const packet *p, const float vertices[9], int place,
                                       int triangle, mask active, closest *hit)
 {
+#pragma unroll
     for (int k = 0; k < 3; k++) {
         if (!(p->axes & (1 << k))) {
             continue;

@@ -216,6 +216,45 @@ static inline lanes_int lane_numbers(void)
 
 #endif
 
+// ---- Pixels, as memory holds them --------------------------------------------------------------
+
+#if GLINT_WIDTH > 1 && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+// A row of the packet's pixels: R, G, B, alpha of four.
+#if GLINT_DOUBLE
+typedef double16 pixel_row;
+#else
+typedef float16 pixel_row;
+#endif
+#define HAS_PIXEL_ROWS
+#define store_pixel_row(row, pixels) vstore16(row, 0, pixels)
+
+// Lanes 4j … 4j + 3 become row j.
+static inline void to_pixel_rows(real r, real g, real b, real a, pixel_row rows[PACKET_HEIGHT])
+{
+#if GLINT_WIDTH == 16
+#define PAIRS(x, y, i)                                                                             \
+    __builtin_shufflevector(x, y, i, 16 + i, i + 1, 17 + i, i + 2, 18 + i, i + 3, 19 + i, i + 4,   \
+                            20 + i, i + 5, 21 + i, i + 6, 22 + i, i + 7, 23 + i)
+    pixel_row rg[2] = {PAIRS(r, g, 0), PAIRS(r, g, 8)}, ba[2] = {PAIRS(b, a, 0), PAIRS(b, a, 8)};
+#else
+#define PAIRS(x, y, i)                                                                             \
+    __builtin_shufflevector(x, y, i, 8 + i, i + 1, 9 + i, i + 2, 10 + i, i + 3, 11 + i, i + 4,     \
+                            12 + i, i + 5, 13 + i, i + 6, 14 + i, i + 7, 15 + i)
+    pixel_row rg[1] = {PAIRS(r, g, 0)}, ba[1] = {PAIRS(b, a, 0)};
+#endif
+#pragma unroll
+    for (int pair = 0; pair < PACKET_HEIGHT / 2; pair++) {
+        rows[2 * pair] = __builtin_shufflevector(rg[pair], ba[pair], 0, 1, 16, 17, 2, 3, 18, 19, 4,
+                                                 5, 20, 21, 6, 7, 22, 23);
+        rows[2 * pair + 1] = __builtin_shufflevector(rg[pair], ba[pair], 8, 9, 24, 25, 10, 11, 26,
+                                                     27, 12, 13, 28, 29, 14, 15, 30, 31);
+    }
+#undef PAIRS
+}
+#endif
+#endif
+
 // ---- Vectors of three, one for each ray --------------------------------------------------------
 
 typedef struct real3 {

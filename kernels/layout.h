@@ -94,6 +94,8 @@ typedef struct glint_medium_record {
 // A packet of rays covers columns × rows of pixels, lanes row by row.
 #define GLINT_PACKET_COLUMNS(lanes) ((lanes) == 1 ? 1 : 4)
 #define GLINT_PACKET_ROWS(lanes) ((lanes) / GLINT_PACKET_COLUMNS(lanes))
+// A tile is what one work-item renders: one packet, or 4 × 4 packets beside each other.
+#define GLINT_TILE_SIDE(tiles) ((tiles) ? 4 : 1)
 
 // ---- Frame -------------------------------------------------------------------------------------
 // Values that may change from frame to frame without compiling again. A vector is an unevaluated
@@ -110,6 +112,14 @@ typedef struct glint_split_vector {
 typedef struct glint_frame_record {
     glint_split_vector origin, origin_x, origin_y;
     glint_split_vector direction, direction_x, direction_y;
+    // Image coordinates of a point p in stored ones: x = image_x·(p − origin), y and z likewise,
+    // h = image_offset + image_slope z; the rays through (X, Y) are the points with x = X h and
+    // y = Y h, and z is their depth, in units of `direction`. A depth's key is 1/h where
+    // key_is_inverse is 1, else −z/h.
+    glint_split_vector image_x, image_y, image_z;
+    float image_offset[2]; // high, low
+    float image_slope;     // 1, or 0 for parallel rays
+    int key_is_inverse;
     float start[2];        // how far the start was moved, in lengths of the direction: high, low
     float env_rotation[4]; // cosine high, low, sine high, low
     float min_weight;      // a branch whose largest weight is below takes the environment
@@ -118,7 +128,7 @@ typedef struct glint_frame_record {
     int depth;             // surfaces that a path meets at most, 1 or more
     int environment_edge;  // texels, without border
     int irradiance_edge;
-    int first_row; // of packets: where this launch begins
+    int first_row; // of tiles: where this launch begins
     int unused[2];
 } glint_frame_record;
 

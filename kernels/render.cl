@@ -1,9 +1,9 @@
-// The entry point: one work-item renders one packet of pixels, sample by sample, following every
-// path to its end.
+// The entry point: one work-item renders one tile of pixels, sample by sample: it finds what the
+// primary rays meet, all at once, and then follows every path to its end, packet by packet.
 //
 // The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
 // GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS, GLINT_MEDIA_CAPACITY and
-// GLINT_TRAVERSAL_STACK.
+// GLINT_TRAVERSAL_STACK and GLINT_TILES.
 #if (GLINT_SOLID || GLINT_THIN_WALL) && !GLINT_GLASS
 #error "SOLID and THIN_WALL need GLASS"
 #endif
@@ -22,11 +22,14 @@
 
 #include "layout.h"
 #include "lanes.cl"
+#include "blocks.cl"
 #include "cubemap.cl"
 #include "optics.cl"
 #include "media.cl"
 #include "intersect.cl"
+#include "stack.cl"
 #include "traverse_packet.cl"
+#include "traverse_tile.cl"
 #include "shade.cl"
 #include "scatter.cl"
 #include "branches.cl"
@@ -57,9 +60,17 @@ static inline real3 turn_into_environment(const glint_frame_record *frame, real3
 static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d) { return d; }
 #endif
 
+// A packet of primary rays, which pixels' samples they are, and what they meet.
+typedef struct primary {
+    real x, y;        // places on the image plane
+    real length;      // of the directions before they were made unit vectors
+    lanes_int places; // of the triangles hit, −1: none
+} primary;
+
 // The primary rays through the points (x, y) of the image plane, see glint_frame_record.
-static inline path primary_rays(const glint_frame_record *frame, real x, real y)
+static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
+    real x = first->x, y = first->y;
     path ray;
     ray.origin = scale_add(join_vector(&frame->origin_y), y,
                            scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
@@ -67,6 +78,7 @@ static inline path primary_rays(const glint_frame_record *frame, real x, real y)
                         scale_add(join_vector(&frame->direction_x), x,
                                   join_vector(&frame->direction)));
     real length = sqrt(dot3(d, d));
+    first->length = length;
     ray.direction = real3_of(d.x / length, d.y / length, d.z / length);
     ray.weight = real3_of(real_of(1), real_of(1), real_of(1));
 #if GLINT_ABSORPTION
@@ -176,13 +188,14 @@ static inline mask split_path(branches *waiting, path *reflected, path *transmit
 // Shades the rays in `met`, adds what the surfaces emit to `radiance`, and puts the branch that goes
 // on into `ray`. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const closest *hit, mask met, path *ray, real3 *radiance,
+                                 const closest *hit, const triangle *triangles, mask met,
+                                 path *ray, real3 *radiance,
 #if GLINT_SPLIT
                                  branches *waiting,
 #endif
                                  tally *tally)
 {
-    surface s = find_surface(scene, ray, hit, met);
+    surface s = find_surface(scene, ray, hit, triangles, met);
     real3 v = negate(ray->direction);
     real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
 #if NEEDS_IRRADIANCE
@@ -229,10 +242,42 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
 }
 
-// Follows the rays in `active` to their ends. The result is the radiance that they gather; `missed`
-// tells the primary rays that met nothing.
+// What the rays in `traced` meet, and the corners of the triangles there.
+static inline closest find_hits(const scene_buffers *scene, const image_space *image,
+                                const path *ray, const primary *first, mask traced,
+                                triangle *triangles)
+{
+    closest hit;
+    if (first != 0) {
+        hit.place = SELECT(traced, first->places, int_of(-1));
+    } else {
+        hit = trace_packet(scene->nodes, scene->clusters, scene->numbers, ray->origin,
+                           ray->direction, ray->from, traced);
+    }
+    mask met = hit.place >= (lane_int)0;
+    if (any_lane(met)) {
+        *triangles = load_triangles(scene, hit.place, met);
+        if (first != 0) {
+            measure_hits(image, triangles->vertices, first->x, first->y, first->length, met, &hit);
+        }
+    }
+    return hit;
+}
+
+// Adds what the rays in `escaped` bring from the environment.
+static inline void add_environment(const scene_buffers *scene, const glint_frame_record *frame,
+                                   const path *ray, mask escaped, real3 *radiance)
+{
+    real3 light = sample_cube(scene->environment, frame->environment_edge,
+                              turn_into_environment(frame, ray->direction), escaped);
+    real3 gathered = add(*radiance, multiply(ray->weight, light));
+    *radiance = select3(escaped, gathered, *radiance);
+}
+
+// Follows the primary rays in `active` to their ends. The result is the radiance that they gather.
 static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
-                                 path *ray, mask active, mask *missed, tally *tally)
+                                 const image_space *image, const primary *first, path *ray,
+                                 mask active, tally *tally)
 {
     real3 radiance = real3_of(real_of(0), real_of(0), real_of(0));
     lanes_int deepest = int_of(0);
@@ -242,40 +287,28 @@ static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_r
         waiting.count[lane] = 0;
     }
 #endif
-    *missed = mask_none();
-    bool primary = true;
     while (any_lane(active)) {
         mask met = mask_none();
 #if GLINT_GEOMETRY
         closest hit;
+        triangle triangles;
         // At depth 1 only primary rays are traced.
-        if (GLINT_INTERREFLECTION || primary) {
+        if (GLINT_INTERREFLECTION || first != 0) {
             mask traced = active & (ray->looked_up == (lane_int)0);
-            hit = trace_packet(scene->nodes, scene->clusters, scene->numbers, ray->origin,
-                               ray->direction, ray->from, traced);
-            met = traced & (hit.place >= (lane_int)0);
+            hit = find_hits(scene, image, ray, first, traced, &triangles);
+            met = hit.place >= (lane_int)0;
         }
 #endif
         mask escaped = active & !met;
-        if (primary) {
-            *missed = escaped;
-        }
-        bool wanted = any_lane(escaped);
-#if GLINT_TRANSPARENT
-        wanted = wanted && !primary;
-#endif
-        if (wanted) {
-            real3 light = sample_cube(scene->environment, frame->environment_edge,
-                                      turn_into_environment(frame, ray->direction), escaped);
-            real3 gathered = add(radiance, multiply(ray->weight, light));
-            radiance = select3(escaped, gathered, radiance);
+        if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
+            add_environment(scene, frame, ray, escaped, &radiance);
         }
         active = mask_none();
 #if GLINT_GEOMETRY
         mask ended = escaped;
         if (any_lane(met)) {
             deepest = SELECT(met & (ray->met >= deepest), ray->met + (lane_int)1, deepest);
-            active = meet_surfaces(scene, frame, &hit, met, ray, &radiance,
+            active = meet_surfaces(scene, frame, &hit, &triangles, met, ray, &radiance,
 #if GLINT_SPLIT
                                    &waiting,
 #endif
@@ -288,7 +321,7 @@ static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_r
         }
 #endif
 #endif
-        primary = false;
+        first = 0;
     }
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
         ulong depth = (ulong)LANE_INT(deepest, lane);
@@ -332,23 +365,64 @@ static inline void report(tally *tally, global uint *counters, uint slot)
 
 #if GLINT_HITS
 // Instead of a colour: distance, barycentric weights, and the triangle's number as the alpha.
-static inline real3 describe_hits(const scene_buffers *scene, const path *ray, mask active,
-                                  real *number)
+static inline real3 describe_hits(const scene_buffers *scene, const image_space *image,
+                                  const primary *first, real *number)
 {
-    closest hit = trace_packet(scene->nodes, scene->positions, scene->facts, ray->origin,
-                               ray->direction, ray->from, active);
-    mask met = hit.place >= (lane_int)0;
     const real zero = real_of(0);
-    *number = SELECT(met, to_real(hit.triangle), real_of(-1));
+    mask met = first->places >= (lane_int)0;
+    triangle triangles = load_triangles(scene, first->places, met);
+    closest hit;
+    measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, &hit);
+    *number = triangles.number;
     return real3_of(SELECT(met, hit.t, zero), SELECT(met, hit.b1, zero),
                     SELECT(met, hit.b2, zero));
 }
 #endif
 
-// Writes the packet's pixels that lie inside the image.
-static inline void store_pixels(global scalar *pixels, const glint_frame_record *frame, int x0,
-                                int y0, real3 color, real alpha)
+// A tile's pixels as they add up, sample by sample.
+typedef struct tile_colors {
+    real3 color[TILE_GROUPS];
+    real alpha[TILE_GROUPS];
+} tile_colors;
+
+// Adds one sample of each pixel of a group.
+static inline void render_group(const scene_buffers *scene, const glint_frame_record *frame,
+                                const image_space *image, const tile *t, int group, mask inside,
+                                tile_colors *sum, tally *tally)
 {
+    primary first;
+    first.x = t->x[group % TILE_COLUMNS];
+    first.y = t->y[group / TILE_COLUMNS];
+    first.places = t->place[group];
+    path ray = primary_rays(frame, &first);
+    real alpha = real_of(1);
+#if GLINT_HITS
+    real3 color = describe_hits(scene, image, &first, &alpha);
+#else
+    real3 color = follow_paths(scene, frame, image, &first, &ray, inside, tally);
+#if GLINT_TRANSPARENT
+    alpha = SELECT(first.places >= (lane_int)0, alpha, real_of(0));
+#endif
+#endif
+    sum->color[group] = add(sum->color[group], color);
+    sum->alpha[group] += alpha;
+}
+
+// Writes a group's pixels that lie inside the image.
+static inline void store_group(global scalar *pixels, const glint_frame_record *frame, int x0,
+                               int y0, real3 color, real alpha)
+{
+#ifdef HAS_PIXEL_ROWS
+    if (x0 + PACKET_WIDTH <= frame->width && y0 + PACKET_HEIGHT <= frame->height) {
+        pixel_row rows[PACKET_HEIGHT];
+        to_pixel_rows(color.x, color.y, color.z, alpha, rows);
+        for (int j = 0; j < PACKET_HEIGHT; j++) {
+            size_t first = (size_t)(y0 + j) * (size_t)frame->width + (size_t)x0;
+            store_pixel_row(rows[j], pixels + 4 * first);
+        }
+        return;
+    }
+#endif
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
         int x = x0 + lane % PACKET_WIDTH, y = y0 + lane / PACKET_WIDTH;
         if (x < frame->width && y < frame->height) {
@@ -359,65 +433,71 @@ static inline void store_pixels(global scalar *pixels, const glint_frame_record 
     }
 }
 
-// Work-item (i, j) of the global range renders the packet in column i and row first_row + j of the
-// frame, in packets. (An offset of the range itself would make PoCL compile the kernel once more.)
+// Renders the tile whose first pixel is in the given column and row.
+static inline void render_tile(const scene_buffers *scene, const glint_frame_record *frame,
+                               int column, int row, global scalar *pixels, tally *tally)
+{
+    const image_space image = make_image_space(frame);
+    tile_colors sum;
+    mask inside[TILE_GROUPS];
+    int pixel_count = 0;
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        const real zero = real_of(0);
+        sum.color[g] = real3_of(zero, zero, zero);
+        sum.alpha[g] = zero;
+        inside[g] = group_in_image(frame, column, row, g);
+        pixel_count += count_lanes(inside[g]);
+    }
+#if GLINT_SUPERSAMPLING
+    const int k = frame->samples_per_axis;
+#else
+    const int k = 1;
+#endif
+    for (int sample = 0; sample < k * k; sample++) {
+        tile t;
+        begin_tile(&image, frame, column, row, ((scalar)(sample % k) + R(0.5)) / (scalar)k,
+                   ((scalar)(sample / k) + R(0.5)) / (scalar)k, &t);
+#if GLINT_GEOMETRY
+        trace_tile(&image, &t, scene->nodes, scene->clusters, scene->numbers);
+#endif
+        for (int g = 0; g < TILE_GROUPS; g++) {
+            render_group(scene, frame, &image, &t, g, inside[g], &sum, tally);
+        }
+    }
+    tally->counts[GLINT_COUNT_PRIMARY] = (ulong)(pixel_count * k * k);
+    scalar share = R(1.0) / (scalar)(k * k);
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        store_group(pixels, frame, column + g % TILE_COLUMNS * PACKET_WIDTH,
+                    row + g / TILE_COLUMNS * PACKET_HEIGHT, scale(sum.color[g], real_of(share)),
+                    sum.alpha[g] * share);
+    }
+}
+
+// Work-item (i, j) of the global range renders the tile in column i and row first_row + j of the
+// frame, in tiles. (An offset of the range itself would make PoCL compile the kernel once more.)
 //  pixels: [height][width][4] (R, G, B premultiplied, alpha). counters: see layout.h. The
 // other buffers are described in layout.h too; those that no compiled feature needs may be of any
 // size.
-kernel void render_packets(global const float *nodes, global const float *clusters,
-                           global const float *normals, global const int *numbers,
-                           global const glint_material_record *materials,
-                           global const glint_medium_record *media,
-                           global const float *environment, global const float *irradiance,
-                           global scalar *pixels, global uint *counters,
-                           const glint_frame_record frame)
+kernel void render_tiles(global const float *nodes, global const float *clusters,
+                         global const float *normals, global const int *numbers,
+                         global const glint_material_record *materials,
+                         global const glint_medium_record *media,
+                         global const float *environment, global const float *irradiance,
+                         global scalar *pixels, global uint *counters,
+                         const glint_frame_record frame)
 {
     const scene_buffers scene = {nodes, clusters, normals, numbers,
                                  materials, media, environment, irradiance};
-    const int x0 = (int)get_global_id(0) * PACKET_WIDTH;
-    const int y0 = ((int)get_global_id(1) + frame.first_row) * PACKET_HEIGHT;
-    if (x0 >= frame.width || y0 >= frame.height) {
+    const int column = (int)get_global_id(0) * PACKET_WIDTH * TILE_COLUMNS;
+    const int row = ((int)get_global_id(1) + frame.first_row) * PACKET_HEIGHT * TILE_ROWS;
+    if (column >= frame.width || row >= frame.height) {
         return;
     }
-    const real zero = real_of(0);
     tally tally;
     for (int i = 0; i < GLINT_COUNTERS; i++) {
         tally.counts[i] = 0;
     }
-    tally.weight_by_depth = tally.weight_by_min_weight = tally.weight_by_stack = zero;
-
-    lanes_int lane = lane_numbers();
-    lanes_int column = lane % (lane_int)PACKET_WIDTH + (lane_int)x0;
-    lanes_int row = lane / (lane_int)PACKET_WIDTH + (lane_int)y0;
-    mask inside = (column < (lane_int)frame.width) & (row < (lane_int)frame.height);
-    real left = to_real(column) - R(0.5) * (scalar)frame.width;
-    real up = R(0.5) * (scalar)frame.height - to_real(row);
-
-#if GLINT_SUPERSAMPLING
-    const int k = frame.samples_per_axis;
-#else
-    const int k = 1;
-#endif
-    real3 color = real3_of(zero, zero, zero);
-    real alpha = zero;
-    for (int sample = 0; sample < k * k; sample++) {
-        real right = real_of(((scalar)(sample % k) + R(0.5)) / (scalar)k);
-        real down = real_of(((scalar)(sample / k) + R(0.5)) / (scalar)k);
-        path ray = primary_rays(&frame, left + right, up - down);
-#if GLINT_HITS
-        color = describe_hits(&scene, &ray, inside, &alpha);
-#else
-        mask missed;
-        color = add(color, follow_paths(&scene, &frame, &ray, inside, &missed, &tally));
-#if GLINT_TRANSPARENT
-        alpha += SELECT(missed, zero, real_of(1));
-#else
-        alpha += R(1.0);
-#endif
-#endif
-    }
-    tally.counts[GLINT_COUNT_PRIMARY] = (ulong)(count_lanes(inside) * k * k);
-    scalar share = R(1.0) / (scalar)(k * k);
-    store_pixels(pixels, &frame, x0, y0, scale(color, real_of(share)), alpha * share);
+    tally.weight_by_depth = tally.weight_by_min_weight = tally.weight_by_stack = real_of(0);
+    render_tile(&scene, &frame, column, row, pixels, &tally);
     report(&tally, counters, (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0)));
 }

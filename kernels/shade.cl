@@ -41,30 +41,63 @@ typedef struct surface {
 
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 
-// Three vertices (or normals) of the triangles hit; zeros for other rays. `values` holds x[16], y[16]
-// and z[16] at the start of each `stride` values, a cluster's.
-static inline void load_vertices(const scene_buffers *scene, global const float *values, int stride,
-                                 lanes_int place, mask wanted, real3 vertices[3])
+// The corners of the triangles hit, and their normals; zeros for rays that hit nothing.
+typedef struct triangle {
+    real3 vertices[3];
+#if GLINT_SMOOTH_NORMALS
+    real3 normals[3];
+#endif
+#if GLINT_HITS
+    real number; // in the scene
+#endif
+} triangle;
+
+// Sets a vertex's coordinates, x[16] y[16] z[16] from `values` on, for the rays in `yes`.
+static inline void set_vertex(global const float *values, mask yes, real3 *vertex)
+{
+    vertex->x = SELECT(yes, real_of(values[0]), vertex->x);
+    vertex->y = SELECT(yes, real_of(values[GLINT_CLUSTER_LANES]), vertex->y);
+    vertex->z = SELECT(yes, real_of(values[2 * GLINT_CLUSTER_LANES]), vertex->z);
+}
+
+// Neighbouring rays tend to hit the same triangle, so each that was hit is fetched once.
+static inline triangle load_triangles(const scene_buffers *scene, lanes_int places, mask met)
 {
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
-    vertices[0] = vertices[1] = vertices[2] = zero;
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        if (!lane_is_set(wanted, lane)) {
-            continue;
-        }
-        const size_t cluster = (size_t)LANE_INT(place, lane) / GLINT_CLUSTER_LANES;
-        const size_t triangle = (size_t)LANE_INT(place, lane) % GLINT_CLUSTER_LANES;
-        global const uchar *corners =
-            (global const uchar *)(scene->clusters + cluster * GLINT_CLUSTER_VALUES +
-                                   GLINT_CLUSTER_CORNERS);
-        for (int i = 0; i < 3; i++) {
-            global const float *v =
-                values + cluster * stride + corners[i * GLINT_CLUSTER_LANES + triangle];
-            LANE(vertices[i].x, lane) = v[0];
-            LANE(vertices[i].y, lane) = v[GLINT_CLUSTER_LANES];
-            LANE(vertices[i].z, lane) = v[2 * GLINT_CLUSTER_LANES];
+    triangle t;
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        t.vertices[k] = zero;
+#if GLINT_SMOOTH_NORMALS
+        t.normals[k] = zero;
+#endif
+    }
+#if GLINT_HITS
+    t.number = real_of(-1);
+#endif
+    uint left = mask_bits(met);
+    while (left != 0) {
+        int place = (int)LANE_INT(places, lowest_bit(left));
+        mask here = places == (lane_int)place;
+        left &= ~mask_bits(here);
+        size_t cluster = (size_t)place / GLINT_CLUSTER_LANES;
+        global const float *values = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
+        global const uchar *corners = (global const uchar *)(values + GLINT_CLUSTER_CORNERS) +
+                                      place % GLINT_CLUSTER_LANES;
+#if GLINT_HITS
+        t.number = SELECT(here, real_of((scalar)scene->numbers[place]), t.number);
+#endif
+#pragma unroll
+        for (int k = 0; k < 3; k++) {
+            int corner = corners[k * GLINT_CLUSTER_LANES];
+            set_vertex(values + corner, here, &t.vertices[k]);
+#if GLINT_SMOOTH_NORMALS
+            set_vertex(scene->normals + cluster * GLINT_CLUSTER_NORMALS + corner, here,
+                       &t.normals[k]);
+#endif
         }
     }
+    return t;
 }
 
 static inline real3 interpolate(const real3 vertices[3], real b1, real b2)
@@ -90,8 +123,8 @@ static inline void place_on_triangle(const real3 vertices[3], const closest *hit
 }
 
 // Rule 1: the side is the geometric normal's alone; both normals are turned to the viewer.
-static inline void orient_normals(const scene_buffers *scene, const path *ray, const closest *hit,
-                                  mask met, surface *s)
+static inline void orient_normals(const triangle *t, const path *ray, const closest *hit,
+                                  surface *s)
 {
     real3 v = negate(ray->direction);
     real facing = dot3(s->geometric_normal, v);
@@ -99,8 +132,7 @@ static inline void orient_normals(const scene_buffers *scene, const path *ray, c
     s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
     s->normal = s->geometric_normal;
 #if GLINT_SMOOTH_NORMALS
-    real3 normals[3];
-    load_vertices(scene, scene->normals, GLINT_CLUSTER_NORMALS, hit->place, met, normals);
+    const real3 *normals = t->normals;
     // A vertex without a usable normal is (0, 0, 0); then the geometric normal serves.
     real smallest = largest_magnitude3(normals[0]);
     smallest = SMALLER(largest_magnitude3(normals[1]), smallest);
@@ -155,11 +187,10 @@ static inline void load_material(const scene_buffers *scene, lanes_int place, ma
 }
 
 static inline surface find_surface(const scene_buffers *scene, const path *ray, const closest *hit,
-                                   mask met)
+                                   const triangle *t, mask met)
 {
     surface s;
-    real3 vertices[3];
-    load_vertices(scene, scene->clusters, GLINT_CLUSTER_VALUES, hit->place, met, vertices);
+    const real3 *vertices = t->vertices;
     mask valid;
     s.geometric_normal = normalized(cross3(subtract(vertices[1], vertices[0]),
                                            subtract(vertices[2], vertices[0])), &valid);
@@ -168,7 +199,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
 #if GLINT_INTERREFLECTION
     place_on_triangle(vertices, hit, &s);
 #endif
-    orient_normals(scene, ray, hit, met, &s);
+    orient_normals(t, ray, hit, &s);
     load_material(scene, hit->place, met, &s);
     return s;
 }

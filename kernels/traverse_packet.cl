@@ -2,12 +2,6 @@
 // boxes are tested all at once against the ranges of the packet's rays; a box that passes is then
 // tested against each ray, so that rays that have spread apart do not visit all that lies between.
 
-// A node or leaf that waits, and the distance at which the packet may enter it.
-typedef struct waiting {
-    int child;
-    scalar entry;
-} waiting;
-
 // Puts the children that some ray meets on the stack, the nearest on top.
 static inline int push_children(const packet *p, global const float *node, mask active,
                                 const closest *hit, waiting *stack, int size)
@@ -15,25 +9,16 @@ static inline int push_children(const packet *p, global const float *node, mask 
     boxes entries;
     scalar farthest = largest_lane(SELECT(active, hit->t, real_of(-HUGE)));
     uint met = packet_meets_boxes(p, node, farthest, &entries);
-    global const int *children = (global const int *)(node + 6 * GLINT_BVH_WIDTH);
     int base = size;
     while (met != 0) {
-        int child = 31 - (int)clz(met & -met);
+        int child = lowest_bit(met);
         met &= met - 1;
 #if GLINT_WIDTH > 1
         if (!any_lane(active & rays_meet_box(p, node, child, hit->t))) {
             continue;
         }
 #endif
-        // Insertion keeps the new part of the stack in order of falling distance. Equal distances
-        // keep the order of the children, so that the order is always the same.
-        scalar entry = ((scalar *)&entries)[child];
-        int i = size++;
-        for (; i > base && stack[i - 1].entry <= entry; i--) {
-            stack[i] = stack[i - 1];
-        }
-        stack[i].child = children[child];
-        stack[i].entry = entry;
+        size = push_waiting(stack, base, size, node, child, ((scalar *)&entries)[child]);
     }
     return size;
 }

@@ -93,7 +93,7 @@ static void primary_rays_meet_what_the_oracle_says(void **state)
     }
 }
 
-static void every_width_finds_the_same_hits(void **state)
+static void every_width_and_tile_find_the_same_hits(void **state)
 {
     (void)state;
     for (size_t i = 0; i < SCENE_COUNT; i++) {
@@ -104,8 +104,12 @@ static void every_width_finds_the_same_hits(void **state)
         test_frame widest, narrower;
         glint_settings settings = hits_settings(16);
         test_render(&scene, &environment, NULL, &settings, &widest);
-        for (int width = 1; width <= 8; width += 7) {
-            settings = hits_settings(width);
+        static const struct {
+            int width, tile;
+        } others[] = {{1, 1}, {1, 16}, {8, 1}, {8, 16}, {16, 1}};
+        for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+            settings = hits_settings(others[k].width);
+            settings.tile_packets = others[k].tile;
             test_render(&scene, &environment, NULL, &settings, &narrower);
             assert_int_equal(test_count_different(&widest.image, &narrower.image), 0);
             test_frame_free(&narrower);
@@ -120,7 +124,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(primary_rays_meet_what_the_oracle_says),
-        cmocka_unit_test(every_width_finds_the_same_hits),
+        cmocka_unit_test(every_width_and_tile_find_the_same_hits),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

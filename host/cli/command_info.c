@@ -177,6 +177,8 @@ static void print_plan(const glint_subject *subject)
     glint_plan_describe(plan, text, sizeof text);
     printf("  %s\n", text);
     printf("  %d lanes: %s\n", plan->kernel_width, plan->width_reason);
+    printf("  tiles of %d packet%s: %s\n", plan->tiles ? 16 : 1, plan->tiles ? "s" : "",
+           plan->tiles_reason);
     if (plan->stack_capacity > 0) {
         printf("  %d waiting branches a ray: %s\n", plan->stack_capacity, plan->stack_reason);
     }

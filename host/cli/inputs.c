@@ -82,19 +82,35 @@ static glint_status parse_background(const glint_option *option, const char *tex
     return GLINT_OK;
 }
 
+// One of a few numbers, which end with a 0; `wanted` names them.
+static glint_status parse_one_of(const glint_option *option, const char *text, const int *numbers,
+                                 const char *wanted, int *destination, glint_error *error)
+{
+    long long value;
+    if (glint_parse_int(text, &value)) {
+        for (const int *number = numbers; *number != 0; number++) {
+            if (value == *number) {
+                *destination = *number;
+                return GLINT_OK;
+            }
+        }
+    }
+    return glint_fail(error, GLINT_USAGE, "--%s %s: one of %s is expected", option->name, text,
+                      wanted);
+}
+
 static glint_status parse_kernel_width(const glint_option *option, const char *text,
                                        void *destination, glint_error *error)
 {
-    static const int widths[] = {1, 8, 16};
-    long long value;
-    for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++) {
-        if (glint_parse_int(text, &value) && value == widths[i]) {
-            *(int *)destination = widths[i];
-            return GLINT_OK;
-        }
-    }
-    return glint_fail(error, GLINT_USAGE, "--%s %s: one of 1, 8, 16 is expected", option->name,
-                      text);
+    static const int widths[] = {1, 8, 16, 0};
+    return parse_one_of(option, text, widths, "1, 8, 16", destination, error);
+}
+
+static glint_status parse_kernel_tile(const glint_option *option, const char *text,
+                                      void *destination, glint_error *error)
+{
+    static const int sizes[] = {1, 16, 0};
+    return parse_one_of(option, text, sizes, "1, 16", destination, error);
 }
 
 #define OFFSET(member) offsetof(glint_input_request, member)
@@ -156,6 +172,10 @@ const glint_option glint_settings_options[] = {
      .help = "Rays that the kernel works on at once, for measurements: 1, 8 or 16.",
      .fallback = "chosen for the device", .offset = OFFSET(settings.kernel_width),
      .parse = parse_kernel_width},
+    {GLINT_OPTION_CUSTOM, .name = "kernel-tile", .argument = "PACKETS",
+     .help = "Packets whose primary rays the kernel traces together, for measurements: 1 or 16.",
+     .fallback = "chosen for the device", .offset = OFFSET(settings.tile_packets),
+     .parse = parse_kernel_tile},
     GLINT_OPTION_END,
 };
 

@@ -126,10 +126,11 @@ static void local_size(const glint_plan *plan, size_t local[2])
     local[0] = local[1] = plan->kernel_width == 1 ? 8 : 1;
 }
 
-static void packet_size(const glint_plan *plan, int *width, int *height)
+// Pixels that a work-item renders.
+static void tile_size(const glint_plan *plan, int *width, int *height)
 {
-    *width = GLINT_PACKET_COLUMNS(plan->kernel_width);
-    *height = GLINT_PACKET_ROWS(plan->kernel_width);
+    *width = GLINT_PACKET_COLUMNS(plan->kernel_width) * GLINT_TILE_SIDE(plan->tiles);
+    *height = GLINT_PACKET_ROWS(plan->kernel_width) * GLINT_TILE_SIDE(plan->tiles);
 }
 
 static size_t round_up(size_t value, size_t multiple)
@@ -137,7 +138,7 @@ static size_t round_up(size_t value, size_t multiple)
     return (value + multiple - 1) / multiple * multiple;
 }
 
-// Renders the packets of `rows` rows from `first` on, and waits for the end.
+// Renders `rows` rows of tiles from `first` on, and waits for the end.
 static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t first, size_t rows,
                            glint_error *error)
 {
@@ -146,11 +147,11 @@ static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t
     if (status != GLINT_OK) {
         return status;
     }
-    int packet_width, packet_height;
-    packet_size(&r->plan, &packet_width, &packet_height);
+    int tile_width, tile_height;
+    tile_size(&r->plan, &tile_width, &tile_height);
     size_t local[2];
     local_size(&r->plan, local);
-    size_t columns = ((size_t)r->settings.width + (size_t)packet_width - 1) / (size_t)packet_width;
+    size_t columns = ((size_t)r->settings.width + (size_t)tile_width - 1) / (size_t)tile_width;
     const size_t global[2] = {round_up(columns, local[0]), round_up(rows, local[1])};
     cl_int code =
         clEnqueueNDRangeKernel(r->device->queue, r->kernel, 2, NULL, global, local, 0, NULL, NULL);
@@ -169,7 +170,7 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
     char options[4096];
     glint_plan_build_options(&r->plan, options, sizeof options);
     glint_status status =
-        glint_kernel_build(r->device, in->kernel_dir, options, "render_packets", &r->kernel, error);
+        glint_kernel_build(r->device, in->kernel_dir, options, "render_tiles", &r->kernel, error);
     if (status == GLINT_OK) {
         status = set_buffers(r, error);
     }
@@ -366,7 +367,7 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
     return GLINT_OK;
 }
 
-// The rows of packets of the next launch: as many as would have taken LAUNCH_MS at the last one's
+// The rows of tiles of the next launch: as many as would have taken LAUNCH_MS at the last one's
 // speed, and at most four times as many, as the next part of the frame may be much slower.
 static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
 {
@@ -375,17 +376,17 @@ static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
     return round_up((size_t)wanted, multiple);
 }
 
-// Rows of packets, in launches of about LAUNCH_MS; asks `progress` between them.
+// Rows of tiles, in launches of about LAUNCH_MS; asks `progress` between them.
 static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
                                  const glint_progress *progress, glint_error *error)
 {
-    int packet_width, packet_height;
-    packet_size(&r->plan, &packet_width, &packet_height);
+    int tile_width, tile_height;
+    tile_size(&r->plan, &tile_width, &tile_height);
     size_t local[2];
     local_size(&r->plan, local);
-    size_t rows = ((size_t)record->height + (size_t)packet_height - 1) / (size_t)packet_height;
+    size_t rows = ((size_t)record->height + (size_t)tile_height - 1) / (size_t)tile_height;
     double row_samples =
-        (double)record->width * packet_height * record->samples_per_axis * record->samples_per_axis;
+        (double)record->width * tile_height * record->samples_per_axis * record->samples_per_axis;
     size_t step = round_up((size_t)fmax(1, FIRST_LAUNCH_SAMPLES / row_samples), local[1]);
     for (size_t first = 0; first < rows;) {
         size_t count = first + step < rows ? step : rows - first;

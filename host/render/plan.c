@@ -220,6 +220,9 @@ static glint_status check_settings(const glint_plan_inputs *in, glint_error *err
         s->kernel_width != 16) {
         return glint_fail(error, GLINT_USAGE, "--kernel-width: 1, 8 or 16");
     }
+    if (s->tile_packets != 0 && s->tile_packets != 1 && s->tile_packets != 16) {
+        return glint_fail(error, GLINT_USAGE, "--kernel-tile: 1 or 16");
+    }
     if (s->precision == GLINT_PRECISION_DOUBLE && !in->device->has_double) {
         return glint_fail(error, GLINT_DEVICE_FAILED,
                           "device '%s' has no double precision (use --precision float)",
@@ -250,6 +253,20 @@ static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
                  "%sthe device's vectors hold %d %ss", lanes < 8 ? "the narrowest packet; " : "",
                  lanes, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float");
     }
+}
+
+// Neighbouring primary rays meet mostly the same nodes and triangles, so a core does well to trace
+// many at once; a GPU needs its work in many small pieces.
+static void choose_tiles(const glint_settings *settings, glint_plan *plan)
+{
+    plan->tiles = plan->kernel_width > 1;
+    const char *reason =
+        plan->tiles ? "primary rays share nodes and triangles" : "one ray a work-item";
+    if (settings->tile_packets != 0) {
+        plan->tiles = settings->tile_packets > 1;
+        reason = "asked for";
+    }
+    snprintf(plan->tiles_reason, sizeof plan->tiles_reason, "%s", reason);
 }
 
 // The path goes on with the lighter of two branches, which has at most half of the weight, so that
@@ -335,6 +352,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
         compile_everything(plan);
     }
     choose_width(in, plan);
+    choose_tiles(settings, plan);
     choose_stack(settings, plan);
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
@@ -369,9 +387,10 @@ void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacit
         text, capacity,
         "-cl-std=CL1.2 -w -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d -DGLINT_DOUBLE=%d "
         "-DGLINT_STACK_CAPACITY=%d -DGLINT_MEDIA_BITS=%d -DGLINT_MEDIA_CAPACITY=%d "
-        "-DGLINT_TRAVERSAL_STACK=%d",
+        "-DGLINT_TRAVERSAL_STACK=%d -DGLINT_TILES=%d",
         plan->kernel_width, plan->bvh_width, plan->precision == GLINT_PRECISION_DOUBLE,
-        plan->stack_capacity, plan->media_bits, plan->media_capacity, plan->traversal_stack);
+        plan->stack_capacity, plan->media_bits, plan->media_capacity, plan->traversal_stack,
+        plan->tiles);
     for (int i = 0; i < GLINT_FEATURE_COUNT && used < capacity; i++) {
         used += (size_t)snprintf(text + used, capacity - used, " -DGLINT_%s=%d",
                                  glint_feature_name((glint_feature)i), plan->features[i].compiled);

@@ -56,6 +56,7 @@ typedef struct glint_settings {
     glint_fresnel fresnel;
     glint_output output;
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
+    int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
     bool all_features; // compile everything, needed or not (to test that it changes nothing)
 } glint_settings;
 
@@ -72,6 +73,8 @@ typedef struct glint_plan {
     glint_precision precision;
     int kernel_width; // lanes: rays of a packet
     char width_reason[120];
+    bool tiles; // a work-item renders 4 × 4 packets, whose primary rays are traced together
+    char tiles_reason[120];
     int bvh_width; // children of a node
     int depth;     // surfaces at most
     bool depth_is_auto;

@@ -12,7 +12,7 @@
 _Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
-_Static_assert(sizeof(glint_frame_record) == 6 * 32 + 16 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 9 * 32 + 20 * 4, "glint_frame_record has gaps");
 
 #define MEBIBYTE 1048576.0
 

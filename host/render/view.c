@@ -26,13 +26,22 @@ static glint_split_vector split_vector(glint_vec3 v)
     return split;
 }
 
-// How far in front of the eye the scene begins, along the axis of view, in stored units: 0 when the
-// eye is beside, behind or inside. Kept a little short, so that rounding hides nothing.
-static double start_depth(const glint_stored_space *space, const glint_camera *camera,
-                          glint_vec3 eye)
+// From an eye farther than so many times the scene's extent, 1/depth is too flat to order surfaces
+// by in single precision.
+#define FAR_EYE 4.0
+
+// Where the scene lies along the axis of view, in stored units.
+typedef struct depth_range {
+    double start;  // how far in front of the eye it begins: 0 when the eye is beside, behind or
+                   // inside. Kept a little short, so that rounding hides nothing.
+    double extent; // how far it goes on from there
+} depth_range;
+
+static depth_range depth_of(const glint_stored_space *space, const glint_camera *camera,
+                            glint_vec3 eye)
 {
     if (!(space->low.x <= space->high.x)) {
-        return 0;
+        return (depth_range){0, 0};
     }
     double nearest = INFINITY, farthest = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
@@ -45,7 +54,8 @@ static double start_depth(const glint_stored_space *space, const glint_camera *c
         farthest = fmax(farthest, depth);
     }
     double depth = nearest - 0.01 * (farthest - nearest) - 1e-6 * fabs(nearest);
-    return depth > 0 ? depth : 0;
+    depth = depth > 0 ? depth : 0;
+    return (depth_range){depth, farthest - depth};
 }
 
 void glint_view_record(const glint_stored_space *space, const glint_camera *camera,
@@ -57,7 +67,8 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     glint_vec3 eye =
         glint_vec3_scale(glint_vec3_subtract(camera->eye, space->origin), 1 / space->unit);
     glint_vec3 forward = glint_vec3_scale(camera->back, -1);
-    double start = start_depth(space, camera, eye);
+    depth_range range = depth_of(space, camera, eye);
+    double start = range.start;
 
     // The image plane's step of one pixel: at unit distance, or for parallel rays in stored units.
     double half_height = camera->orthographic ? camera->ymag / space->unit : tan(camera->yfov / 2);
@@ -73,6 +84,14 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     record->direction_x = split_vector(camera->orthographic ? none : step_x);
     record->direction_y = split_vector(camera->orthographic ? none : step_y);
     split_number(start, &record->start[0], &record->start[1]);
+
+    record->image_x = split_vector(glint_vec3_scale(camera->right, 1 / step));
+    record->image_y = split_vector(glint_vec3_scale(camera->up, 1 / step));
+    record->image_z = split_vector(forward);
+    split_number(camera->orthographic ? 1 : start, &record->image_offset[0],
+                 &record->image_offset[1]);
+    record->image_slope = camera->orthographic ? 0 : 1;
+    record->key_is_inverse = !camera->orthographic && start <= FAR_EYE * range.extent;
 
     double angle = fmod(settings->env_rotate, 360) * GLINT_PI / 180;
     split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);

@@ -77,6 +77,8 @@ json_t *glint_json_plan(const glint_plan *plan)
     glint_json_put_text(object, "precision", is_double ? "double" : "float");
     glint_json_put(object, "kernel_width", json_integer(plan->kernel_width));
     glint_json_put_text(object, "kernel_width_reason", plan->width_reason);
+    glint_json_put(object, "tile_packets", json_integer(plan->tiles ? 16 : 1));
+    glint_json_put_text(object, "tile_packets_reason", plan->tiles_reason);
     glint_json_put(object, "bvh_width", json_integer(plan->bvh_width));
     glint_json_put(object, "depth", json_integer(plan->depth));
     glint_json_put_flag(object, "depth_is_auto", plan->depth_is_auto);

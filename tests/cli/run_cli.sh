@@ -141,9 +141,9 @@ mkdir in/folder.gltf in/empty
 
 render_options='output exposure compression exr-type stats progress kernel-dir env env-layout
     env-rotate camera scene size samples depth min-weight background precision fresnel device
-    kernel-width help'
+    kernel-width kernel-tile help'
 info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
-    precision fresnel device kernel-width help'
+    precision fresnel device kernel-width kernel-tile help'
 
 help_mentions() { # COMMAND OPTION…
     local command=$1 option
@@ -222,6 +222,8 @@ refuses 2 '--progress loud' render "${ok[@]}" --progress loud
 refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
 refuses 2 '--exr-type' render "${ok[@]}" --exr-type float
 refuses 2 '--kernel-width 4' render "${ok[@]}" --kernel-width 4
+refuses 2 '--kernel-tile 4' render "${ok[@]}" --kernel-tile 4
+refuses 2 '--fresnel schlick' render "${ok[@]}" --fresnel schlick
 refuses 2 'latlong' render "${ok[@]}" --env in/sky.hdr --env-layout mercator
 refuses 2 '--env-layout' render "${ok[@]}" --env-layout latlong
 refuses 2 'out/x.gif' render in/mirror.gltf -o out/x.gif
