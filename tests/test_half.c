@@ -1,0 +1,124 @@
+// Properties of half: every half is read exactly, and every float becomes the nearest half, by a
+// judge that counts in units of the last place with the C library's rint.
+#include "base/half.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+// The value of a half by its definition: sign, 5 bits of exponent, 10 of fraction.
+static double value_of(unsigned half)
+{
+    int exponent = (int)(half >> 10 & 31);
+    double fraction = half & 1023;
+    double value = exponent == 0    ? ldexp(fraction, -24)
+                   : exponent == 31 ? (fraction > 0 ? NAN : INFINITY)
+                                    : ldexp(1024 + fraction, exponent - 25);
+    return half >> 15 ? -value : value;
+}
+
+// The half nearest to a finite value, as a number: rint goes to even on a tie.
+static double nearest_half(double value)
+{
+    int exponent;
+    frexp(value, &exponent); // |value| in [2^(exponent − 1), 2^exponent)
+    int last_place = exponent - 11 > -24 ? exponent - 11 : -24;
+    double rounded = ldexp(rint(ldexp(value, -last_place)), last_place);
+    return fabs(rounded) < 65536 ? rounded : copysign(INFINITY, value);
+}
+
+static void assert_rounds_to_nearest(float value)
+{
+    double expected = nearest_half((double)value);
+    double got = value_of(glint_half_from_float(value));
+    assert_true(got == expected);
+    assert_true((signbit(got) != 0) == (signbit(value) != 0));
+}
+
+static void every_half_is_read_exactly_and_written_back(void **state)
+{
+    (void)state;
+    for (unsigned half = 0; half < 65536; half++) {
+        float read = glint_half_to_float((uint16_t)half);
+        double expected = value_of(half);
+        assert_true((signbit(read) != 0) == (half >> 15 != 0));
+        if (isnan(expected)) {
+            assert_true(isnan(read));
+            assert_int_equal(glint_half_from_float(read), (half & 0x8000u) | GLINT_HALF_NAN);
+        } else {
+            assert_true((double)read == expected);
+            assert_int_equal(glint_half_from_float(read), half);
+        }
+    }
+}
+
+// Half way between two neighbours, and one float to each side of that.
+static void ties_go_to_the_even_one(void **state)
+{
+    (void)state;
+    for (unsigned half = 0; half < 0x7c00; half++) {
+        // The neighbour of the largest half would be 2¹⁶.
+        double above = half == 0x7bff ? 65536 : value_of(half + 1);
+        float tie = (float)((value_of(half) + above) / 2); // exact: 12 bits
+        for (int sign = 0; sign < 2; sign++) {
+            float signed_tie = sign ? -tie : tie;
+            unsigned even = half + (half & 1), bit = sign ? 0x8000 : 0;
+            assert_int_equal(glint_half_from_float(signed_tie), even | bit);
+            assert_int_equal(glint_half_from_float(nextafterf(signed_tie, 0)), half | bit);
+            assert_int_equal(glint_half_from_float(nextafterf(signed_tie, sign ? -1e9f : 1e9f)),
+                             (half + 1) | bit);
+        }
+    }
+}
+
+static void floats_of_all_sizes_become_the_nearest_half(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    for (int i = 0; i < 2000000; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        uint32_t bits = (uint32_t)(random >> 32);
+        // One in two between 2⁻²⁷ and 2¹⁷, where halfs are; the others anywhere.
+        if (i % 2 == 0) {
+            bits = (bits & 0x807fffffu) | ((100u + (bits >> 23 & 0xffu) % 44u) << 23);
+        }
+        float value = glint_float_from_bits(bits);
+        if (isfinite(value)) {
+            assert_rounds_to_nearest(value);
+        } else if (isnan(value)) {
+            assert_int_equal(glint_half_from_float(value) & 0x7fff, GLINT_HALF_NAN);
+        }
+    }
+}
+
+static void the_ends_of_the_range_are_kept(void **state)
+{
+    (void)state;
+    assert_int_equal(glint_half_from_float(0.0f), 0);
+    assert_int_equal(glint_half_from_float(-0.0f), 0x8000);
+    assert_int_equal(glint_half_from_float(INFINITY), GLINT_HALF_INFINITY);
+    assert_int_equal(glint_half_from_float(-INFINITY), 0x8000 | GLINT_HALF_INFINITY);
+    assert_int_equal(glint_half_from_float(GLINT_HALF_MAX), 0x7bff);
+    assert_int_equal(glint_half_from_float(65519.996f), 0x7bff);
+    assert_int_equal(glint_half_from_float(65520.0f), GLINT_HALF_INFINITY);
+    assert_int_equal(glint_half_from_float(3e38f), GLINT_HALF_INFINITY);
+    assert_int_equal(glint_half_from_float(0x1p-24f), 1);
+    assert_int_equal(glint_half_from_float(0x1p-25f), 0); // a tie
+    assert_int_equal(glint_half_from_float(0x1.000002p-25f), 1);
+    assert_int_equal(glint_half_from_float(1e-45f), 0); // the smallest float
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_half_is_read_exactly_and_written_back),
+        cmocka_unit_test(ties_go_to_the_even_one),
+        cmocka_unit_test(floats_of_all_sizes_become_the_nearest_half),
+        cmocka_unit_test(the_ends_of_the_range_are_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
