@@ -1,7 +1,13 @@
 // The cube map (layout.h): look-up along a direction, bilinear, seamless by its border.
 
+typedef struct cube_map {
+    global const void *texels;
+    int edge;      // texels along a face's edge, without the border
+    bool are_half; // the texels, else float: known when the kernel is compiled
+} cube_map;
+
 typedef struct cube_point {
-    lanes_int first; // index of the upper left of the four texels
+    lanes_int first;   // place of the upper left of the four texels
     real right, down; // [0, 1): how far the point lies towards the right and the lower ones
 } cube_point;
 
@@ -43,34 +49,35 @@ static inline cube_point find_on_cube(real3 d, int edge)
     return point;
 }
 
-// R, G, B and a fourth value of one texel.
-static inline scalar4 load_texel(global const float *texel)
+// R, G, B and a fourth value of two texels side by side.
+static inline scalar8 load_texels(const cube_map *map, size_t place)
 {
-#if GLINT_DOUBLE
-    return convert_double4(vload4(0, texel));
-#else
-    return vload4(0, texel);
-#endif
+    return TO_SCALAR8(map->are_half ? vload_half8(0, (global const half *)map->texels + 4 * place)
+                                    : vload8(0, (global const float *)map->texels + 4 * place));
+}
+
+// R, G, B and a fourth value at one ray's point: `first` is its upper left texel. Two texels are a
+// vector of eight, so it is interpolated downwards first, and then to the right: the order is the same
+// for every width, and with it the bits.
+static inline scalar4 fetch_from_cube(const cube_map *map, size_t first, scalar right, scalar down)
+{
+    size_t pitch = (size_t)(map->edge + 2 * GLINT_CUBE_BORDER);
+    scalar8 upper = load_texels(map, first), lower = load_texels(map, first + pitch);
+    scalar8 sides = fused((scalar8)down, lower - upper, upper);
+    return fused((scalar4)right, sides.hi - sides.lo, sides.lo);
 }
 
 // The value of the map along d, for the rays in `wanted`; the others get 0.
-static inline real3 sample_cube(global const float *texels, int edge, real3 d, mask wanted)
+static inline real3 sample_cube(const cube_map *map, real3 d, mask wanted)
 {
-    cube_point point = find_on_cube(d, edge);
-    size_t pitch = (size_t)(edge + 2 * GLINT_CUBE_BORDER);
+    cube_point point = find_on_cube(d, map->edge);
     real3 value = real3_of(real_of(0), real_of(0), real_of(0));
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
         if (!lane_is_set(wanted, lane)) {
             continue;
         }
-        global const float *corner = texels + 4 * (size_t)LANE_INT(point.first, lane);
-        scalar4 top_left = load_texel(corner), top_right = load_texel(corner + 4);
-        scalar4 bottom_left = load_texel(corner + 4 * pitch);
-        scalar4 bottom_right = load_texel(corner + 4 * pitch + 4);
-        scalar4 right = LANE(point.right, lane), down = LANE(point.down, lane);
-        scalar4 top = fused(right, top_right - top_left, top_left);
-        scalar4 bottom = fused(right, bottom_right - bottom_left, bottom_left);
-        scalar4 found = fused(down, bottom - top, top);
+        scalar4 found = fetch_from_cube(map, (size_t)LANE_INT(point.first, lane),
+                                        LANE(point.right, lane), LANE(point.down, lane));
         LANE(value.x, lane) = found.x;
         LANE(value.y, lane) = found.y;
         LANE(value.z, lane) = found.z;

@@ -17,11 +17,15 @@
 #endif
 typedef double scalar;
 typedef double4 scalar4;
+typedef double8 scalar8;
+#define TO_SCALAR8(floats) convert_double8(floats)
 #define R(literal) literal
 #define EPSILON 0x1p-53 // half the distance from 1 to the next value: the largest rounding error
 #else
 typedef float scalar;
 typedef float4 scalar4;
+typedef float8 scalar8;
+#define TO_SCALAR8(floats) (floats)
 #define R(literal) literal##f
 #define EPSILON 0x1p-24f
 #endif

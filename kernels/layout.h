@@ -13,7 +13,8 @@
 //   s is   +z  −z  +x  +x  −x  +x
 //   t is   −y  −y  −z  +z  −y  −y
 // Texel (column i, row j) of a face of edge N has its centre at s = (2i + 1)/N − 1, t likewise, and
-// each face carries a border of one texel: [6][N + 2][N + 2][4] floats (R, G, B, unused).
+// each face carries a border of one texel: [6][N + 2][N + 2][4] floats (R, G, B, unused), or halfs
+// for the environment where the kernels are compiled with GLINT_HALF_TEXELS.
 // (Keep the lists: both compilers initialise constant arrays from them.)
 #define GLINT_CUBE_FACES 6
 #define GLINT_CUBE_S_AXIS                                                                          \

@@ -2,8 +2,8 @@
 // primary rays meet, all at once, and then follows every path to its end, packet by packet.
 //
 // The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
-// GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS, GLINT_MEDIA_CAPACITY and
-// GLINT_TRAVERSAL_STACK and GLINT_TILES.
+// GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_HALF_TEXELS, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS,
+// GLINT_MEDIA_CAPACITY, GLINT_TRAVERSAL_STACK and GLINT_TILES.
 #if (GLINT_SOLID || GLINT_THIN_WALL) && !GLINT_GLASS
 #error "SOLID and THIN_WALL need GLASS"
 #endif
@@ -199,8 +199,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     real3 v = negate(ray->direction);
     real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
 #if NEEDS_IRRADIANCE
-    irradiance = sample_cube(scene->irradiance, frame->irradiance_edge,
-                             turn_into_environment(frame, s.normal), met);
+    irradiance = sample_cube(&scene->irradiance, turn_into_environment(frame, s.normal), met);
 #endif
     mask media_lost;
     lanes_int media = ray->media;
@@ -268,8 +267,7 @@ static inline closest find_hits(const scene_buffers *scene, const image_space *i
 static inline void add_environment(const scene_buffers *scene, const glint_frame_record *frame,
                                    const path *ray, mask escaped, real3 *radiance)
 {
-    real3 light = sample_cube(scene->environment, frame->environment_edge,
-                              turn_into_environment(frame, ray->direction), escaped);
+    real3 light = sample_cube(&scene->environment, turn_into_environment(frame, ray->direction), escaped);
     real3 gathered = add(*radiance, multiply(ray->weight, light));
     *radiance = select3(escaped, gathered, *radiance);
 }
@@ -482,12 +480,13 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                          global const float *normals, global const int *numbers,
                          global const glint_material_record *materials,
                          global const glint_medium_record *media,
-                         global const float *environment, global const float *irradiance,
+                         global const void *environment, global const float *irradiance,
                          global scalar *pixels, global uint *counters,
                          const glint_frame_record frame)
 {
-    const scene_buffers scene = {nodes, clusters, normals, numbers,
-                                 materials, media, environment, irradiance};
+    const scene_buffers scene = {nodes, clusters, normals, numbers, materials, media,
+                                 {environment, frame.environment_edge, GLINT_HALF_TEXELS},
+                                 {irradiance, frame.irradiance_edge, false}};
     const int column = (int)get_global_id(0) * PACKET_WIDTH * TILE_COLUMNS;
     const int row = ((int)get_global_id(1) + frame.first_row) * PACKET_HEIGHT * TILE_ROWS;
     if (column >= frame.width || row >= frame.height) {

@@ -22,8 +22,7 @@ typedef struct scene_buffers {
     global const int *numbers;
     global const glint_material_record *materials;
     global const glint_medium_record *media;
-    global const float *environment;
-    global const float *irradiance;
+    cube_map environment, irradiance;
 } scene_buffers;
 
 // A hit, ready for optics.

@@ -106,6 +106,7 @@ static glint_settings small_frame(int depth)
     settings.width = 64;
     settings.height = 48;
     settings.depth = depth;
+    settings.texels = GLINT_TEXELS_FLOAT; // the oracle's
     return settings;
 }
 

@@ -34,6 +34,7 @@ static void render_named(const char *name, const glint_settings *settings, test_
     glint_scene_free(&scene);
 }
 
+// Single precision has half texels here, double has float ones.
 static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
 {
     (void)state;
@@ -46,6 +47,7 @@ static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
             settings.kernel_width = 1;
             test_frame one, more;
             render_named(names[i], &settings, &one);
+            assert_int_equal(one.plan.half_texels, precision == 0);
             for (size_t w = 0; w < 2; w++) {
                 settings.kernel_width = widths[w];
                 render_named(names[i], &settings, &more);
@@ -55,6 +57,33 @@ static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
             }
             test_frame_free(&one);
         }
+    }
+}
+
+// Texels of 0 to 1 err by at most 2⁻¹² as halfs, and so does what is interpolated between them; a
+// pixel's weights add up to at most 1. Paths do not depend on texels.
+static void half_texels_change_a_frame_by_their_rounding_alone(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"mirror_sphere", "materials", "nested_glass"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        glint_settings settings = small_frame(0);
+        test_frame half, whole;
+        settings.texels = GLINT_TEXELS_HALF;
+        render_named(names[i], &settings, &half);
+        settings.texels = GLINT_TEXELS_FLOAT;
+        render_named(names[i], &settings, &whole);
+        assert_true(half.plan.half_texels && !whole.plan.half_texels);
+        assert_memory_equal(&half.report.rays, &whole.report.rays, sizeof half.report.rays);
+        size_t different = 0;
+        for (size_t p = 0; p < 4 * 61 * 43; p++) {
+            double difference = fabs(half.exact[p] - whole.exact[p]);
+            assert_true(difference <= 0x1p-12 + 16 * 0x1p-24);
+            different += difference > 0x1p-20;
+        }
+        assert_true(different > 61 * 43);
+        test_frame_free(&half);
+        test_frame_free(&whole);
     }
 }
 
@@ -87,6 +116,7 @@ static void the_environment_turns_counter_clockwise_seen_from_above(void **state
     bridge *b = bridge_create(&scene, &environment);
     glint_settings settings = small_frame(1);
     settings.env_rotate = 90;
+    settings.texels = GLINT_TEXELS_FLOAT;
     test_frame frame;
     test_render(&scene, &environment, NULL, &settings, &frame);
     glint_camera camera;
@@ -289,6 +319,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(packets_of_1_8_and_16_rays_give_the_same_bits),
+        cmocka_unit_test(half_texels_change_a_frame_by_their_rounding_alone),
         cmocka_unit_test(features_that_a_scene_does_not_need_change_nothing),
         cmocka_unit_test(the_environment_turns_counter_clockwise_seen_from_above),
         cmocka_unit_test(a_sample_grid_is_the_mean_of_its_samples),

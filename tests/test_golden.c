@@ -17,8 +17,9 @@
 
 #include <cmocka.h>
 
-// Goldens are stored as half, with 11 bits: rounding is at most 2⁻¹² of the value. What is beyond
-// 2⁻¹⁰ of it is a different value, and other targets may decide a few pixels at edges otherwise.
+// Goldens are stored as half and looked up in half texels: either rounds by 2⁻¹¹ of the value at
+// most. What is beyond 2⁻¹⁰ is a different value, and other targets may decide a few pixels at
+// edges otherwise.
 #define RELATIVE_TOLERANCE 0x1p-10f
 #define DIFFERENT_PIXELS 0.005
 

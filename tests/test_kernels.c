@@ -1,7 +1,9 @@
 // Properties of single kernel functions, run on the device at every width and precision, judged by
 // the oracle's formulas and by closed forms. u is the largest relative rounding error, 2⁻²⁴ or
 // 2⁻⁵³.
+#include "base/half.h"
 #include "device/opencl.h"
+#include "environment/half_texels.h"
 #include "kernels/layout.h"
 #include "oracle/oracle.h"
 #include "render/upload.h"
@@ -24,6 +26,7 @@
 typedef struct probe {
     int width;
     bool is_double;
+    bool half_texels;
     double u;
     double in[ELEMENTS][4], out[ELEMENTS][4];
 } probe;
@@ -34,8 +37,9 @@ static cl_kernel build(const probe *p, const char *name)
     const struct glint_device *device = test_device();
     char options[8192];
     snprintf(options, sizeof options,
-             "-cl-std=CL1.2 -I %s/kernels -I %s/tests/kernels -DGLINT_WIDTH=%d -DGLINT_DOUBLE=%d",
-             GLINT_SOURCE_DIR, GLINT_SOURCE_DIR, p->width, p->is_double);
+             "-cl-std=CL1.2 -I %s/kernels -I %s/tests/kernels -DGLINT_WIDTH=%d -DGLINT_DOUBLE=%d "
+             "-DGLINT_HALF_TEXELS=%d",
+             GLINT_SOURCE_DIR, GLINT_SOURCE_DIR, p->width, p->is_double, p->half_texels);
     cl_int code;
     cl_program program = clCreateProgramWithSource(device->context, 1, &source, NULL, &code);
     assert_int_equal(code, CL_SUCCESS);
@@ -60,6 +64,20 @@ static cl_mem buffer_of(const void *data, size_t bytes)
     return buffer;
 }
 
+static cl_mem texels_of(const glint_cube *cube, bool as_half)
+{
+    size_t count = cube != NULL ? glint_cube_size(cube) : 0;
+    if (!as_half || cube == NULL) {
+        return buffer_of(cube != NULL ? cube->texels : NULL, count * sizeof(float));
+    }
+    uint16_t *halfs = calloc(count + 1, sizeof *halfs);
+    assert_non_null(halfs);
+    glint_cube_to_half(cube, halfs);
+    cl_mem buffer = buffer_of(halfs, count * sizeof *halfs);
+    free(halfs);
+    return buffer;
+}
+
 // Runs one kernel of probe.cl over p->in; `cube` may be NULL.
 static void run(probe *p, const char *name, const glint_cube *cube)
 {
@@ -73,8 +91,7 @@ static void run(probe *p, const char *name, const glint_cube *cube)
     size_t bytes = p->is_double ? sizeof p->in : sizeof narrow;
     cl_mem in = buffer_of(p->is_double ? (void *)p->in : narrow, bytes),
            out = buffer_of(NULL, bytes);
-    cl_mem texels = cube != NULL ? buffer_of(cube->texels, glint_cube_size(cube) * sizeof(float))
-                                 : buffer_of(NULL, 0);
+    cl_mem texels = texels_of(cube, p->half_texels);
     cl_int edge = cube != NULL ? cube->edge : 0;
     cl_kernel kernel = build(p, name);
     clSetKernelArg(kernel, 0, sizeof in, &in);
@@ -311,6 +328,90 @@ static void the_cube_is_exact_at_texel_centres_and_seamless_on_ties(void **state
     at_every_width_and_precision(check_cube);
 }
 
+static double random_share(void)
+{
+    static uint64_t random = 7;
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return (double)(random >> 11) * 0x1p-53;
+}
+
+// A cube of values that half can hold, so that texels of both kinds give the same.
+static void random_cube(int edge, glint_cube *cube)
+{
+    assert_int_equal(glint_cube_create(edge, cube, NULL), GLINT_OK);
+    for (size_t i = 0; i < glint_cube_size(cube); i++) {
+        cube->texels[i] = glint_half_to_float(glint_half_from_float((float)random_share()));
+    }
+}
+
+// What a packet of one ray finds, every other must find, with texels of either kind.
+static void check_interpolation(probe *p)
+{
+    enum { EDGE = 13 };
+    static glint_cube cube;
+    static double directions[ELEMENTS][4], found[2][ELEMENTS][4];
+    if (cube.texels == NULL) {
+        random_cube(EDGE, &cube);
+        for (size_t i = 0; i < 3 * ELEMENTS; i++) {
+            directions[i / 3][i % 3] = (double)(float)(2 * random_share() - 1);
+        }
+    }
+    for (int half = 0; half < 2; half++) {
+        p->half_texels = half == 1;
+        memcpy(p->in, directions, sizeof directions);
+        run(p, "probe_cube", &cube);
+        if (p->width == 1 && half == 0) {
+            memcpy(found[p->is_double], p->out, sizeof p->out);
+        }
+        assert_memory_equal(found[p->is_double], p->out, sizeof p->out);
+    }
+    p->half_texels = false;
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        const double *d = p->in[i];
+        double rgb[3];
+        glint_cube_sample(&cube, (glint_vec3){d[0], d[1], d[2]}, rgb);
+        for (size_t k = 0; k < 3; k++) {
+            // The place is found to within 4 rounding errors of EDGE texels, where values change
+            // by up to 1 a texel each way; then 4 more in the interpolation.
+            assert_true(fabs(p->out[i][k] - rgb[k]) <= (2 * 4 * EDGE + 4) * p->u);
+        }
+    }
+}
+
+static void the_cube_is_interpolated_alike_at_every_width(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_interpolation);
+}
+
+static void check_uniform_halfs(probe *p)
+{
+    static const float values[] = {0x1p-24f, 1023 * 0x1p-24f, 0x1p-14f, -2.5f, GLINT_HALF_MAX};
+    p->half_texels = true;
+    for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
+        glint_cube cube;
+        random_cube(3, &cube);
+        for (size_t i = 0; i < glint_cube_size(&cube); i++) {
+            cube.texels[i] = values[v];
+        }
+        for (size_t i = 0; i < 3 * ELEMENTS; i++) {
+            p->in[i / 3][i % 3] = 2 * random_share() - 1;
+        }
+        run(p, "probe_cube", &cube);
+        for (size_t i = 0; i < 3 * ELEMENTS; i++) {
+            assert_true(p->out[i / 3][i % 3] == (double)values[v]);
+        }
+        glint_cube_free(&cube);
+    }
+    p->half_texels = false;
+}
+
+static void half_texels_are_read_exactly_denormal_ones_too(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_uniform_halfs);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -320,6 +421,8 @@ int main(void)
         cmocka_unit_test(the_exponential_is_within_four_rounding_errors),
         cmocka_unit_test(vectors_of_any_length_are_normalized_and_hopeless_ones_are_told),
         cmocka_unit_test(the_cube_is_exact_at_texel_centres_and_seamless_on_ties),
+        cmocka_unit_test(the_cube_is_interpolated_alike_at_every_width),
+        cmocka_unit_test(half_texels_are_read_exactly_denormal_ones_too),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

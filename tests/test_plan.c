@@ -48,15 +48,26 @@ static void make_scene(test_scene *s, const glint_material *materials, size_t co
                              .unit = 1};
 }
 
-static glint_status plan_for(const test_scene *s, const glint_capabilities *device,
-                             const glint_settings *settings, glint_plan *plan, glint_error *error)
+static glint_status plan_under(const glint_cube *environment, const test_scene *s,
+                               const glint_capabilities *device, const glint_settings *settings,
+                               glint_plan *plan, glint_error *error)
 {
     // No component is proved convex, so solids may nest.
     static glint_component solid = {.instance = 0, .triangle_count = 1};
     const glint_topology topology = {.component_count = 1, .components = &solid};
-    const glint_plan_inputs inputs = {
-        .scene = &s->scene, .topology = &topology, .device = device, .settings = settings};
+    const glint_plan_inputs inputs = {.scene = &s->scene,
+                                      .topology = &topology,
+                                      .environment = environment,
+                                      .device = device,
+                                      .settings = settings};
     return glint_plan_make(&inputs, plan, error);
+}
+
+static glint_status plan_for(const test_scene *s, const glint_capabilities *device,
+                             const glint_settings *settings, glint_plan *plan, glint_error *error)
+{
+    const glint_cube none = {0};
+    return plan_under(&none, s, device, settings, plan, error);
 }
 
 static bool compiles(const glint_plan *plan, glint_feature feature)
@@ -186,6 +197,70 @@ static void media_take_as_few_bits_as_can_name_them(void **state)
     }
 }
 
+// Plans for a map of the value 0.3 with one texel of `brightest`, or for one that is `scale` as
+// bright.
+static glint_status plan_texels(float brightest, float scale, const glint_settings *settings,
+                                glint_plan *plan, glint_error *error)
+{
+    test_scene s;
+    make_scene(&s, &white_paint, 1);
+    glint_cube cube;
+    assert_int_equal(glint_cube_create(8, &cube, NULL), GLINT_OK);
+    for (size_t i = 0; i < glint_cube_size(&cube); i++) {
+        cube.texels[i] = 0.3f * scale;
+    }
+    glint_cube_texel(&cube, 2, 3, 4)[1] = brightest * scale;
+    glint_status status = plan_under(&cube, &s, &wide_cpu, settings, plan, error);
+    size_t bytes = glint_cube_size(&cube) * sizeof(float);
+    if (status == GLINT_OK) {
+        assert_true(plan->texels_reason[0] != '\0');
+        assert_int_equal(plan->environment_bytes, plan->half_texels ? bytes / 2 : bytes);
+        assert_true((plan->texels_rmse > 0) == plan->half_texels);
+    }
+    glint_cube_free(&cube);
+    return status;
+}
+
+static void texels_are_half_where_that_does_no_harm(void **state)
+{
+    (void)state;
+    glint_settings settings = glint_settings_default;
+    glint_plan plan;
+    assert_int_equal(plan_texels(1, 1, &settings, &plan, NULL), GLINT_OK);
+    assert_true(plan.half_texels);
+    // A light counts by its own size, however bright.
+    assert_int_equal(plan_texels(60001, 1, &settings, &plan, NULL), GLINT_OK);
+    assert_true(plan.half_texels);
+    assert_int_equal(plan_texels(91000, 1, &settings, &plan, NULL), GLINT_OK);
+    assert_false(plan.half_texels);
+    assert_non_null(strstr(plan.texels_reason, "91000"));
+    // Where everything is dark, half has no digits left.
+    assert_int_equal(plan_texels(1, 1e-5f, &settings, &plan, NULL), GLINT_OK);
+    assert_false(plan.half_texels);
+    settings.precision = GLINT_PRECISION_DOUBLE;
+    assert_int_equal(plan_texels(1, 1, &settings, &plan, NULL), GLINT_OK);
+    assert_false(plan.half_texels);
+}
+
+static void texels_are_what_is_asked_for_or_refused(void **state)
+{
+    (void)state;
+    glint_settings settings = glint_settings_default;
+    glint_plan plan;
+    glint_error error = {0};
+    settings.texels = GLINT_TEXELS_FLOAT;
+    assert_int_equal(plan_texels(1, 1, &settings, &plan, NULL), GLINT_OK);
+    assert_false(plan.half_texels);
+    settings.texels = GLINT_TEXELS_HALF;
+    settings.precision = GLINT_PRECISION_DOUBLE;
+    assert_int_equal(plan_texels(1, 1e-5f, &settings, &plan, NULL), GLINT_OK);
+    assert_true(plan.half_texels);
+    assert_int_equal(plan_texels(91000, 1, &settings, &plan, &error), GLINT_USAGE);
+    assert_non_null(strstr(error.message, "91000"));
+    assert_non_null(strstr(error.message, "--texels float"));
+    assert_int_equal(plan_texels(NAN, 1, &settings, &plan, NULL), GLINT_USAGE);
+}
+
 static void settings_out_of_range_are_usage_errors(void **state)
 {
     (void)state;
@@ -237,6 +312,8 @@ int main(void)
         cmocka_unit_test(the_width_follows_the_device),
         cmocka_unit_test(the_stack_holds_every_branch_that_the_least_weight_allows),
         cmocka_unit_test(media_take_as_few_bits_as_can_name_them),
+        cmocka_unit_test(texels_are_half_where_that_does_no_harm),
+        cmocka_unit_test(texels_are_what_is_asked_for_or_refused),
         cmocka_unit_test(settings_out_of_range_are_usage_errors),
         cmocka_unit_test(every_feature_is_passed_to_the_compiler_as_0_or_1),
     };

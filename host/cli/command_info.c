@@ -179,6 +179,7 @@ static void print_plan(const glint_subject *subject)
     printf("  %d lanes: %s\n", plan->kernel_width, plan->width_reason);
     printf("  tiles of %d packet%s: %s\n", plan->tiles ? 16 : 1, plan->tiles ? "s" : "",
            plan->tiles_reason);
+    printf("  %s texels: %s\n", plan->half_texels ? "half" : "float", plan->texels_reason);
     if (plan->stack_capacity > 0) {
         printf("  %d waiting branches a ray: %s\n", plan->stack_capacity, plan->stack_reason);
     }
@@ -237,6 +238,7 @@ static glint_status make_plan(const info_request *request, info_work *work, glin
     const glint_plan_inputs inputs = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,
+        .environment = &work->inputs.environment.radiance,
         .device = glint_device_capabilities(work->device),
         .settings = &request->inputs.settings,
     };

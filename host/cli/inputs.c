@@ -165,6 +165,10 @@ const glint_option glint_settings_options[] = {
      .help = "exact: reflectance depends on the angle. none: metal reflects its base colour, glass "
              "only where it reflects all, paint nothing.",
      .fallback = "exact", .offset = OFFSET(fresnel), .choices = "exact|none"},
+    {GLINT_OPTION_CHOICE, .name = "texels", .argument = "KIND",
+     .help = "The environment's texels on the device: half is faster and holds values up to 65504; "
+             "auto takes it where rounding to it does no harm, and float for precision double.",
+     .fallback = "auto", .offset = OFFSET(texels), .choices = "auto|half|float"},
     {GLINT_OPTION_TEXT, .name = "device", .argument = "SELECTOR",
      .help = "The OpenCL device: an index of `glint devices`, cpu, gpu, or a part of a name.",
      .fallback = "the first GPU, else the CPU", .offset = OFFSET(device)},
@@ -197,6 +201,7 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
     request->settings.precision =
         request->precision == 0 ? GLINT_PRECISION_FLOAT : GLINT_PRECISION_DOUBLE;
     request->settings.fresnel = request->fresnel == 0 ? GLINT_FRESNEL_EXACT : GLINT_FRESNEL_NONE;
+    request->settings.texels = (glint_texels)request->texels;
     return GLINT_OK;
 }
 

@@ -21,6 +21,7 @@ typedef struct glint_input_request {
     int size[2];
     int precision; // 0 float, 1 double
     int fresnel;   // 0 exact, 1 none
+    int texels;    // a glint_texels, in the order of the choices
     glint_settings settings;
 } glint_input_request;
 

@@ -80,6 +80,7 @@ static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r, 
         const glint_plan_inputs inputs = {
             .scene = in->scene,
             .topology = &topology,
+            .environment = &in->environment->radiance,
             .device = glint_device_capabilities(in->device),
             .settings = in->settings,
         };
@@ -226,7 +227,7 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
         status = size_frame(r, &frame_bytes, error);
     }
     if (status == GLINT_OK) {
-        status = glint_upload_check(in->device, in->scene, &in->environment->radiance, frame_bytes,
+        status = glint_upload_check(in->device, in->scene, r->plan.environment_bytes, frame_bytes,
                                     error);
     }
     r->phases.analysis = lap(&clock);

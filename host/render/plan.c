@@ -1,6 +1,9 @@
 // The plan: what is compiled, and why. See plan.h.
 #include "render/plan.h"
 
+#include "base/half.h"
+#include "environment/half_texels.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -269,6 +272,66 @@ static void choose_tiles(const glint_settings *settings, glint_plan *plan)
     snprintf(plan->tiles_reason, sizeof plan->tiles_reason, "%s", reason);
 }
 
+// What rounding may add to what is seen of the environment (visible_rmse). Where all is as bright
+// as the mean it comes to 2.1e-4; more means that texels are too dark for half and lose digits.
+#define TEXEL_TOLERANCE 2.5e-4
+
+// Half, if the environment can be held and, unless half was asked for, is held well.
+static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *plan,
+                                      glint_error *error)
+{
+    const bool asked_for = in->settings->texels == GLINT_TEXELS_HALF;
+    const size_t capacity = sizeof plan->texels_reason;
+    glint_half_rounding half;
+    glint_status status = glint_half_rounding_measure(in->environment, &half, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    double largest = (double)half.largest, most = (double)GLINT_HALF_MAX;
+    bool fits = largest <= most; // NaN does not
+    if (!fits && asked_for) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--texels half: the environment's brightest texel is %g, and half holds "
+                          "%g at most (use --texels float)",
+                          largest, most);
+    }
+    if (!fits) {
+        snprintf(plan->texels_reason, capacity, "the brightest, %g, is more than half holds (%g)",
+                 largest, most);
+        return GLINT_OK;
+    }
+    plan->half_texels = asked_for || half.visible_rmse <= TEXEL_TOLERANCE;
+    snprintf(plan->texels_reason, capacity, "%s an error of %.2g of what is seen (%.2g is allowed)",
+             asked_for           ? "asked for; rounding adds"
+             : plan->half_texels ? "rounding adds"
+                                 : "rounding to half would add",
+             half.visible_rmse, TEXEL_TOLERANCE);
+    if (plan->half_texels) {
+        plan->texels_rmse = half.relative_rmse;
+        plan->environment_bytes /= 2;
+    }
+    return GLINT_OK;
+}
+
+// Half texels take half of the memory's time. Double precision, the reference, has them only if
+// they are asked for.
+static glint_status choose_texels(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
+{
+    const glint_texels asked = in->settings->texels;
+    const char *reason = NULL;
+    plan->environment_bytes = glint_cube_size(in->environment) * sizeof(float);
+    if (asked == GLINT_TEXELS_FLOAT) {
+        reason = "asked for";
+    } else if (asked == GLINT_TEXELS_AUTO && plan->precision == GLINT_PRECISION_DOUBLE) {
+        reason = "precision double is the reference";
+    }
+    if (reason == NULL) {
+        return weigh_half_texels(in, plan, error);
+    }
+    snprintf(plan->texels_reason, sizeof plan->texels_reason, "%s", reason);
+    return GLINT_OK;
+}
+
 // The path goes on with the lighter of two branches, which has at most half of the weight, so that
 // at most 1 + log2(1/min_weight) wait; one more slot tells that the stack is nearly full.
 static void choose_stack(const glint_settings *settings, glint_plan *plan)
@@ -356,7 +419,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     choose_stack(settings, plan);
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
-    return GLINT_OK;
+    return choose_texels(in, plan, error);
 }
 
 glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
@@ -386,11 +449,11 @@ void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacit
     size_t used = (size_t)snprintf(
         text, capacity,
         "-cl-std=CL1.2 -w -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d -DGLINT_DOUBLE=%d "
-        "-DGLINT_STACK_CAPACITY=%d -DGLINT_MEDIA_BITS=%d -DGLINT_MEDIA_CAPACITY=%d "
-        "-DGLINT_TRAVERSAL_STACK=%d -DGLINT_TILES=%d",
+        "-DGLINT_HALF_TEXELS=%d -DGLINT_STACK_CAPACITY=%d -DGLINT_MEDIA_BITS=%d "
+        "-DGLINT_MEDIA_CAPACITY=%d -DGLINT_TRAVERSAL_STACK=%d -DGLINT_TILES=%d",
         plan->kernel_width, plan->bvh_width, plan->precision == GLINT_PRECISION_DOUBLE,
-        plan->stack_capacity, plan->media_bits, plan->media_capacity, plan->traversal_stack,
-        plan->tiles);
+        plan->half_texels, plan->stack_capacity, plan->media_bits, plan->media_capacity,
+        plan->traversal_stack, plan->tiles);
     for (int i = 0; i < GLINT_FEATURE_COUNT && used < capacity; i++) {
         used += (size_t)snprintf(text + used, capacity - used, " -DGLINT_%s=%d",
                                  glint_feature_name((glint_feature)i), plan->features[i].compiled);
@@ -401,7 +464,9 @@ void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity)
 {
     char depth[32];
     snprintf(depth, sizeof depth, plan->depth_is_auto ? "auto (at most %d)" : "%d", plan->depth);
-    snprintf(text, capacity, "shading pixel, depth %s, precision %s, width %d, %d of %d features",
-             depth, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
-             plan->kernel_width, glint_plan_feature_count(plan), GLINT_FEATURE_COUNT);
+    snprintf(text, capacity,
+             "shading pixel, depth %s, precision %s, %s texels, width %d, %d of %d features", depth,
+             plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
+             plan->half_texels ? "half" : "float", plan->kernel_width,
+             glint_plan_feature_count(plan), GLINT_FEATURE_COUNT);
 }

@@ -33,6 +33,13 @@ typedef enum glint_output {
                        // scene; without a hit 0, 0, 0, −1. One sample, primary rays alone.
 } glint_output;
 
+// What the environment's texels are on the device.
+typedef enum glint_texels {
+    GLINT_TEXELS_AUTO, // half where that costs next to nothing, see plan.c
+    GLINT_TEXELS_HALF,
+    GLINT_TEXELS_FLOAT,
+} glint_texels;
+
 typedef enum glint_feature {
 #define GLINT_FEATURE_NAME(name, meaning) GLINT_FEATURE_##name,
     GLINT_FEATURES(GLINT_FEATURE_NAME)
@@ -55,6 +62,7 @@ typedef struct glint_settings {
     glint_precision precision;
     glint_fresnel fresnel;
     glint_output output;
+    glint_texels texels;
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
     bool all_features; // compile everything, needed or not (to test that it changes nothing)
@@ -75,8 +83,11 @@ typedef struct glint_plan {
     char width_reason[120];
     bool tiles; // a work-item renders 4 × 4 packets, whose primary rays are traced together
     char tiles_reason[120];
-    int bvh_width; // children of a node
-    int depth;     // surfaces at most
+    bool half_texels; // of the environment, else float; the irradiance map's are float always
+    char texels_reason[160];
+    double texels_rmse; // relative RMSE that half texels add to the environment; 0 with float
+    int bvh_width;      // children of a node
+    int depth;          // surfaces at most
     bool depth_is_auto;
     int stack_capacity; // waiting branches a ray; 0 without GLASS
     char stack_reason[120];
@@ -84,6 +95,7 @@ typedef struct glint_plan {
     int media_bits;      // bits of one entry of the stack of media
     int media_capacity;  // entries of that stack
     int traversal_stack; // entries of the traversal's stack; set once the tree is built
+    size_t environment_bytes; // device memory for the environment
 } glint_plan;
 
 // Names of a feature and what it adds, from kernels/features.h.
@@ -95,12 +107,14 @@ const char *glint_feature_meaning(glint_feature feature);
 typedef struct glint_plan_inputs {
     const glint_scene *scene;
     const glint_topology *topology;
+    const glint_cube *environment;
     const glint_capabilities *device;
     const glint_settings *settings;
 } glint_plan_inputs;
 
-// Errors: GLINT_USAGE for settings out of range, GLINT_DEVICE_FAILED for what the device cannot do
-// (double precision without cl_khr_fp64).
+// Errors: GLINT_USAGE for settings out of range and for half texels of an environment that half
+// cannot hold, GLINT_DEVICE_FAILED for what the device cannot do (double precision without
+// cl_khr_fp64).
 glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
 
 // Builds the tree of the scene's triangles that the plan's kernels go through. Errors: as
@@ -114,8 +128,8 @@ int glint_plan_feature_count(const glint_plan *plan);
 // Writes the kernel build options ("-DGLINT_WIDTH=16 …") of at most `capacity` bytes.
 void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity);
 
-// One line that names the plan: "shading pixel, depth auto (at most 64), precision float, width 16,
-// 12 of 18 features".
+// One line that names the plan: "shading pixel, depth auto (at most 64), precision float, half
+// texels, width 16, 12 of 18 features".
 void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity);
 
 #endif

@@ -2,6 +2,7 @@
 #include "render/upload.h"
 
 #include "base/memory.h"
+#include "environment/half_texels.h"
 #include "kernels/layout.h"
 
 #include <math.h>
@@ -30,8 +31,7 @@ static glint_status check_size(const struct glint_device *device, const char *wh
 }
 
 glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
-                                const glint_cube *environment, size_t frame_bytes,
-                                glint_error *error)
+                                size_t environment_bytes, size_t frame_bytes, glint_error *error)
 {
     // As many as would do if all clusters could be full.
     const size_t clusters = (scene->triangle_count + GLINT_CLUSTER_LANES - 1) / GLINT_CLUSTER_LANES;
@@ -43,7 +43,7 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
         {"the triangles", clusters * sizeof(glint_cluster)},
         {"the normals", normals * sizeof(float)},
         {"the triangles' numbers", clusters * GLINT_CLUSTER_LANES * sizeof(cl_int)},
-        {"the environment", glint_cube_size(environment) * sizeof(float)},
+        {"the environment", environment_bytes},
         {"the frame", frame_bytes},
     };
     double total = 0;
@@ -209,6 +209,25 @@ static glint_status upload_cube(const glint_upload_inputs *in, const char *what,
     return glint_buffer_create(in->device, what, bytes, cube->texels, buffer, error);
 }
 
+static glint_status upload_environment(const glint_upload_inputs *in, cl_mem *buffer,
+                                       glint_error *error)
+{
+    const char *what = "the environment";
+    if (!in->plan->half_texels) {
+        return upload_cube(in, what, in->environment, buffer, error);
+    }
+    size_t count = glint_cube_size(in->environment);
+    uint16_t *texels = glint_allocate(count, sizeof *texels);
+    if (texels == NULL) {
+        return glint_fail_memory(error, what);
+    }
+    glint_cube_to_half(in->environment, texels);
+    glint_status status =
+        glint_buffer_create(in->device, what, count * sizeof *texels, texels, buffer, error);
+    free(texels);
+    return status;
+}
+
 glint_status glint_scene_upload(const glint_upload_inputs *in, glint_scene_memory *memory,
                                 glint_error *error)
 {
@@ -218,7 +237,7 @@ glint_status glint_scene_upload(const glint_upload_inputs *in, glint_scene_memor
         status = upload_materials(in, memory, error);
     }
     if (status == GLINT_OK) {
-        status = upload_cube(in, "the environment", in->environment, &memory->environment, error);
+        status = upload_environment(in, &memory->environment, error);
     }
     if (status == GLINT_OK) {
         status = upload_cube(in, "the irradiance", in->irradiance, &memory->irradiance, error);

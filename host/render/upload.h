@@ -25,12 +25,11 @@ typedef struct glint_upload_inputs {
     const glint_cube *irradiance;
 } glint_upload_inputs;
 
-// Fails with GLINT_DEVICE_FAILED if one of the scene's buffers or the frame, of `frame_bytes`, is
+// Fails with GLINT_DEVICE_FAILED if one of the scene's buffers, the environment's or the frame's is
 // larger than the device allows, or all of them together than its memory: asked before the long
 // work begins. The tree is not built yet, so the least that its triangles can take is counted.
 glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
-                                const glint_cube *environment, size_t frame_bytes,
-                                glint_error *error);
+                                size_t environment_bytes, size_t frame_bytes, glint_error *error);
 
 // Errors: GLINT_DEVICE_FAILED.
 glint_status glint_scene_upload(const glint_upload_inputs *inputs, glint_scene_memory *memory,

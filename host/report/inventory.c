@@ -10,13 +10,11 @@ size_t glint_inventory_device_bytes(const glint_subject *subject)
     bool is_double = false;
     if (subject->plan != NULL) {
         is_double = subject->plan->precision == GLINT_PRECISION_DOUBLE;
+        bytes += subject->plan->environment_bytes;
     }
     bytes += subject->scene->material_count * sizeof(glint_material_record);
     if (subject->bvh != NULL) {
         bytes += subject->bvh->bytes;
-    }
-    if (subject->environment != NULL) {
-        bytes += glint_cube_size(&subject->environment->radiance) * sizeof(float);
     }
     if (subject->settings != NULL) {
         bytes += (size_t)subject->settings->width * (size_t)subject->settings->height * 4 *

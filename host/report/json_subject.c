@@ -79,6 +79,9 @@ json_t *glint_json_plan(const glint_plan *plan)
     glint_json_put_text(object, "kernel_width_reason", plan->width_reason);
     glint_json_put(object, "tile_packets", json_integer(plan->tiles ? 16 : 1));
     glint_json_put_text(object, "tile_packets_reason", plan->tiles_reason);
+    glint_json_put_text(object, "texels", plan->half_texels ? "half" : "float");
+    glint_json_put_text(object, "texels_reason", plan->texels_reason);
+    glint_json_put_real(object, "texels_relative_rmse", plan->texels_rmse);
     glint_json_put(object, "bvh_width", json_integer(plan->bvh_width));
     glint_json_put(object, "depth", json_integer(plan->depth));
     glint_json_put_flag(object, "depth_is_auto", plan->depth_is_auto);
@@ -126,6 +129,7 @@ json_t *glint_json_camera(const glint_camera *camera)
 
 json_t *glint_json_settings(const glint_settings *settings)
 {
+    static const char *const texels[] = {"auto", "half", "float"};
     bool is_double = settings->precision == GLINT_PRECISION_DOUBLE;
     json_t *object = json_object();
     glint_json_put(object, "width", json_integer(settings->width));
@@ -140,6 +144,7 @@ json_t *glint_json_settings(const glint_settings *settings)
     glint_json_put_text(object, "precision", is_double ? "double" : "float");
     glint_json_put_text(object, "fresnel",
                         settings->fresnel == GLINT_FRESNEL_NONE ? "none" : "exact");
+    glint_json_put_text(object, "texels", texels[settings->texels]);
     return object;
 }
 

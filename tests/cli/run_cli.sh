@@ -126,11 +126,12 @@ cat >in/mirror.gltf <<JSON
 JSON
 # The same with a rough mirror, which is said once.
 sed 's/"roughnessFactor": 0/"roughnessFactor": 0.5/' in/mirror.gltf >in/rough.gltf
-# Radiance, flat: 8 × 4 pixels of (1, 1, 1).
+# Radiance, flat: 8 × 4 pixels of (1, 1, 1), and of 2¹⁷, more than half can hold.
 {
     printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
     for _ in $(seq 32); do printf '\200\200\200\201'; done
 } >in/sky.hdr
+sed 's/\o201/\o222/g' in/sky.hdr >in/sun.hdr
 head -c 60 in/sky.hdr >in/short.hdr
 printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 40000 +X 40000\n' >in/huge.hdr
 printf 'not an image' >in/text.png
@@ -140,10 +141,10 @@ mkdir in/folder.gltf in/empty
 # ---- help ---------------------------------------------------------------------------------------
 
 render_options='output exposure compression exr-type stats progress kernel-dir env env-layout
-    env-rotate camera scene size samples depth min-weight background precision fresnel device
+    env-rotate camera scene size samples depth min-weight background precision fresnel texels device
     kernel-width kernel-tile help'
 info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
-    precision fresnel device kernel-width kernel-tile help'
+    precision fresnel texels device kernel-width kernel-tile help'
 
 help_mentions() { # COMMAND OPTION…
     local command=$1 option
@@ -198,7 +199,7 @@ refuses 2 '--json takes no value' info in/mirror.gltf --json=yes
 refuses 2 '--output' render in/mirror.gltf -o
 refuses 2 '--output' render in/mirror.gltf -o ''
 for option in env env-layout env-rotate camera scene size samples depth min-weight background \
-    precision device kernel-width exposure compression exr-type stats progress kernel-dir; do
+    precision texels device kernel-width exposure compression exr-type stats progress kernel-dir; do
     refuses 2 "--$option" render "${ok[@]}" "--$option"
 done
 for size in 0x10 10x0 -4x4 10 x10 10x 10x10x10 1.5x2 axb 100000x10 99999999999999999999x1 '10 x10'; do
@@ -217,6 +218,7 @@ for value in x 1x nan inf -inf 1e9 ''; do
 done
 refuses 2 '--min-weight' render "${ok[@]}" --min-weight -0.1
 refuses 2 '--precision half' render "${ok[@]}" --precision half
+refuses 2 '--texels double' render "${ok[@]}" --texels double
 refuses 2 '--background plate.png' render "${ok[@]}" --background plate.png
 refuses 2 '--progress loud' render "${ok[@]}" --progress loud
 refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
@@ -238,6 +240,7 @@ check 'inputs are whole after that' cmp -s in/mirror.gltf <(sed 's/"roughnessFac
 # ---- bad input ----------------------------------------------------------------------------------
 
 refuses 3 'in/missing.gltf: ' render in/missing.gltf -o out/x.png
+refuses 2 'is 131072, and half holds 65504' render "${ok[@]}" --env in/sun.hdr --texels half
 refuses 3 'in/missing.gltf: ' info in/missing.gltf
 refuses 3 'in/broken.gltf: ' render in/broken.gltf -o out/x.png
 refuses 3 'in/folder.gltf: ' render in/folder.gltf -o out/x.png
@@ -364,6 +367,10 @@ for width in 1 8 16; do
     renders "--kernel-width $width" out/x.png --kernel-width "$width"
     clean
 done
+for texels in auto half float; do
+    renders "--texels $texels" out/x.png --texels $texels
+    clean
+done
 run devices --json
 if grep -q '"fp64": true' stdout; then
     renders '--precision double' out/x.exr --precision double --exr-type float
@@ -459,12 +466,18 @@ cp stdout out/stats.json
 check 'info --json: triangles' stat_is 1 scene triangle_count
 check 'info --json: material' stat_is metal scene materials 0 kind
 check 'info --json: depth' stat_is 2 settings depth
+check 'info --json: texels' stat_is auto settings texels
+check 'info --json: they are half' stat_is half plan texels
+check 'info --json: and why' "$json_get" out/stats.json plan texels_reason
+check 'info --json: what that adds' stat_is_positive plan texels_relative_rmse
 check 'info --json: features' stat_is true plan features SUPERSAMPLING compiled
 check 'info --json: memory' stat_is_positive device_bytes
 check 'info --json: clusters' stat_is 1 bvh clusters
 check 'info --json: fill' stat_is 0.0625 bvh fill
 check 'info --json: bytes per triangle' stat_is_positive bvh bytes_per_triangle
 check 'info --json: the warning' "$json_get" out/stats.json warnings 0
+run info in/mirror.gltf --env in/sun.hdr
+check 'info says why texels are float' grep -q 'float texels: .* 131072' stdout
 clean
 OCL_ICD_VENDORS=$work/in/empty "$glint" info in/mirror.gltf >stdout 2>stderr
 check 'info works without a device' test $? -eq 0

@@ -32,7 +32,7 @@ static void store3(global scalar *out, real3 v, real fourth)
 }
 
 // The sizes and last offsets of the structs that the host shares, in the order of test_kernels.c.
-kernel void probe_layout(global const scalar *in, global scalar *out, global const float *texels,
+kernel void probe_layout(global const scalar *in, global scalar *out, global const void *texels,
                          int edge)
 {
     glint_material_record m;
@@ -52,7 +52,7 @@ kernel void probe_layout(global const scalar *in, global scalar *out, global con
 
 // in: cos θi, η. out: cos² θt, reflectance (where there is no total reflection), and for η as an index
 // of refraction the reflectance of its surface.
-kernel void probe_fresnel(global const scalar *in, global scalar *out, global const float *texels,
+kernel void probe_fresnel(global const scalar *in, global scalar *out, global const void *texels,
                           int edge)
 {
     real cosine = load(in, 0), eta = load(in, 1);
@@ -64,14 +64,14 @@ kernel void probe_fresnel(global const scalar *in, global scalar *out, global co
 
 // in: x ≤ 0. out: e^x.
 kernel void probe_exponential(global const scalar *in, global scalar *out,
-                              global const float *texels, int edge)
+                              global const void *texels, int edge)
 {
     store3(out, real3_of(exp_of_negative(load(in, 0)), real_of(0), real_of(0)), real_of(0));
 }
 
 // in: a vector. out: the unit vector, and 1 where there is one.
 kernel void probe_normalized(global const scalar *in, global scalar *out,
-                             global const float *texels, int edge)
+                             global const void *texels, int edge)
 {
     mask valid;
     real3 n = normalized(real3_of(load(in, 0), load(in, 1), load(in, 2)), &valid);
@@ -80,17 +80,18 @@ kernel void probe_normalized(global const scalar *in, global scalar *out,
 }
 
 // in: a direction. out: the map's colour along it.
-kernel void probe_cube(global const scalar *in, global scalar *out, global const float *texels,
+kernel void probe_cube(global const scalar *in, global scalar *out, global const void *texels,
                        int edge)
 {
     real3 d = real3_of(load(in, 0), load(in, 1), load(in, 2));
-    store3(out, sample_cube(texels, edge, d, mask_all()), real_of(0));
+    const cube_map map = {texels, edge, GLINT_HALF_TEXELS};
+    store3(out, sample_cube(&map, d, mask_all()), real_of(0));
 }
 
 // in: cos θi (of a viewer in the xz plane, normal +Z), η. out: the refracted direction's x and z, and
 // the reflected one's.
 kernel void probe_directions(global const scalar *in, global scalar *out,
-                             global const float *texels, int edge)
+                             global const void *texels, int edge)
 {
     real cosine = load(in, 0), eta = load(in, 1), zero = real_of(0);
     real sine = sqrt((R(1.0) - cosine) * (R(1.0) + cosine));
