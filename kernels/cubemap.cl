@@ -33,8 +33,9 @@ static inline cube_point find_on_cube(real3 d, int edge)
 
     // Texel i has its centre at s = (2i + 1)/edge − 1 and stands in column i + 1.
     scalar half_edge = (scalar)edge * R(0.5);
-    real column = fused(s / major, real_of(half_edge), real_of(half_edge + R(0.5)));
-    real row = fused(t / major, real_of(half_edge), real_of(half_edge + R(0.5)));
+    real per_major = half_edge / major;
+    real column = fused(s, per_major, real_of(half_edge + R(0.5)));
+    real row = fused(t, per_major, real_of(half_edge + R(0.5)));
     // A direction that is not finite must not read outside: NaN compares false and becomes 0.
     real last = real_of((scalar)edge + R(0.5));
     column = SELECT(column > R(0.0), SMALLER(column, last), real_of(0));

@@ -184,3 +184,55 @@ static inline void intersect_triangle(const packet *p, const float vertices[9], 
         hit->triangle = SELECT(taken, int_of(triangle), hit->triangle);
     }
 }
+
+// The same test of one ray against all triangles of a cluster, which stand from place `first` on:
+// operation by operation that of intersect_triangle, so that both find the same.
+static inline void intersect_by_ray(const packet *p, int ray, global const float *cluster,
+                                    global const int *numbers, int first, int count, int from,
+                                    closest *hit)
+{
+    const int z = (int)LANE_INT(p->axis, ray), x = (z + 1) % 3, y = (z + 2) % 3;
+    const block shear_x = block_of(-LANE(p->shear_x, ray)), shear_y = block_of(-LANE(p->shear_y, ray));
+    // Vertices relative to the origin, sheared, and then those of each corner.
+    block depth = load_block(cluster + z * GLINT_CLUSTER_LANES) - LANE(p->origin[z], ray);
+    block across = fused(shear_x, depth, load_block(cluster + x * GLINT_CLUSTER_LANES) -
+                                             LANE(p->origin[x], ray));
+    block up = fused(shear_y, depth, load_block(cluster + y * GLINT_CLUSTER_LANES) -
+                                         LANE(p->origin[y], ray));
+    global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
+    block cx[3], cy[3], cz[3];
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        uchar16 lanes = vload16(k, corners);
+        cx[k] = permute_block(across, lanes);
+        cy[k] = permute_block(up, lanes);
+        cz[k] = permute_block(depth, lanes);
+    }
+    block u = cx[2] * cy[1] - cy[2] * cx[1], v = cx[0] * cy[2] - cy[0] * cx[2];
+    block w = cx[1] * cy[0] - cy[1] * cx[0];
+    block_mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
+                        ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
+    block determinant = u + v + w;
+    inside &= (determinant != R(0.0)) & (BLOCK_LANES < (scalar)count) &
+              (BLOCK_LANES != (scalar)(from - first));
+    if (block_bits(inside) == 0) {
+        return;
+    }
+    block inverse = R(1.0) / SELECT(inside, determinant, block_of(1));
+    block t = fused(u, cz[0], fused(v, cz[1], w * cz[2])) * LANE(p->shear_z, ray) * inverse;
+    t = SELECT(inside & (t > R(0.0)) & (t <= LANE(hit->t, ray)), t, block_of(HUGE));
+    scalar nearest = smallest_of_16(t);
+    uint found = nearest < HUGE ? block_bits(t == nearest) : 0;
+    while (found != 0) {
+        int i = lowest_bit(found);
+        found &= found - 1;
+        int number = numbers[first + i];
+        if (nearest < LANE(hit->t, ray) || number < (int)LANE_INT(hit->triangle, ray)) {
+            LANE(hit->t, ray) = nearest;
+            LANE(hit->b1, ray) = ((scalar *)&v)[i] * ((scalar *)&inverse)[i];
+            LANE(hit->b2, ray) = ((scalar *)&w)[i] * ((scalar *)&inverse)[i];
+            LANE_INT(hit->place, ray) = first + i;
+            LANE_INT(hit->triangle, ray) = number;
+        }
+    }
+}

@@ -30,6 +30,7 @@
 #include "stack.cl"
 #include "traverse_packet.cl"
 #include "traverse_tile.cl"
+#include "lookups.cl"
 #include "shade.cl"
 #include "scatter.cl"
 #include "branches.cl"
@@ -77,9 +78,11 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
     real3 d = scale_add(join_vector(&frame->direction_y), y,
                         scale_add(join_vector(&frame->direction_x), x,
                                   join_vector(&frame->direction)));
-    real length = sqrt(dot3(d, d));
+    real length_squared = dot3(d, d); // 1 or more
+    real inverse = inverse_root(length_squared);
+    real length = length_squared * inverse;
     first->length = length;
-    ray.direction = real3_of(d.x / length, d.y / length, d.z / length);
+    ray.direction = scale(d, inverse);
     ray.weight = real3_of(real_of(1), real_of(1), real_of(1));
 #if GLINT_ABSORPTION
     ray.travelled = length * JOIN(frame->start[0], frame->start[1]);
@@ -263,19 +266,11 @@ static inline closest find_hits(const scene_buffers *scene, const image_space *i
     return hit;
 }
 
-// Adds what the rays in `escaped` bring from the environment.
-static inline void add_environment(const scene_buffers *scene, const glint_frame_record *frame,
-                                   const path *ray, mask escaped, real3 *radiance)
-{
-    real3 light = sample_cube(&scene->environment, turn_into_environment(frame, ray->direction), escaped);
-    real3 gathered = add(*radiance, multiply(ray->weight, light));
-    *radiance = select3(escaped, gathered, *radiance);
-}
-
-// Follows the primary rays in `active` to their ends. The result is the radiance that they gather.
+// Follows the primary rays of a group, those in `active`, to their ends. What they gather from the
+// environment is looked up later; the result is the radiance that they gather on their way.
 static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const image_space *image, const primary *first, path *ray,
-                                 mask active, tally *tally)
+                                 const image_space *image, const primary *first, int group,
+                                 path *ray, mask active, lookups *later, tally *tally)
 {
     real3 radiance = real3_of(real_of(0), real_of(0), real_of(0));
     lanes_int deepest = int_of(0);
@@ -299,7 +294,8 @@ static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_r
 #endif
         mask escaped = active & !met;
         if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
-            add_environment(scene, frame, ray, escaped, &radiance);
+            look_up_later(later, &scene->environment, turn_into_environment(frame, ray->direction),
+                          ray->weight, escaped, group);
         }
         active = mask_none();
 #if GLINT_GEOMETRY
@@ -377,16 +373,16 @@ static inline real3 describe_hits(const scene_buffers *scene, const image_space 
 }
 #endif
 
-// A tile's pixels as they add up, sample by sample.
-typedef struct tile_colors {
+// What a tile's pixels have gathered so far without the environment, sample by sample.
+typedef struct gathered {
     real3 color[TILE_GROUPS];
     real alpha[TILE_GROUPS];
-} tile_colors;
+} gathered;
 
 // Adds one sample of each pixel of a group.
 static inline void render_group(const scene_buffers *scene, const glint_frame_record *frame,
                                 const image_space *image, const tile *t, int group, mask inside,
-                                tile_colors *sum, tally *tally)
+                                gathered *sum, lookups *later, tally *tally)
 {
     primary first;
     first.x = t->x[group % TILE_COLUMNS];
@@ -397,7 +393,7 @@ static inline void render_group(const scene_buffers *scene, const glint_frame_re
 #if GLINT_HITS
     real3 color = describe_hits(scene, image, &first, &alpha);
 #else
-    real3 color = follow_paths(scene, frame, image, &first, &ray, inside, tally);
+    real3 color = follow_paths(scene, frame, image, &first, group, &ray, inside, later, tally);
 #if GLINT_TRANSPARENT
     alpha = SELECT(first.places >= (lane_int)0, alpha, real_of(0));
 #endif
@@ -406,27 +402,23 @@ static inline void render_group(const scene_buffers *scene, const glint_frame_re
     sum->alpha[group] += alpha;
 }
 
-// Writes a group's pixels that lie inside the image.
+// Writes a group's pixels that lie inside the image: the sums of samples of which each has `share`.
 static inline void store_group(global scalar *pixels, const glint_frame_record *frame, int x0,
-                               int y0, real3 color, real alpha)
+                               int y0, real3 color, real alpha, const scalar *environment,
+                               scalar share)
 {
-#ifdef HAS_PIXEL_ROWS
-    if (x0 + PACKET_WIDTH <= frame->width && y0 + PACKET_HEIGHT <= frame->height) {
-        pixel_row rows[PACKET_HEIGHT];
-        to_pixel_rows(color.x, color.y, color.z, alpha, rows);
-        for (int j = 0; j < PACKET_HEIGHT; j++) {
-            size_t first = (size_t)(y0 + j) * (size_t)frame->width + (size_t)x0;
-            store_pixel_row(rows[j], pixels + 4 * first);
-        }
-        return;
-    }
-#endif
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        int x = x0 + lane % PACKET_WIDTH, y = y0 + lane / PACKET_WIDTH;
-        if (x < frame->width && y < frame->height) {
-            scalar4 rgba = (scalar4)(LANE(color.x, lane), LANE(color.y, lane), LANE(color.z, lane),
-                                     LANE(alpha, lane));
-            vstore4(rgba, (size_t)y * (size_t)frame->width + (size_t)x, pixels);
+    scalar values[PIXEL_VALUES];
+    to_pixels(color.x, color.y, color.z, alpha, values);
+    for (int j = 0; j < PACKET_HEIGHT && y0 + j < frame->height; j++) {
+        pixel_row sums = load_pixel_row(j, values) + load_pixel_row(j, environment);
+        pixel_row means = sums * (pixel_row)share;
+        global scalar *row = pixels + 4 * ((size_t)(y0 + j) * (size_t)frame->width + (size_t)x0);
+        if (x0 + PACKET_WIDTH <= frame->width) {
+            store_pixel_row(means, 0, row);
+        } else {
+            for (int i = 0; i < 4 * (frame->width - x0); i++) {
+                row[i] = ((scalar *)&means)[i];
+            }
         }
     }
 }
@@ -436,9 +428,11 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
                                int column, int row, global scalar *pixels, tally *tally)
 {
     const image_space image = make_image_space(frame);
-    tile_colors sum;
+    gathered sum;
+    lookups later;
     mask inside[TILE_GROUPS];
     int pixel_count = 0;
+    begin_lookups(&later);
     for (int g = 0; g < TILE_GROUPS; g++) {
         const real zero = real_of(0);
         sum.color[g] = real3_of(zero, zero, zero);
@@ -459,15 +453,16 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
         trace_tile(&image, &t, scene->nodes, scene->clusters, scene->numbers);
 #endif
         for (int g = 0; g < TILE_GROUPS; g++) {
-            render_group(scene, frame, &image, &t, g, inside[g], &sum, tally);
+            render_group(scene, frame, &image, &t, g, inside[g], &sum, &later, tally);
         }
     }
+    finish_lookups(&later, &scene->environment);
     tally->counts[GLINT_COUNT_PRIMARY] = (ulong)(pixel_count * k * k);
     scalar share = R(1.0) / (scalar)(k * k);
     for (int g = 0; g < TILE_GROUPS; g++) {
         store_group(pixels, frame, column + g % TILE_COLUMNS * PACKET_WIDTH,
-                    row + g / TILE_COLUMNS * PACKET_HEIGHT, scale(sum.color[g], real_of(share)),
-                    sum.alpha[g] * share);
+                    row + g / TILE_COLUMNS * PACKET_HEIGHT, sum.color[g], sum.alpha[g],
+                    later.sums + PIXEL_VALUES * g, share);
     }
 }
 

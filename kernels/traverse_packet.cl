@@ -1,6 +1,9 @@
 // Closest hits of a packet of rays in the wide tree: one stack for all rays of the packet. A node's
 // boxes are tested all at once against the ranges of the packet's rays; a box that passes is then
 // tested against each ray, so that rays that have spread apart do not visit all that lies between.
+// At a leaf the loop runs over its triangles, each tested against all rays, or over the rays that meet
+// its box, each tested against all triangles, whichever is less work. The same operations in either
+// order: the same hits, bit for bit.
 
 // Puts the children that some ray meets on the stack, the nearest on top.
 static inline int push_children(const packet *p, global const float *node, mask active,
@@ -13,28 +16,49 @@ static inline int push_children(const packet *p, global const float *node, mask 
     while (met != 0) {
         int child = lowest_bit(met);
         met &= met - 1;
+        uint rays = 1;
 #if GLINT_WIDTH > 1
-        if (!any_lane(active & rays_meet_box(p, node, child, hit->t))) {
+        rays = mask_bits(active & rays_meet_box(p, node, child, hit->t));
+        if (rays == 0) {
             continue;
         }
 #endif
-        size = push_waiting(stack, base, size, node, child, ((scalar *)&entries)[child]);
+        size = push_waiting(stack, base, size, node, child, ((scalar *)&entries)[child], rays);
     }
     return size;
 }
 
-static inline void intersect_cluster(const packet *p, global const float *clusters,
-                                     global const int *numbers, int index, lanes_int from,
-                                     mask active, closest *hit)
+static inline void intersect_by_triangle(const packet *p, global const float *cluster,
+                                         global const int *numbers, int first, int count,
+                                         lanes_int from, mask active, closest *hit)
 {
-    global const float *cluster = clusters + (size_t)index * GLINT_CLUSTER_VALUES;
-    int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
     for (int lane = 0; lane < count; lane++) {
-        int place = index * GLINT_CLUSTER_LANES + lane;
+        int place = first + lane;
         float vertices[9];
         load_triangle(cluster, lane, vertices);
         intersect_triangle(p, vertices, place, numbers[place], active & (from != (lane_int)place),
                            hit);
+    }
+}
+
+// A loop over rays pays from this many triangles for each ray.
+#define TRIANGLES_PER_RAY 2
+
+static inline void intersect_cluster(const packet *p, global const float *clusters,
+                                     global const int *numbers, int index, uint rays,
+                                     lanes_int from, mask active, closest *hit)
+{
+    global const float *cluster = clusters + (size_t)index * GLINT_CLUSTER_VALUES;
+    const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
+    const int first = index * GLINT_CLUSTER_LANES;
+    if (GLINT_WIDTH > 1 && (int)popcount(rays) * TRIANGLES_PER_RAY > count) {
+        intersect_by_triangle(p, cluster, numbers, first, count, from, active, hit);
+        return;
+    }
+    while (rays != 0) {
+        int ray = lowest_bit(rays);
+        rays &= rays - 1;
+        intersect_by_ray(p, ray, cluster, numbers, first, count, (int)LANE_INT(from, ray), hit);
     }
 }
 
@@ -56,6 +80,7 @@ static inline closest trace_packet(global const float *nodes, global const float
     waiting stack[GLINT_TRAVERSAL_STACK];
     stack[0].child = 0;
     stack[0].entry = 0;
+    stack[0].rays = mask_bits(active);
     int size = 1;
     while (size > 0) {
         waiting next = stack[--size];
@@ -68,7 +93,7 @@ static inline closest trace_packet(global const float *nodes, global const float
             size = push_children(&p, node, active, &hit, stack, size);
             continue;
         }
-        intersect_cluster(&p, clusters, numbers, ~next.child, from, active, &hit);
+        intersect_cluster(&p, clusters, numbers, ~next.child, next.rays, from, active, &hit);
     }
     return hit;
 }

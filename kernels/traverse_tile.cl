@@ -463,11 +463,7 @@ static inline void update_depth(const image_space *s, tile *t, uint changed)
         changed &= changed - 1;
         ((scalar *)&t->farthest)[g] = smallest_lane(t->key[g]);
     }
-    block least = t->farthest;
-    scalar smallest = HUGE;
-    for (int g = 0; g < TILE_GROUPS; g++) {
-        smallest = SMALLER(((scalar *)&least)[g], smallest);
-    }
+    scalar smallest = smallest_of_16(t->farthest);
     t->least = smallest;
     if (smallest > (s->key_one > 0 ? R(0.0) : R(-0.5) * HUGE)) {
         scalar z = (s->key_one - smallest * s->offset) / (s->key_depth + smallest * s->slope);
@@ -525,7 +521,7 @@ static inline void trace_tile(const image_space *s, tile *t, global const float 
         while (met != 0) {
             int child = lowest_bit(met);
             met &= met - 1;
-            size = push_waiting(stack, base, size, node, child, ((scalar *)&near)[child]);
+            size = push_waiting(stack, base, size, node, child, ((scalar *)&near)[child], 0);
         }
     }
 }

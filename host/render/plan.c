@@ -404,7 +404,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     plan->depth_is_auto = settings->depth == 0;
     plan->depth = plan->depth_is_auto ? GLINT_DEPTH_MAX : settings->depth;
     if (settings->output == GLINT_OUTPUT_HITS) {
-        census = (material_census){.used = census.used};
+        census = (material_census){.used = 1}; // whatever they are, none is looked at
         plan->depth = 1;
     }
     decide_materials(&census, plan);

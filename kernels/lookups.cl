@@ -1,0 +1,61 @@
+// Look-ups in the environment that wait until there are many of them: the memory's answers to one
+// overlap with the questions of the next, which they do not while paths are traced in between.
+//
+// What they bring is added up for each pixel, in the order in which they were asked for, apart from
+// what paths gather otherwise: so the sums do not depend on when the look-ups are made.
+
+#define LOOKUPS TILE_GROUPS // of packets of rays
+
+typedef struct lookups {
+    int count;
+    int group[LOOKUPS];
+    uint wanted[LOOKUPS]; // rays, as bits
+    lanes_int first[LOOKUPS];
+    real right[LOOKUPS], down[LOOKUPS]; // see cube_point
+    scalar weights[LOOKUPS * PIXEL_VALUES];
+    scalar sums[TILE_GROUPS * PIXEL_VALUES];
+} lookups;
+
+static inline void begin_lookups(lookups *l)
+{
+    l->count = 0;
+    for (int i = 0; i < TILE_GROUPS * PIXEL_VALUES; i++) {
+        l->sums[i] = 0;
+    }
+}
+
+// Makes all look-ups that wait.
+static inline void finish_lookups(lookups *l, const cube_map *map)
+{
+    for (int i = 0; i < l->count; i++) {
+        const scalar *weights = l->weights + i * PIXEL_VALUES;
+        scalar *sums = l->sums + l->group[i] * PIXEL_VALUES;
+        uint left = l->wanted[i];
+        while (left != 0) {
+            int lane = lowest_bit(left);
+            left &= left - 1;
+            scalar4 light = fetch_from_cube(map, (size_t)LANE_INT(l->first[i], lane),
+                                            LANE(l->right[i], lane), LANE(l->down[i], lane));
+            vstore4(vload4(lane, sums) + vload4(lane, weights) * light, lane, sums);
+        }
+    }
+    l->count = 0;
+}
+
+// Adds what the environment sends against the directions, times the weights, for the rays in `wanted`
+// of a group.
+static inline void look_up_later(lookups *l, const cube_map *map, real3 direction, real3 weight,
+                                 mask wanted, int group)
+{
+    if (l->count == LOOKUPS) {
+        finish_lookups(l, map);
+    }
+    int i = l->count++;
+    cube_point point = find_on_cube(direction, map->edge);
+    l->group[i] = group;
+    l->wanted[i] = mask_bits(wanted);
+    l->first[i] = point.first;
+    l->right[i] = point.right;
+    l->down[i] = point.down;
+    to_pixels(weight.x, weight.y, weight.z, real_of(0), l->weights + i * PIXEL_VALUES);
+}
