@@ -1,0 +1,204 @@
+// Work in a process of its own. See child.h.
+#include "base/child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#define ASK_MS 100       // between two questions whether to stop
+#define PATIENCE_MS 1000 // from abandoning a child to SIGKILL
+#define NAP_MS 5
+
+// What the child sends first; the bytes of details and text follow, each without its end.
+typedef struct answer {
+    glint_status status;
+    char message[GLINT_MESSAGE_CAPACITY];
+    size_t details_length, text_length;
+    bool has_details;
+} answer;
+
+static int own_pipe = -1; // in a child: where its answer goes
+
+bool glint_child_is_abandoned(void)
+{
+    // A pipe whose other end is closed has an error, asked for or not.
+    struct pollfd pipe = {.fd = own_pipe};
+    return own_pipe >= 0 && poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR) != 0;
+}
+
+static bool send_all(int pipe, const void *from, size_t size)
+{
+    for (const char *bytes = from; size > 0;) {
+        ssize_t done = write(pipe, bytes, size);
+        if (done < 0 && errno != EINTR) {
+            return false;
+        }
+        if (done > 0) {
+            bytes += done;
+            size -= (size_t)done;
+        }
+    }
+    return true;
+}
+
+_Noreturn static void be_child(const glint_child *child, int pipe)
+{
+    own_pipe = pipe;
+    char *text = NULL;
+    glint_error error = {0};
+    answer reply = {.status = child->work(child->context, &text, &error)};
+    memcpy(reply.message, error.message, sizeof reply.message);
+    reply.has_details = error.details != NULL;
+    reply.details_length = reply.has_details ? strlen(error.details) : 0;
+    reply.text_length = text != NULL ? strlen(text) : 0;
+    bool sent = send_all(pipe, &reply, sizeof reply) &&
+                send_all(pipe, error.details, reply.details_length) &&
+                send_all(pipe, text, reply.text_length);
+    _exit(sent ? 0 : 1);
+}
+
+// True once `pipe` can be read; false if a stop was requested before.
+static bool wait_for(int pipe, const glint_child *child)
+{
+    struct pollfd waited = {.fd = pipe, .events = POLLIN};
+    for (;;) {
+        if (child->stop_requested != NULL && child->stop_requested()) {
+            return false;
+        }
+        if (poll(&waited, 1, ASK_MS) > 0) {
+            return true;
+        }
+    }
+}
+
+static bool receive_all(int pipe, const glint_child *child, void *to, size_t size)
+{
+    for (char *bytes = to; size > 0;) {
+        if (!wait_for(pipe, child)) {
+            return false;
+        }
+        ssize_t done = read(pipe, bytes, size);
+        if (done == 0 || (done < 0 && errno != EINTR)) {
+            return false;
+        }
+        if (done > 0) {
+            bytes += done;
+            size -= (size_t)done;
+        }
+    }
+    return true;
+}
+
+// A text of `length` bytes and its end; NULL where it does not come or finds no memory.
+static char *receive_text(int pipe, const glint_child *child, size_t length)
+{
+    char *text = calloc(length + 1, 1);
+    if (text != NULL && !receive_all(pipe, child, text, length)) {
+        free(text);
+        text = NULL;
+    }
+    return text;
+}
+
+// False if the child did not give the whole of its answer.
+static bool receive(int pipe, const glint_child *child, glint_status *status, char **text,
+                    glint_error *error)
+{
+    answer reply;
+    if (!receive_all(pipe, child, &reply, sizeof reply)) {
+        return false;
+    }
+    *status = reply.status;
+    if (reply.status != GLINT_OK) {
+        glint_fail(error, reply.status, "%s", reply.message);
+    }
+    if (reply.has_details) {
+        char *details = receive_text(pipe, child, reply.details_length);
+        if (details == NULL) {
+            return false;
+        }
+        if (error != NULL) {
+            error->details = details;
+        } else {
+            free(details);
+        }
+    }
+    if (reply.status == GLINT_OK) {
+        *text = receive_text(pipe, child, reply.text_length);
+    }
+    return reply.status != GLINT_OK || *text != NULL;
+}
+
+static pid_t reap(pid_t process, int *how, int options)
+{
+    pid_t result;
+    do {
+        result = waitpid(process, how, options);
+    } while (result < 0 && errno == EINTR);
+    return result;
+}
+
+// After its pipe was closed.
+static void end_child(pid_t process, bool is_expendable)
+{
+    int how;
+    const struct timespec nap = {.tv_nsec = NAP_MS * 1000000L};
+    for (int waited = 0; !is_expendable && waited < PATIENCE_MS; waited += NAP_MS) {
+        if (reap(process, &how, WNOHANG) != 0) {
+            return;
+        }
+        nanosleep(&nap, NULL);
+    }
+    kill(process, SIGKILL);
+    reap(process, &how, 0);
+}
+
+// What there is to say of a child that ended without an answer.
+static glint_status fail_without_answer(int how, glint_error *error)
+{
+    if (WIFSIGNALED(how)) {
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "the process that did the work was ended by signal %d, %s (the driver's "
+                          "fault, or too little memory)",
+                          WTERMSIG(how), strsignal(WTERMSIG(how)));
+    }
+    return glint_fail(error, GLINT_DEVICE_FAILED,
+                      "the process that did the work ended early, with status %d",
+                      WIFEXITED(how) ? WEXITSTATUS(how) : -1);
+}
+
+glint_status glint_child_run(const glint_child *child, char **text, glint_error *error)
+{
+    *text = NULL;
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) {
+        return glint_fail(error, GLINT_DEVICE_FAILED, "no pipe to another process: %s",
+                          strerror(errno));
+    }
+    pid_t process = fork();
+    if (process == 0) {
+        close(ends[0]);
+        be_child(child, ends[1]);
+    }
+    close(ends[1]);
+    if (process < 0) {
+        close(ends[0]);
+        return glint_fail(error, GLINT_DEVICE_FAILED, "no other process: %s", strerror(errno));
+    }
+    glint_status status = GLINT_OK;
+    bool answered = receive(ends[0], child, &status, text, error);
+    close(ends[0]);
+    if (!answered && child->stop_requested != NULL && child->stop_requested()) {
+        end_child(process, child->is_expendable);
+        return glint_fail(error, GLINT_INTERRUPTED, "stopped");
+    }
+    int how = 0;
+    reap(process, &how, 0);
+    return answered ? status : fail_without_answer(how, error);
+}
