@@ -303,6 +303,20 @@ const glint_phases *glint_renderer_phases(const glint_renderer *renderer)
     return &renderer->phases;
 }
 
+glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
+{
+    const glint_scene_memory *memory = &renderer->memory;
+    return (glint_device_bytes){
+        .scene = glint_buffer_bytes(memory->clusters) + glint_buffer_bytes(memory->normals) +
+                 glint_buffer_bytes(memory->numbers) + glint_buffer_bytes(memory->materials) +
+                 glint_buffer_bytes(memory->media),
+        .tree = glint_buffer_bytes(memory->nodes),
+        .environment =
+            glint_buffer_bytes(memory->environment) + glint_buffer_bytes(memory->irradiance),
+        .frame = glint_buffer_bytes(renderer->pixels),
+    };
+}
+
 void glint_renderer_free(glint_renderer *renderer)
 {
     if (renderer == NULL) {

@@ -80,6 +80,16 @@ const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);
 const glint_phases *glint_renderer_phases(const glint_renderer *renderer);
 
+// Bytes that the renderer holds on the device.
+typedef struct glint_device_bytes {
+    size_t scene;       // clusters of triangles, normals, materials
+    size_t tree;        // nodes
+    size_t environment; // with the irradiance map
+    size_t frame;       // pixels
+} glint_device_bytes;
+
+glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
+
 // Renders with `camera` into a new RGBA image (premultiplied, linear). `progress` and `report` may
 // be NULL. On failure `image` is left empty.
 glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,

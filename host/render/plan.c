@@ -401,6 +401,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
         return status;
     }
     plan->precision = settings->precision;
+    plan->build_tag = settings->build_tag;
     plan->depth_is_auto = settings->depth == 0;
     plan->depth = plan->depth_is_auto ? GLINT_DEPTH_MAX : settings->depth;
     if (settings->output == GLINT_OUTPUT_HITS) {
@@ -457,6 +458,9 @@ void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacit
     for (int i = 0; i < GLINT_FEATURE_COUNT && used < capacity; i++) {
         used += (size_t)snprintf(text + used, capacity - used, " -DGLINT_%s=%d",
                                  glint_feature_name((glint_feature)i), plan->features[i].compiled);
+    }
+    if (plan->build_tag != 0 && used < capacity) {
+        snprintf(text + used, capacity - used, " -DGLINT_BUILD_TAG=%u", plan->build_tag);
     }
 }
 

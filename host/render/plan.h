@@ -12,6 +12,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef enum glint_precision {
     GLINT_PRECISION_FLOAT,
@@ -66,6 +67,9 @@ typedef struct glint_settings {
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
     bool all_features; // compile everything, needed or not (to test that it changes nothing)
+    // 0, or a number that the kernels get and do not read: a build with a new one is in no driver's
+    // cache yet (to time it).
+    uint32_t build_tag;
 } glint_settings;
 
 extern const glint_settings glint_settings_default; // 1280 × 720, 1 sample, auto, 1/1024, float
@@ -96,6 +100,7 @@ typedef struct glint_plan {
     int media_capacity;  // entries of that stack
     int traversal_stack; // entries of the traversal's stack; set once the tree is built
     size_t environment_bytes; // device memory for the environment
+    uint32_t build_tag;       // the settings'
 } glint_plan;
 
 // Names of a feature and what it adds, from kernels/features.h.

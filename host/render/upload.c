@@ -84,6 +84,15 @@ glint_status glint_buffer_create(const struct glint_device *device, const char *
     return code == CL_SUCCESS ? GLINT_OK : glint_fail_opencl(error, device, what, code);
 }
 
+size_t glint_buffer_bytes(cl_mem buffer)
+{
+    size_t bytes = 0;
+    if (buffer != NULL) {
+        clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof bytes, &bytes, NULL);
+    }
+    return bytes;
+}
+
 // The tree's arrays are the device's already.
 static glint_status upload_tree(const glint_upload_inputs *in, glint_scene_memory *memory,
                                 glint_error *error)

@@ -41,4 +41,7 @@ void glint_scene_memory_free(glint_scene_memory *memory);
 glint_status glint_buffer_create(const struct glint_device *device, const char *what, size_t bytes,
                                  const void *data, cl_mem *buffer, glint_error *error);
 
+// What the buffer takes, 0 for NULL.
+size_t glint_buffer_bytes(cl_mem buffer);
+
 #endif
