@@ -26,22 +26,20 @@ static void *work(void *argument)
     }
 }
 
-// The cores that this process may run on, which a container or taskset may have narrowed.
-static size_t usable_cores(void)
+int glint_usable_cores(void)
 {
     cpu_set_t set;
     CPU_ZERO(&set);
     int cores = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-    return cores < 1 ? 1 : (cores < THREADS_MAX ? (size_t)cores : THREADS_MAX);
+    return cores < 1 ? 1 : cores;
 }
 
 void glint_parallel_for(size_t count, void (*body)(size_t index, void *context), void *context)
 {
     job shared = {.count = count, .body = body, .context = context};
-    size_t wanted = usable_cores();
-    if (wanted > count) {
-        wanted = count;
-    }
+    size_t wanted = (size_t)glint_usable_cores();
+    wanted = wanted < THREADS_MAX ? wanted : THREADS_MAX;
+    wanted = wanted < count ? wanted : count;
     pthread_t threads[THREADS_MAX];
     size_t started = 0;
     // The caller is one of the workers.

@@ -8,6 +8,10 @@
 extern "C" {
 #endif
 
+// The cores that this process may run on, which a container or taskset may have narrowed; 1 at
+// least.
+int glint_usable_cores(void);
+
 // Calls body(index, context) once for each index below `count`, from several threads and in any
 // order, and returns when all are done. What the body computes must depend on the index alone, so
 // that the result is the same for any number of threads. Where no thread can be started the caller

@@ -4,6 +4,7 @@
 #include "image/output_file.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,6 +63,30 @@ json_t *glint_json_warnings(const glint_warnings *warnings)
         (void)json_array_append_new(list, text_or_null(warnings->texts[i]));
     }
     return list;
+}
+
+json_t *glint_json_at(const json_t *root, const char *path)
+{
+    json_t *value = NULL;
+    for (const json_t *object = root; object != NULL && *path != '\0'; object = value) {
+        char name[64];
+        size_t length = strcspn(path, ".");
+        snprintf(name, sizeof name, "%.*s", (int)length, path);
+        value = json_object_get(object, name);
+        path += length + (path[length] == '.' ? 1 : 0);
+    }
+    return value;
+}
+
+double glint_json_real_at(const json_t *root, const char *path)
+{
+    const json_t *value = glint_json_at(root, path);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+const char *glint_json_text_at(const json_t *root, const char *path)
+{
+    return json_string_value(glint_json_at(root, path));
 }
 
 glint_status glint_json_print(json_t *root, char **text, glint_error *error)

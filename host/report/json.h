@@ -5,6 +5,7 @@
 #define GLINT_REPORT_JSON_H
 
 #include "base/status.h"
+#include "render/frame.h"
 #include "report/subject.h"
 
 #include <jansson.h>
@@ -26,9 +27,17 @@ json_t *glint_json_environment(const glint_environment *environment);
 json_t *glint_json_camera(const glint_camera *camera);
 json_t *glint_json_settings(const glint_settings *settings);
 json_t *glint_json_warnings(const glint_warnings *warnings);
+json_t *glint_json_rays(const glint_ray_counts *rays);
+json_t *glint_json_truncation(const glint_truncation *truncation);
 // Counts and bounds; with `everything` also the materials, the instances and the cameras.
 // `topology` may be NULL.
 json_t *glint_json_scene(const glint_scene *scene, const glint_topology *topology, bool everything);
+
+// The value at the end of the names in `path`, "frames.kernel.median"; NULL where there is none. Of
+// the wrong type or missing, a number is NaN and a text is NULL. All borrowed.
+json_t *glint_json_at(const json_t *root, const char *path);
+double glint_json_real_at(const json_t *root, const char *path);
+const char *glint_json_text_at(const json_t *root, const char *path);
 
 // Writes `root` indented into the file, whole or not at all (image/output_file.h). Takes the
 // reference, also where it is NULL (memory was short when it was made). Errors:

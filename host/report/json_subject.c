@@ -127,6 +127,11 @@ json_t *glint_json_camera(const glint_camera *camera)
     return object;
 }
 
+static json_t *number_or_auto(int number)
+{
+    return number == 0 ? json_string("auto") : json_integer(number);
+}
+
 json_t *glint_json_settings(const glint_settings *settings)
 {
     static const char *const texels[] = {"auto", "half", "float"};
@@ -136,8 +141,7 @@ json_t *glint_json_settings(const glint_settings *settings)
     glint_json_put(object, "height", json_integer(settings->height));
     glint_json_put(object, "samples",
                    json_integer(settings->samples_per_axis * settings->samples_per_axis));
-    glint_json_put(object, "depth",
-                   settings->depth == 0 ? json_string("auto") : json_integer(settings->depth));
+    glint_json_put(object, "depth", number_or_auto(settings->depth));
     glint_json_put_real(object, "min_weight", settings->min_weight);
     glint_json_put_text(object, "background", settings->transparent ? "transparent" : "env");
     glint_json_put_real(object, "env_rotate_degrees", settings->env_rotate);
@@ -145,6 +149,8 @@ json_t *glint_json_settings(const glint_settings *settings)
     glint_json_put_text(object, "fresnel",
                         settings->fresnel == GLINT_FRESNEL_NONE ? "none" : "exact");
     glint_json_put_text(object, "texels", texels[settings->texels]);
+    glint_json_put(object, "kernel_width", number_or_auto(settings->kernel_width));
+    glint_json_put(object, "kernel_tile", number_or_auto(settings->tile_packets));
     return object;
 }
 

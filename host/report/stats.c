@@ -2,8 +2,7 @@
 #include "report/stats.h"
 
 #include "report/json.h"
-
-#include <sys/resource.h>
+#include "report/machine.h"
 
 uint64_t glint_stats_rays(const glint_ray_counts *rays)
 {
@@ -35,19 +34,6 @@ static json_t *milliseconds_object(const glint_stats *stats)
     return object;
 }
 
-static json_t *rays_object(const glint_ray_counts *rays)
-{
-    json_t *object = json_object();
-    glint_json_put_count(object, "primary", rays->primary);
-    glint_json_put_count(object, "reflected", rays->reflected);
-    glint_json_put_count(object, "refracted_in", rays->refracted_in);
-    glint_json_put_count(object, "refracted_out", rays->refracted_out);
-    glint_json_put_count(object, "transmitted", rays->transmitted);
-    glint_json_put_count(object, "all", glint_stats_rays(rays));
-    glint_json_put_count(object, "total_reflections", rays->total_reflections);
-    return object;
-}
-
 static json_t *rates_object(const glint_frame_report *frame)
 {
     // Rays in 1e6 over milliseconds in 1e-3: a kernel time of 0 gives null.
@@ -55,28 +41,6 @@ static json_t *rates_object(const glint_frame_report *frame)
     json_t *object = json_object();
     glint_json_put_real(object, "primary", (double)frame->rays.primary * scale);
     glint_json_put_real(object, "all", (double)glint_stats_rays(&frame->rays) * scale);
-    return object;
-}
-
-static json_t *truncation_object(const glint_truncation *truncation)
-{
-    json_t *object = json_object();
-    glint_json_put_real(object, "by_depth", truncation->by_depth);
-    glint_json_put_real(object, "by_min_weight", truncation->by_min_weight);
-    glint_json_put_real(object, "by_stack", truncation->by_stack);
-    glint_json_put_real(object, "total", glint_stats_truncated(truncation));
-    glint_json_put_count(object, "media_overflows", truncation->media_overflows);
-    return object;
-}
-
-static json_t *memory_object(void)
-{
-    struct rusage usage = {0};
-    json_t *object = json_object();
-    if (getrusage(RUSAGE_SELF, &usage) == 0) {
-        // Linux counts in KiB.
-        glint_json_put_count(object, "peak_resident_bytes", (uint64_t)usage.ru_maxrss * 1024);
-    }
     return object;
 }
 
@@ -90,9 +54,9 @@ glint_status glint_stats_write(const char *path, const glint_stats *stats, glint
     glint_json_put_real(settings, "exposure", stats->exposure);
     glint_json_put(root, "settings", settings);
     glint_json_put(root, "milliseconds", milliseconds_object(stats));
-    glint_json_put(root, "rays", rays_object(&stats->frame->rays));
+    glint_json_put(root, "rays", glint_json_rays(&stats->frame->rays));
     glint_json_put(root, "mrays_per_second", rates_object(stats->frame));
-    glint_json_put(root, "truncated_weight", truncation_object(&stats->frame->truncation));
+    glint_json_put(root, "truncated_weight", glint_json_truncation(&stats->frame->truncation));
     glint_json_put_count(root, "deepest_path", stats->frame->deepest);
     glint_json_put_count(root, "nonfinite_pixels", stats->frame->nonfinite_pixels);
     glint_json_put(root, "plan", glint_json_plan(subject->plan));
@@ -101,7 +65,9 @@ glint_status glint_stats_write(const char *path, const glint_stats *stats, glint
     glint_json_put(root, "scene", glint_json_scene(subject->scene, NULL, false));
     glint_json_put(root, "environment", glint_json_environment(subject->environment));
     glint_json_put(root, "camera", glint_json_camera(subject->camera));
-    glint_json_put(root, "memory", memory_object());
+    json_t *memory = json_object();
+    glint_json_put_count(memory, "peak_resident_bytes", glint_peak_resident_bytes());
+    glint_json_put(root, "memory", memory);
     glint_json_put(root, "warnings", glint_json_warnings(subject->warnings));
     return glint_json_write(path, root, error);
 }
