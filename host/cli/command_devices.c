@@ -42,9 +42,9 @@ static void print_table(const glint_capabilities *devices, size_t count)
     }
 }
 
-static glint_status run(void *context, const char *positional, glint_error *error)
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
-    (void)positional;
+    (void)arguments;
     const devices_request *request = context;
     glint_capabilities *devices = NULL;
     char *text = NULL;

@@ -24,7 +24,7 @@ static const glint_option output_options[] = {
 };
 
 static const glint_option *const groups[] = {output_options, glint_input_options,
-                                             glint_settings_options, NULL};
+                                             glint_size_options, glint_settings_options, NULL};
 
 // Everything a run holds. Zero is valid.
 typedef struct info_work {
@@ -294,10 +294,10 @@ static void set_defaults(void *request)
     glint_input_request_default(&((info_request *)request)->inputs);
 }
 
-static glint_status run(void *context, const char *positional, glint_error *error)
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
     info_request *request = context;
-    request->inputs.scene = positional;
+    request->inputs.scene = arguments->positionals[0];
     info_work work = {0};
     glint_status status = glint_input_request_finish(&request->inputs, error);
     if (status == GLINT_OK) {

@@ -12,7 +12,6 @@
 #include "report/stats.h"
 
 #include <stdio.h>
-#include <sys/stat.h>
 
 #define TRUNCATION_WORTH_SAYING 5e-3 // share of all weight
 
@@ -20,7 +19,6 @@ typedef struct render_request {
     glint_input_request inputs; // first: the shared tables' offsets count from here
     const char *output;
     const char *stats;
-    const char *kernel_dir;
     const char *compression;
     int exr_type; // index into EXR_TYPES
     double exposure;
@@ -56,14 +54,12 @@ static const glint_option output_options[] = {
              "on a terminal and plain elsewhere.",
      .fallback = "auto", .offset = offsetof(render_request, progress),
      .choices = GLINT_PROGRESS_CHOICES},
-    {GLINT_OPTION_TEXT, .name = "kernel-dir", .argument = "DIR",
-     .help = "Read the kernels from this folder instead of those built in, to edit them.",
-     .offset = offsetof(render_request, kernel_dir)},
     GLINT_OPTION_END,
 };
 
-static const glint_option *const groups[] = {output_options, glint_input_options,
-                                             glint_settings_options, NULL};
+static const glint_option *const groups[] = {output_options,           glint_input_options,
+                                             glint_size_options,       glint_settings_options,
+                                             glint_kernel_dir_options, NULL};
 
 // Everything a run holds. Zero is valid.
 typedef struct render_work {
@@ -126,12 +122,6 @@ static glint_status check_request(render_request *request, glint_error *error)
     if (status == GLINT_OK && request->stats != NULL) {
         status = glint_output_file_check(request->stats, error);
     }
-    struct stat facts;
-    if (status == GLINT_OK && request->kernel_dir != NULL &&
-        (stat(request->kernel_dir, &facts) != 0 || !S_ISDIR(facts.st_mode))) {
-        status = glint_fail(error, GLINT_BAD_INPUT, "%s: not a folder (--kernel-dir)",
-                            request->kernel_dir);
-    }
     return status;
 }
 
@@ -169,7 +159,7 @@ static glint_status create_renderer(const render_request *request, render_work *
         .scene = &work->inputs.scene,
         .environment = &work->inputs.environment,
         .settings = &request->inputs.settings,
-        .kernel_dir = request->kernel_dir,
+        .kernel_dir = request->inputs.kernel_dir,
     };
     return glint_renderer_create(&inputs, &work->renderer, error);
 }
@@ -331,10 +321,10 @@ static void set_defaults(void *request)
     glint_input_request_default(&((render_request *)request)->inputs);
 }
 
-static glint_status run(void *context, const char *positional, glint_error *error)
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
     render_request *request = context;
-    request->inputs.scene = positional;
+    request->inputs.scene = arguments->positionals[0];
     glint_status status = check_request(request, error);
     if (status != GLINT_OK) {
         return status;

@@ -1,11 +1,13 @@
-// The options that `render` and `info` share, and loading what they name. See inputs.h.
+// The options that commands on a scene share, and loading what they name. See inputs.h.
 #include "cli/inputs.h"
+
+#include "scene/built_in.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
-#define SIZE_MAX_PIXELS 65536.0 // of one side: what the hard cases ask for, and image formats hold
 #define SAMPLES_MAX (GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX)
 #define DEPTH_MAX 65535
 
@@ -137,11 +139,9 @@ const glint_option glint_input_options[] = {
     GLINT_OPTION_END,
 };
 
+const glint_option glint_size_options[] = {GLINT_SIZE_OPTIONS("1280x720"), GLINT_OPTION_END};
+
 const glint_option glint_settings_options[] = {
-    {GLINT_OPTION_HEADING, .help = "What is computed"},
-    {GLINT_OPTION_SIZE, .name = "size", .argument = "WxH",
-     .help = "Width and height of the frame in pixels.", .fallback = "1280x720",
-     .offset = OFFSET(size), .minimum = 1, .maximum = SIZE_MAX_PIXELS},
     {GLINT_OPTION_CUSTOM, .name = "samples", .argument = "K2",
      .help = "Samples a pixel, a square number: a regular grid.", .fallback = "1",
      .offset = OFFSET(settings.samples_per_axis), .parse = parse_samples},
@@ -183,6 +183,13 @@ const glint_option glint_settings_options[] = {
     GLINT_OPTION_END,
 };
 
+const glint_option glint_kernel_dir_options[] = {
+    {GLINT_OPTION_TEXT, .name = "kernel-dir", .argument = "DIR",
+     .help = "Read the kernels from this folder instead of those built in, to edit them.",
+     .offset = OFFSET(kernel_dir)},
+    GLINT_OPTION_END,
+};
+
 void glint_input_request_default(glint_input_request *request)
 {
     *request = (glint_input_request){.settings = glint_settings_default};
@@ -196,6 +203,12 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
         return glint_fail(error, GLINT_USAGE,
                           "--env-layout: it says how a file is read, but no --env is given");
     }
+    struct stat facts;
+    if (request->kernel_dir != NULL &&
+        (stat(request->kernel_dir, &facts) != 0 || !S_ISDIR(facts.st_mode))) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: not a folder (--kernel-dir)",
+                          request->kernel_dir);
+    }
     request->settings.width = request->size[0];
     request->settings.height = request->size[1];
     request->settings.precision =
@@ -203,6 +216,16 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
     request->settings.fresnel = request->fresnel == 0 ? GLINT_FRESNEL_EXACT : GLINT_FRESNEL_NONE;
     request->settings.texels = (glint_texels)request->texels;
     return GLINT_OK;
+}
+
+static glint_status load_scene(const glint_input_request *request, glint_inputs *inputs,
+                               glint_error *error)
+{
+    if (request->is_built_in) {
+        return glint_built_in_scene(request->scene, &inputs->scene, error);
+    }
+    const glint_scene_options options = {.scene = request->scene_name};
+    return glint_scene_load(request->scene, &options, &inputs->scene, &inputs->warnings, error);
 }
 
 static glint_status load_environment(const glint_input_request *request, glint_inputs *inputs,
@@ -221,9 +244,7 @@ glint_status glint_inputs_load(const glint_input_request *request, glint_progres
     *inputs = (glint_inputs){0};
     double begun = glint_progress_elapsed(display);
     glint_progress_phase(display, "load_scene", "loading the scene");
-    const glint_scene_options options = {.scene = request->scene_name};
-    glint_status status =
-        glint_scene_load(request->scene, &options, &inputs->scene, &inputs->warnings, error);
+    glint_status status = load_scene(request, inputs, error);
     inputs->scene_ms = glint_progress_elapsed(display) - begun;
     if (status == GLINT_OK) {
         status = glint_scene_camera(&inputs->scene, request->camera, &inputs->camera, error);

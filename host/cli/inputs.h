@@ -1,4 +1,5 @@
-// What `render` and `info` share: their common options, and loading scene, environment, camera.
+// What the commands share that work on a scene: their common options, and loading scene,
+// environment and camera.
 #ifndef GLINT_CLI_INPUTS_H
 #define GLINT_CLI_INPUTS_H
 
@@ -12,12 +13,14 @@
 // What the command line says of the inputs and of what is computed from them. Texts are borrowed
 // from argv.
 typedef struct glint_input_request {
-    const char *scene; // the file
+    const char *scene; // the file, or the name of a built-in scene
+    bool is_built_in;
     const char *scene_name;
     const char *camera;
     const char *env;
     glint_layout env_layout;
     const char *device;
+    const char *kernel_dir; // NULL: the embedded kernels
     int size[2];
     int precision; // 0 float, 1 double
     int fresnel;   // 0 exact, 1 none
@@ -25,15 +28,29 @@ typedef struct glint_input_request {
     glint_settings settings;
 } glint_input_request;
 
-// Tables of options for a request whose first member is a glint_input_request.
+// Tables of options for a request whose first member is a glint_input_request. The settings and the
+// kernels' folder follow the size under the same heading.
 extern const glint_option glint_input_options[];
+extern const glint_option glint_size_options[];
 extern const glint_option glint_settings_options[];
+extern const glint_option glint_kernel_dir_options[];
+
+// The heading and the row of glint_size_options, for a command with a size of its own as default.
+#define GLINT_SIZE_OPTIONS(default_size)                                                           \
+    {GLINT_OPTION_HEADING, .help = "What is computed"},                                            \
+    {                                                                                              \
+        GLINT_OPTION_SIZE,                                                                         \
+            .name = "size", .argument = "WxH", .help = "Width and height of the frame in pixels.", \
+            .fallback = (default_size), .offset = offsetof(glint_input_request, size),             \
+            .minimum = 1, .maximum = GLINT_SIZE_MAX_PIXELS                                         \
+    }
+#define GLINT_SIZE_MAX_PIXELS 65536.0 // of one side: what the hard cases ask for, and formats hold
 
 // Fills the request with the defaults.
 void glint_input_request_default(glint_input_request *request);
 
 // Checks what the parser cannot see, options that only make sense together, and completes the
-// settings. Errors: GLINT_USAGE.
+// settings. Errors: GLINT_USAGE; GLINT_BAD_INPUT where --kernel-dir is no folder.
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
 
 // What was loaded. Zero is valid and empty.

@@ -113,7 +113,7 @@ static glint_status run_command(const glint_command *command, int argc, char **a
     if (status == GLINT_OK && arguments.help) {
         glint_options_help(command, text_columns(), stdout);
     } else if (status == GLINT_OK) {
-        status = command->run(request, arguments.positional, error);
+        status = command->run(request, &arguments, error);
     }
     free(request);
     return status;

@@ -253,6 +253,26 @@ static glint_status parse_one(const glint_command *command, const getopt_tables 
     return parse_value(option, optarg, request, error);
 }
 
+static glint_status check_positionals(const glint_command *command,
+                                      const glint_arguments *arguments, glint_error *error)
+{
+    int count = arguments->positional_count;
+    int most = command->positional == NULL ? 0 : command->takes_any_number ? count : 1;
+    if (count > most) {
+        return glint_fail(error, GLINT_USAGE, "unexpected argument '%s' (usage: glint %s %s)",
+                          arguments->positionals[most], command->name, command->synopsis);
+    }
+    bool is_missing = count == 0 && most == 1;
+    for (int i = 0; i < count; i++) {
+        is_missing = is_missing || arguments->positionals[i][0] == '\0';
+    }
+    if (is_missing) {
+        return glint_fail(error, GLINT_USAGE, "%s is missing (usage: glint %s %s)",
+                          command->positional, command->name, command->synopsis);
+    }
+    return GLINT_OK;
+}
+
 glint_status glint_options_parse(const glint_command *command, int argc, char **argv, void *request,
                                  glint_arguments *arguments, glint_error *error)
 {
@@ -272,15 +292,7 @@ glint_status glint_options_parse(const glint_command *command, int argc, char **
             return status;
         }
     }
-    int wanted = command->positional != NULL ? 1 : 0;
-    if (argc - optind > wanted) {
-        return glint_fail(error, GLINT_USAGE, "unexpected argument '%s' (usage: glint %s %s)",
-                          argv[optind + wanted], command->name, command->synopsis);
-    }
-    if (argc - optind < wanted || (wanted == 1 && argv[optind][0] == '\0')) {
-        return glint_fail(error, GLINT_USAGE, "%s is missing (usage: glint %s %s)",
-                          command->positional, command->name, command->synopsis);
-    }
-    arguments->positional = wanted == 1 ? argv[optind] : NULL;
-    return GLINT_OK;
+    arguments->positionals = argv + optind;
+    arguments->positional_count = argc - optind;
+    return check_positionals(command, arguments, error);
 }

@@ -47,6 +47,13 @@ struct glint_option {
         .help = NULL                                                                               \
     }
 
+// What the parser found besides the options.
+typedef struct glint_arguments {
+    bool help;                // --help was given: nothing else was looked at
+    char *const *positionals; // borrowed from argv, in the order of the command line
+    int positional_count;
+} glint_arguments;
+
 typedef struct glint_command {
     const char *name;                  // "render"
     const char *summary;               // for the list of commands, under 60 columns
@@ -54,21 +61,15 @@ typedef struct glint_command {
     const char *description;           // paragraphs, wrapped by the help; '\n' separates them
     const char *examples;              // lines, printed as they are; NULL: none
     const glint_option *const *groups; // tables, NULL at the end
-    const char *positional; // what the one positional argument is called: "SCENE"; NULL: none
+    const char *positional; // what a positional argument is called: "SCENE"; NULL: none is taken
+    bool takes_any_number;  // of them, none too; else exactly one
     size_t request_size;    // of the struct that the tables' offsets count in
     void (*set_defaults)(void *request); // on a zeroed request; NULL: zero is the default
-    // `positional` is borrowed from argv; NULL only when the command takes none.
-    glint_status (*run)(void *request, const char *positional, glint_error *error);
+    glint_status (*run)(void *request, const glint_arguments *arguments, glint_error *error);
 } glint_command;
 
-// What the parser found besides the options.
-typedef struct glint_arguments {
-    bool help;              // --help was given: nothing else was looked at
-    const char *positional; // borrowed from argv; NULL only when the command takes none
-} glint_arguments;
-
 // Parses argv[1 … argc − 1] (argv[0] is the command's name) into `request`, which holds the
-// defaults already. Options may stand before and after the positional argument; "--" ends them.
+// defaults already. Options may stand before and after the positional arguments; "--" ends them.
 // Names are not abbreviated: what is short today is ambiguous with tomorrow's options. Errors:
 // GLINT_USAGE.
 glint_status glint_options_parse(const glint_command *command, int argc, char **argv, void *request,

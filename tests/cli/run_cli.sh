@@ -2,67 +2,8 @@
 # Command-line tests: every option, every mistake. run_cli.sh GLINT JSON_GET
 # A mistake gets its exit status, one line on stderr that begins with "glint: ", nothing on stdout
 # and no file. Prints TAP; exit status 1 when a test failed.
-set -u
-
-glint=$(readlink -f -- "$1")
-json_get=$(readlink -f -- "$2")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-mkdir "$work/in" "$work/out"
-cd "$work" || exit 1
-count=0
-failures=0
-
-verdict() { # ok|"not ok" NAME [WHY]
-    count=$((count + 1))
-    printf '%s %d - %s\n' "$1" "$count" "$2"
-    if [ "$1" != ok ]; then
-        failures=$((failures + 1))
-        printf '# %s\n' "${3-}"
-        [ ! -s stderr ] || sed 's/^/# stderr: /' stderr
-    fi
-}
-
-# check NAME COMMAND…: passes when the command does.
-check() {
-    local name=$1
-    shift
-    if "$@" >check.log 2>&1; then
-        verdict ok "$name"
-    else
-        verdict 'not ok' "$name" "$* $(head -c 300 check.log)"
-    fi
-}
-
-skip() {
-    count=$((count + 1))
-    printf 'ok %d - %s # SKIP %s\n' "$count" "$1" "$2"
-}
-
-run() {
-    "$glint" "$@" >stdout 2>stderr
-    status=$?
-}
-
-# refuses STATUS TEXT ARGUMENT…: a mistake; TEXT is part of the line that it gets.
-refuses() {
-    local wanted=$1 text=$2
-    shift 2
-    run "$@"
-    local why=
-    [ "$status" -eq "$wanted" ] || why="exit status $status instead of $wanted"
-    [ "$(wc -l <stderr)" -eq 1 ] || why="$why; not one line on stderr"
-    grep -q '^glint: ' stderr || why="$why; no line that begins with 'glint: '"
-    grep -qF -- "$text" stderr || why="$why; '$text' is not said"
-    [ ! -s stdout ] || why="$why; stdout is not empty"
-    [ -z "$(ls -A out)" ] || why="$why; left behind: $(ls -A out)"
-    rm -rf out/* out/.[!.]*
-    if [ -z "$why" ]; then
-        verdict ok "refused: glint $*"
-    else
-        verdict 'not ok' "refused: glint $*" "$why"
-    fi
-}
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
 
 # renders NAME FILE ARGUMENT…: a frame is written to FILE; stdout stays empty.
 renders() {
@@ -79,28 +20,6 @@ renders() {
     else
         verdict 'not ok' "$name" "$why"
     fi
-}
-
-clean() {
-    rm -rf out/* out/.[!.]*
-}
-
-begins_with() { # FILE HEX
-    [ "$(od -An -tx1 -N $((${#2} / 2)) "$1" | tr -d ' \n')" = "$2" ]
-}
-
-stat_is() { # WANTED KEY…
-    local wanted=$1 got
-    shift
-    got=$("$json_get" out/stats.json "$@") || return 1
-    [ "$got" = "$wanted" ] || { echo "$* is $got"; return 1; }
-}
-
-stat_is_positive() { # KEY…
-    local got
-    got=$("$json_get" out/stats.json "$@") || return 1
-    echo "$* is $got"
-    awk -v value="$got" 'BEGIN { exit !(value + 0 > 0) }'
 }
 
 # ---- inputs -------------------------------------------------------------------------------------
@@ -140,24 +59,11 @@ mkdir in/folder.gltf in/empty
 
 # ---- help ---------------------------------------------------------------------------------------
 
-render_options='output exposure compression exr-type stats progress kernel-dir env env-layout
-    env-rotate camera scene size samples depth min-weight background precision fresnel texels device
-    kernel-width kernel-tile help'
+render_options='output exposure compression exr-type stats progress env env-layout env-rotate camera
+    scene size samples depth min-weight background precision fresnel texels device kernel-width
+    kernel-tile kernel-dir help'
 info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
     precision fresnel texels device kernel-width kernel-tile help'
-
-help_mentions() { # COMMAND OPTION…
-    local command=$1 option
-    shift
-    "$glint" "$command" --help >help.txt || return 1
-    "$glint" help "$command" | cmp - help.txt || return 1
-    [ "$(wc -L <help.txt)" -le 100 ] || return 1
-    for option in "$@"; do
-        grep -qE "^ +(-., )?--$option( |$)" help.txt || { echo "--$option is not there"; return 1; }
-    done
-    # And no option that the list of this test does not know.
-    [ "$(grep -cE '^ {2,6}(-., )?--[a-z]' help.txt)" -eq $# ]
-}
 
 # shellcheck disable=SC2086 # lists of words
 {
@@ -528,6 +434,4 @@ for delay in 0.01 0.05 0.2; do
     clean
 done
 
-printf '1..%d\n' "$count"
-[ "$failures" -eq 0 ] || printf '# %d failed\n' "$failures"
-[ "$failures" -eq 0 ]
+finish
