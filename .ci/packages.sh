@@ -1,5 +1,5 @@
 # shellcheck shell=sh disable=SC2034 # the lists are used by who sources this
-# What ./glint and tests/run need from the system, and how to get it. Sourced, never run.
+# What ./glint, tests/run and bench/run need from the system, and how to get it. Sourced, never run.
 #
 # A package is written PACKAGE or PACKAGE/COMMAND; the second form also counts as present when the
 # command is on the PATH, wherever it came from (a newer CMake, a compiler of one's own).
@@ -12,6 +12,8 @@ packages_to_build='
 packages_to_test='
     libcmocka-dev oclgrind/oclgrind clang/clang clang-tidy/clang-tidy
     clang-format/clang-format cppcheck/cppcheck shellcheck/shellcheck'
+
+packages_to_bench='libembree-dev'
 
 packages_to_test_fully='qemu-user/qemu-x86_64'
 

@@ -1,0 +1,365 @@
+// bench/embree: glint against Embree, in turns, on the same scenes. bench/README.md says what is
+// measured and what it means. Results go to stdout, chatter to stderr.
+#include "contest.h"
+#include "embree_report.h"
+
+#include "report/json.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SCENES_MAX 64
+#define BUILD_ROUNDS 5
+
+typedef struct request {
+    char *scenes; // names with commas between, owned
+    unsigned jobs;
+    int width, height, rounds, sweep_rounds;
+    bool medium_only, robust;
+    const char *device, *json;
+    uint64_t leaks;
+    bool help, list;
+} request;
+
+static const char help[] =
+    "Usage: bench/run embree [options]\n"
+    "\n"
+    "Renders the same frames with glint and with Embree in turns, checks that they agree and\n"
+    "prints how many times faster glint is.\n"
+    "\n"
+    "  --scenes LIST    S0, S1, S2, needles, stadium, G0 or ico:N, with commas between\n"
+    "                   (all but ico:N)\n"
+    "  --jobs LIST      traverse, reflect, refract, glass, build (all)\n"
+    "  --rounds N       rounds of each, 1 to 1000 (9)\n"
+    "  --size WxH       pixels, multiples of 16 (1920x1088)\n"
+    "  --robust         give Embree's scenes RTC_SCENE_FLAG_ROBUST\n"
+    "  --medium         leave Embree's trees of quality HIGH out, which take long to build\n"
+    "  --device NAME    glint's OpenCL device, as `glint render` takes it (cpu)\n"
+    "  --leaks N        count the rays that pass between S0's triangles in Embree\n"
+    "  --json FILE      write everything as JSON\n"
+    "  --quick          S0 alone, traverse and reflect, 3 rounds\n"
+    "  --list           list the scenes, their sizes and their jobs\n"
+    "  --help\n"
+    "\n"
+    "Exit status: 0 done, 2 usage, 4 no device or it failed, 5 the file could not be written,\n"
+    "7 the frames differ.\n";
+
+// ---- Options -----------------------------------------------------------------------------------
+
+#define JOB_BUILD BENCH_JOBS // after the jobs proper
+
+static glint_status parse_jobs(const char *text, unsigned *jobs, glint_error *error)
+{
+    *jobs = 0;
+    for (const char *at = text; *at != '\0';) {
+        size_t length = strcspn(at, ",");
+        unsigned found = 0;
+        for (int job = 0; job <= JOB_BUILD; job++) {
+            const char *name = job == JOB_BUILD ? "build" : bench_job_name((bench_job)job);
+            if (strlen(name) == length && strncmp(name, at, length) == 0) {
+                found = 1u << job;
+            }
+        }
+        if (found == 0) {
+            return glint_fail(error, GLINT_USAGE,
+                              "--jobs: '%.*s' is none (traverse, reflect, refract, glass, build)",
+                              (int)length, at);
+        }
+        *jobs |= found;
+        at += length + (at[length] == ',' ? 1 : 0);
+    }
+    return GLINT_OK;
+}
+
+static glint_status parse_size(const char *text, request *r, glint_error *error)
+{
+    char rest;
+    if (sscanf(text, "%dx%d%c", &r->width, &r->height, &rest) != 2 || r->width < 16 ||
+        r->height < 16 || r->width > 16384 || r->height > 16384 || r->width % 16 != 0 ||
+        r->height % 16 != 0) {
+        return glint_fail(error, GLINT_USAGE, "--size: '%s' (multiples of 16, as 1920x1088)", text);
+    }
+    return GLINT_OK;
+}
+
+static glint_status parse_count(const char *name, const char *text, double most, double *value,
+                                glint_error *error)
+{
+    char *end;
+    *value = strtod(text, &end);
+    if (end == text || *end != '\0' || !(*value >= 1 && *value <= most)) {
+        return glint_fail(error, GLINT_USAGE, "--%s: '%s' (1 to %.0f)", name, text, most);
+    }
+    return GLINT_OK;
+}
+
+enum { SCENES = 1, JOBS, ROUNDS, SIZE, MEDIUM, ROBUST, DEVICE, LEAKS, JSON, QUICK, LIST, HELP };
+
+static const struct option long_options[] = {
+    {"scenes", required_argument, NULL, SCENES},
+    {"jobs", required_argument, NULL, JOBS},
+    {"rounds", required_argument, NULL, ROUNDS},
+    {"size", required_argument, NULL, SIZE},
+    {"medium", no_argument, NULL, MEDIUM},
+    {"device", required_argument, NULL, DEVICE},
+    {"leaks", required_argument, NULL, LEAKS},
+    {"json", required_argument, NULL, JSON},
+    {"quick", no_argument, NULL, QUICK},
+    {"list", no_argument, NULL, LIST},
+    {"robust", no_argument, NULL, ROBUST},
+    {"help", no_argument, NULL, HELP},
+    {NULL, 0, NULL, 0},
+};
+
+static glint_status set_scenes(request *r, const char *names, glint_error *error)
+{
+    free(r->scenes);
+    r->scenes = strdup(names);
+    return r->scenes != NULL ? GLINT_OK : glint_fail_memory(error, "the options");
+}
+
+static glint_status take_option(int option, request *r, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    double count = 0;
+    switch (option) {
+    case SCENES:
+        return set_scenes(r, optarg, error);
+    case JOBS:
+        return parse_jobs(optarg, &r->jobs, error);
+    case ROUNDS:
+        status = parse_count("rounds", optarg, BENCH_ROUNDS_MAX, &count, error);
+        r->rounds = (int)count;
+        return status;
+    case SIZE:
+        return parse_size(optarg, r, error);
+    case MEDIUM:
+        r->medium_only = true;
+        return GLINT_OK;
+    case ROBUST:
+        r->robust = true;
+        return GLINT_OK;
+    case DEVICE:
+        r->device = optarg;
+        return GLINT_OK;
+    case LEAKS:
+        status = parse_count("leaks", optarg, 1e12, &count, error);
+        r->leaks = (uint64_t)count;
+        return status;
+    case JSON:
+        r->json = optarg;
+        return GLINT_OK;
+    case QUICK:
+        r->rounds = 3;
+        r->sweep_rounds = 2;
+        r->jobs = 1u << BENCH_TRAVERSE | 1u << BENCH_REFLECT;
+        return set_scenes(r, "S0", error);
+    case LIST:
+        r->list = true;
+        return GLINT_OK;
+    case HELP:
+        r->help = true;
+        return GLINT_OK;
+    default:
+        return glint_fail(error, GLINT_USAGE, "an option is unknown or lacks its value (--help)");
+    }
+}
+
+static glint_status parse(int argc, char **argv, request *r, glint_error *error)
+{
+    *r = (request){.jobs = (1u << (JOB_BUILD + 1)) - 1,
+                   .width = 1920,
+                   .height = 1088,
+                   .rounds = 9,
+                   .sweep_rounds = 3,
+                   .device = "cpu"};
+    glint_status status = set_scenes(r, "S0,S1,S2,needles,stadium,G0", error);
+    int option;
+    opterr = 0;
+    while (status == GLINT_OK && (option = getopt_long(argc, argv, "", long_options, NULL)) != -1) {
+        status = take_option(option, r, error);
+    }
+    if (status == GLINT_OK && optind < argc) {
+        status = glint_fail(error, GLINT_USAGE, "unexpected argument '%s'", argv[optind]);
+    }
+    return status;
+}
+
+// ---- Work --------------------------------------------------------------------------------------
+
+static glint_status list_scenes(glint_error *error)
+{
+    for (size_t i = 0; bench_scene_names[i] != NULL; i++) {
+        bench_scene scene;
+        glint_status status = bench_scene_make(bench_scene_names[i], &scene, error);
+        printf("%-8s %8zu triangles:", scene.name, scene.triangle_count);
+        for (int job = 0; job < BENCH_JOBS; job++) {
+            if (scene.jobs & 1u << job) {
+                printf(" %s", bench_job_name((bench_job)job));
+            }
+        }
+        printf("\n");
+        bench_scene_free(&scene);
+        if (status != GLINT_OK) {
+            return status;
+        }
+    }
+    return GLINT_OK;
+}
+
+static glint_status run_jobs(const request *r, const bench_arena *arena, json_t *object,
+                             glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    bench_contest *contest = malloc(sizeof *contest);
+    if (contest == NULL) {
+        return glint_fail_memory(error, "a contest");
+    }
+    for (int job = 0; status == GLINT_OK && job < BENCH_JOBS; job++) {
+        if (arena->scene->jobs & r->jobs & 1u << job) {
+            fprintf(stderr, "%s: %s\n", arena->scene->name, bench_job_name((bench_job)job));
+            status = bench_contest_run(arena, (bench_job)job, contest, error);
+            if (status == GLINT_OK) {
+                bench_report_contest(object, contest);
+            }
+        }
+    }
+    free(contest);
+    if (status == GLINT_OK && r->jobs & 1u << JOB_BUILD) {
+        fprintf(stderr, "%s: build\n", arena->scene->name);
+        bench_build build;
+        status = bench_build_run(arena, r->rounds > BUILD_ROUNDS ? r->rounds : BUILD_ROUNDS, &build,
+                                 error);
+        if (status == GLINT_OK) {
+            bench_report_build(object, &build);
+        }
+    }
+    return status;
+}
+
+// Sets up Embree's side and runs the jobs. `arena` lacks scene and program.
+static glint_status run_scene(const request *r, bench_arena arena, bench_pool *pool,
+                              const char *name, json_t *report, glint_error *error)
+{
+    bench_scene scene;
+    fprintf(stderr, "%s: making the scene and Embree's trees\n", name);
+    glint_status status = bench_scene_make(name, &scene, error);
+    if (status == GLINT_OK) {
+        const embree_inputs inputs = {
+            .scene = &scene,
+            .environment = &arena.environment->radiance,
+            .pool = pool,
+            .width = arena.width,
+            .height = arena.height,
+            .robust = arena.robust,
+            .high = arena.high,
+        };
+        arena.scene = &scene;
+        status = embree_program_create(&inputs, &arena.program, error);
+    }
+    if (status == GLINT_OK) {
+        status = run_jobs(r, &arena, bench_report_add_scene(report, &scene), error);
+    }
+    embree_program_free(arena.program);
+    bench_scene_free(&scene);
+    return status;
+}
+
+static glint_status run_leaks(const request *r, const bench_arena *arena, bench_pool *pool,
+                              json_t *report, glint_error *error)
+{
+    bench_scene scene;
+    glint_status status = bench_scene_make("S0", &scene, error);
+    for (int robust = 0; status == GLINT_OK && robust < 2; robust++) {
+        const embree_inputs inputs = {
+            .scene = &scene,
+            .environment = &arena->environment->radiance,
+            .pool = pool,
+            .width = arena->width,
+            .height = arena->height,
+            .robust = robust == 1,
+        };
+        embree_program *program;
+        status = embree_program_create(&inputs, &program, error);
+        if (status == GLINT_OK) {
+            bench_report_leaks(report, robust ? "ROBUST" : "default",
+                               embree_program_leaks(program, r->leaks));
+            embree_program_free(program);
+        }
+    }
+    bench_scene_free(&scene);
+    return status;
+}
+
+static glint_status run_all(const request *r, const bench_arena *arena, bench_pool *pool,
+                            json_t *report, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    if (r->leaks > 0) {
+        status = run_leaks(r, arena, pool, report, error);
+    } else {
+        bench_report_head();
+        char *rest = NULL;
+        for (char *name = strtok_r(r->scenes, ",", &rest); status == GLINT_OK && name != NULL;
+             name = strtok_r(NULL, ",", &rest)) {
+            status = run_scene(r, *arena, pool, name, report, error);
+        }
+    }
+    if (status == GLINT_OK && r->json != NULL) {
+        return glint_json_write(r->json, report, error);
+    }
+    json_decref(report);
+    return status;
+}
+
+static glint_status run(const request *r, glint_error *error)
+{
+    glint_environment environment = {0};
+    bench_pool *pool = NULL;
+    bench_arena arena = {
+        .environment = &environment,
+        .width = r->width,
+        .height = r->height,
+        .rounds = r->rounds,
+        .sweep_rounds = r->sweep_rounds,
+        .high = !r->medium_only,
+        .robust = r->robust,
+    };
+    glint_status status = bench_environment_make(&environment, error);
+    if (status == GLINT_OK) {
+        status = bench_pool_create(&pool, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_device_open(r->device, &arena.device, error);
+    }
+    if (status == GLINT_OK) {
+        status = run_all(r, &arena, pool, bench_report_create(&arena), error);
+    }
+    glint_device_close(arena.device);
+    bench_pool_free(pool);
+    glint_environment_free(&environment);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    request r;
+    glint_error error = {0};
+    glint_status status = parse(argc, argv, &r, &error);
+    if (status == GLINT_OK && r.help) {
+        fputs(help, stdout);
+    } else if (status == GLINT_OK && r.list) {
+        status = list_scenes(&error);
+    } else if (status == GLINT_OK) {
+        status = run(&r, &error);
+    }
+    if (status != GLINT_OK) {
+        fprintf(stderr, "bench/embree: %s\n%s", error.message,
+                error.details != NULL ? error.details : "");
+    }
+    glint_error_free(&error);
+    free(r.scenes);
+    return (int)status;
+}
