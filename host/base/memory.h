@@ -14,6 +14,10 @@ extern "C" {
 // gives a pointer that can be freed.
 void *glint_allocate(size_t count, size_t size);
 
+// The same, but the bytes are not set: for large arrays that are written at once, from several
+// threads.
+void *glint_allocate_unset(size_t count, size_t size);
+
 // Sets *product to a × b; false (and *product untouched) when that overflows.
 bool glint_multiply(size_t a, size_t b, size_t *product);
 

@@ -34,20 +34,33 @@ int glint_usable_cores(void)
     return cores < 1 ? 1 : cores;
 }
 
-void glint_parallel_for(size_t count, void (*body)(size_t index, void *context), void *context)
+size_t glint_parallel_threads(size_t threads)
+{
+    if (threads == 0) {
+        threads = (size_t)glint_usable_cores();
+    }
+    return threads < THREADS_MAX ? threads : THREADS_MAX;
+}
+
+void glint_parallel_for_on(size_t threads, size_t count, void (*body)(size_t index, void *context),
+                           void *context)
 {
     job shared = {.count = count, .body = body, .context = context};
-    size_t wanted = (size_t)glint_usable_cores();
-    wanted = wanted < THREADS_MAX ? wanted : THREADS_MAX;
+    size_t wanted = glint_parallel_threads(threads);
     wanted = wanted < count ? wanted : count;
-    pthread_t threads[THREADS_MAX];
+    pthread_t workers[THREADS_MAX];
     size_t started = 0;
     // The caller is one of the workers.
-    while (started + 1 < wanted && pthread_create(&threads[started], NULL, work, &shared) == 0) {
+    while (started + 1 < wanted && pthread_create(&workers[started], NULL, work, &shared) == 0) {
         started++;
     }
     work(&shared);
     for (size_t i = 0; i < started; i++) {
-        pthread_join(threads[i], NULL);
+        pthread_join(workers[i], NULL);
     }
+}
+
+void glint_parallel_for(size_t count, void (*body)(size_t index, void *context), void *context)
+{
+    glint_parallel_for_on(0, count, body, context);
 }

@@ -18,6 +18,14 @@ int glint_usable_cores(void);
 // does the work.
 void glint_parallel_for(size_t count, void (*body)(size_t index, void *context), void *context);
 
+// The number of threads meant by `threads`: itself, at most 64, or with 0 one for each core that
+// this process may run on.
+size_t glint_parallel_threads(size_t threads);
+
+// The same from glint_parallel_threads(threads) threads.
+void glint_parallel_for_on(size_t threads, size_t count, void (*body)(size_t index, void *context),
+                           void *context);
+
 #ifdef __cplusplus
 }
 #endif
