@@ -1,4 +1,5 @@
 // Properties of the wide tree: every triangle is in one cluster, inside every box above it.
+#include "accel/box.h"
 #include "accel/bvh.h"
 #include "kernels/layout.h"
 
@@ -74,14 +75,26 @@ static soup sheet(size_t edge)
     static const int corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     soup s = empty_soup(2 * edge * edge);
     for (size_t i = 0; i < 6 * edge * edge; i++) {
-        double x = (double)(i / 6 % edge) + corners[i % 6][0];
-        double z = (double)(i / 6 / edge) + corners[i % 6][1];
-        s.positions[3 * i] = (float)(x / (double)edge);
-        s.positions[3 * i + 1] =
-            (float)(0.1 * sin(9 * x / (double)edge) * cos(7 * z / (double)edge));
-        s.positions[3 * i + 2] = (float)(z / (double)edge);
+        size_t column = i / 6 % edge, row = i / 6 / edge;
+        double x = ((double)column + corners[i % 6][0]) / (double)edge;
+        double z = ((double)row + corners[i % 6][1]) / (double)edge;
+        s.positions[3 * i] = (float)x;
+        s.positions[3 * i + 1] = (float)(0.1 * sin(9 * x) * cos(7 * z));
+        s.positions[3 * i + 2] = (float)z;
     }
     return s;
+}
+
+// Puts the triangles in an order that has nothing to do with where they are.
+static void shuffle(soup *s)
+{
+    for (size_t i = s->count - 1; i > 0; i--) {
+        size_t k = (size_t)(random_number() * (double)(i + 1));
+        float swap[9];
+        memcpy(swap, s->positions + 9 * i, sizeof swap);
+        memcpy(s->positions + 9 * i, s->positions + 9 * k, sizeof swap);
+        memcpy(s->positions + 9 * k, swap, sizeof swap);
+    }
 }
 
 static glint_bvh_inputs inputs_of(const soup *s, int width)
@@ -117,7 +130,8 @@ typedef struct walk {
     const glint_bvh *bvh;
     unsigned char *seen; // by triangle
     size_t nodes, clusters;
-    int stack_need;
+    int depth, stack_need;
+    double area; // of the boxes of nodes and clusters
 } walk;
 
 static void check_box(const float *p, const float low[3], const float high[3])
@@ -139,6 +153,13 @@ static void check_corner(const float *values, const glint_cluster *cluster, int 
     }
 }
 
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 // No two vertices are the same, and what is past the last repeats the first.
 static void check_vertices(const glint_cluster *cluster, const float *normals)
 {
@@ -152,8 +173,7 @@ static void check_vertices(const glint_cluster *cluster, const float *normals)
             bool same = true;
             for (int k = 0; k < 3; k++) {
                 const float *p = cluster->positions[k], *n = normals + k * GLINT_CLUSTER_LANES;
-                same = same && memcmp(&p[a], &p[b], sizeof *p) == 0 &&
-                       memcmp(&n[a], &n[b], sizeof *n) == 0;
+                same = same && bits_of(p[a]) == bits_of(p[b]) && bits_of(n[a]) == bits_of(n[b]);
             }
             assert_int_equal(same, a > last && (b == 0 || b > last));
         }
@@ -189,18 +209,26 @@ static void check_cluster(walk *w, size_t index, const float low[3], const float
     check_vertices(cluster, normals);
 }
 
+static double half_area(const float low[3], const float high[3])
+{
+    double x = (double)high[0] - (double)low[0], y = (double)high[1] - (double)low[1];
+    double z = (double)high[2] - (double)low[2];
+    return x * y + y * z + z * x;
+}
+
 // `low` and `high` are the box of the node; `waiting` what a traversal may have on its stack.
-static void visit(walk *w, size_t node, const float low[3], const float high[3], int waiting)
+static void visit(walk *w, size_t node, const float low[3], const float high[3], int depth,
+                  int waiting)
 {
     int width = w->bvh->width, used = 0;
     const float *base = w->bvh->nodes + node * GLINT_NODE_VALUES * (size_t)width;
     w->nodes++;
+    w->depth = depth + 1 > w->depth ? depth + 1 : w->depth;
     while (used < width && base[used] < GLINT_FAR) {
         used++;
     }
-    if (waiting + used > w->stack_need) {
-        w->stack_need = waiting + used;
-    }
+    assert_true(used >= 2 || node == 0);
+    w->stack_need = waiting + used > w->stack_need ? waiting + used : w->stack_need;
     for (int c = 0; c < width; c++) {
         float child_low[3], child_high[3];
         int32_t child = child_of(w->bvh, node, c);
@@ -218,31 +246,50 @@ static void visit(walk *w, size_t node, const float low[3], const float high[3],
             assert_true(child_low[k] <= child_high[k]);
             assert_true(child_low[k] >= low[k] && child_high[k] <= high[k]);
         }
+        w->area += half_area(child_low, child_high);
         if (child >= 0) {
             assert_in_range(child, 1, w->bvh->node_count - 1);
-            visit(w, (size_t)child, child_low, child_high, waiting + used - 1);
+            visit(w, (size_t)child, child_low, child_high, depth + 1, waiting + used - 1);
             continue;
         }
-        assert_in_range(~child, 0, w->bvh->cluster_count - 1);
+        int32_t cluster = ~child;
+        assert_in_range(cluster, 0, w->bvh->cluster_count - 1);
         w->clusters++;
-        check_cluster(w, (size_t)~child, child_low, child_high);
+        check_cluster(w, (size_t)cluster, child_low, child_high);
     }
 }
 
-static void check_bvh(const soup *s, const glint_bvh *bvh)
+static void check_report(const walk *w, const glint_bvh *bvh)
+{
+    const glint_bvh_report *report = &bvh->report;
+    size_t cluster_bytes =
+        (GLINT_CLUSTER_VALUES + GLINT_CLUSTER_NORMALS + GLINT_CLUSTER_LANES) * sizeof(float);
+    assert_int_equal(report->node_count, bvh->node_count);
+    assert_int_equal(report->cluster_count, bvh->cluster_count);
+    assert_int_equal(report->depth, w->depth);
+    assert_int_equal(report->stack_need, w->stack_need);
+    assert_int_equal(report->bytes,
+                     bvh->node_count * GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float) +
+                         bvh->cluster_count * cluster_bytes);
+    double lanes = (double)bvh->cluster_count * GLINT_CLUSTER_LANES;
+    assert_true(fabs(report->fill - (double)w->soup->count / lanes) < 1e-12);
+}
+
+static walk check_bvh(const soup *s, const glint_bvh *bvh)
 {
     walk w = {.soup = s, .bvh = bvh, .seen = calloc(s->count, 1)};
     assert_non_null(w.seen);
     const float low[3] = {-INFINITY, -INFINITY, -INFINITY};
     const float high[3] = {INFINITY, INFINITY, INFINITY};
-    visit(&w, 0, low, high, 0);
+    visit(&w, 0, low, high, 0, 0);
     for (size_t i = 0; i < s->count; i++) {
         assert_int_equal(w.seen[i], 1);
     }
     assert_int_equal(w.nodes, bvh->node_count);
     assert_int_equal(w.clusters, bvh->cluster_count);
-    assert_true(bvh->report.stack_need >= w.stack_need);
+    check_report(&w, bvh);
     free(w.seen);
+    return w;
 }
 
 static void check_tree(const soup *s)
@@ -268,12 +315,32 @@ static void every_triangle_is_in_one_cluster_inside_every_box_above_it(void **st
 static void smooth_meshes_share_vertices_and_fill_the_clusters(void **state)
 {
     (void)state;
+    for (int shuffled = 0; shuffled < 2; shuffled++) {
+        soup s = sheet(90);
+        if (shuffled) {
+            shuffle(&s);
+        }
+        glint_bvh bvh = build(&s, 16);
+        check_bvh(&s, &bvh);
+        print_message("fill %.3f, %.1f bytes a triangle, cost %.2f\n", bvh.report.fill,
+                      bvh.report.bytes_per_triangle, bvh.report.sah_cost);
+        assert_true(bvh.report.fill > 0.85);
+        assert_true(bvh.report.bytes_per_triangle < 42);
+        glint_bvh_free(&bvh);
+        free_soup(&s);
+    }
+}
+
+// The boxes are wider than what the cost is computed from by a few roundings.
+static void the_cost_is_that_of_the_boxes(void **state)
+{
+    (void)state;
     soup s = sheet(60);
-    check_tree(&s);
     glint_bvh bvh = build(&s, 16);
-    print_message("fill %.3f, %.1f bytes a triangle\n", bvh.report.fill,
-                  bvh.report.bytes_per_triangle);
-    assert_true(bvh.report.fill > 0.5);
+    walk w = check_bvh(&s, &bvh);
+    const float low[3] = {0, -0.1f, 0}, high[3] = {1, 0.1f, 1};
+    double cost = 1 + w.area / half_area(low, high);
+    assert_true(fabs(cost / bvh.report.sah_cost - 1) < 0.01);
     glint_bvh_free(&bvh);
     free_soup(&s);
 }
@@ -320,19 +387,75 @@ static void triangles_of_every_magnitude_keep_the_tree_shallow(void **state)
     soup s = random_soup(20000, 100);
     check_tree(&s);
     glint_bvh bvh = build(&s, 16);
-    assert_true(bvh.report.depth < 40);
+    assert_true(bvh.report.depth < 64);
     glint_bvh_free(&bvh);
     free_soup(&s);
 }
 
+// Nothing tells them apart, and 16 of them share their three vertices: the clusters are full.
 static void coincident_triangles_are_divided_by_number(void **state)
 {
     (void)state;
-    soup s = random_soup(1000, 0);
+    soup s = random_soup(1 << 14, 0);
     for (size_t i = 1; i < s.count; i++) {
         memcpy(s.positions + 9 * i, s.positions, 9 * sizeof(float));
     }
     check_tree(&s);
+    glint_bvh bvh = build(&s, 16);
+    assert_true(bvh.report.fill > 0.9);
+    assert_true(bvh.report.depth < 8);
+    glint_bvh_free(&bvh);
+    // Of several materials, they are told apart by those.
+    for (size_t i = 0; i < s.count; i++) {
+        s.material_of[i] = (uint32_t)(i % 3);
+    }
+    check_tree(&s);
+    free_soup(&s);
+}
+
+// All centres are the origin; only the sizes differ.
+static void concentric_triangles_are_divided(void **state)
+{
+    (void)state;
+    soup s = empty_soup(20000);
+    for (size_t i = 0; i < s.count; i++) {
+        static const float corners[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+        for (size_t v = 0; v < 9; v++) {
+            s.positions[9 * i + v] = corners[v] * (float)(i + 1) / (float)s.count;
+        }
+    }
+    check_tree(&s);
+    free_soup(&s);
+}
+
+static void needles_and_points_are_triangles_too(void **state)
+{
+    (void)state;
+    soup s = random_soup(9000, 0);
+    for (size_t i = 0; i < s.count; i++) {
+        float *p = s.positions + 9 * i;
+        for (int k = 0; k < 3; k++) {
+            // A needle across the scene, one without width, a point.
+            p[3 + k] = i % 3 == 0 ? -p[k] : i % 3 == 1 ? p[6 + k] : p[k];
+            p[6 + k] = i % 3 == 2 ? p[k] : p[6 + k];
+        }
+    }
+    check_tree(&s);
+    free_soup(&s);
+}
+
+// Large triangles whose centres lie in the middle of small ones must not hide them from the bins.
+static void a_detail_inside_large_triangles_is_divided(void **state)
+{
+    (void)state;
+    soup s = random_soup(20000, 0);
+    for (size_t i = 0; i < 9 * s.count; i++) {
+        s.positions[i] *= i / 9 % 100 == 0 ? 1 : 1e-6f;
+    }
+    check_tree(&s);
+    glint_bvh bvh = build(&s, 16);
+    assert_true(bvh.report.depth < 16);
+    glint_bvh_free(&bvh);
     free_soup(&s);
 }
 
@@ -347,20 +470,63 @@ static void the_largest_finite_coordinates_do_no_harm(void **state)
     free_soup(&s);
 }
 
-static void the_same_triangles_give_the_same_tree(void **state)
+static glint_bvh build_on(const soup *s, size_t threads)
+{
+    glint_bvh bvh;
+    glint_bvh_inputs in = inputs_of(s, 16);
+    in.threads = threads;
+    assert_int_equal(glint_bvh_build(&in, &bvh, NULL), GLINT_OK);
+    return bvh;
+}
+
+static void assert_same_tree(const glint_bvh *a, const glint_bvh *b)
+{
+    assert_int_equal(a->node_count, b->node_count);
+    assert_int_equal(a->cluster_count, b->cluster_count);
+    assert_memory_equal(a->nodes, b->nodes,
+                        a->node_count * GLINT_NODE_VALUES * (size_t)a->width * sizeof(float));
+    assert_memory_equal(a->clusters, b->clusters, a->cluster_count * sizeof *a->clusters);
+    assert_memory_equal(a->normals, b->normals,
+                        a->cluster_count * GLINT_CLUSTER_NORMALS * sizeof *a->normals);
+    assert_memory_equal(a->numbers, b->numbers,
+                        a->cluster_count * GLINT_CLUSTER_LANES * sizeof *a->numbers);
+    assert_true(a->report.sah_cost == b->report.sah_cost);
+}
+
+static void any_number_of_threads_gives_the_same_tree(void **state)
 {
     (void)state;
-    soup s = random_soup(3000, 3);
-    glint_bvh a = build(&s, 16), b = build(&s, 16);
-    assert_int_equal(a.node_count, b.node_count);
-    assert_int_equal(a.cluster_count, b.cluster_count);
-    assert_memory_equal(a.nodes, b.nodes, a.node_count * GLINT_NODE_VALUES * 16 * sizeof(float));
-    assert_memory_equal(a.clusters, b.clusters, a.cluster_count * sizeof *a.clusters);
-    assert_memory_equal(a.numbers, b.numbers,
-                        a.cluster_count * GLINT_CLUSTER_LANES * sizeof *a.numbers);
-    glint_bvh_free(&a);
-    glint_bvh_free(&b);
-    free_soup(&s);
+    // Bundled, not bundled, of every magnitude, and all alike.
+    soup soups[] = {sheet(200), sheet(200), random_soup(50000, 60), sheet(150)};
+    shuffle(&soups[1]);
+    memset(soups[3].positions, 0, soups[3].count * 9 * sizeof(float));
+    for (size_t i = 0; i < sizeof soups / sizeof *soups; i++) {
+        glint_bvh alone = build_on(&soups[i], 1);
+        static const size_t threads[] = {0, 2, 3, 8, 64};
+        for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+            glint_bvh together = build_on(&soups[i], threads[k]);
+            assert_same_tree(&alone, &together);
+            glint_bvh_free(&together);
+        }
+        glint_bvh_free(&alone);
+        free_soup(&soups[i]);
+    }
+}
+
+// The builder's results rest on it, whichever instruction it is compiled to.
+static void the_larger_of_two_lanes_is_the_second_unless_the_first_is_larger(void **state)
+{
+    (void)state;
+    const float values[] = {0, -0.0f, 1, -1, 1e30f, 1e-42f, INFINITY, -INFINITY, NAN};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+            float a = values[i], b = values[k];
+            glint_float4 larger =
+                glint_larger4((glint_float4){a, b, a, b}, (glint_float4){b, a, b, b});
+            const float expected[4] = {a > b ? a : b, b > a ? b : a, a > b ? a : b, b};
+            assert_memory_equal(&larger, expected, sizeof expected);
+        }
+    }
 }
 
 static void no_triangles_give_an_empty_tree(void **state)
@@ -390,13 +556,18 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_triangle_is_in_one_cluster_inside_every_box_above_it),
         cmocka_unit_test(smooth_meshes_share_vertices_and_fill_the_clusters),
+        cmocka_unit_test(the_cost_is_that_of_the_boxes),
         cmocka_unit_test(a_cluster_has_one_material),
         cmocka_unit_test(vertices_of_different_normals_or_signs_of_zero_are_not_shared),
         cmocka_unit_test(without_normals_there_is_no_array_of_them),
         cmocka_unit_test(triangles_of_every_magnitude_keep_the_tree_shallow),
         cmocka_unit_test(coincident_triangles_are_divided_by_number),
+        cmocka_unit_test(concentric_triangles_are_divided),
+        cmocka_unit_test(needles_and_points_are_triangles_too),
+        cmocka_unit_test(a_detail_inside_large_triangles_is_divided),
         cmocka_unit_test(the_largest_finite_coordinates_do_no_harm),
-        cmocka_unit_test(the_same_triangles_give_the_same_tree),
+        cmocka_unit_test(any_number_of_threads_gives_the_same_tree),
+        cmocka_unit_test(the_larger_of_two_lanes_is_the_second_unless_the_first_is_larger),
         cmocka_unit_test(no_triangles_give_an_empty_tree),
         cmocka_unit_test(more_triangles_than_a_place_can_name_are_refused),
     };

@@ -45,11 +45,12 @@ typedef struct glint_bvh {
 
 // Triangles as a scene holds them. Pointers are borrowed.
 typedef struct glint_bvh_inputs {
-    const float *positions;      // [triangle_count][3 vertices][3], finite
+    const float *positions;      // [triangle_count][3 vertices][3], magnitudes below GLINT_FAR
     const float *normals;        // the same shape, or NULL
     const uint32_t *material_of; // [triangle_count]
     size_t triangle_count;
-    int width; // children of a node: 8 or 16
+    int width;      // children of a node: 8 or 16
+    size_t threads; // 0: as many as there are cores; the tree is the same for any number
 } glint_bvh_inputs;
 
 // Deterministic: the same input gives the same tree. Two triangles of a cluster share a vertex

@@ -1,0 +1,24 @@
+// The tree's lowest levels: few triangles, divided where that makes the fewest and smallest
+// clusters.
+#ifndef GLINT_ACCEL_TREELET_H
+#define GLINT_ACCEL_TREELET_H
+
+#include "accel/binary_node.h"
+#include "accel/collapse.h"
+#include "accel/split.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// More triangles cost more time a triangle, and leave fewer clusters half empty.
+#ifndef GLINT_TREELET_MAX
+#define GLINT_TREELET_MAX 64
+#endif
+
+// Makes the subtree of 1 to GLINT_TREELET_MAX triangles at *root, whose bounds are set, with what
+// it costs. False where memory is short.
+bool glint_treelet_build(const glint_bvh_inputs *in, const glint_reference *references,
+                         size_t count, glint_arena *arena, glint_binary_node *root,
+                         glint_wide_costs *costs);
+
+#endif
