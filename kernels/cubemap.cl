@@ -57,6 +57,16 @@ static inline scalar8 load_texels(const cube_map *map, size_t place)
                                     : vload8(0, (global const float *)map->texels + 4 * place));
 }
 
+// Asks the memory for what fetch_from_cube will read.
+static inline void prefetch_texels(const cube_map *map, size_t first)
+{
+    const size_t size = map->are_half ? 4 * sizeof(half) : 4 * sizeof(float);
+    const size_t pitch = (size_t)(map->edge + 2 * GLINT_CUBE_BORDER);
+    global const char *texel = (global const char *)map->texels + size * first;
+    prefetch_line(texel);
+    prefetch_line(texel + size * pitch);
+}
+
 // R, G, B and a fourth value at one ray's point: `first` is its upper left texel. Two texels are a
 // vector of eight, so it is interpolated downwards first, and then to the right: the order is the same
 // for every width, and with it the bits.

@@ -5,20 +5,16 @@
 // products decide. Vertices are mapped alike for every triangle that shares them, the products are
 // rounded separately (no fused multiply-add: rounding is monotonic, so the sign of a difference of
 // rounded products is never wrong, it can only become 0), and 0 counts as inside: no ray passes
-// between two triangles that share an edge or a vertex.
+// between two triangles that share an edge or a vertex. Where a product is 0, perhaps by rounding alone,
+// as for a triangle seen edge-on from afar, the ray must also pass within its corners' bounds.
 
-// What the tests need of the rays beside origin and direction.
+// What the tests need of the rays.
 typedef struct packet {
     real origin[3];
-    real inverse[3];  // 1/direction, finite
-    lanes_int axis;   // the direction's largest component: the third axis of the sheared space
+    real direction[3];
+    lanes_int axis; // the direction's largest component: the third axis of the sheared space
     real shear_x, shear_y, shear_z;
-    int axes;         // bit k: some active ray has axis k
-    // Per coordinate, over the active rays: whether all directions have the same sign (0: no), and
-    // the range of origins and inverses after turning negative directions around.
-    int sign[3];
-    scalar origin_low[3], origin_high[3];
-    scalar inverse_low[3], inverse_high[3];
+    real inverse[3]; // 1/direction, finite
 } packet;
 
 typedef struct closest {
@@ -41,28 +37,16 @@ static inline real finite_inverse(real d)
     return copysign(R(1.0) / magnitude, d);
 }
 
-static inline packet make_packet(real3 origin, real3 direction, mask active)
+static inline packet make_packet(real3 origin, real3 direction)
 {
     packet p;
     p.origin[0] = origin.x;
     p.origin[1] = origin.y;
     p.origin[2] = origin.z;
-    real d[3] = {direction.x, direction.y, direction.z};
-#pragma unroll
-    for (int k = 0; k < 3; k++) {
-        p.inverse[k] = finite_inverse(d[k]);
-        // Rays that are not active must not widen the ranges.
-        mask positive = active & (p.inverse[k] > R(0.0));
-        mask negative = active & (p.inverse[k] < R(0.0));
-        bool any_positive = any_lane(positive), any_negative = any_lane(negative);
-        p.sign[k] = any_positive && any_negative ? 0 : any_negative ? -1 : 1;
-        scalar turn = p.sign[k] < 0 ? R(-1.0) : R(1.0);
-        real o = p.origin[k] * turn, i = p.inverse[k] * turn;
-        p.origin_low[k] = smallest_lane(SELECT(active, o, real_of(HUGE)));
-        p.origin_high[k] = largest_lane(SELECT(active, o, real_of(-HUGE)));
-        p.inverse_low[k] = smallest_lane(SELECT(active, i, real_of(HUGE)));
-        p.inverse_high[k] = largest_lane(SELECT(active, i, real_of(-HUGE)));
-    }
+    p.direction[0] = direction.x;
+    p.direction[1] = direction.y;
+    p.direction[2] = direction.z;
+    const real *d = p.direction;
     real ax = fabs(d[0]), ay = fabs(d[1]), az = fabs(d[2]);
     mask x_major = (ax >= ay) & (ax >= az);
     mask y_major = !x_major & (ay >= az);
@@ -71,55 +55,24 @@ static inline packet make_packet(real3 origin, real3 direction, mask active)
     real along = SELECT(x_major, d[0], SELECT(y_major, d[1], d[2]));
     real first = SELECT(x_major, d[1], SELECT(y_major, d[2], d[0]));
     real second = SELECT(x_major, d[2], SELECT(y_major, d[0], d[1]));
-    p.shear_x = first / along;
-    p.shear_y = second / along;
     p.shear_z = R(1.0) / along;
-    p.axes = (any_lane(active & x_major) ? 1 : 0) | (any_lane(active & y_major) ? 2 : 0) |
-             (any_lane(active & !x_major & !y_major) ? 4 : 0);
+    p.shear_x = first * p.shear_z;
+    p.shear_y = second * p.shear_z;
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        p.inverse[k] = finite_inverse(p.direction[k]);
+    }
     return p;
 }
 
-// The nearest distance at which any ray of the packet may enter each of a node's boxes, in `entry`;
-// bit c of the result is set if some ray may meet box c before `farthest`. By interval arithmetic
-// over the packet, so a set bit may be wrong for a wide packet; a clear bit never is.
-static inline uint packet_meets_boxes(const packet *p, global const float *node, scalar farthest,
-                                      boxes *entry)
-{
-    boxes near = 0, far = HUGE;
-#pragma unroll
-    for (int k = 0; k < 3; k++) {
-        if (p->sign[k] == 0) {
-            continue;
-        }
-        boxes low = load_boxes(node + k * GLINT_BVH_WIDTH);
-        boxes high = load_boxes(node + (3 + k) * GLINT_BVH_WIDTH);
-        if (p->sign[k] < 0) {
-            boxes turned = -low;
-            low = -high;
-            high = turned;
-        }
-        boxes to_low = low - p->origin_high[k], to_high = high - p->origin_low[k];
-        boxes near_k = to_low * (to_low > (boxes)0 ? (boxes)p->inverse_low[k]
-                                                   : (boxes)p->inverse_high[k]);
-        boxes far_k = to_high * (to_high > (boxes)0 ? (boxes)p->inverse_high[k]
-                                                    : (boxes)p->inverse_low[k]);
-        near = LARGER(near_k, near);
-        far = SMALLER(far_k, far);
-    }
-    *entry = near;
-    boxes_mask met = (near <= far * FAR_SLACK) & (near <= farthest);
-    return box_bits(met);
-}
-
-#if GLINT_WIDTH > 1
 // The rays that may meet one box before what they have hit so far.
 static inline mask rays_meet_box(const packet *p, global const float *node, int child, real farthest)
 {
     real near = real_of(0), far = farthest;
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        scalar low = node[k * GLINT_BVH_WIDTH + child];
-        scalar high = node[(3 + k) * GLINT_BVH_WIDTH + child];
+        scalar low = node[k * GLINT_BVH_WIDTH + child] - FRUSTUM_SLACK;
+        scalar high = node[(3 + k) * GLINT_BVH_WIDTH + child] + FRUSTUM_SLACK;
         real to_low = (low - p->origin[k]) * p->inverse[k];
         real to_high = (high - p->origin[k]) * p->inverse[k];
         real near_k = SMALLER(to_low, to_high), far_k = LARGER(to_low, to_high);
@@ -128,7 +81,6 @@ static inline mask rays_meet_box(const packet *p, global const float *node, int 
     }
     return near <= far * FAR_SLACK;
 }
-#endif
 
 // Reads the three vertices, x y z each, of the triangle in one lane of a cluster.
 static inline void load_triangle(global const float *cluster, int lane, float vertices[9])
@@ -146,12 +98,13 @@ static inline void load_triangle(global const float *cluster, int lane, float ve
 
 // Tests one triangle against the rays in `active` and keeps the nearer hit. At equal distance the
 // triangle with the lower number in the scene wins, whatever the order of the tests.
-static inline void intersect_triangle(const packet *p, const float vertices[9], int place,
+static inline bool intersect_triangle(const packet *p, int axes, const float vertices[9], int place,
                                       int triangle, mask active, closest *hit)
 {
+    bool found = false;
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        if (!(p->axes & (1 << k))) {
+        if (!(axes & (1 << k))) {
             continue;
         }
         const int x = (k + 1) % 3, y = (k + 2) % 3, z = k;
@@ -166,28 +119,36 @@ static inline void intersect_triangle(const packet *p, const float vertices[9], 
         real cy = fused(-p->shear_y, cz, vertices[6 + y] - p->origin[y]);
         // Twice the areas that the ray cuts off, on either side of it. Not fused: see above.
         real u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-        mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
-                      ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
+        real least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
         real determinant = u + v + w;
-        inside = inside & active & (determinant != R(0.0)) & (p->axis == (lane_int)k);
+        mask inside = active & ((least >= R(0.0)) | (most <= R(0.0))) & (determinant != R(0.0));
+        if (axes != 1 << k) {
+            inside = inside & (p->axis == (lane_int)k);
+        }
         if (!any_lane(inside)) {
             continue;
+        }
+        if (any_lane(inside & ((least == R(0.0)) | (most == R(0.0))))) {
+            inside = inside & (SMALLEST3(ax, bx, cx) <= R(0.0)) & (LARGEST3(ax, bx, cx) >= R(0.0)) &
+                     (SMALLEST3(ay, by, cy) <= R(0.0)) & (LARGEST3(ay, by, cy) >= R(0.0));
         }
         real inverse = R(1.0) / SELECT(inside, determinant, real_of(1));
         real t = fused(u, az, fused(v, bz, w * cz)) * p->shear_z * inverse;
         mask nearer = (t < hit->t) | ((t == hit->t) & (hit->triangle > (lane_int)triangle));
         mask taken = inside & (t > R(0.0)) & nearer;
+        found = found || any_lane(taken);
         hit->t = SELECT(taken, t, hit->t);
         hit->b1 = SELECT(taken, v * inverse, hit->b1);
         hit->b2 = SELECT(taken, w * inverse, hit->b2);
         hit->place = SELECT(taken, int_of(place), hit->place);
         hit->triangle = SELECT(taken, int_of(triangle), hit->triangle);
     }
+    return found;
 }
 
 // The same test of one ray against all triangles of a cluster, which stand from place `first` on:
 // operation by operation that of intersect_triangle, so that both find the same.
-static inline void intersect_by_ray(const packet *p, int ray, global const float *cluster,
+static inline bool intersect_by_ray(const packet *p, int ray, global const float *cluster,
                                     global const int *numbers, int first, int count, int from,
                                     closest *hit)
 {
@@ -210,19 +171,25 @@ static inline void intersect_by_ray(const packet *p, int ray, global const float
     }
     block u = cx[2] * cy[1] - cy[2] * cx[1], v = cx[0] * cy[2] - cy[0] * cx[2];
     block w = cx[1] * cy[0] - cy[1] * cx[0];
-    block_mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
-                        ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
+    block least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
     block determinant = u + v + w;
-    inside &= (determinant != R(0.0)) & (BLOCK_LANES < (scalar)count) &
-              (BLOCK_LANES != (scalar)(from - first));
+    block_mask inside = ((least >= R(0.0)) | (most <= R(0.0))) & (determinant != R(0.0)) &
+                        (BLOCK_LANES < (scalar)count) & (BLOCK_LANES != (scalar)(from - first));
     if (block_bits(inside) == 0) {
-        return;
+        return false;
+    }
+    if (block_bits(inside & ((least == R(0.0)) | (most == R(0.0)))) != 0) {
+        inside &= (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) &
+                  (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) &
+                  (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) &
+                  (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
     }
     block inverse = R(1.0) / SELECT(inside, determinant, block_of(1));
     block t = fused(u, cz[0], fused(v, cz[1], w * cz[2])) * LANE(p->shear_z, ray) * inverse;
     t = SELECT(inside & (t > R(0.0)) & (t <= LANE(hit->t, ray)), t, block_of(HUGE));
     scalar nearest = smallest_of_16(t);
     uint found = nearest < HUGE ? block_bits(t == nearest) : 0;
+    bool nearer = false;
     while (found != 0) {
         int i = lowest_bit(found);
         found &= found - 1;
@@ -233,6 +200,8 @@ static inline void intersect_by_ray(const packet *p, int ray, global const float
             LANE(hit->b2, ray) = ((scalar *)&w)[i] * ((scalar *)&inverse)[i];
             LANE_INT(hit->place, ray) = first + i;
             LANE_INT(hit->triangle, ray) = number;
+            nearer = true;
         }
     }
+    return nearer;
 }

@@ -96,6 +96,8 @@ typedef LANES(int) mask;
 // The smaller and the larger; a NaN in `a` gives b.
 #define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define SMALLEST3(a, b, c) SMALLER(SMALLER(a, b), c)
+#define LARGEST3(a, b, c) LARGER(LARGER(a, b), c)
 
 // a × b + c, rounded once where the device does that in one instruction (FP_FAST_FMAF is OpenCL's way
 // to say so; PoCL's compiler says __FMA__). Elsewhere fma() is a function of many.
@@ -159,7 +161,19 @@ static inline uint bits_of_8(MASK_TYPE(8) m)
 #endif
 }
 
-static inline int lowest_bit(uint bits) { return 31 - (int)clz(bits & -bits); }
+static inline int lowest_bit(uint bits)
+{
+#if defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
+#if __has_builtin(__builtin_ctz)
+#define HAS_CTZ
+#endif
+#endif
+#ifdef HAS_CTZ
+    return __builtin_ctz(bits);
+#else
+    return 31 - (int)clz(bits & -bits);
+#endif
+}
 
 #if GLINT_DOUBLE
 typedef double16 scalar16;
@@ -247,6 +261,27 @@ static inline lanes_int lane_numbers(void)
 
 #endif
 
+// The rays among `left` whose number is that of the first of these, and their number: rays that are
+// close to each other tend to share what they meet, which is then fetched once.
+static inline mask next_alike(lanes_int numbers, uint *left, int *number)
+{
+    *number = (int)LANE_INT(numbers, lowest_bit(*left));
+    mask alike = numbers == (lane_int)*number;
+    *left &= ~mask_bits(alike);
+    return alike;
+}
+
+// Asks the memory for the line of 64 bytes at `p`, where the target has a cache and an instruction for
+// that; its compiler's builtin wants a pointer to private memory.
+#if defined(__x86_64__) && defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
+#if __has_builtin(__builtin_prefetch)
+#define prefetch_line(p) __builtin_prefetch((const void *)(uintptr_t)(p))
+#endif
+#endif
+#ifndef prefetch_line
+#define prefetch_line(p)
+#endif
+
 // ---- Pixels, as memory holds them: [lane][R, G, B, alpha] --------------------------------------
 
 // A packet's pixels are rows of PACKET_WIDTH.
@@ -263,6 +298,26 @@ typedef float16 pixel_row;
 #endif
 #define load_pixel_row(row, pixels) vload16(row, pixels)
 #define store_pixel_row(values, row, pixels) vstore16(values, row, pixels)
+#endif
+
+// The same colours with alpha 0 or 1.
+#if GLINT_WIDTH == 1
+#define IS_COLOR (MASK_TYPE(4))(-1, -1, -1, 0)
+#else
+#define IS_COLOR (MASK_TYPE(16))(-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0)
+#endif
+#define without_alpha(row) (IS_COLOR ? (row) : (pixel_row)0)
+#define opaque(row) (IS_COLOR ? (row) : (pixel_row)1)
+
+// Stores a row of pixels that nothing here will read again, past the caches where the target can:
+// `pixels` is aligned to the row's size.
+#if GLINT_WIDTH > 1 && defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
+#if __has_builtin(__builtin_nontemporal_store)
+#define stream_pixel_row(values, pixels) __builtin_nontemporal_store(values, (global pixel_row *)(pixels))
+#endif
+#endif
+#ifndef stream_pixel_row
+#define stream_pixel_row(values, pixels) store_pixel_row(values, 0, pixels)
 #endif
 
 #if GLINT_WIDTH > 1 && defined(__has_builtin)

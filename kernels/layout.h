@@ -97,6 +97,9 @@ typedef struct glint_medium_record {
 #define GLINT_PACKET_ROWS(lanes) ((lanes) / GLINT_PACKET_COLUMNS(lanes))
 // A tile is what one work-item renders: one packet, or 4 × 4 packets beside each other.
 #define GLINT_TILE_SIDE(tiles) ((tiles) ? 4 : 1)
+// Tiles are rendered band by band, so many rows high, and within it column by column: what
+// neighbours have fetched from memory is then still in the caches.
+#define GLINT_BAND(tiles) ((tiles) ? 4 : 1)
 
 // ---- Frame -------------------------------------------------------------------------------------
 // Values that may change from frame to frame without compiling again. A vector is an unevaluated
@@ -129,7 +132,7 @@ typedef struct glint_frame_record {
     int depth;             // surfaces that a path meets at most, 1 or more
     int environment_edge;  // texels, without border
     int irradiance_edge;
-    int first_row; // of tiles: where this launch begins
+    int first_band; // of tiles: where this launch begins
     int unused[2];
 } glint_frame_record;
 
@@ -140,7 +143,6 @@ typedef struct glint_frame_record {
 #define GLINT_COUNTER_SLOTS 64
 #define GLINT_WEIGHT_BITS 32
 enum glint_counter {
-    GLINT_COUNT_PRIMARY,
     GLINT_COUNT_REFLECTED,
     GLINT_COUNT_REFRACTED_IN,
     GLINT_COUNT_REFRACTED_OUT,

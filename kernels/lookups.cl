@@ -10,11 +10,14 @@ typedef struct lookups {
     int count;
     int group[LOOKUPS];
     uint wanted[LOOKUPS]; // rays, as bits
+    bool white[LOOKUPS];  // all wanted rays weigh 1
     lanes_int first[LOOKUPS];
     real right[LOOKUPS], down[LOOKUPS]; // see cube_point
     scalar weights[LOOKUPS * PIXEL_VALUES];
-    scalar sums[TILE_GROUPS * PIXEL_VALUES];
+    scalar sums[TILE_GROUPS * PIXEL_VALUES]; // R, G, B; the fourth value means nothing
 } lookups;
+
+#define ALL_RAYS ((uint)((1 << GLINT_WIDTH) - 1))
 
 static inline void begin_lookups(lookups *l)
 {
@@ -24,19 +27,28 @@ static inline void begin_lookups(lookups *l)
     }
 }
 
+static inline scalar4 look_up(const lookups *l, const cube_map *map, int i, int lane)
+{
+    return fetch_from_cube(map, (size_t)LANE_INT(l->first[i], lane), LANE(l->right[i], lane),
+                           LANE(l->down[i], lane));
+}
+
 // Makes all look-ups that wait.
 static inline void finish_lookups(lookups *l, const cube_map *map)
 {
     for (int i = 0; i < l->count; i++) {
         const scalar *weights = l->weights + i * PIXEL_VALUES;
         scalar *sums = l->sums + l->group[i] * PIXEL_VALUES;
-        uint left = l->wanted[i];
-        while (left != 0) {
+        if (l->white[i] && l->wanted[i] == ALL_RAYS) { // most are
+            for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+                vstore4(vload4(lane, sums) + look_up(l, map, i, lane), lane, sums);
+            }
+            continue;
+        }
+        for (uint left = l->wanted[i]; left != 0; left &= left - 1) {
             int lane = lowest_bit(left);
-            left &= left - 1;
-            scalar4 light = fetch_from_cube(map, (size_t)LANE_INT(l->first[i], lane),
-                                            LANE(l->right[i], lane), LANE(l->down[i], lane));
-            vstore4(vload4(lane, sums) + vload4(lane, weights) * light, lane, sums);
+            scalar4 light = vload4(lane, weights) * look_up(l, map, i, lane);
+            vstore4(vload4(lane, sums) + light, lane, sums);
         }
     }
     l->count = 0;
@@ -57,5 +69,12 @@ static inline void look_up_later(lookups *l, const cube_map *map, real3 directio
     l->first[i] = point.first;
     l->right[i] = point.right;
     l->down[i] = point.down;
-    to_pixels(weight.x, weight.y, weight.z, real_of(0), l->weights + i * PIXEL_VALUES);
+    for (uint left = l->wanted[i]; left != 0; left &= left - 1) {
+        prefetch_texels(map, (size_t)LANE_INT(point.first, lowest_bit(left)));
+    }
+    mask tinted = (weight.x != R(1.0)) | (weight.y != R(1.0)) | (weight.z != R(1.0));
+    l->white[i] = !any_lane(wanted & tinted);
+    if (!l->white[i] || l->wanted[i] != ALL_RAYS) {
+        to_pixels(weight.x, weight.y, weight.z, real_of(0), l->weights + i * PIXEL_VALUES);
+    }
 }

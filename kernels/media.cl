@@ -20,18 +20,19 @@ static inline lanes_int enter_medium(lanes_int media, lanes_int medium, mask *lo
 #endif
 }
 
-// The stack without the innermost entry that is `medium`; unchanged where there is none.
+// The stack without the innermost entry that is `medium`; unchanged where there is none. Nearly always
+// that is the first one.
 static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
 {
 #if GLINT_NESTED_MEDIA
     lanes_int left = media;
-    mask found = mask_none();
-    for (int k = 0; k < GLINT_MEDIA_CAPACITY; k++) {
+    mask searched = media != (lane_int)0;
+    for (int k = 0; k < GLINT_MEDIA_CAPACITY && any_lane(searched); k++) {
         const lane_int below = k * GLINT_MEDIA_BITS, above = below + GLINT_MEDIA_BITS;
-        mask here = !found & (((media >> below) & MEDIUM_MASK) == medium);
+        mask here = searched & (((media >> below) & MEDIUM_MASK) == medium);
         lanes_int inner = media & (lane_int)((1 << below) - 1);
         left = SELECT(here, ((media >> above) << below) | inner, left);
-        found |= here;
+        searched = searched & !here & ((media >> above) != (lane_int)0);
     }
     return left;
 #else
@@ -41,9 +42,12 @@ static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
 
 static inline real medium_ior(global const glint_medium_record *media, lanes_int medium)
 {
-    real ior;
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        LANE(ior, lane) = media[LANE_INT(medium, lane)].ior;
+    real ior = real_of(1);
+    uint left = mask_bits(mask_all());
+    while (left != 0) {
+        int number;
+        mask alike = next_alike(medium, &left, &number);
+        ior = SELECT(alike, real_of(media[number].ior), ior);
     }
     return ior;
 }
@@ -53,12 +57,15 @@ static inline real medium_ior(global const glint_medium_record *media, lanes_int
 static inline real3 medium_transmittance(global const glint_medium_record *media, lanes_int medium,
                                          real s)
 {
-    real3 sigma;
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        global const glint_medium_record *record = media + LANE_INT(medium, lane);
-        LANE(sigma.x, lane) = JOIN(record->absorption_high[0], record->absorption_low[0]);
-        LANE(sigma.y, lane) = JOIN(record->absorption_high[1], record->absorption_low[1]);
-        LANE(sigma.z, lane) = JOIN(record->absorption_high[2], record->absorption_low[2]);
+    real3 sigma = real3_of(real_of(0), real_of(0), real_of(0));
+    uint left = mask_bits(mask_all());
+    while (left != 0) {
+        int number;
+        mask alike = next_alike(medium, &left, &number);
+        global const float *high = media[number].absorption_high, *low = media[number].absorption_low;
+        sigma.x = SELECT(alike, real_of(JOIN(high[0], low[0])), sigma.x);
+        sigma.y = SELECT(alike, real_of(JOIN(high[1], low[1])), sigma.y);
+        sigma.z = SELECT(alike, real_of(JOIN(high[2], low[2])), sigma.z);
     }
     return real3_of(exp_of_negative(-sigma.x * s), exp_of_negative(-sigma.y * s),
                     exp_of_negative(-sigma.z * s));

@@ -26,8 +26,9 @@
 #include "cubemap.cl"
 #include "optics.cl"
 #include "media.cl"
-#include "intersect.cl"
+#include "frustum.cl"
 #include "stack.cl"
+#include "intersect.cl"
 #include "traverse_packet.cl"
 #include "traverse_tile.cl"
 #include "lookups.cl"
@@ -36,12 +37,25 @@
 #include "branches.cl"
 
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
+// Pixels get more than what the environment's look-ups bring.
+#define GATHERS                                                                                    \
+    (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT || GLINT_HITS)
 
 // What one work-item counts; added to the counters at its end.
 typedef struct tally {
     ulong counts[GLINT_COUNTERS];
     real weight_by_depth, weight_by_min_weight, weight_by_stack;
 } tally;
+
+static inline tally no_tally(void)
+{
+    tally t;
+    for (int i = 0; i < GLINT_COUNTERS; i++) {
+        t.counts[i] = 0;
+    }
+    t.weight_by_depth = t.weight_by_min_weight = t.weight_by_stack = real_of(0);
+    return t;
+}
 
 static inline real3 join_vector(const glint_split_vector *v)
 {
@@ -198,7 +212,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
                                  tally *tally)
 {
-    surface s = find_surface(scene, ray, hit, triangles, met);
+    surface s = find_surface(scene, ray, hit, triangles);
     real3 v = negate(ray->direction);
     real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
 #if NEEDS_IRRADIANCE
@@ -253,8 +267,7 @@ static inline closest find_hits(const scene_buffers *scene, const image_space *i
     if (first != 0) {
         hit.place = SELECT(traced, first->places, int_of(-1));
     } else {
-        hit = trace_packet(scene->nodes, scene->clusters, scene->numbers, ray->origin,
-                           ray->direction, ray->from, traced);
+        hit = trace_packet(scene, ray->origin, ray->direction, ray->from, traced);
     }
     mask met = hit.place >= (lane_int)0;
     if (any_lane(met)) {
@@ -341,14 +354,18 @@ static inline ulong weight_units(real weights)
     return (ulong)(sum_of_lanes(weights) * (scalar)(1UL << GLINT_WEIGHT_BITS));
 }
 
-static inline void report(tally *tally, global uint *counters, uint slot)
+static inline void report(tally *tally, global uint *counters)
 {
+    const uint slot = (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0));
     ulong *counts = tally->counts;
     counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = weight_units(tally->weight_by_depth);
     counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] = weight_units(tally->weight_by_min_weight);
     counts[GLINT_COUNT_WEIGHT_BY_STACK] = weight_units(tally->weight_by_stack);
     global uint *mine = counters + 2 * GLINT_COUNTERS * (slot % GLINT_COUNTER_SLOTS);
     for (int i = 0; i < GLINT_COUNTERS; i++) {
+        if (counts[i] == 0) {
+            continue;
+        }
         if (i == GLINT_COUNT_DEEPEST) {
             atomic_max(mine + 2 * i, (uint)counts[i]);
         } else {
@@ -364,6 +381,10 @@ static inline real3 describe_hits(const scene_buffers *scene, const image_space 
 {
     const real zero = real_of(0);
     mask met = first->places >= (lane_int)0;
+    if (!any_lane(met)) {
+        *number = real_of(-1);
+        return real3_of(zero, zero, zero);
+    }
     triangle triangles = load_triangles(scene, first->places, met);
     closest hit;
     measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, &hit);
@@ -375,8 +396,10 @@ static inline real3 describe_hits(const scene_buffers *scene, const image_space 
 
 // What a tile's pixels have gathered so far without the environment, sample by sample.
 typedef struct gathered {
+#if GATHERS
     real3 color[TILE_GROUPS];
     real alpha[TILE_GROUPS];
+#endif
 } gathered;
 
 // Adds one sample of each pixel of a group.
@@ -398,23 +421,45 @@ static inline void render_group(const scene_buffers *scene, const glint_frame_re
     alpha = SELECT(first.places >= (lane_int)0, alpha, real_of(0));
 #endif
 #endif
+#if GATHERS
     sum->color[group] = add(sum->color[group], color);
     sum->alpha[group] += alpha;
+#endif
+}
+
+// Adds what a group's pixels have gathered to what look-ups brought.
+static inline void add_gathered(const gathered *sum, int group, scalar *sums)
+{
+#if GATHERS
+    const real3 color = sum->color[group];
+#if GLINT_HITS
+    to_pixels(color.x, color.y, color.z, sum->alpha[group], sums);
+#else
+    scalar values[PIXEL_VALUES];
+    to_pixels(color.x, color.y, color.z, sum->alpha[group], values);
+    for (int j = 0; j < PACKET_HEIGHT; j++) {
+        pixel_row light = without_alpha(load_pixel_row(j, sums));
+        store_pixel_row(load_pixel_row(j, values) + light, j, sums);
+    }
+#endif
+#endif
 }
 
 // Writes a group's pixels that lie inside the image: the sums of samples of which each has `share`.
 static inline void store_group(global scalar *pixels, const glint_frame_record *frame, int x0,
-                               int y0, real3 color, real alpha, const scalar *environment,
-                               scalar share)
+                               int y0, const scalar *sums, scalar share)
 {
-    scalar values[PIXEL_VALUES];
-    to_pixels(color.x, color.y, color.z, alpha, values);
+    const bool aligned = frame->width % PACKET_WIDTH == 0;
     for (int j = 0; j < PACKET_HEIGHT && y0 + j < frame->height; j++) {
-        pixel_row sums = load_pixel_row(j, values) + load_pixel_row(j, environment);
-        pixel_row means = sums * (pixel_row)share;
+        pixel_row means = load_pixel_row(j, sums) * (pixel_row)share;
+        means = GATHERS ? means : opaque(means);
         global scalar *row = pixels + 4 * ((size_t)(y0 + j) * (size_t)frame->width + (size_t)x0);
         if (x0 + PACKET_WIDTH <= frame->width) {
-            store_pixel_row(means, 0, row);
+            if (aligned) {
+                stream_pixel_row(means, row);
+            } else {
+                store_pixel_row(means, 0, row);
+            }
         } else {
             for (int i = 0; i < 4 * (frame->width - x0); i++) {
                 row[i] = ((scalar *)&means)[i];
@@ -425,49 +470,52 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
 
 // Renders the tile whose first pixel is in the given column and row.
 static inline void render_tile(const scene_buffers *scene, const glint_frame_record *frame,
-                               int column, int row, global scalar *pixels, tally *tally)
+                               int column, int row, global scalar *pixels, global uint *counters)
 {
     const image_space image = make_image_space(frame);
+    tally tally = no_tally();
     gathered sum;
     lookups later;
     mask inside[TILE_GROUPS];
-    int pixel_count = 0;
-    begin_lookups(&later);
     for (int g = 0; g < TILE_GROUPS; g++) {
+#if GATHERS
         const real zero = real_of(0);
         sum.color[g] = real3_of(zero, zero, zero);
         sum.alpha[g] = zero;
+#endif
         inside[g] = group_in_image(frame, column, row, g);
-        pixel_count += count_lanes(inside[g]);
     }
 #if GLINT_SUPERSAMPLING
     const int k = frame->samples_per_axis;
 #else
     const int k = 1;
 #endif
+    begin_lookups(&later);
     for (int sample = 0; sample < k * k; sample++) {
         tile t;
         begin_tile(&image, frame, column, row, ((scalar)(sample % k) + R(0.5)) / (scalar)k,
                    ((scalar)(sample / k) + R(0.5)) / (scalar)k, &t);
 #if GLINT_GEOMETRY
-        trace_tile(&image, &t, scene->nodes, scene->clusters, scene->numbers);
+        trace_tile(&image, &t, scene);
 #endif
         for (int g = 0; g < TILE_GROUPS; g++) {
-            render_group(scene, frame, &image, &t, g, inside[g], &sum, &later, tally);
+            render_group(scene, frame, &image, &t, g, inside[g], &sum, &later, &tally);
         }
     }
     finish_lookups(&later, &scene->environment);
-    tally->counts[GLINT_COUNT_PRIMARY] = (ulong)(pixel_count * k * k);
+    // Before the pixels are stored: an atomic operation waits for all stores before it.
+    report(&tally, counters);
     scalar share = R(1.0) / (scalar)(k * k);
     for (int g = 0; g < TILE_GROUPS; g++) {
+        scalar *sums = later.sums + PIXEL_VALUES * g;
+        add_gathered(&sum, g, sums);
         store_group(pixels, frame, column + g % TILE_COLUMNS * PACKET_WIDTH,
-                    row + g / TILE_COLUMNS * PACKET_HEIGHT, sum.color[g], sum.alpha[g],
-                    later.sums + PIXEL_VALUES * g, share);
+                    row + g / TILE_COLUMNS * PACKET_HEIGHT, sums, share);
     }
 }
 
-// Work-item (i, j) of the global range renders the tile in column i and row first_row + j of the
-// frame, in tiles. (An offset of the range itself would make PoCL compile the kernel once more.)
+// Work-item (i, j) of the global range renders tile i of band first_band + j of the frame. (An offset
+// of the range itself would make PoCL compile the kernel once more.)
 //  pixels: [height][width][4] (R, G, B premultiplied, alpha). counters: see layout.h. The
 // other buffers are described in layout.h too; those that no compiled feature needs may be of any
 // size.
@@ -482,16 +530,12 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
     const scene_buffers scene = {nodes, clusters, normals, numbers, materials, media,
                                  {environment, frame.environment_edge, GLINT_HALF_TEXELS},
                                  {irradiance, frame.irradiance_edge, false}};
-    const int column = (int)get_global_id(0) * PACKET_WIDTH * TILE_COLUMNS;
-    const int row = ((int)get_global_id(1) + frame.first_row) * PACKET_HEIGHT * TILE_ROWS;
+    const int across = (int)get_global_id(0), down = (int)get_global_id(1);
+    const int band = GLINT_BAND(GLINT_TILES);
+    const int column = across / band * PACKET_WIDTH * TILE_COLUMNS;
+    const int row = ((down + frame.first_band) * band + across % band) * PACKET_HEIGHT * TILE_ROWS;
     if (column >= frame.width || row >= frame.height) {
         return;
     }
-    tally tally;
-    for (int i = 0; i < GLINT_COUNTERS; i++) {
-        tally.counts[i] = 0;
-    }
-    tally.weight_by_depth = tally.weight_by_min_weight = tally.weight_by_stack = real_of(0);
-    render_tile(&scene, &frame, column, row, pixels, &tally);
-    report(&tally, counters, (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0)));
+    render_tile(&scene, &frame, column, row, pixels, counters);
 }

@@ -14,17 +14,6 @@ typedef struct path {
     lanes_int looked_up;     // 1: takes the environment along its direction, without being traced
 } path;
 
-// The scene's buffers, as every part of the shading gets them.
-typedef struct scene_buffers {
-    global const float *nodes;
-    global const float *clusters;
-    global const float *normals;
-    global const int *numbers;
-    global const glint_material_record *materials;
-    global const glint_medium_record *media;
-    cube_map environment, irradiance;
-} scene_buffers;
-
 // A hit, ready for optics.
 typedef struct surface {
     real3 position;         // on the triangle, stored coordinates
@@ -45,6 +34,9 @@ typedef struct triangle {
     real3 vertices[3];
 #if GLINT_SMOOTH_NORMALS
     real3 normals[3];
+#endif
+#if GLINT_MANY_MATERIALS
+    lanes_int material;
 #endif
 #if GLINT_HITS
     real number; // in the scene
@@ -71,18 +63,24 @@ static inline triangle load_triangles(const scene_buffers *scene, lanes_int plac
         t.normals[k] = zero;
 #endif
     }
+#if GLINT_MANY_MATERIALS
+    t.material = int_of(0);
+#endif
 #if GLINT_HITS
     t.number = real_of(-1);
 #endif
     uint left = mask_bits(met);
     while (left != 0) {
-        int place = (int)LANE_INT(places, lowest_bit(left));
-        mask here = places == (lane_int)place;
-        left &= ~mask_bits(here);
+        int place;
+        mask here = next_alike(places, &left, &place);
         size_t cluster = (size_t)place / GLINT_CLUSTER_LANES;
         global const float *values = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
         global const uchar *corners = (global const uchar *)(values + GLINT_CLUSTER_CORNERS) +
                                       place % GLINT_CLUSTER_LANES;
+#if GLINT_MANY_MATERIALS
+        const int material = ((global const int *)values)[GLINT_CLUSTER_MATERIAL];
+        t.material = SELECT(here, int_of(material), t.material);
+#endif
 #if GLINT_HITS
         t.number = SELECT(here, real_of((scalar)scene->numbers[place]), t.number);
 #endif
@@ -150,43 +148,40 @@ static inline void orient_normals(const triangle *t, const path *ray, const clos
     s->cosine = SMALLER(cosine, real_of(1));
 }
 
-// Copies what the compiled features need of one material into a lane.
-static inline void set_material_lane(surface *s, int lane, global const glint_material_record *m)
+// Sets what the compiled features need of a material, for the rays in `yes`.
+static inline void set_material(surface *s, mask yes, global const glint_material_record *m)
 {
-    LANE(s->base_color.x, lane) = m->base_color[0];
-    LANE(s->base_color.y, lane) = m->base_color[1];
-    LANE(s->base_color.z, lane) = m->base_color[2];
+    s->base_color.x = SELECT(yes, real_of(m->base_color[0]), s->base_color.x);
+    s->base_color.y = SELECT(yes, real_of(m->base_color[1]), s->base_color.y);
+    s->base_color.z = SELECT(yes, real_of(m->base_color[2]), s->base_color.z);
 #if GLINT_EMISSION
-    LANE(s->emission.x, lane) = m->emission[0];
-    LANE(s->emission.y, lane) = m->emission[1];
-    LANE(s->emission.z, lane) = m->emission[2];
+    s->emission.x = SELECT(yes, real_of(m->emission[0]), s->emission.x);
+    s->emission.y = SELECT(yes, real_of(m->emission[1]), s->emission.y);
+    s->emission.z = SELECT(yes, real_of(m->emission[2]), s->emission.z);
 #endif
-    LANE(s->metallic, lane) = m->metallic;
-    LANE(s->transmission, lane) = m->transmission;
-    LANE(s->ior, lane) = m->ior;
-    LANE(s->blend, lane) = m->blend;
-    LANE_INT(s->flags, lane) = (lane_int)m->flags;
-    LANE_INT(s->medium, lane) = (lane_int)m->medium;
+    s->metallic = SELECT(yes, real_of(m->metallic), s->metallic);
+    s->transmission = SELECT(yes, real_of(m->transmission), s->transmission);
+    s->ior = SELECT(yes, real_of(m->ior), s->ior);
+    s->blend = SELECT(yes, real_of(m->blend), s->blend);
+    s->flags = SELECT(yes, int_of((lane_int)m->flags), s->flags);
+    s->medium = SELECT(yes, int_of((lane_int)m->medium), s->medium);
 }
 
-static inline void load_material(const scene_buffers *scene, lanes_int place, mask met, surface *s)
+static inline void load_materials(const scene_buffers *scene, const triangle *t, surface *s)
 {
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        size_t material = 0;
+    set_material(s, mask_all(), scene->materials);
 #if GLINT_MANY_MATERIALS
-        if (lane_is_set(met, lane)) {
-            size_t cluster = (size_t)LANE_INT(place, lane) / GLINT_CLUSTER_LANES;
-            material = (size_t)((global const int *)scene->clusters)[cluster *
-                                                                         GLINT_CLUSTER_VALUES +
-                                                                     GLINT_CLUSTER_MATERIAL];
-        }
-#endif
-        set_material_lane(s, lane, scene->materials + material);
+    uint left = mask_bits(t->material != (lane_int)0);
+    while (left != 0) {
+        int number;
+        mask here = next_alike(t->material, &left, &number);
+        set_material(s, here, scene->materials + number);
     }
+#endif
 }
 
 static inline surface find_surface(const scene_buffers *scene, const path *ray, const closest *hit,
-                                   const triangle *t, mask met)
+                                   const triangle *t)
 {
     surface s;
     const real3 *vertices = t->vertices;
@@ -199,6 +194,6 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     place_on_triangle(vertices, hit, &s);
 #endif
     orient_normals(t, ray, hit, &s);
-    load_material(scene, hit->place, met, &s);
+    load_materials(scene, t, &s);
     return s;
 }

@@ -1,25 +1,67 @@
-// The nodes and leaves that wait in a traversal, the nearest on top.
+// The scene on the device, and the nodes and leaves that wait in a traversal, the nearest on top.
 
-// `entry` is the distance or depth at which the rays may enter, `rays` says which may, as bits.
+// The scene's buffers, as every part of the shading gets them.
+typedef struct scene_buffers {
+    global const float *nodes;
+    global const float *clusters;
+    global const float *normals;
+    global const int *numbers;
+    global const glint_material_record *materials;
+    global const glint_medium_record *media;
+    cube_map environment, irradiance;
+} scene_buffers;
+
+typedef global const float *node_pointer;
+
+static inline node_pointer node_at(const scene_buffers *scene, int index)
+{
+    return scene->nodes + (size_t)index * (GLINT_NODE_VALUES * GLINT_BVH_WIDTH);
+}
+
+static inline int child_of(node_pointer node, int child)
+{
+    return ((global const int *)(node + 6 * GLINT_BVH_WIDTH))[child];
+}
+
+// `entry` is the distance or depth at which the rays may enter; `box` is the place of the box among
+// all nodes' children.
 typedef struct waiting {
     int child;
     scalar entry;
-    uint rays;
+    int box;
 } waiting;
 
-// Puts a child of the node on the stack, in order of falling distance down to `base`, where the
+// Asks for what the traversal will soon come to: a node, or a cluster and its normals.
+static inline void prefetch_child(const scene_buffers *scene, int child)
+{
+    const size_t index = (size_t)(child < 0 ? ~child : child);
+    node_pointer node = node_at(scene, (int)index);
+    global const float *first = child < 0 ? scene->clusters + index * GLINT_CLUSTER_VALUES : node;
+    global const float *second =
+        child < 0 ? scene->normals + index * GLINT_CLUSTER_NORMALS : node + GLINT_CLUSTER_VALUES;
+#pragma unroll
+    for (int i = 0; i < GLINT_CLUSTER_VALUES; i += 16) {
+        prefetch_line(first + i);
+    }
+#pragma unroll
+    for (int i = 0; i < GLINT_CLUSTER_NORMALS; i += 16) {
+        prefetch_line(second + i);
+    }
+}
+
+// Puts a child of a node on the stack, in order of falling distance down to `base`, where the
 // node's own children begin. Equal distances keep the order of the children, so that the order is
 // always the same. Returns the new size.
-static inline int push_waiting(waiting *stack, int base, int size, global const float *node,
-                               int child, scalar entry, uint rays)
+static inline int push_waiting(const scene_buffers *scene, waiting *stack, int base, int size,
+                               int node, int child, scalar entry)
 {
-    global const int *children = (global const int *)(node + 6 * GLINT_BVH_WIDTH);
     int i = size++;
     for (; i > base && stack[i - 1].entry <= entry; i--) {
         stack[i] = stack[i - 1];
     }
-    stack[i].child = children[child];
+    stack[i].child = child_of(node_at(scene, node), child);
     stack[i].entry = entry;
-    stack[i].rays = rays;
+    stack[i].box = node * GLINT_BVH_WIDTH + child;
+    prefetch_child(scene, stack[i].child);
     return size;
 }

@@ -1,70 +1,128 @@
-// Closest hits of a packet of rays in the wide tree: one stack for all rays of the packet. A node's
-// boxes are tested all at once against the ranges of the packet's rays; a box that passes is then
-// tested against each ray, so that rays that have spread apart do not visit all that lies between.
-// At a leaf the loop runs over its triangles, each tested against all rays, or over the rays that meet
-// its box, each tested against all triangles, whichever is less work. The same operations in either
-// order: the same hits, bit for bit.
+// Closest hits of a packet of rays in the wide tree: one stack for all rays that run about the same
+// way. A node's boxes are tested all at once against the frustum around the rays; where the rays
+// spread apart, a box that passes is then tested against each, so that they do not visit all that
+// lies between. At a leaf the frustum selects triangles, and the loop runs over these, each tested
+// against all rays, or over the rays, each tested against all triangles, whichever is less work.
+// The same operations in either order: the same hits, bit for bit.
 
-// Puts the children that some ray meets on the stack, the nearest on top.
-static inline int push_children(const packet *p, global const float *node, mask active,
-                                const closest *hit, waiting *stack, int size)
+// One traversal: rays that run along one axis, and their frustum.
+typedef struct bundle {
+    const packet *rays;
+    frustum bounds;
+    mask active;
+    int axes;        // bit k: some ray's largest component is k
+    scalar farthest; // along the frustum's axis, beyond which nothing can be the closest hit
+} bundle;
+
+static inline void update_farthest(bundle *b, const closest *hit)
 {
-    boxes entries;
-    scalar farthest = largest_lane(SELECT(active, hit->t, real_of(-HUGE)));
-    uint met = packet_meets_boxes(p, node, farthest, &entries);
+    real end = fused(hit->t, b->bounds.speed, b->bounds.w);
+    scalar farthest = largest_lane(SELECT(b->active, end, real_of(-SCENE_END))) + FRUSTUM_SLACK;
+    b->farthest = SMALLER(farthest, SCENE_END);
+}
+
+static inline bundle make_bundle(packet *p, int along, scalar sign, mask active)
+{
+    bundle b;
+    b.rays = p;
+    b.bounds = make_frustum(p->origin, p->direction, along, sign, active);
+    b.active = active;
+    b.axes = 0;
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        b.axes |= any_lane(active & (p->axis == (lane_int)k)) ? 1 << k : 0;
+    }
+    b.farthest = SCENE_END;
+    return b;
+}
+
+// Puts the children that some ray may meet on the stack, the nearest on top.
+static inline int push_children(const bundle *b, const scene_buffers *scene, int node,
+                                waiting *stack, int size)
+{
+    boxes near;
+    uint met = frustum_meets_boxes(&b->bounds, node_at(scene, node), b->farthest, &near);
     int base = size;
-    while (met != 0) {
+    for (; met != 0; met &= met - 1) {
         int child = lowest_bit(met);
-        met &= met - 1;
-        uint rays = 1;
-#if GLINT_WIDTH > 1
-        rays = mask_bits(active & rays_meet_box(p, node, child, hit->t));
-        if (rays == 0) {
-            continue;
-        }
-#endif
-        size = push_waiting(stack, base, size, node, child, ((scalar *)&entries)[child], rays);
+        size = push_waiting(scene, stack, base, size, node, child, ((scalar *)&near)[child]);
     }
     return size;
 }
 
-static inline void intersect_by_triangle(const packet *p, global const float *cluster,
-                                         global const int *numbers, int first, int count,
-                                         lanes_int from, mask active, closest *hit)
+// The rays that may meet a box, one of all nodes' children.
+static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int box, const closest *hit)
 {
-    for (int lane = 0; lane < count; lane++) {
-        int place = first + lane;
-        float vertices[9];
-        load_triangle(cluster, lane, vertices);
-        intersect_triangle(p, vertices, place, numbers[place], active & (from != (lane_int)place),
-                           hit);
-    }
+    node_pointer node = node_at(scene, box / GLINT_BVH_WIDTH);
+    return mask_bits(b->active & rays_meet_box(b->rays, node, box % GLINT_BVH_WIDTH, hit->t));
 }
 
-// A loop over rays pays from this many triangles for each ray.
-#define TRIANGLES_PER_RAY 2
+// With more triangles than this it pays to find the rays that meet the cluster at all.
+#define SPARSE_TRIANGLES 4
 
-static inline void intersect_cluster(const packet *p, global const float *clusters,
-                                     global const int *numbers, int index, uint rays,
-                                     lanes_int from, mask active, closest *hit)
+// `from` is the place of the triangle that each ray starts on, which it cannot hit: −1 for none. True if
+// a ray has met a triangle.
+static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene, int index, int box,
+                                     lanes_int from, closest *hit)
 {
-    global const float *cluster = clusters + (size_t)index * GLINT_CLUSTER_VALUES;
+    global const float *cluster = scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES;
     const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
     const int first = index * GLINT_CLUSTER_LANES;
-    if (GLINT_WIDTH > 1 && (int)popcount(rays) * TRIANGLES_PER_RAY > count) {
-        intersect_by_triangle(p, cluster, numbers, first, count, from, active, hit);
-        return;
+    uint met = frustum_meets_triangles(&b->bounds, cluster, count, b->farthest);
+    bool found = false;
+    if (GLINT_WIDTH > 1 && popcount(met) > SPARSE_TRIANGLES) {
+        uint rays = rays_at_box(b, scene, box, hit);
+        if (popcount(rays) < popcount(met)) {
+            for (; rays != 0; rays &= rays - 1) {
+                int ray = lowest_bit(rays);
+                found |= intersect_by_ray(b->rays, ray, cluster, scene->numbers, first, count,
+                                          (int)LANE_INT(from, ray), hit);
+            }
+            return found;
+        }
     }
-    while (rays != 0) {
-        int ray = lowest_bit(rays);
-        rays &= rays - 1;
-        intersect_by_ray(p, ray, cluster, numbers, first, count, (int)LANE_INT(from, ray), hit);
+    for (; met != 0; met &= met - 1) {
+        int place = first + lowest_bit(met);
+        float vertices[9];
+        load_triangle(cluster, place - first, vertices);
+        found |= intersect_triangle(b->rays, b->axes, vertices, place, scene->numbers[place],
+                                    b->active & (from != (lane_int)place), hit);
+    }
+    return found;
+}
+
+static inline void trace_bundle(bundle *b, const scene_buffers *scene, lanes_int from, closest *hit)
+{
+    waiting stack[GLINT_TRAVERSAL_STACK];
+    stack[0].child = 0;
+    stack[0].entry = -SCENE_END;
+    stack[0].box = 0;
+    int size = 1;
+    while (size > 0) {
+        waiting next = stack[--size];
+        if (next.entry > b->farthest) {
+            continue;
+        }
+        if (next.child >= 0) {
+            if (GLINT_WIDTH == 1 || !b->bounds.wide || next.child == 0 ||
+                rays_at_box(b, scene, next.box, hit) != 0) {
+                size = push_children(b, scene, next.child, stack, size);
+            }
+        } else if (intersect_cluster(b, scene, ~next.child, next.box, from, hit)) {
+            update_farthest(b, hit);
+        }
     }
 }
 
-// `from` is the place of the triangle that each ray starts on, which it cannot hit: −1 for none.
-static inline closest trace_packet(global const float *nodes, global const float *clusters,
-                                   global const int *numbers, real3 origin, real3 direction,
+// Rays that have a direction and a place in the scene, whatever optics made of them: not NaN.
+static inline mask is_sound(real3 origin, real3 direction)
+{
+    real place = fabs(origin.x) + fabs(origin.y) + fabs(origin.z);
+    real length = fabs(direction.x) + fabs(direction.y) + fabs(direction.z);
+    return (place < SCENE_END) & (length < R(2.0)) & (length > R(0.5));
+}
+
+static inline closest trace_packet(const scene_buffers *scene, real3 origin, real3 direction,
                                    lanes_int from, mask active)
 {
     closest hit;
@@ -73,27 +131,16 @@ static inline closest trace_packet(global const float *nodes, global const float
     hit.b2 = real_of(0);
     hit.place = int_of(-1);
     hit.triangle = int_of(0x7fffffff);
-    if (!any_lane(active)) {
-        return hit;
-    }
-    packet p = make_packet(origin, direction, active);
-    waiting stack[GLINT_TRAVERSAL_STACK];
-    stack[0].child = 0;
-    stack[0].entry = 0;
-    stack[0].rays = mask_bits(active);
-    int size = 1;
-    while (size > 0) {
-        waiting next = stack[--size];
-        if (next.entry > largest_lane(SELECT(active, hit.t, real_of(-HUGE)))) {
-            continue;
-        }
-        if (next.child >= 0) {
-            global const float *node =
-                nodes + (size_t)next.child * (GLINT_NODE_VALUES * GLINT_BVH_WIDTH);
-            size = push_children(&p, node, active, &hit, stack, size);
-            continue;
-        }
-        intersect_cluster(&p, clusters, numbers, ~next.child, next.rays, from, active, &hit);
+    packet p = make_packet(origin, direction);
+    active = active & is_sound(origin, direction);
+    while (any_lane(active)) {
+        int leader = lowest_bit(mask_bits(active));
+        int along = (int)LANE_INT(p.axis, leader);
+        scalar sign = LANE(p.direction[along], leader) > 0 ? R(1.0) : R(-1.0);
+        mask together = rays_along(&direction, along, sign, active);
+        bundle b = make_bundle(&p, along, sign, together);
+        trace_bundle(&b, scene, from, &hit);
+        active = active & !together;
     }
     return hit;
 }

@@ -382,7 +382,9 @@ static inline mask image_weights(const image_corners *c, real x, real y, real we
     weights[2] = w;
     mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
                   ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
-    return inside & (u + v + w != R(0.0));
+    return inside & (u + v + w != R(0.0)) & (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) &
+           (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) & (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) &
+           (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
 }
 
 // The slow way, for pixels where an edge's function is too close to 0.
@@ -471,10 +473,9 @@ static inline void update_depth(const image_space *s, tile *t, uint changed)
     }
 }
 
-static inline void meet_cluster(const image_space *s, tile *t, global const float *clusters,
-                                global const int *numbers, int index)
+static inline void meet_cluster(const image_space *s, tile *t, const scene_buffers *scene, int index)
 {
-    global const float *cluster = clusters + GLINT_CLUSTER_VALUES * (size_t)index;
+    global const float *cluster = scene->clusters + GLINT_CLUSTER_VALUES * (size_t)index;
     block vertices[4];
     to_image(s, cluster, vertices);
     image_triangles triangles;
@@ -487,7 +488,7 @@ static inline void meet_cluster(const image_space *s, tile *t, global const floa
         while (groups != 0) {
             int g = lowest_bit(groups);
             groups &= groups - 1;
-            if (meet_group(s, t, &triangles, vertices, cluster, numbers, index, i, g)) {
+            if (meet_group(s, t, &triangles, vertices, cluster, scene->numbers, index, i, g)) {
                 changed |= 1u << g;
             }
         }
@@ -497,8 +498,7 @@ static inline void meet_cluster(const image_space *s, tile *t, global const floa
     }
 }
 
-static inline void trace_tile(const image_space *s, tile *t, global const float *nodes,
-                              global const float *clusters, global const int *numbers)
+static inline void trace_tile(const image_space *s, tile *t, const scene_buffers *scene)
 {
     waiting stack[GLINT_TRAVERSAL_STACK];
     stack[0].child = 0;
@@ -510,18 +510,15 @@ static inline void trace_tile(const image_space *s, tile *t, global const float 
             continue;
         }
         if (next.child < 0) {
-            meet_cluster(s, t, clusters, numbers, ~next.child);
+            meet_cluster(s, t, scene, ~next.child);
             continue;
         }
-        global const float *node =
-            nodes + (size_t)next.child * (GLINT_NODE_VALUES * GLINT_BVH_WIDTH);
         boxes near;
-        uint met = tile_meets_boxes(s, t, node, &near);
+        uint met = tile_meets_boxes(s, t, node_at(scene, next.child), &near);
         int base = size;
-        while (met != 0) {
+        for (; met != 0; met &= met - 1) {
             int child = lowest_bit(met);
-            met &= met - 1;
-            size = push_waiting(stack, base, size, node, child, ((scalar *)&near)[child], 0);
+            size = push_waiting(scene, stack, base, size, next.child, child, ((scalar *)&near)[child]);
         }
     }
 }

@@ -138,7 +138,7 @@ static void check_layout(probe *p)
         {sizeof(glint_material_record), offsetof(glint_material_record, medium),
          sizeof(glint_medium_record), offsetof(glint_medium_record, ior)},
         {sizeof(glint_split_vector), sizeof(glint_frame_record),
-         offsetof(glint_frame_record, min_weight), offsetof(glint_frame_record, first_row)},
+         offsetof(glint_frame_record, min_weight), offsetof(glint_frame_record, first_band)},
     };
     for (size_t row = 0; row < 2; row++) {
         for (size_t k = 0; k < 4; k++) {

@@ -36,6 +36,7 @@ struct glint_renderer {
     cl_kernel kernel;
     cl_mem pixels, counters;
     size_t pixel_count;
+    double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };
 
 static double now_ms(void)
@@ -139,11 +140,11 @@ static size_t round_up(size_t value, size_t multiple)
     return (value + multiple - 1) / multiple * multiple;
 }
 
-// Renders `rows` rows of tiles from `first` on, and waits for the end.
-static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t first, size_t rows,
-                           glint_error *error)
+// Renders `bands` bands of tiles from `first` on, and waits for the end.
+static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t first,
+                           size_t bands, glint_error *error)
 {
-    record->first_row = (int)first;
+    record->first_band = (int)first;
     glint_status status = set_argument(r, FRAME_ARGUMENT, sizeof *record, record, error);
     if (status != GLINT_OK) {
         return status;
@@ -153,7 +154,8 @@ static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t
     size_t local[2];
     local_size(&r->plan, local);
     size_t columns = ((size_t)r->settings.width + (size_t)tile_width - 1) / (size_t)tile_width;
-    const size_t global[2] = {round_up(columns, local[0]), round_up(rows, local[1])};
+    size_t band = GLINT_BAND(r->plan.tiles);
+    const size_t global[2] = {round_up(columns * band, local[0]), round_up(bands, local[1])};
     cl_int code =
         clEnqueueNDRangeKernel(r->device->queue, r->kernel, 2, NULL, global, local, 0, NULL, NULL);
     if (code == CL_SUCCESS) {
@@ -366,7 +368,8 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
     if (code != CL_SUCCESS) {
         return glint_fail_opencl(error, r->device, "reading the counters", code);
     }
-    report->rays.primary = total_of(counters, GLINT_COUNT_PRIMARY);
+    const int k = r->settings.samples_per_axis;
+    report->rays.primary = (uint64_t)r->pixel_count * (uint64_t)(k * k);
     report->rays.reflected = total_of(counters, GLINT_COUNT_REFLECTED);
     report->rays.refracted_in = total_of(counters, GLINT_COUNT_REFRACTED_IN);
     report->rays.refracted_out = total_of(counters, GLINT_COUNT_REFRACTED_OUT);
@@ -382,7 +385,7 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
     return GLINT_OK;
 }
 
-// The rows of tiles of the next launch: as many as would have taken LAUNCH_MS at the last one's
+// The bands of tiles of the next launch: as many as would have taken LAUNCH_MS at the last one's
 // speed, and at most four times as many, as the next part of the frame may be much slower.
 static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
 {
@@ -391,7 +394,7 @@ static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
     return round_up((size_t)wanted, multiple);
 }
 
-// Rows of tiles, in launches of about LAUNCH_MS; asks `progress` between them.
+// Bands of tiles, in launches of about LAUNCH_MS; asks `progress` between them.
 static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
                                  const glint_progress *progress, glint_error *error)
 {
@@ -399,12 +402,16 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
     tile_size(&r->plan, &tile_width, &tile_height);
     size_t local[2];
     local_size(&r->plan, local);
-    size_t rows = ((size_t)record->height + (size_t)tile_height - 1) / (size_t)tile_height;
-    double row_samples =
-        (double)record->width * tile_height * record->samples_per_axis * record->samples_per_axis;
-    size_t step = round_up((size_t)fmax(1, FIRST_LAUNCH_SAMPLES / row_samples), local[1]);
-    for (size_t first = 0; first < rows;) {
-        size_t count = first + step < rows ? step : rows - first;
+    const int band_height = tile_height * GLINT_BAND(r->plan.tiles);
+    size_t bands = ((size_t)record->height + (size_t)band_height - 1) / (size_t)band_height;
+    double band_samples =
+        (double)record->width * band_height * record->samples_per_axis * record->samples_per_axis;
+    double first_step =
+        r->bands_per_ms > 0 ? r->bands_per_ms * LAUNCH_MS : FIRST_LAUNCH_SAMPLES / band_samples;
+    size_t step = round_up((size_t)fmax(1, first_step), local[1]);
+    double begin = now_ms();
+    for (size_t first = 0; first < bands;) {
+        size_t count = first + step < bands ? step : bands - first;
         double clock = now_ms();
         glint_status status = launch(r, record, first, count, error);
         if (status != GLINT_OK) {
@@ -412,10 +419,11 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
         }
         first += count;
         step = next_step(step, lap(&clock), local[1]);
-        if (progress != NULL && !progress->step(progress->context, first, rows)) {
+        if (progress != NULL && !progress->step(progress->context, first, bands)) {
             return glint_fail(error, GLINT_INTERRUPTED, "stopped");
         }
     }
+    r->bands_per_ms = (double)bands / fmax(now_ms() - begin, 1e-3);
     return GLINT_OK;
 }
 

@@ -46,7 +46,7 @@ kernel void probe_layout(global const scalar *in, global scalar *out, global con
         out[4] = sizeof(glint_split_vector);
         out[5] = sizeof(glint_frame_record);
         out[6] = (scalar)((private char *)&f.min_weight - (private char *)&f);
-        out[7] = (scalar)((private char *)&f.first_row - (private char *)&f);
+        out[7] = (scalar)((private char *)&f.first_band - (private char *)&f);
     }
 }
 
