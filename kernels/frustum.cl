@@ -15,6 +15,9 @@
 #define SCENE_END R(4.0)
 // Rays that end farther apart than this do not stay together: what the frustum meets, few of them may.
 #define WIDE R(0.1)
+// The frustum around several groups is worth its while if its cross-section is no larger than this many
+// times theirs together.
+#define COMPACT R(3.0)
 
 typedef struct frustum {
     int along;        // the axis

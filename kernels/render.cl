@@ -20,6 +20,11 @@
 #error "HITS needs GEOMETRY"
 #endif
 
+#define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
+// Pixels get more than what the environment's look-ups bring.
+#define GATHERS                                                                                    \
+    (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT || GLINT_HITS)
+
 #include "layout.h"
 #include "lanes.cl"
 #include "blocks.cl"
@@ -35,307 +40,9 @@
 #include "shade.cl"
 #include "scatter.cl"
 #include "branches.cl"
+#include "traverse_together.cl"
+#include "paths.cl"
 
-#define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
-// Pixels get more than what the environment's look-ups bring.
-#define GATHERS                                                                                    \
-    (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT || GLINT_HITS)
-
-// What one work-item counts; added to the counters at its end.
-typedef struct tally {
-    ulong counts[GLINT_COUNTERS];
-    real weight_by_depth, weight_by_min_weight, weight_by_stack;
-} tally;
-
-static inline tally no_tally(void)
-{
-    tally t;
-    for (int i = 0; i < GLINT_COUNTERS; i++) {
-        t.counts[i] = 0;
-    }
-    t.weight_by_depth = t.weight_by_min_weight = t.weight_by_stack = real_of(0);
-    return t;
-}
-
-static inline real3 join_vector(const glint_split_vector *v)
-{
-    return real3_of(real_of(JOIN(v->high[0], v->low[0])), real_of(JOIN(v->high[1], v->low[1])),
-                    real_of(JOIN(v->high[2], v->low[2])));
-}
-
-#if GLINT_ENV_ROTATION
-// The environment turned by the angle a about +Y is looked up along d turned by −a.
-static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)
-{
-    real c = real_of(JOIN(frame->env_rotation[0], frame->env_rotation[1]));
-    real s = real_of(JOIN(frame->env_rotation[2], frame->env_rotation[3]));
-    return real3_of(fused(c, d.x, -(s * d.z)), d.y, fused(s, d.x, c * d.z));
-}
-#else
-static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d) { return d; }
-#endif
-
-// A packet of primary rays, which pixels' samples they are, and what they meet.
-typedef struct primary {
-    real x, y;        // places on the image plane
-    real length;      // of the directions before they were made unit vectors
-    lanes_int places; // of the triangles hit, −1: none
-} primary;
-
-// The primary rays through the points (x, y) of the image plane, see glint_frame_record.
-static inline path primary_rays(const glint_frame_record *frame, primary *first)
-{
-    real x = first->x, y = first->y;
-    path ray;
-    ray.origin = scale_add(join_vector(&frame->origin_y), y,
-                           scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
-    real3 d = scale_add(join_vector(&frame->direction_y), y,
-                        scale_add(join_vector(&frame->direction_x), x,
-                                  join_vector(&frame->direction)));
-    real length_squared = dot3(d, d); // 1 or more
-    real inverse = inverse_root(length_squared);
-    real length = length_squared * inverse;
-    first->length = length;
-    ray.direction = scale(d, inverse);
-    ray.weight = real3_of(real_of(1), real_of(1), real_of(1));
-#if GLINT_ABSORPTION
-    ray.travelled = length * JOIN(frame->start[0], frame->start[1]);
-#endif
-    ray.from = int_of(-1);
-    ray.met = int_of(0);
-    ray.media = int_of(0);
-    ray.looked_up = int_of(0);
-    return ray;
-}
-
-// One branch that leaves the surface: a ray along `direction`, on the side that `sign` says (+1 the
-// viewer's, −1 the other).
-static inline path make_branch(const path *ray, const surface *s, const closest *hit,
-                               real3 direction, scalar sign)
-{
-    path branch = *ray;
-    branch.direction = direction;
-    branch.met = ray->met + (lane_int)1;
-#if GLINT_INTERREFLECTION
-    branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
-    branch.from = hit->place;
-#endif
-#if GLINT_ABSORPTION
-    branch.travelled = real_of(0);
-#endif
-    return branch;
-}
-
-// Rule 7: a branch that has met all the surfaces it may, or weighs too little, takes the environment
-// along its direction. What that leaves out is counted.
-static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
-                              tally *tally)
-{
-    real weight = largest3(branch->weight);
-    mask deep = exists & (branch->met >= (lane_int)frame->depth);
-    mask light = exists & !deep & (weight < (scalar)frame->min_weight);
-    const real zero = real_of(0);
-    tally->weight_by_depth += SELECT(deep, weight, zero);
-    tally->weight_by_min_weight += SELECT(light, weight, zero);
-    branch->looked_up = SELECT(deep | light, int_of(1), int_of(0));
-}
-
-#if GLINT_ABSORPTION
-// The light that is left of the segment that ends here, in the medium on top of the stack.
-static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray, real t)
-{
-    real3 left =
-        medium_transmittance(scene->media, medium_on_top(ray->media), t + ray->travelled);
-    return multiply(ray->weight, left);
-}
-#endif
-
-// *ray = *branch for the rays in `yes`.
-static inline void assign_path(path *ray, const path *branch, mask yes)
-{
-    ray->origin = select3(yes, branch->origin, ray->origin);
-    ray->direction = select3(yes, branch->direction, ray->direction);
-    ray->weight = select3(yes, branch->weight, ray->weight);
-#if GLINT_ABSORPTION
-    ray->travelled = SELECT(yes, branch->travelled, ray->travelled);
-#endif
-    ray->from = SELECT(yes, branch->from, ray->from);
-    ray->met = SELECT(yes, branch->met, ray->met);
-    ray->media = SELECT(yes, branch->media, ray->media);
-    ray->looked_up = SELECT(yes, branch->looked_up, ray->looked_up);
-}
-
-#if GLINT_GLASS
-static inline void count_transmissions(const surface *s, mask transmits, tally *tally)
-{
-    mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
-    tally->counts[GLINT_COUNT_REFRACTED_IN] += (ulong)count_lanes(transmits & solid & s->outside);
-    tally->counts[GLINT_COUNT_REFRACTED_OUT] += (ulong)count_lanes(transmits & solid & !s->outside);
-    tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
-}
-
-#if GLINT_SPLIT
-// Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack has
-// room for one more only, both are looked up, and counted.
-static inline mask split_path(branches *waiting, path *reflected, path *transmitted, mask reflects,
-                              mask transmits, path *ray, tally *tally)
-{
-    mask both = reflects & transmits;
-    mask reflect_first = reflects & (!transmits | (largest3(reflected->weight) <=
-                                                   largest3(transmitted->weight)));
-    mask full = both & nearly_full(waiting);
-    if (any_lane(full)) {
-        const real zero = real_of(0);
-        mask unended_r = full & (reflected->looked_up == (lane_int)0);
-        mask unended_t = full & (transmitted->looked_up == (lane_int)0);
-        tally->weight_by_stack += SELECT(unended_r, largest3(reflected->weight), zero) +
-                                  SELECT(unended_t, largest3(transmitted->weight), zero);
-        reflected->looked_up = SELECT(full, int_of(1), reflected->looked_up);
-        transmitted->looked_up = SELECT(full, int_of(1), transmitted->looked_up);
-    }
-    assign_path(ray, reflected, reflects);
-    assign_path(ray, transmitted, transmits & !reflect_first);
-    assign_path(reflected, transmitted, both & reflect_first);
-    push_branch(waiting, reflected, both);
-    return reflects | transmits;
-}
-#endif
-#endif
-
-// Shades the rays in `met`, adds what the surfaces emit to `radiance`, and puts the branch that goes
-// on into `ray`. The result says which rays go on.
-static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const closest *hit, const triangle *triangles, mask met,
-                                 path *ray, real3 *radiance,
-#if GLINT_SPLIT
-                                 branches *waiting,
-#endif
-                                 tally *tally)
-{
-    surface s = find_surface(scene, ray, hit, triangles);
-    real3 v = negate(ray->direction);
-    real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
-#if NEEDS_IRRADIANCE
-    irradiance = sample_cube(&scene->irradiance, turn_into_environment(frame, s.normal), met);
-#endif
-    mask media_lost;
-    lanes_int media = ray->media;
-    scattering out = scatter(scene, &s, v, &media, irradiance, &media_lost);
-    ray->media = SELECT(met, media, ray->media);
-#if GLINT_ABSORPTION
-    ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
-#endif
-    real3 gathered = add(*radiance, multiply(ray->weight, out.emitted));
-    *radiance = select3(met, gathered, *radiance);
-    tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
-
-    path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
-    reflected.weight = multiply(ray->weight, out.reflected_weight);
-    reflected.media = out.media_reflected;
-    // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
-    mask reflects = met & (largest3(reflected.weight) > R(0.0));
-    end_branch(frame, &reflected, reflects, tally);
-    tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
-#if GLINT_GLASS
-    path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
-    transmitted.weight = multiply(ray->weight, out.transmitted_weight);
-    transmitted.media = out.media_transmitted;
-    mask transmits = met & (largest3(transmitted.weight) > R(0.0));
-    end_branch(frame, &transmitted, transmits, tally);
-    count_transmissions(&s, transmits, tally);
-    tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
-        (ulong)count_lanes(reflects & out.total_reflection);
-#if GLINT_SPLIT
-    return split_path(waiting, &reflected, &transmitted, reflects, transmits, ray, tally);
-#else
-    assign_path(ray, &transmitted, transmits);
-    assign_path(ray, &reflected, reflects);
-    return reflects | transmits;
-#endif
-#else
-    assign_path(ray, &reflected, reflects);
-    return reflects;
-#endif
-}
-
-// What the rays in `traced` meet, and the corners of the triangles there.
-static inline closest find_hits(const scene_buffers *scene, const image_space *image,
-                                const path *ray, const primary *first, mask traced,
-                                triangle *triangles)
-{
-    closest hit;
-    if (first != 0) {
-        hit.place = SELECT(traced, first->places, int_of(-1));
-    } else {
-        hit = trace_packet(scene, ray->origin, ray->direction, ray->from, traced);
-    }
-    mask met = hit.place >= (lane_int)0;
-    if (any_lane(met)) {
-        *triangles = load_triangles(scene, hit.place, met);
-        if (first != 0) {
-            measure_hits(image, triangles->vertices, first->x, first->y, first->length, met, &hit);
-        }
-    }
-    return hit;
-}
-
-// Follows the primary rays of a group, those in `active`, to their ends. What they gather from the
-// environment is looked up later; the result is the radiance that they gather on their way.
-static inline real3 follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const image_space *image, const primary *first, int group,
-                                 path *ray, mask active, lookups *later, tally *tally)
-{
-    real3 radiance = real3_of(real_of(0), real_of(0), real_of(0));
-    lanes_int deepest = int_of(0);
-#if GLINT_SPLIT
-    branches waiting;
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        waiting.count[lane] = 0;
-    }
-#endif
-    while (any_lane(active)) {
-        mask met = mask_none();
-#if GLINT_GEOMETRY
-        closest hit;
-        triangle triangles;
-        // At depth 1 only primary rays are traced.
-        if (GLINT_INTERREFLECTION || first != 0) {
-            mask traced = active & (ray->looked_up == (lane_int)0);
-            hit = find_hits(scene, image, ray, first, traced, &triangles);
-            met = hit.place >= (lane_int)0;
-        }
-#endif
-        mask escaped = active & !met;
-        if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
-            look_up_later(later, &scene->environment, turn_into_environment(frame, ray->direction),
-                          ray->weight, escaped, group);
-        }
-        active = mask_none();
-#if GLINT_GEOMETRY
-        mask ended = escaped;
-        if (any_lane(met)) {
-            deepest = SELECT(met & (ray->met >= deepest), ray->met + (lane_int)1, deepest);
-            active = meet_surfaces(scene, frame, &hit, &triangles, met, ray, &radiance,
-#if GLINT_SPLIT
-                                   &waiting,
-#endif
-                                   tally);
-            ended = ended | (met & !active);
-        }
-#if GLINT_SPLIT
-        if (any_lane(ended)) {
-            active = active | pop_branch(&waiting, ray, ended);
-        }
-#endif
-#endif
-        first = 0;
-    }
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        ulong depth = (ulong)LANE_INT(deepest, lane);
-        tally->counts[GLINT_COUNT_DEEPEST] = max(tally->counts[GLINT_COUNT_DEEPEST], depth);
-    }
-    return radiance;
-}
 
 // Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
 static inline void add_to_counter(global uint *counter, ulong amount)
@@ -402,30 +109,53 @@ typedef struct gathered {
 #endif
 } gathered;
 
-// Adds one sample of each pixel of a group.
-static inline void render_group(const scene_buffers *scene, const glint_frame_record *frame,
-                                const image_space *image, const tile *t, int group, mask inside,
-                                gathered *sum, lookups *later, tally *tally)
+// The primary rays of a group, and which triangles they meet.
+static inline primary primary_of(const tile *t, int group)
 {
     primary first;
     first.x = t->x[group % TILE_COLUMNS];
     first.y = t->y[group / TILE_COLUMNS];
     first.places = t->place[group];
-    path ray = primary_rays(frame, &first);
-    real alpha = real_of(1);
-#if GLINT_HITS
-    real3 color = describe_hits(scene, image, &first, &alpha);
-#else
-    real3 color = follow_paths(scene, frame, image, &first, group, &ray, inside, later, tally);
-#if GLINT_TRANSPARENT
-    alpha = SELECT(first.places >= (lane_int)0, alpha, real_of(0));
-#endif
-#endif
-#if GATHERS
-    sum->color[group] = add(sum->color[group], color);
-    sum->alpha[group] += alpha;
-#endif
+    return first;
 }
+
+// Adds one sample of each pixel, given what the primary rays meet.
+static inline void add_sample(const scene_buffers *scene, const glint_frame_record *frame,
+                              const image_space *image, const tile *t, const mask *inside,
+                              gathered *sum, lookups *later, tally *tally)
+{
+    paths all;
+    primary first[PATH_GROUPS];
+    for (int first_group = 0; first_group < TILE_GROUPS; first_group += PATH_GROUPS) {
+        for (int i = 0; i < PATH_GROUPS; i++) {
+            const int g = first_group + i;
+            first[SLOT(i)] = primary_of(t, g);
+            begin_paths(frame, &first[SLOT(i)], SLOT(i), inside[g], &all);
+        }
+        follow_paths(scene, frame, image, first, first_group, &all, later, tally);
+        count_deepest(&all, tally);
+#if GATHERS
+        for (int i = 0; i < PATH_GROUPS; i++) {
+            const int g = first_group + i;
+            mask seen = GLINT_TRANSPARENT ? t->place[g] >= (lane_int)0 : mask_all();
+            sum->color[g] = add(sum->color[g], all.radiance[SLOT(i)]);
+            sum->alpha[g] += SELECT(seen, real_of(1), real_of(0));
+        }
+#endif
+    }
+}
+
+#if GLINT_HITS
+static inline void add_hits(const scene_buffers *scene, const glint_frame_record *frame,
+                            const image_space *image, const tile *t, gathered *sum)
+{
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        primary first = primary_of(t, g);
+        primary_rays(frame, &first);
+        sum->color[g] = describe_hits(scene, image, &first, &sum->alpha[g]);
+    }
+}
+#endif
 
 // Adds what a group's pixels have gathered to what look-ups brought.
 static inline void add_gathered(const gathered *sum, int group, scalar *sums)
@@ -498,9 +228,11 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
 #if GLINT_GEOMETRY
         trace_tile(&image, &t, scene);
 #endif
-        for (int g = 0; g < TILE_GROUPS; g++) {
-            render_group(scene, frame, &image, &t, g, inside[g], &sum, &later, &tally);
-        }
+#if GLINT_HITS
+        add_hits(scene, frame, &image, &t, &sum);
+#else
+        add_sample(scene, frame, &image, &t, inside, &sum, &later, &tally);
+#endif
     }
     finish_lookups(&later, &scene->environment);
     // Before the pixels are stored: an atomic operation waits for all stores before it.

@@ -36,20 +36,6 @@ static inline bundle make_bundle(packet *p, int along, scalar sign, mask active)
     return b;
 }
 
-// Puts the children that some ray may meet on the stack, the nearest on top.
-static inline int push_children(const bundle *b, const scene_buffers *scene, int node,
-                                waiting *stack, int size)
-{
-    boxes near;
-    uint met = frustum_meets_boxes(&b->bounds, node_at(scene, node), b->farthest, &near);
-    int base = size;
-    for (; met != 0; met &= met - 1) {
-        int child = lowest_bit(met);
-        size = push_waiting(scene, stack, base, size, node, child, ((scalar *)&near)[child]);
-    }
-    return size;
-}
-
 // The rays that may meet a box, one of all nodes' children.
 static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int box, const closest *hit)
 {
@@ -89,58 +75,4 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
                                     b->active & (from != (lane_int)place), hit);
     }
     return found;
-}
-
-static inline void trace_bundle(bundle *b, const scene_buffers *scene, lanes_int from, closest *hit)
-{
-    waiting stack[GLINT_TRAVERSAL_STACK];
-    stack[0].child = 0;
-    stack[0].entry = -SCENE_END;
-    stack[0].box = 0;
-    int size = 1;
-    while (size > 0) {
-        waiting next = stack[--size];
-        if (next.entry > b->farthest) {
-            continue;
-        }
-        if (next.child >= 0) {
-            if (GLINT_WIDTH == 1 || !b->bounds.wide || next.child == 0 ||
-                rays_at_box(b, scene, next.box, hit) != 0) {
-                size = push_children(b, scene, next.child, stack, size);
-            }
-        } else if (intersect_cluster(b, scene, ~next.child, next.box, from, hit)) {
-            update_farthest(b, hit);
-        }
-    }
-}
-
-// Rays that have a direction and a place in the scene, whatever optics made of them: not NaN.
-static inline mask is_sound(real3 origin, real3 direction)
-{
-    real place = fabs(origin.x) + fabs(origin.y) + fabs(origin.z);
-    real length = fabs(direction.x) + fabs(direction.y) + fabs(direction.z);
-    return (place < SCENE_END) & (length < R(2.0)) & (length > R(0.5));
-}
-
-static inline closest trace_packet(const scene_buffers *scene, real3 origin, real3 direction,
-                                   lanes_int from, mask active)
-{
-    closest hit;
-    hit.t = real_of(HUGE);
-    hit.b1 = real_of(0);
-    hit.b2 = real_of(0);
-    hit.place = int_of(-1);
-    hit.triangle = int_of(0x7fffffff);
-    packet p = make_packet(origin, direction);
-    active = active & is_sound(origin, direction);
-    while (any_lane(active)) {
-        int leader = lowest_bit(mask_bits(active));
-        int along = (int)LANE_INT(p.axis, leader);
-        scalar sign = LANE(p.direction[along], leader) > 0 ? R(1.0) : R(-1.0);
-        mask together = rays_along(&direction, along, sign, active);
-        bundle b = make_bundle(&p, along, sign, together);
-        trace_bundle(&b, scene, from, &hit);
-        active = active & !together;
-    }
-    return hit;
 }

@@ -1,0 +1,321 @@
+// Paths through the scene, from the primary ray to the environment.
+
+// What one work-item counts; added to the counters at its end.
+typedef struct tally {
+    ulong counts[GLINT_COUNTERS];
+    real weight_by_depth, weight_by_min_weight, weight_by_stack;
+} tally;
+
+static inline tally no_tally(void)
+{
+    tally t;
+    for (int i = 0; i < GLINT_COUNTERS; i++) {
+        t.counts[i] = 0;
+    }
+    t.weight_by_depth = t.weight_by_min_weight = t.weight_by_stack = real_of(0);
+    return t;
+}
+
+static inline real3 join_vector(const glint_split_vector *v)
+{
+    return real3_of(real_of(JOIN(v->high[0], v->low[0])), real_of(JOIN(v->high[1], v->low[1])),
+                    real_of(JOIN(v->high[2], v->low[2])));
+}
+
+#if GLINT_ENV_ROTATION
+// The environment turned by the angle a about +Y is looked up along d turned by −a.
+static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)
+{
+    real c = real_of(JOIN(frame->env_rotation[0], frame->env_rotation[1]));
+    real s = real_of(JOIN(frame->env_rotation[2], frame->env_rotation[3]));
+    return real3_of(fused(c, d.x, -(s * d.z)), d.y, fused(s, d.x, c * d.z));
+}
+#else
+static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d) { return d; }
+#endif
+
+// A packet of primary rays, which pixels' samples they are, and what they meet.
+typedef struct primary {
+    real x, y;        // places on the image plane
+    real length;      // of the directions before they were made unit vectors
+    lanes_int places; // of the triangles hit, −1: none
+} primary;
+
+// The primary rays through the points (x, y) of the image plane, see glint_frame_record.
+static inline path primary_rays(const glint_frame_record *frame, primary *first)
+{
+    real x = first->x, y = first->y;
+    path ray;
+    ray.origin = scale_add(join_vector(&frame->origin_y), y,
+                           scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
+    real3 d = scale_add(join_vector(&frame->direction_y), y,
+                        scale_add(join_vector(&frame->direction_x), x,
+                                  join_vector(&frame->direction)));
+    real length_squared = dot3(d, d); // 1 or more
+    real inverse = inverse_root(length_squared);
+    real length = length_squared * inverse;
+    first->length = length;
+    ray.direction = scale(d, inverse);
+    ray.weight = real3_of(real_of(1), real_of(1), real_of(1));
+#if GLINT_ABSORPTION
+    ray.travelled = length * JOIN(frame->start[0], frame->start[1]);
+#endif
+    ray.from = int_of(-1);
+    ray.met = int_of(0);
+    ray.media = int_of(0);
+    ray.looked_up = int_of(0);
+    return ray;
+}
+
+// One branch that leaves the surface: a ray along `direction`, on the side that `sign` says (+1 the
+// viewer's, −1 the other).
+static inline path make_branch(const path *ray, const surface *s, const closest *hit,
+                               real3 direction, scalar sign)
+{
+    path branch = *ray;
+    branch.direction = direction;
+    branch.met = ray->met + (lane_int)1;
+#if GLINT_INTERREFLECTION
+    branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
+    branch.from = hit->place;
+#endif
+#if GLINT_ABSORPTION
+    branch.travelled = real_of(0);
+#endif
+    return branch;
+}
+
+// Rule 7: a branch that has met all the surfaces it may, or weighs too little, takes the environment
+// along its direction. What that leaves out is counted.
+static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
+                              tally *tally)
+{
+    real weight = largest3(branch->weight);
+    mask deep = exists & (branch->met >= (lane_int)frame->depth);
+    mask light = exists & !deep & (weight < (scalar)frame->min_weight);
+    const real zero = real_of(0);
+    tally->weight_by_depth += SELECT(deep, weight, zero);
+    tally->weight_by_min_weight += SELECT(light, weight, zero);
+    branch->looked_up = SELECT(deep | light, int_of(1), int_of(0));
+}
+
+#if GLINT_ABSORPTION
+// The light that is left of the segment that ends here, in the medium on top of the stack.
+static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray, real t)
+{
+    real3 left =
+        medium_transmittance(scene->media, medium_on_top(ray->media), t + ray->travelled);
+    return multiply(ray->weight, left);
+}
+#endif
+
+// *ray = *branch for the rays in `yes`.
+static inline void assign_path(path *ray, const path *branch, mask yes)
+{
+    ray->origin = select3(yes, branch->origin, ray->origin);
+    ray->direction = select3(yes, branch->direction, ray->direction);
+    ray->weight = select3(yes, branch->weight, ray->weight);
+#if GLINT_ABSORPTION
+    ray->travelled = SELECT(yes, branch->travelled, ray->travelled);
+#endif
+    ray->from = SELECT(yes, branch->from, ray->from);
+    ray->met = SELECT(yes, branch->met, ray->met);
+    ray->media = SELECT(yes, branch->media, ray->media);
+    ray->looked_up = SELECT(yes, branch->looked_up, ray->looked_up);
+}
+
+#if GLINT_GLASS
+static inline void count_transmissions(const surface *s, mask transmits, tally *tally)
+{
+    mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
+    tally->counts[GLINT_COUNT_REFRACTED_IN] += (ulong)count_lanes(transmits & solid & s->outside);
+    tally->counts[GLINT_COUNT_REFRACTED_OUT] += (ulong)count_lanes(transmits & solid & !s->outside);
+    tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
+}
+
+#if GLINT_SPLIT
+// Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack has
+// room for one more only, both are looked up, and counted.
+static inline mask split_path(branches *waiting, path *reflected, path *transmitted, mask reflects,
+                              mask transmits, path *ray, tally *tally)
+{
+    mask both = reflects & transmits;
+    mask reflect_first = reflects & (!transmits | (largest3(reflected->weight) <=
+                                                   largest3(transmitted->weight)));
+    mask full = both & nearly_full(waiting);
+    if (any_lane(full)) {
+        const real zero = real_of(0);
+        mask unended_r = full & (reflected->looked_up == (lane_int)0);
+        mask unended_t = full & (transmitted->looked_up == (lane_int)0);
+        tally->weight_by_stack += SELECT(unended_r, largest3(reflected->weight), zero) +
+                                  SELECT(unended_t, largest3(transmitted->weight), zero);
+        reflected->looked_up = SELECT(full, int_of(1), reflected->looked_up);
+        transmitted->looked_up = SELECT(full, int_of(1), transmitted->looked_up);
+    }
+    assign_path(ray, reflected, reflects);
+    assign_path(ray, transmitted, transmits & !reflect_first);
+    assign_path(reflected, transmitted, both & reflect_first);
+    push_branch(waiting, reflected, both);
+    return reflects | transmits;
+}
+#endif
+#endif
+
+// The paths of some groups of a tile's pixels on their way.
+typedef struct paths {
+    path ray[PATH_GROUPS];
+    mask active[PATH_GROUPS];
+    lanes_int deepest[PATH_GROUPS]; // surfaces met
+#if GATHERS
+    real3 radiance[PATH_GROUPS]; // gathered on their way, without the environment
+#endif
+#if GLINT_SPLIT
+    branches waiting[PATH_GROUPS];
+#endif
+} paths;
+
+// Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the branch
+// that goes on in their place. The result says which rays go on.
+static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
+                                 const closest *hit, const triangle *triangles, mask met, int slot,
+                                 paths *all, tally *tally)
+{
+    path *ray = &all->ray[slot];
+    surface s = find_surface(scene, ray, hit, triangles);
+    real3 v = negate(ray->direction);
+    real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
+#if NEEDS_IRRADIANCE
+    irradiance = sample_cube(&scene->irradiance, turn_into_environment(frame, s.normal), met);
+#endif
+    mask media_lost;
+    lanes_int media = ray->media;
+    scattering out = scatter(scene, &s, v, &media, irradiance, &media_lost);
+    ray->media = SELECT(met, media, ray->media);
+#if GLINT_ABSORPTION
+    ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
+#endif
+#if GATHERS
+    real3 gathered = add(all->radiance[slot], multiply(ray->weight, out.emitted));
+    all->radiance[slot] = select3(met, gathered, all->radiance[slot]);
+#endif
+    tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
+
+    path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
+    reflected.weight = multiply(ray->weight, out.reflected_weight);
+    reflected.media = out.media_reflected;
+    // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
+    mask reflects = met & (largest3(reflected.weight) > R(0.0));
+    end_branch(frame, &reflected, reflects, tally);
+    tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
+#if GLINT_GLASS
+    path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
+    transmitted.weight = multiply(ray->weight, out.transmitted_weight);
+    transmitted.media = out.media_transmitted;
+    mask transmits = met & (largest3(transmitted.weight) > R(0.0));
+    end_branch(frame, &transmitted, transmits, tally);
+    count_transmissions(&s, transmits, tally);
+    tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
+        (ulong)count_lanes(reflects & out.total_reflection);
+#if GLINT_SPLIT
+    return split_path(&all->waiting[slot], &reflected, &transmitted, reflects, transmits, ray, tally);
+#else
+    assign_path(ray, &transmitted, transmits);
+    assign_path(ray, &reflected, reflects);
+    return reflects | transmits;
+#endif
+#else
+    assign_path(ray, &reflected, reflects);
+    return reflects;
+#endif
+}
+
+// The primary rays of a group: those in `active`.
+static inline void begin_paths(const glint_frame_record *frame, primary *first, int slot, mask active,
+                               paths *all)
+{
+    all->ray[slot] = primary_rays(frame, first);
+    all->active[slot] = active;
+    all->deepest[slot] = int_of(0);
+#if GATHERS
+    all->radiance[slot] = real3_of(real_of(0), real_of(0), real_of(0));
+#endif
+#if GLINT_SPLIT
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        all->waiting[slot].count[lane] = 0;
+    }
+#endif
+}
+
+// Takes the paths of a group, which stand in a slot, on from what they have met: those that escaped are looked up, the others
+// go on from their surfaces, or with a branch that waited. `first` says what primary rays are, and is
+// NULL for others.
+static inline void advance_paths(const scene_buffers *scene, const glint_frame_record *frame,
+                                 const image_space *image, const primary *first, int group, int slot,
+                                 closest *hit, paths *all, lookups *later, tally *tally)
+{
+    mask active = all->active[slot];
+    mask met = active & (hit->place >= (lane_int)0);
+    mask escaped = active & !met;
+    if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
+        const path *ray = &all->ray[slot];
+        look_up_later(later, &scene->environment, turn_into_environment(frame, ray->direction),
+                      ray->weight, escaped, group);
+    }
+    active = mask_none();
+#if GLINT_GEOMETRY
+    mask ended = escaped;
+    if (any_lane(met)) {
+        triangle triangles = load_triangles(scene, hit->place, met);
+        if (first != 0) {
+            measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, hit);
+        }
+        lanes_int depth = all->ray[slot].met + (lane_int)1;
+        lanes_int deepest = all->deepest[slot];
+        all->deepest[slot] = SELECT(met & (depth > deepest), depth, deepest);
+        active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);
+        ended = ended | (met & !active);
+    }
+#if GLINT_SPLIT
+    if (any_lane(ended)) {
+        active = active | pop_branch(&all->waiting[slot], &all->ray[slot], ended);
+    }
+#endif
+#endif
+    all->active[slot] = active;
+}
+
+static inline void count_deepest(const paths *all, tally *tally)
+{
+    lanes_int deepest = all->deepest[0];
+    for (int i = 1; i < PATH_GROUPS; i++) {
+        deepest = LARGER(all->deepest[i], deepest);
+    }
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        ulong depth = (ulong)LANE_INT(deepest, lane);
+        tally->counts[GLINT_COUNT_DEEPEST] = max(tally->counts[GLINT_COUNT_DEEPEST], depth);
+    }
+}
+
+// Follows the primary rays of some groups, which stand in `first`, to their ends; those in the first slot
+// are of `first_group`.
+static inline void follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
+                                const image_space *image, const primary *first, int first_group,
+                                paths *all, lookups *later, tally *tally)
+{
+    closest hits[PATH_GROUPS];
+    for (int i = 0; i < PATH_GROUPS; i++) {
+        hits[SLOT(i)] = no_hit();
+        hits[SLOT(i)].place = first[SLOT(i)].places;
+    }
+    for (bool are_primary = true; are_primary || any_active(all->active); are_primary = false) {
+        if (!are_primary) {
+            trace_groups(scene, all->ray, all->active, hits);
+        }
+        for (int i = 0; i < PATH_GROUPS; i++) {
+            if (any_lane(all->active[SLOT(i)])) {
+                advance_paths(scene, frame, image, are_primary ? &first[SLOT(i)] : 0, first_group + i,
+                              SLOT(i), &hits[SLOT(i)], all, later, tally);
+            }
+        }
+    }
+}

@@ -1,0 +1,277 @@
+// Closest hits of the rays of a tile, group by group, in the wide tree. Groups whose rays run about the
+// same way and stay close to each other go through the tree together, as one frustum around theirs; at a
+// leaf each group has its turn. Otherwise each goes alone. The same hits, bit for bit.
+
+// Groups of a tile whose paths are followed at the same time.
+#define PATH_GROUPS (GLINT_INTERREFLECTION && !GLINT_SPLIT ? TILE_GROUPS : 1)
+// The place of one of them; a constant where there is only one, so that compilers see that it is.
+#define SLOT(i) (PATH_GROUPS == 1 ? 0 : (i))
+
+// The frusta of a tile's groups: one lane of each block for each group, for a group that takes no part
+// an empty one.
+typedef struct group_frusta {
+    block slope[2][2], offset[2][2]; // see frustum
+    block begin, farthest;
+} group_frusta;
+
+// Rays that have a direction and a place in the scene, whatever optics made of them: not NaN.
+static inline mask is_sound(real3 origin, real3 direction)
+{
+    real place = fabs(origin.x) + fabs(origin.y) + fabs(origin.z);
+    real length = fabs(direction.x) + fabs(direction.y) + fabs(direction.z);
+    return (place < SCENE_END) & (length < R(2.0)) & (length > R(0.5));
+}
+
+static inline closest no_hit(void)
+{
+    closest hit;
+    hit.t = real_of(HUGE);
+    hit.b1 = real_of(0);
+    hit.b2 = real_of(0);
+    hit.place = int_of(-1);
+    hit.triangle = int_of(0x7fffffff);
+    return hit;
+}
+
+static inline bool any_active(const mask *active)
+{
+    mask some = active[0];
+    for (int g = 1; g < PATH_GROUPS; g++) {
+        some = some | active[g];
+    }
+    return any_lane(some);
+}
+
+static inline group_frusta empty_frusta(void)
+{
+    group_frusta f;
+    f.begin = block_of(HUGE);
+    f.farthest = block_of(-HUGE);
+#pragma unroll
+    for (int i = 0; i < 2; i++) {
+        f.slope[i][0] = f.slope[i][1] = block_of(0);
+        f.offset[i][0] = block_of(HUGE);
+        f.offset[i][1] = block_of(-HUGE);
+    }
+    return f;
+}
+
+static inline void set_frustum(group_frusta *f, int group, const frustum *one)
+{
+    ((scalar *)&f->begin)[group] = one->begin;
+    ((scalar *)&f->farthest)[group] = SCENE_END;
+#pragma unroll
+    for (int i = 0; i < 2; i++) {
+#pragma unroll
+        for (int side = 0; side < 2; side++) {
+            ((scalar *)&f->slope[i][side])[group] = one->slope[i][side];
+            ((scalar *)&f->offset[i][side])[group] = one->offset[i][side];
+        }
+    }
+}
+
+static inline scalar sum_of_16(scalar16 a)
+{
+    scalar8 eight = a.lo + a.hi;
+    scalar4 four = eight.lo + eight.hi;
+    scalar2 two = four.lo + four.hi;
+    return two.x + two.y;
+}
+
+// The frustum around all groups', into *all. True if it is not much larger than these together where the
+// first ray starts, half-way, and where the scene ends: then the groups have much in common.
+static inline bool enclose_frusta(const group_frusta *f, int along, scalar sign, frustum *all)
+{
+    all->along = along;
+    all->sign = sign;
+    all->begin = smallest_of_16(f->begin);
+    all->wide = false;
+    const scalar distance = LARGER(SCENE_REACH - all->begin, R(0.0625));
+    block taking_part = SELECT(f->farthest > R(0.0), block_of(1), block_of(0));
+    block areas = taking_part;
+    scalar area = R(1.0);
+#pragma unroll
+    for (int i = 0; i < 2; i++) {
+        scalar ends[2][2]; // [side][begin, end]
+        block half_way[2];
+#pragma unroll
+        for (int side = 0; side < 2; side++) {
+            const scalar turn = side == 0 ? R(1.0) : R(-1.0);
+            block at_begin = fused(f->slope[i][side], block_of(sign * all->begin), f->offset[i][side]);
+            block at_end = fused(f->slope[i][side], block_of(sign * (all->begin + distance)), f->offset[i][side]);
+            ends[side][0] = turn * (smallest_of_16(turn * at_begin) - FRUSTUM_SLACK);
+            ends[side][1] = turn * (smallest_of_16(turn * at_end) - FRUSTUM_SLACK);
+            half_way[side] = at_begin + at_end;
+            scalar slope = (ends[side][1] - ends[side][0]) / distance;
+            all->slope[i][side] = sign * slope;
+            all->offset[i][side] = ends[side][0] - slope * all->begin;
+        }
+        areas *= half_way[1] - half_way[0];
+        area *= ends[1][0] + ends[1][1] - ends[0][0] - ends[0][1];
+    }
+    return area < COMPACT * sum_of_16(SELECT(taking_part > R(0.0), areas, block_of(0)));
+}
+
+// The groups whose frusta reach into a box, one of all nodes' children, before their farthest hits.
+static inline uint groups_at_box(const group_frusta *f, const frustum *all, const scene_buffers *scene,
+                                 int box)
+{
+    node_pointer low = node_at(scene, box / GLINT_BVH_WIDTH) + box % GLINT_BVH_WIDTH;
+    node_pointer high = low + 3 * GLINT_BVH_WIDTH;
+    const scalar low_w = low[all->along * GLINT_BVH_WIDTH], high_w = high[all->along * GLINT_BVH_WIDTH];
+    const scalar near = all->sign > 0 ? low_w : -high_w, far = all->sign > 0 ? high_w : -low_w;
+    block_mask met = (f->farthest >= near) & (f->begin <= far);
+#pragma unroll
+    for (int i = 0; i < 2; i++) {
+        const int k = across_axis(all->along, i) * GLINT_BVH_WIDTH;
+        const block *slope = f->slope[i], *offset = f->offset[i];
+        block at_low = SELECT(slope[0] > R(0.0), block_of(low_w), block_of(high_w));
+        block at_high = SELECT(slope[1] > R(0.0), block_of(high_w), block_of(low_w));
+        met &= fused(slope[0], at_low, offset[0]) <= block_of(high[k]);
+        met &= fused(slope[1], at_high, offset[1]) >= block_of(low[k]);
+    }
+    return block_bits(met);
+}
+
+// A traversal of some groups together: `groups` as bits.
+typedef struct party {
+    frustum bounds;
+    scalar farthest;
+    uint groups;
+} party;
+
+// Puts the children that some ray may meet on the stack, the nearest on top.
+static inline int push_children(const party *p, const scene_buffers *scene, int node, waiting *stack,
+                                int size)
+{
+    boxes near;
+    uint met = frustum_meets_boxes(&p->bounds, node_at(scene, node), p->farthest, &near);
+    int base = size;
+    for (; met != 0; met &= met - 1) {
+        int child = lowest_bit(met);
+        size = push_waiting(scene, stack, base, size, node, child, ((scalar *)&near)[child]);
+    }
+    return size;
+}
+
+static inline void meet_leaf(party *p, group_frusta *f, bundle *bundles, const scene_buffers *scene,
+                             const waiting *leaf, const path *rays, closest *hits)
+{
+    uint groups = p->groups;
+    if ((groups & (groups - 1)) != 0) {
+        groups &= groups_at_box(f, &p->bounds, scene, leaf->box);
+    }
+    bool found = false;
+    for (; groups != 0; groups &= groups - 1) {
+        int g = lowest_bit(groups);
+        bundle *b = &bundles[g];
+        if (intersect_cluster(b, scene, ~leaf->child, leaf->box, rays[g].from, &hits[g])) {
+            update_farthest(b, &hits[g]);
+            ((scalar *)&f->farthest)[g] = b->farthest;
+            p->farthest = b->farthest;
+            found = true;
+        }
+    }
+    if (found && (p->groups & (p->groups - 1)) != 0) {
+        p->farthest = -smallest_of_16(-f->farthest);
+    }
+}
+
+static inline void trace_party(party *p, group_frusta *f, bundle *bundles, const scene_buffers *scene,
+                               const path *rays, closest *hits)
+{
+    waiting stack[GLINT_TRAVERSAL_STACK];
+    stack[0].child = 0;
+    stack[0].entry = -SCENE_END;
+    stack[0].box = 0;
+    int size = 1;
+    while (size > 0) {
+        waiting next = stack[--size];
+        if (next.entry > p->farthest) {
+            continue;
+        }
+        if (next.child < 0) {
+            meet_leaf(p, f, bundles, scene, &next, rays, hits);
+            continue;
+        }
+        if (p->bounds.wide && next.child > 0) {
+            int g = lowest_bit(p->groups);
+            if (rays_at_box(&bundles[g], scene, next.box, &hits[g]) == 0) {
+                continue;
+            }
+        }
+        size = push_children(p, scene, next.child, stack, size);
+    }
+}
+
+// Which way the first of the rays left runs: the axis, and the sign of the direction along it.
+static inline void choose_axis(const packet *packets, const mask *left, int *along, scalar *sign)
+{
+    int group = 0;
+    while (!any_lane(left[group])) {
+        group++;
+    }
+    const packet *p = &packets[group];
+    const int leader = lowest_bit(mask_bits(left[group]));
+    *along = (int)LANE_INT(p->axis, leader);
+    *sign = LANE(p->direction[*along], leader) > 0 ? R(1.0) : R(-1.0);
+}
+
+// The closest hits of the rays that are active and not to be looked up.
+static inline void trace_groups(const scene_buffers *scene, const path *rays, const mask *active,
+                                closest *hits)
+{
+    for (int g = 0; g < PATH_GROUPS; g++) {
+        hits[SLOT(g)] = no_hit();
+    }
+#if GLINT_GEOMETRY && GLINT_INTERREFLECTION
+    packet packets[PATH_GROUPS];
+    bundle bundles[PATH_GROUPS];
+    mask left[PATH_GROUPS];
+    for (int g = 0; g < PATH_GROUPS; g++) {
+        const path *ray = &rays[g];
+        left[g] = active[g] & (ray->looked_up == (lane_int)0) & is_sound(ray->origin, ray->direction);
+        if (any_lane(left[g])) {
+            packets[g] = make_packet(ray->origin, ray->direction);
+        }
+    }
+    while (any_active(left)) {
+        int along;
+        scalar sign;
+        choose_axis(packets, left, &along, &sign);
+        group_frusta frusta = empty_frusta();
+        uint groups = 0, alone = 0;
+        for (int g = 0; g < PATH_GROUPS; g++) {
+            mask together = mask_none();
+            if (any_lane(left[g])) {
+                together = rays_along(&rays[g].direction, along, sign, left[g]);
+            }
+            if (any_lane(together)) {
+                bundles[g] = make_bundle(&packets[g], along, sign, together);
+                groups |= 1u << g;
+                if (bundles[g].bounds.wide) {
+                    alone |= 1u << g;
+                } else {
+                    set_frustum(&frusta, g, &bundles[g].bounds);
+                }
+                left[g] = left[g] & !together;
+            }
+        }
+        party p;
+        const uint near = groups & ~alone;
+        if ((near & (near - 1)) == 0 || !enclose_frusta(&frusta, along, sign, &p.bounds)) {
+            alone = groups;
+        }
+        while (groups != 0) {
+            p.groups = groups & ~alone;
+            if (p.groups == 0) {
+                p.groups = groups & -groups;
+                p.bounds = bundles[lowest_bit(groups)].bounds;
+            }
+            p.farthest = SCENE_END;
+            trace_party(&p, &frusta, bundles, scene, rays, hits);
+            groups &= ~p.groups;
+        }
+    }
+#endif
+}
