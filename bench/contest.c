@@ -269,23 +269,21 @@ static glint_status check_agreement(const bench_arena *arena, bench_contest *con
 }
 
 // A frame of glint's; *ms is what it took on the device.
-static glint_status render(const bench_arena *arena, glint_renderer *renderer, double *ms,
-                           glint_error *error)
+static glint_status render(const bench_arena *arena, glint_renderer *renderer, glint_image *image,
+                           double *ms, glint_error *error)
 {
-    glint_image image = {0};
     glint_frame_report report = {0};
     glint_status status =
-        glint_renderer_frame(renderer, &arena->scene->camera, NULL, &image, &report, error);
-    glint_image_free(&image);
+        glint_renderer_frame(renderer, &arena->scene->camera, NULL, image, &report, error);
     *ms = report.kernel_ms;
     return status;
 }
 
 static glint_status run_round(const bench_arena *arena, glint_renderer *renderer,
-                              bench_contest *contest, glint_error *error)
+                              glint_image *image, bench_contest *contest, glint_error *error)
 {
     double ms;
-    glint_status status = render(arena, renderer, &ms, error);
+    glint_status status = render(arena, renderer, image, &ms, error);
     if (status != GLINT_OK) {
         return status;
     }
@@ -306,6 +304,7 @@ glint_status bench_contest_run(const bench_arena *arena, bench_job job, bench_co
     memset(contest, 0, sizeof *contest);
     contest->job = job;
     glint_renderer *renderer = NULL;
+    glint_image image = {0};
     list_modes(contest, arena->high);
     sweep(arena, contest);
     make_short_list(contest, EMBREE_PLAIN);
@@ -316,11 +315,12 @@ glint_status bench_contest_run(const bench_arena *arena, bench_job job, bench_co
     }
     if (status == GLINT_OK) {
         double warming_up; // Embree's modes have run in the sweep
-        status = render(arena, renderer, &warming_up, error);
+        status = render(arena, renderer, &image, &warming_up, error);
     }
     for (int round = 0; status == GLINT_OK && round < arena->rounds; round++) {
-        status = run_round(arena, renderer, contest, error);
+        status = run_round(arena, renderer, &image, contest, error);
     }
+    glint_image_free(&image);
     glint_renderer_free(renderer);
     return status;
 }

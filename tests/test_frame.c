@@ -259,7 +259,7 @@ static void a_frame_that_is_stopped_leaves_no_image(void **state)
     assert_int_equal(glint_renderer_create(&inputs, &renderer, NULL), GLINT_OK);
     int calls = 0;
     const glint_progress progress = {stop_at_once, &calls};
-    glint_image image;
+    glint_image image = {0};
     glint_error error = {0};
     assert_int_equal(glint_renderer_frame(renderer, &camera, &progress, &image, NULL, &error),
                      GLINT_INTERRUPTED);

@@ -12,6 +12,7 @@ typedef struct glint_capabilities {
     char driver[128];
     char opencl_version[128];
     bool is_cpu, is_gpu;
+    bool shares_memory;     // a CPU, whose buffers may be the host's own memory
     bool has_double;        // cl_khr_fp64
     int native_float_width; // lanes of the widest float vector, 1 where the device has none
     uint32_t compute_units;

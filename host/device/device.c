@@ -98,6 +98,7 @@ static void describe(cl_platform_id platform, cl_device_id id, glint_capabilitie
     cl_device_type type = 0;
     cl_uint width = 0, units = 0;
     cl_ulong memory = 0, allocation = 0;
+    cl_bool unified = CL_FALSE;
     clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
     clGetDeviceInfo(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
     clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
@@ -105,6 +106,8 @@ static void describe(cl_platform_id platform, cl_device_id id, glint_capabilitie
     clGetDeviceInfo(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof allocation, &allocation, NULL);
     c->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
     c->is_gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
+    clGetDeviceInfo(id, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof unified, &unified, NULL);
+    c->shares_memory = c->is_cpu && unified;
     c->has_double = has_extension(id, "cl_khr_fp64");
     c->native_float_width = width > 0 ? (int)width : 1;
     c->compute_units = units;

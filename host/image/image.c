@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-glint_status glint_image_create(int width, int height, int channels, glint_image *image,
-                                glint_error *error)
+static glint_status make(int width, int height, int channels, void *(*allocate)(size_t, size_t),
+                         glint_image *image, glint_error *error)
 {
     *image = (glint_image){0};
     if (width < 1 || height < 1 || channels < 1 || channels > 4) {
@@ -19,12 +19,29 @@ glint_status glint_image_create(int width, int height, int channels, glint_image
         !glint_multiply(pixels, (size_t)channels, &values)) {
         return glint_fail_memory(error, "an image");
     }
-    float *memory = glint_allocate(values, sizeof(float));
+    float *memory = allocate(values, sizeof(float));
     if (memory == NULL) {
         return glint_fail_memory(error, "an image");
     }
     *image = (glint_image){width, height, channels, memory};
     return GLINT_OK;
+}
+
+glint_status glint_image_create(int width, int height, int channels, glint_image *image,
+                                glint_error *error)
+{
+    return make(width, height, channels, glint_allocate, image, error);
+}
+
+glint_status glint_image_reuse(int width, int height, int channels, glint_image *image,
+                               glint_error *error)
+{
+    if (image->pixels != NULL && image->width == width && image->height == height &&
+        image->channels == channels) {
+        return GLINT_OK;
+    }
+    glint_image_free(image);
+    return make(width, height, channels, glint_allocate_unset, image, error);
 }
 
 void glint_image_free(glint_image *image)

@@ -20,6 +20,10 @@ typedef struct glint_image {
 // Zeroed pixels. Fails on sizes that are not positive or whose product overflows.
 glint_status glint_image_create(int width, int height, int channels, glint_image *image,
                                 glint_error *error);
+// The same, but keeps the pixels that *image has (zero, or an image) where it is of that shape
+// already, and leaves new ones unset. On failure *image is empty.
+glint_status glint_image_reuse(int width, int height, int channels, glint_image *image,
+                               glint_error *error);
 void glint_image_free(glint_image *image);
 
 // The first channel of pixel (x, y); the caller keeps x and y inside.

@@ -5,6 +5,7 @@
 #include "device/program.h"
 #include "environment/irradiance.h"
 #include "kernels/layout.h"
+#include "render/pixels.h"
 #include "render/upload.h"
 #include "render/view.h"
 #include "scene/topology.h"
@@ -34,7 +35,8 @@ struct glint_renderer {
     glint_scene_memory memory;
     int environment_edge, irradiance_edge;
     cl_kernel kernel;
-    cl_mem pixels, counters;
+    glint_pixels pixels;
+    cl_mem counters;
     size_t pixel_count;
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };
@@ -111,7 +113,7 @@ static glint_status set_buffers(const glint_renderer *r, glint_error *error)
     const cl_mem buffers[] = {
         r->memory.nodes,     r->memory.clusters, r->memory.normals,     r->memory.numbers,
         r->memory.materials, r->memory.media,    r->memory.environment, r->memory.irradiance,
-        r->pixels,           r->counters};
+        r->pixels.own,       r->counters};
     glint_status status = GLINT_OK;
     for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
         status = set_argument(r, i, sizeof buffers[i], &buffers[i], error);
@@ -119,6 +121,7 @@ static glint_status set_buffers(const glint_renderer *r, glint_error *error)
     return status;
 }
 
+#define PIXELS_ARGUMENT 8 // see set_buffers
 #define FRAME_ARGUMENT 10
 
 // Where a packet is one ray, the rays of 8 × 8 pixels share a work-group; a wider packet is a
@@ -184,22 +187,10 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
     return status;
 }
 
-// Sets the pixel count; *bytes is what the frame takes on the device.
-static glint_status size_frame(glint_renderer *r, size_t *bytes, glint_error *error)
-{
-    if (!glint_multiply((size_t)r->settings.width, (size_t)r->settings.height, &r->pixel_count) ||
-        !glint_multiply(r->pixel_count, 4 * scalar_bytes(r), bytes)) {
-        return glint_fail(error, GLINT_USAGE, "--size: %dx%d is too large", r->settings.width,
-                          r->settings.height);
-    }
-    return GLINT_OK;
-}
-
 static glint_status create_outputs(glint_renderer *r, glint_error *error)
 {
-    const size_t bytes = r->pixel_count * 4 * scalar_bytes(r);
-    glint_status status =
-        glint_buffer_create(r->device, "the frame", bytes, NULL, &r->pixels, error);
+    glint_status status = glint_pixels_create(r->device, r->settings.width, r->settings.height,
+                                              scalar_bytes(r), &r->pixels, error);
     if (status == GLINT_OK) {
         const size_t counters = GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2 * sizeof(cl_uint);
         status =
@@ -226,7 +217,9 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
     size_t frame_bytes = 0;
     glint_status status = analyse(in, r, error);
     if (status == GLINT_OK) {
-        status = size_frame(r, &frame_bytes, error);
+        status = glint_pixels_size(r->settings.width, r->settings.height, scalar_bytes(r),
+                                   &frame_bytes, error);
+        r->pixel_count = frame_bytes / (4 * scalar_bytes(r));
     }
     if (status == GLINT_OK) {
         status = glint_upload_check(in->device, in->scene, r->plan.environment_bytes, frame_bytes,
@@ -315,7 +308,7 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
         .tree = glint_buffer_bytes(memory->nodes),
         .environment =
             glint_buffer_bytes(memory->environment) + glint_buffer_bytes(memory->irradiance),
-        .frame = glint_buffer_bytes(renderer->pixels),
+        .frame = glint_pixels_bytes(&renderer->pixels),
     };
 }
 
@@ -325,9 +318,7 @@ void glint_renderer_free(glint_renderer *renderer)
         return;
     }
     glint_scene_memory_free(&renderer->memory);
-    if (renderer->pixels != NULL) {
-        clReleaseMemObject(renderer->pixels);
-    }
+    glint_pixels_free(&renderer->pixels);
     if (renderer->counters != NULL) {
         clReleaseMemObject(renderer->counters);
     }
@@ -427,45 +418,6 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
     return GLINT_OK;
 }
 
-static glint_status read_scalars(const glint_renderer *r, void *values, glint_error *error)
-{
-    cl_int code = clEnqueueReadBuffer(r->device->queue, r->pixels, CL_TRUE, 0,
-                                      r->pixel_count * 4 * scalar_bytes(r), values, 0, NULL, NULL);
-    return code == CL_SUCCESS ? GLINT_OK
-                              : glint_fail_opencl(error, r->device, "reading the frame", code);
-}
-
-// The frame as float and, if `exact` is not NULL, as double; one of the two is a copy of the other.
-static glint_status read_pixels(const glint_renderer *r, float *rounded, double *exact,
-                                glint_error *error)
-{
-    const size_t values = r->pixel_count * 4;
-    const bool is_double = r->plan.precision == GLINT_PRECISION_DOUBLE;
-    void *read = is_double ? (void *)exact : (void *)rounded;
-    glint_status status = read_scalars(r, read, error);
-    for (size_t i = 0; status == GLINT_OK && is_double && rounded != NULL && i < values; i++) {
-        rounded[i] = (float)exact[i];
-    }
-    for (size_t i = 0; status == GLINT_OK && !is_double && exact != NULL && i < values; i++) {
-        exact[i] = (double)rounded[i];
-    }
-    return status;
-}
-
-static glint_status read_image(const glint_renderer *r, glint_image *image, glint_error *error)
-{
-    double *exact = NULL;
-    if (r->plan.precision == GLINT_PRECISION_DOUBLE) {
-        exact = glint_allocate(r->pixel_count * 4, sizeof *exact);
-        if (exact == NULL) {
-            return glint_fail_memory(error, "the frame");
-        }
-    }
-    glint_status status = read_pixels(r, image->pixels, exact, error);
-    free(exact);
-    return status;
-}
-
 static uint64_t count_nonfinite(const glint_image *image)
 {
     uint64_t count = 0;
@@ -490,8 +442,11 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     glint_view_record(&r->space, camera, &r->settings, &r->plan, &record);
     record.environment_edge = r->environment_edge;
     record.irradiance_edge = r->irradiance_edge;
-    glint_status status =
-        glint_image_create(r->settings.width, r->settings.height, 4, image, error);
+    cl_mem target = NULL;
+    glint_status status = glint_pixels_begin(&r->pixels, image, &target, error);
+    if (status == GLINT_OK) {
+        status = set_argument(r, PIXELS_ARGUMENT, sizeof target, &target, error);
+    }
     double clock = now_ms();
     if (status == GLINT_OK) {
         status = clear_counters(r, error);
@@ -500,9 +455,9 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
         status = run_launches(r, &record, progress, error);
         report->kernel_ms = lap(&clock);
     }
-    if (status == GLINT_OK) {
-        status = read_image(r, image, error);
-    }
+    glint_status ended =
+        glint_pixels_end(&r->pixels, status == GLINT_OK, image, status == GLINT_OK ? error : NULL);
+    status = status == GLINT_OK ? ended : status;
     if (status == GLINT_OK) {
         status = read_counters(r, report, error);
         report->readback_ms = lap(&clock);
@@ -520,13 +475,15 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
 glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixels,
                                          glint_error *error)
 {
-    size_t values = renderer->pixel_count * 4;
-    float *rounded = glint_allocate(values, sizeof *rounded);
-    *pixels = glint_allocate(values, sizeof **pixels);
-    glint_status status = rounded == NULL || *pixels == NULL
-                              ? glint_fail_memory(error, "the frame")
-                              : read_pixels(renderer, rounded, *pixels, error);
-    free(rounded);
+    *pixels = NULL;
+    if (renderer->plan.precision != GLINT_PRECISION_DOUBLE) {
+        return glint_fail(error, GLINT_USAGE, "only frames in double precision have exact pixels");
+    }
+    *pixels = glint_allocate_unset(renderer->pixel_count * 4, sizeof **pixels);
+    if (*pixels == NULL) {
+        return glint_fail_memory(error, "the frame");
+    }
+    glint_status status = glint_pixels_exact(&renderer->pixels, *pixels, error);
     if (status != GLINT_OK) {
         free(*pixels);
         *pixels = NULL;

@@ -90,14 +90,16 @@ typedef struct glint_device_bytes {
 
 glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
 
-// Renders with `camera` into a new RGBA image (premultiplied, linear). `progress` and `report` may
-// be NULL. On failure `image` is left empty.
+// Renders with `camera` into an RGBA image (premultiplied, linear). *image is zero, or an image
+// whose memory is used again where it has the frame's size: on a CPU that saves what fresh memory
+// costs. `progress` and `report` may be NULL. On failure `image` is left empty.
 glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,
                                   const glint_progress *progress, glint_image *image,
                                   glint_frame_report *report, glint_error *error);
 
-// The pixels of the last frame as the device computed them ([height][width][4] of double,
-// malloc'd), before they are rounded to float: for tests of the double precision.
+// The pixels of the last frame in double precision as the device computed them
+// ([height][width][4], malloc'd), before they are rounded to float: for tests. GLINT_USAGE in other
+// precisions.
 glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixels,
                                          glint_error *error);
 

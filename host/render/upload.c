@@ -16,6 +16,7 @@ _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_frame_record) == 9 * 32 + 20 * 4, "glint_frame_record has gaps");
 
 #define MEBIBYTE 1048576.0
+#define LEAST_BYTES ((size_t)16) // of a buffer
 
 static glint_status check_size(const struct glint_device *device, const char *what, size_t bytes,
                                glint_error *error)
@@ -66,16 +67,15 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
 glint_status glint_buffer_create(const struct glint_device *device, const char *what, size_t bytes,
                                  const void *data, cl_mem *buffer, glint_error *error)
 {
-    static const char nothing[16] = {0};
-    size_t least = sizeof nothing;
+    static const char nothing[LEAST_BYTES] = {0};
     glint_status status = check_size(device, what, bytes, error);
     if (status != GLINT_OK) {
         return status;
     }
-    if (bytes < least) {
+    if (bytes < LEAST_BYTES) {
         data = bytes == 0 || data == NULL ? nothing : data;
     }
-    size_t allocated = bytes < least ? least : bytes;
+    size_t allocated = bytes < LEAST_BYTES ? LEAST_BYTES : bytes;
     cl_int code;
     *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, allocated, NULL, &code);
     if (code == CL_SUCCESS && data != NULL && bytes > 0) {
@@ -93,31 +93,58 @@ size_t glint_buffer_bytes(cl_mem buffer)
     return bytes;
 }
 
+// A buffer that holds *data: a copy or, on a device that shares the host's memory, *data itself,
+// which is then kept, and *data NULL.
+static glint_status hand_over(const struct glint_device *device, const char *what, size_t bytes,
+                              void **data, glint_scene_memory *memory, cl_mem *buffer,
+                              glint_error *error)
+{
+    if (!device->capabilities.shares_memory || bytes < LEAST_BYTES) {
+        return glint_buffer_create(device, what, bytes, *data, buffer, error);
+    }
+    glint_status status = check_size(device, what, bytes, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    cl_int code;
+    *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, *data,
+                             &code);
+    if (code != CL_SUCCESS) {
+        return glint_fail_opencl(error, device, what, code);
+    }
+    memory->kept[memory->kept_count++] = *data;
+    *data = NULL;
+    return GLINT_OK;
+}
+
 // The tree's arrays are the device's already.
 static glint_status upload_tree(const glint_upload_inputs *in, glint_scene_memory *memory,
                                 glint_error *error)
 {
-    const glint_bvh *bvh = in->bvh;
+    glint_bvh *bvh = in->bvh;
     const size_t node_bytes = GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float);
     const size_t normals = bvh->normals != NULL ? GLINT_CLUSTER_NORMALS * sizeof(float) : 0;
+    void *data[] = {bvh->nodes, bvh->clusters, bvh->normals, bvh->numbers};
     const struct {
         const char *what;
         size_t bytes;
-        const void *data;
         cl_mem *buffer;
     } arrays[] = {
-        {"the tree", bvh->node_count * node_bytes, bvh->nodes, &memory->nodes},
-        {"the triangles", bvh->cluster_count * sizeof(glint_cluster), bvh->clusters,
-         &memory->clusters},
-        {"the normals", bvh->cluster_count * normals, bvh->normals, &memory->normals},
+        {"the tree", bvh->node_count * node_bytes, &memory->nodes},
+        {"the triangles", bvh->cluster_count * sizeof(glint_cluster), &memory->clusters},
+        {"the normals", bvh->cluster_count * normals, &memory->normals},
         {"the triangles' numbers", bvh->cluster_count * GLINT_CLUSTER_LANES * sizeof(int32_t),
-         bvh->numbers, &memory->numbers},
+         &memory->numbers},
     };
     glint_status status = GLINT_OK;
     for (size_t i = 0; status == GLINT_OK && i < sizeof arrays / sizeof *arrays; i++) {
-        status = glint_buffer_create(in->device, arrays[i].what, arrays[i].bytes, arrays[i].data,
-                                     arrays[i].buffer, error);
+        status = hand_over(in->device, arrays[i].what, arrays[i].bytes, &data[i], memory,
+                           arrays[i].buffer, error);
     }
+    bvh->nodes = data[0];
+    bvh->clusters = data[1];
+    bvh->normals = data[2];
+    bvh->numbers = data[3];
     return status;
 }
 
@@ -218,21 +245,21 @@ static glint_status upload_cube(const glint_upload_inputs *in, const char *what,
     return glint_buffer_create(in->device, what, bytes, cube->texels, buffer, error);
 }
 
-static glint_status upload_environment(const glint_upload_inputs *in, cl_mem *buffer,
+static glint_status upload_environment(const glint_upload_inputs *in, glint_scene_memory *memory,
                                        glint_error *error)
 {
     const char *what = "the environment";
     if (!in->plan->half_texels) {
-        return upload_cube(in, what, in->environment, buffer, error);
+        return upload_cube(in, what, in->environment, &memory->environment, error);
     }
     size_t count = glint_cube_size(in->environment);
-    uint16_t *texels = glint_allocate(count, sizeof *texels);
+    void *texels = glint_allocate_unset(count, sizeof(uint16_t));
     if (texels == NULL) {
         return glint_fail_memory(error, what);
     }
     glint_cube_to_half(in->environment, texels);
-    glint_status status =
-        glint_buffer_create(in->device, what, count * sizeof *texels, texels, buffer, error);
+    glint_status status = hand_over(in->device, what, count * sizeof(uint16_t), &texels, memory,
+                                    &memory->environment, error);
     free(texels);
     return status;
 }
@@ -246,7 +273,7 @@ glint_status glint_scene_upload(const glint_upload_inputs *in, glint_scene_memor
         status = upload_materials(in, memory, error);
     }
     if (status == GLINT_OK) {
-        status = upload_environment(in, &memory->environment, error);
+        status = upload_environment(in, memory, error);
     }
     if (status == GLINT_OK) {
         status = upload_cube(in, "the irradiance", in->irradiance, &memory->irradiance, error);
@@ -274,5 +301,8 @@ void glint_scene_memory_free(glint_scene_memory *memory)
     release(memory->media);
     release(memory->environment);
     release(memory->irradiance);
+    for (int i = 0; i < memory->kept_count; i++) {
+        free(memory->kept[i]);
+    }
     *memory = (glint_scene_memory){0};
 }

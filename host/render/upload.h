@@ -13,13 +13,18 @@
 // need are a few bytes long, as a kernel's arguments cannot be left out.
 typedef struct glint_scene_memory {
     cl_mem nodes, clusters, normals, numbers, materials, media, environment, irradiance;
+    // The host's memory that buffers lie in, on devices that share it.
+    void *kept[5];
+    int kept_count;
 } glint_scene_memory;
 
-// Everything that is uploaded. Pointers are borrowed; `irradiance` may be an empty cube.
+// Everything that is uploaded. Pointers are borrowed; `irradiance` may be an empty cube. A device
+// that shares the host's memory takes the tree's arrays over instead of copying them, and leaves
+// NULL.
 typedef struct glint_upload_inputs {
     const struct glint_device *device;
     const glint_scene *scene;
-    const glint_bvh *bvh;
+    glint_bvh *bvh;
     const glint_plan *plan;
     const glint_cube *environment;
     const glint_cube *irradiance;

@@ -30,7 +30,7 @@ typedef struct bench_run {
     glint_bench_watcher watcher;
     glint_device *device;
     glint_renderer *renderer;
-    glint_image first;
+    glint_image first, again;
     frame_time *times; // of the frames that count
     size_t count, capacity;
     glint_bench_result *result;
@@ -136,17 +136,16 @@ static glint_status check(bench_run *run, glint_error *error)
 // One frame more, which is compared with the first.
 static glint_status repeat(bench_run *run, glint_frame_report *report, glint_error *error)
 {
-    glint_image image = {0};
+    glint_image *image = &run->again;
     const glint_progress progress = progress_of(run);
     glint_status status =
-        glint_renderer_frame(run->renderer, run->inputs->camera, &progress, &image, report, error);
+        glint_renderer_frame(run->renderer, run->inputs->camera, &progress, image, report, error);
     if (status == GLINT_OK) {
-        size_t bytes = (size_t)image.width * (size_t)image.height * (size_t)image.channels *
-                       sizeof *image.pixels;
+        size_t bytes = (size_t)image->width * (size_t)image->height * (size_t)image->channels *
+                       sizeof *image->pixels;
         run->result->check.unsteady_frames +=
-            memcmp(image.pixels, run->first.pixels, bytes) != 0 ? 1 : 0;
+            memcmp(image->pixels, run->first.pixels, bytes) != 0 ? 1 : 0;
     }
-    glint_image_free(&image);
     return status;
 }
 
@@ -298,6 +297,7 @@ glint_status glint_bench_measure(const glint_bench_inputs *inputs,
     glint_status status = measure(&run, error);
     free(run.times);
     glint_image_free(&run.first);
+    glint_image_free(&run.again);
     glint_renderer_free(run.renderer);
     glint_device_close(run.device);
     return status;

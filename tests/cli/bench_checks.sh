@@ -141,8 +141,8 @@ clean
 # breaks FOLDER WEIGHT: the kernels, but for the weight that primary rays begin with.
 breaks() {
     cp -r "$root/kernels" "$1"
-    sed -i "/ray\.weight = /s/real_of(1)/real_of($2)/g" "$1/render.cl"
-    ! cmp -s "$root/kernels/render.cl" "$1/render.cl"
+    sed -i "/ray\.weight = /s/real_of(1)/real_of($2)/g" "$1/paths.cl"
+    ! cmp -s "$root/kernels/paths.cl" "$1/paths.cl"
 }
 check 'kernels that make pictures two per cent too bright' breaks too_bright 1.02f
 check 'kernels that make pictures of NaN' breaks not_finite NAN
