@@ -26,8 +26,8 @@ typedef struct bench_agreement {
     uint64_t pixels;
 } bench_agreement;
 
-// Colours: RGBA against [height][width][4].
-bench_agreement bench_compare_colors(const glint_image *glint, const float *embree);
+// Colours: an image in RGBA against [height][width][4].
+bench_agreement bench_compare_colors(const glint_image *glint, const float *other);
 
 // Hits: an image of GLINT_OUTPUT_HITS against [height][width]. Where glint says that a point of a
 // triangle is hit, Embree's point must be the same, whichever of two triangles that touch there it
@@ -38,6 +38,8 @@ bench_agreement bench_compare_hits(const bench_scene *scene, const glint_image *
 // The worse of two in both figures.
 bench_agreement bench_agreement_worse(bench_agreement a, bench_agreement b);
 
-bool bench_agrees(const bench_agreement *agreement);
+// GLINT_MISMATCH where the figures exceed the limits.
+glint_status bench_check_agreement(const bench_agreement *agreement, const char *scene,
+                                   const char *job, glint_error *error);
 
 #endif
