@@ -13,7 +13,9 @@ packages_to_test='
     libcmocka-dev oclgrind/oclgrind clang/clang clang-tidy/clang-tidy
     clang-format/clang-format cppcheck/cppcheck shellcheck/shellcheck'
 
-packages_to_bench='libembree-dev'
+packages_to_bench='
+    libembree-dev
+    libepoxy-dev libegl-dev libegl1 libegl-mesa0 libopengl0 libgl1 libgl1-mesa-dri'
 
 packages_to_test_fully='qemu-user/qemu-x86_64'
 

@@ -8,14 +8,14 @@ static double relative_rmse(double sum_of_squares, double sum, double count)
     return sqrt(sum_of_squares / count) / (sum / count);
 }
 
-bench_agreement bench_compare_colors(const glint_image *glint, const float *embree)
+bench_agreement bench_compare_colors(const glint_image *glint, const float *other)
 {
     bench_agreement found = {.pixels = (uint64_t)glint->width * (uint64_t)glint->height};
     double squares = 0, sum = 0;
     for (size_t i = 0; i < found.pixels; i++) {
         bool same = true;
         for (size_t c = 0; c < 3; c++) {
-            double a = (double)glint->pixels[4 * i + c], b = (double)embree[4 * i + c];
+            double a = (double)glint->pixels[4 * i + c], b = (double)other[4 * i + c];
             squares += (a - b) * (a - b);
             sum += a;
             // NaN on either side is a difference.
@@ -73,9 +73,18 @@ bench_agreement bench_agreement_worse(bench_agreement a, bench_agreement b)
     return worse;
 }
 
-bool bench_agrees(const bench_agreement *agreement)
+glint_status bench_check_agreement(const bench_agreement *agreement, const char *scene,
+                                   const char *job, glint_error *error)
 {
     double share = (double)agreement->different_pixels / (double)agreement->pixels;
-    return share <= BENCH_DIFFERENT_SHARE_MAX &&
-           agreement->relative_rmse <= BENCH_RELATIVE_RMSE_MAX;
+    // NaN is refused.
+    if (share <= BENCH_DIFFERENT_SHARE_MAX && agreement->relative_rmse <= BENCH_RELATIVE_RMSE_MAX) {
+        return GLINT_OK;
+    }
+    return glint_fail(error, GLINT_MISMATCH,
+                      "%s, %s: the frames differ (relative RMSE %.3g; %llu of %llu pixels by more "
+                      "than %g)",
+                      scene, job, agreement->relative_rmse,
+                      (unsigned long long)agreement->different_pixels,
+                      (unsigned long long)agreement->pixels, BENCH_DIFFERENT);
 }

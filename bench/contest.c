@@ -2,45 +2,10 @@
 #include "contest.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // A mode this much slower than the best of the sweep's first round is not run again.
 #define HOPELESS 2.0
-
-// ---- Statistics --------------------------------------------------------------------------------
-
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-bench_summary bench_summarize(const bench_series *series)
-{
-    bench_series sorted = *series;
-    const int n = sorted.count;
-    if (n == 0) {
-        return (bench_summary){NAN, NAN, NAN};
-    }
-    qsort(sorted.ms, (size_t)n, sizeof *sorted.ms, compare_numbers);
-    double median = 0.5 * (sorted.ms[(n - 1) / 2] + sorted.ms[n / 2]);
-    return (bench_summary){median, sorted.ms[0], sorted.ms[n - 1]};
-}
-
-static bench_summary summarize_ratio(const bench_series *above, const bench_series *below)
-{
-    bench_series ratio = {.count = below->count};
-    for (int i = 0; i < ratio.count; i++) {
-        ratio.ms[i] = above->ms[i] / below->ms[i];
-    }
-    return bench_summarize(&ratio);
-}
-
-static void append(bench_series *series, double ms)
-{
-    series->ms[series->count++] = ms;
-}
 
 // ---- Embree's modes ----------------------------------------------------------------------------
 
@@ -172,41 +137,16 @@ const bench_entry *bench_contest_best(const bench_contest *contest, embree_shadi
 
 bench_summary bench_contest_ratio(const bench_contest *contest, const bench_entry *entry)
 {
-    return summarize_ratio(&entry->series, &contest->glint);
+    return bench_summarize_ratio(&entry->series, &contest->glint);
 }
 
 // ---- Rounds ------------------------------------------------------------------------------------
 
-static glint_settings job_settings(const bench_arena *arena, bench_job job, int depth)
-{
-    glint_settings settings = glint_settings_default;
-    settings.width = arena->width;
-    settings.height = arena->height;
-    settings.depth = 1;
-    if (job == BENCH_TRAVERSE) {
-        settings.output = GLINT_OUTPUT_HITS;
-    } else if (job == BENCH_REFRACT) {
-        settings.depth = 2;
-        settings.fresnel = GLINT_FRESNEL_NONE;
-    } else if (job == BENCH_GLASS) {
-        settings.depth = depth;
-        settings.min_weight = (double)BENCH_GLASS_MIN_WEIGHT;
-    }
-    return settings;
-}
-
 static glint_status create_renderer(const bench_arena *arena, bench_job job, int depth,
                                     glint_renderer **renderer, glint_error *error)
 {
-    bench_scene_set_material(arena->scene, job);
-    const glint_settings settings = job_settings(arena, job, depth);
-    const glint_renderer_inputs inputs = {
-        .device = arena->device,
-        .scene = &arena->scene->scene,
-        .environment = arena->environment,
-        .settings = &settings,
-    };
-    return glint_renderer_create(&inputs, renderer, error);
+    const glint_settings settings = bench_stage_settings(&arena->stage, job, depth);
+    return bench_stage_renderer(&arena->stage, job, &settings, renderer, error);
 }
 
 // Compares glint's frame with that of each listed mode; the worst of all.
@@ -222,7 +162,7 @@ static bench_agreement compare_frames(const bench_arena *arena, const bench_cont
         embree_program_frame(arena->program, contest->job, depth, &entry->mode);
         bench_agreement found =
             contest->job == BENCH_TRAVERSE
-                ? bench_compare_hits(arena->scene, image, embree_program_hits(arena->program))
+                ? bench_compare_hits(arena->stage.scene, image, embree_program_hits(arena->program))
                 : bench_compare_colors(image, embree_program_pixels(arena->program));
         worst = bench_agreement_worse(worst, found);
     }
@@ -237,7 +177,8 @@ static glint_status find_agreement(const bench_arena *arena, const bench_contest
     glint_image image = {0};
     glint_status status = create_renderer(arena, contest->job, depth, &renderer, error);
     if (status == GLINT_OK) {
-        status = glint_renderer_frame(renderer, &arena->scene->camera, NULL, &image, NULL, error);
+        double ms; // of a first frame, which says nothing
+        status = bench_stage_frame(&arena->stage, renderer, &ms, &image, error);
     }
     if (status == GLINT_OK) {
         *found = compare_frames(arena, contest, depth, &image);
@@ -256,43 +197,25 @@ static glint_status check_agreement(const bench_arena *arena, bench_contest *con
     if (status == GLINT_OK && contest->job == BENCH_GLASS) {
         status = find_agreement(arena, contest, BENCH_JUDGED_DEPTH, &contest->judged, error);
     }
-    if (status == GLINT_OK && !bench_agrees(&contest->judged)) {
-        return glint_fail(error, GLINT_MISMATCH,
-                          "%s, %s: the frames differ (relative RMSE %.3g; %llu of %llu pixels by "
-                          "more than %g)",
-                          arena->scene->name, bench_job_name(contest->job),
-                          contest->judged.relative_rmse,
-                          (unsigned long long)contest->judged.different_pixels,
-                          (unsigned long long)contest->judged.pixels, BENCH_DIFFERENT);
-    }
-    return status;
-}
-
-// A frame of glint's; *ms is what it took on the device.
-static glint_status render(const bench_arena *arena, glint_renderer *renderer, glint_image *image,
-                           double *ms, glint_error *error)
-{
-    glint_frame_report report = {0};
-    glint_status status =
-        glint_renderer_frame(renderer, &arena->scene->camera, NULL, image, &report, error);
-    *ms = report.kernel_ms;
-    return status;
+    return status == GLINT_OK ? bench_check_agreement(&contest->judged, arena->stage.scene->name,
+                                                      bench_job_name(contest->job), error)
+                              : status;
 }
 
 static glint_status run_round(const bench_arena *arena, glint_renderer *renderer,
                               glint_image *image, bench_contest *contest, glint_error *error)
 {
     double ms;
-    glint_status status = render(arena, renderer, image, &ms, error);
+    glint_status status = bench_stage_frame(&arena->stage, renderer, &ms, image, error);
     if (status != GLINT_OK) {
         return status;
     }
-    append(&contest->glint, ms);
+    bench_series_add(&contest->glint, ms);
     for (int i = 0; i < contest->entry_count; i++) {
         bench_entry *entry = &contest->entries[i];
         if (entry->listed) {
-            append(&entry->series, embree_program_frame(arena->program, contest->job,
-                                                        BENCH_GLASS_DEPTH, &entry->mode));
+            bench_series_add(&entry->series, embree_program_frame(arena->program, contest->job,
+                                                                  BENCH_GLASS_DEPTH, &entry->mode));
         }
     }
     return GLINT_OK;
@@ -315,9 +238,9 @@ glint_status bench_contest_run(const bench_arena *arena, bench_job job, bench_co
     }
     if (status == GLINT_OK) {
         double warming_up; // Embree's modes have run in the sweep
-        status = render(arena, renderer, &image, &warming_up, error);
+        status = bench_stage_frame(&arena->stage, renderer, &warming_up, &image, error);
     }
-    for (int round = 0; status == GLINT_OK && round < arena->rounds; round++) {
+    for (int round = 0; status == GLINT_OK && round < arena->stage.rounds; round++) {
         status = run_round(arena, renderer, &image, contest, error);
     }
     glint_image_free(&image);
@@ -339,15 +262,15 @@ glint_status bench_build_run(const bench_arena *arena, int rounds, bench_build *
         if (status != GLINT_OK) {
             return status;
         }
-        append(&build->glint, glint_renderer_phases(renderer)->bvh);
+        bench_series_add(&build->glint, glint_renderer_phases(renderer)->bvh);
         build->glint_bytes = glint_renderer_bvh(renderer)->bytes;
         glint_renderer_free(renderer);
-        append(&build->embree, embree_program_build(arena->program, EMBREE_MEDIUM));
+        bench_series_add(&build->embree, embree_program_build(arena->program, EMBREE_MEDIUM));
     }
     return GLINT_OK;
 }
 
 bench_summary bench_build_ratio(const bench_build *build)
 {
-    return summarize_ratio(&build->embree, &build->glint);
+    return bench_summarize_ratio(&build->embree, &build->glint);
 }

@@ -4,26 +4,13 @@
 
 #include "agreement.h"
 #include "embree_reference.h"
-#include "glint.h"
-#include "scenes.h"
+#include "series.h"
+#include "stage.h"
 
 #include <stdbool.h>
 
-#define BENCH_ROUNDS_MAX 1000
 #define BENCH_MODES_MAX 200
 #define BENCH_SHORT_LIST 3 // modes of each kind of shading that run in every round
-
-// Milliseconds, one for each round.
-typedef struct bench_series {
-    int count;
-    double ms[BENCH_ROUNDS_MAX];
-} bench_series;
-
-typedef struct bench_summary {
-    double median, min, max;
-} bench_summary;
-
-bench_summary bench_summarize(const bench_series *series);
 
 // One mode of Embree's.
 typedef struct bench_entry {
@@ -42,14 +29,11 @@ typedef struct bench_contest {
     bench_agreement judged;    // the same but for glass: of depth BENCH_JUDGED_DEPTH
 } bench_contest;
 
-// What both sides need. All borrowed.
+// What both sides need.
 typedef struct bench_arena {
-    bench_scene *scene; // its material is set by job
-    const glint_environment *environment;
-    glint_device *device;
-    embree_program *program;
-    int width, height;
-    int sweep_rounds, rounds;
+    bench_stage stage;
+    embree_program *program; // borrowed
+    int sweep_rounds;
     bool high;   // Embree's trees of quality HIGH compete too
     bool robust; // Embree's scenes carry RTC_SCENE_FLAG_ROBUST
 } bench_arena;

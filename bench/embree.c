@@ -2,6 +2,8 @@
 // measured and what it means. Results go to stdout, chatter to stderr.
 #include "contest.h"
 #include "embree_report.h"
+#include "options.h"
+#include "report.h"
 
 #include "report/json.h"
 
@@ -73,28 +75,6 @@ static glint_status parse_jobs(const char *text, unsigned *jobs, glint_error *er
     return GLINT_OK;
 }
 
-static glint_status parse_size(const char *text, request *r, glint_error *error)
-{
-    char rest;
-    if (sscanf(text, "%dx%d%c", &r->width, &r->height, &rest) != 2 || r->width < 16 ||
-        r->height < 16 || r->width > 16384 || r->height > 16384 || r->width % 16 != 0 ||
-        r->height % 16 != 0) {
-        return glint_fail(error, GLINT_USAGE, "--size: '%s' (multiples of 16, as 1920x1088)", text);
-    }
-    return GLINT_OK;
-}
-
-static glint_status parse_count(const char *name, const char *text, double most, double *value,
-                                glint_error *error)
-{
-    char *end;
-    *value = strtod(text, &end);
-    if (end == text || *end != '\0' || !(*value >= 1 && *value <= most)) {
-        return glint_fail(error, GLINT_USAGE, "--%s: '%s' (1 to %.0f)", name, text, most);
-    }
-    return GLINT_OK;
-}
-
 enum { SCENES = 1, JOBS, ROUNDS, SIZE, MEDIUM, ROBUST, DEVICE, LEAKS, JSON, QUICK, LIST, HELP };
 
 static const struct option long_options[] = {
@@ -113,28 +93,21 @@ static const struct option long_options[] = {
     {NULL, 0, NULL, 0},
 };
 
-static glint_status set_scenes(request *r, const char *names, glint_error *error)
-{
-    free(r->scenes);
-    r->scenes = strdup(names);
-    return r->scenes != NULL ? GLINT_OK : glint_fail_memory(error, "the options");
-}
-
 static glint_status take_option(int option, request *r, glint_error *error)
 {
     glint_status status = GLINT_OK;
     double count = 0;
     switch (option) {
     case SCENES:
-        return set_scenes(r, optarg, error);
+        return bench_set_text(&r->scenes, optarg, error);
     case JOBS:
         return parse_jobs(optarg, &r->jobs, error);
     case ROUNDS:
-        status = parse_count("rounds", optarg, BENCH_ROUNDS_MAX, &count, error);
+        status = bench_parse_count("rounds", optarg, BENCH_ROUNDS_MAX, &count, error);
         r->rounds = (int)count;
         return status;
     case SIZE:
-        return parse_size(optarg, r, error);
+        return bench_parse_size(optarg, &r->width, &r->height, error);
     case MEDIUM:
         r->medium_only = true;
         return GLINT_OK;
@@ -145,7 +118,7 @@ static glint_status take_option(int option, request *r, glint_error *error)
         r->device = optarg;
         return GLINT_OK;
     case LEAKS:
-        status = parse_count("leaks", optarg, 1e12, &count, error);
+        status = bench_parse_count("leaks", optarg, 1e12, &count, error);
         r->leaks = (uint64_t)count;
         return status;
     case JSON:
@@ -155,7 +128,7 @@ static glint_status take_option(int option, request *r, glint_error *error)
         r->rounds = 3;
         r->sweep_rounds = 2;
         r->jobs = 1u << BENCH_TRAVERSE | 1u << BENCH_REFLECT;
-        return set_scenes(r, "S0", error);
+        return bench_set_text(&r->scenes, "S0", error);
     case LIST:
         r->list = true;
         return GLINT_OK;
@@ -175,7 +148,7 @@ static glint_status parse(int argc, char **argv, request *r, glint_error *error)
                    .rounds = 9,
                    .sweep_rounds = 3,
                    .device = "cpu"};
-    glint_status status = set_scenes(r, "S0,S1,S2,needles,stadium,G0", error);
+    glint_status status = bench_set_text(&r->scenes, "S0,S1,S2,needles,stadium,G0", error);
     int option;
     opterr = 0;
     while (status == GLINT_OK && (option = getopt_long(argc, argv, "", long_options, NULL)) != -1) {
@@ -218,22 +191,22 @@ static glint_status run_jobs(const request *r, const bench_arena *arena, json_t 
         return glint_fail_memory(error, "a contest");
     }
     for (int job = 0; status == GLINT_OK && job < BENCH_JOBS; job++) {
-        if (arena->scene->jobs & r->jobs & 1u << job) {
-            fprintf(stderr, "%s: %s\n", arena->scene->name, bench_job_name((bench_job)job));
+        if (arena->stage.scene->jobs & r->jobs & 1u << job) {
+            fprintf(stderr, "%s: %s\n", arena->stage.scene->name, bench_job_name((bench_job)job));
             status = bench_contest_run(arena, (bench_job)job, contest, error);
             if (status == GLINT_OK) {
-                bench_report_contest(object, contest);
+                embree_report_contest(object, contest);
             }
         }
     }
     free(contest);
     if (status == GLINT_OK && r->jobs & 1u << JOB_BUILD) {
-        fprintf(stderr, "%s: build\n", arena->scene->name);
+        fprintf(stderr, "%s: build\n", arena->stage.scene->name);
         bench_build build;
         status = bench_build_run(arena, r->rounds > BUILD_ROUNDS ? r->rounds : BUILD_ROUNDS, &build,
                                  error);
         if (status == GLINT_OK) {
-            bench_report_build(object, &build);
+            embree_report_build(object, &build);
         }
     }
     return status;
@@ -249,18 +222,18 @@ static glint_status run_scene(const request *r, bench_arena arena, bench_pool *p
     if (status == GLINT_OK) {
         const embree_inputs inputs = {
             .scene = &scene,
-            .environment = &arena.environment->radiance,
+            .environment = &arena.stage.environment->radiance,
             .pool = pool,
-            .width = arena.width,
-            .height = arena.height,
+            .width = arena.stage.width,
+            .height = arena.stage.height,
             .robust = arena.robust,
             .high = arena.high,
         };
-        arena.scene = &scene;
+        arena.stage.scene = &scene;
         status = embree_program_create(&inputs, &arena.program, error);
     }
     if (status == GLINT_OK) {
-        status = run_jobs(r, &arena, bench_report_add_scene(report, &scene), error);
+        status = run_jobs(r, &arena, embree_report_add_scene(report, &scene), error);
     }
     embree_program_free(arena.program);
     bench_scene_free(&scene);
@@ -275,17 +248,17 @@ static glint_status run_leaks(const request *r, const bench_arena *arena, bench_
     for (int robust = 0; status == GLINT_OK && robust < 2; robust++) {
         const embree_inputs inputs = {
             .scene = &scene,
-            .environment = &arena->environment->radiance,
+            .environment = &arena->stage.environment->radiance,
             .pool = pool,
-            .width = arena->width,
-            .height = arena->height,
+            .width = arena->stage.width,
+            .height = arena->stage.height,
             .robust = robust == 1,
         };
         embree_program *program;
         status = embree_program_create(&inputs, &program, error);
         if (status == GLINT_OK) {
-            bench_report_leaks(report, robust ? "ROBUST" : "default",
-                               embree_program_leaks(program, r->leaks));
+            embree_report_leaks(report, robust ? "ROBUST" : "default",
+                                embree_program_leaks(program, r->leaks));
             embree_program_free(program);
         }
     }
@@ -300,7 +273,7 @@ static glint_status run_all(const request *r, const bench_arena *arena, bench_po
     if (r->leaks > 0) {
         status = run_leaks(r, arena, pool, report, error);
     } else {
-        bench_report_head();
+        bench_report_head("Embree");
         char *rest = NULL;
         for (char *name = strtok_r(r->scenes, ",", &rest); status == GLINT_OK && name != NULL;
              name = strtok_r(NULL, ",", &rest)) {
@@ -319,10 +292,10 @@ static glint_status run(const request *r, glint_error *error)
     glint_environment environment = {0};
     bench_pool *pool = NULL;
     bench_arena arena = {
-        .environment = &environment,
-        .width = r->width,
-        .height = r->height,
-        .rounds = r->rounds,
+        .stage = {.environment = &environment,
+                  .width = r->width,
+                  .height = r->height,
+                  .rounds = r->rounds},
         .sweep_rounds = r->sweep_rounds,
         .high = !r->medium_only,
         .robust = r->robust,
@@ -332,12 +305,12 @@ static glint_status run(const request *r, glint_error *error)
         status = bench_pool_create(&pool, error);
     }
     if (status == GLINT_OK) {
-        status = glint_device_open(r->device, &arena.device, error);
+        status = glint_device_open(r->device, &arena.stage.device, error);
     }
     if (status == GLINT_OK) {
-        status = run_all(r, &arena, pool, bench_report_create(&arena), error);
+        status = run_all(r, &arena, pool, embree_report_create(&arena), error);
     }
-    glint_device_close(arena.device);
+    glint_device_close(arena.stage.device);
     bench_pool_free(pool);
     glint_environment_free(&environment);
     return status;

@@ -7,19 +7,16 @@
 #include <jansson.h>
 
 // The whole report without its scenes: machine, versions, settings. A new reference.
-json_t *bench_report_create(const bench_arena *arena);
-
-// Prints the table's head.
-void bench_report_head(void);
+json_t *embree_report_create(const bench_arena *arena);
 
 // A scene's object, added to the report; borrowed.
-json_t *bench_report_add_scene(json_t *report, const bench_scene *scene);
+json_t *embree_report_add_scene(json_t *report, const bench_scene *scene);
 
 // Add to a scene's object and print a line.
-void bench_report_contest(json_t *scene, const bench_contest *contest);
-void bench_report_build(json_t *scene, const bench_build *build);
+void embree_report_contest(json_t *scene, const bench_contest *contest);
+void embree_report_build(json_t *scene, const bench_build *build);
 
 // Adds to the report and prints a line.
-void bench_report_leaks(json_t *report, const char *flags, embree_leaks leaks);
+void embree_report_leaks(json_t *report, const char *flags, embree_leaks leaks);
 
 #endif

@@ -1,0 +1,36 @@
+// What the contests' reports share.
+#ifndef GLINT_BENCH_REPORT_H
+#define GLINT_BENCH_REPORT_H
+
+#include "agreement.h"
+#include "series.h"
+#include "stage.h"
+
+#include <jansson.h>
+
+// The report without its scenes: machine, versions of glint and of the program `other`, device,
+// size and rounds. A new reference, as all objects
+// here where nothing else is said.
+json_t *bench_report_start(const bench_stage *stage, const char *other, const char *version);
+
+// Prints the table's head; `other` names the column of the other program's times.
+void bench_report_head(const char *other);
+
+// A line of the table. All borrowed.
+typedef struct bench_line {
+    const char *scene, *job;
+    double glint_ms, other_ms; // medians
+    bench_summary ratio;
+    const char *against;              // which form of the other program
+    const bench_agreement *agreement; // NULL: nothing was compared
+} bench_line;
+
+void bench_report_line(const bench_line *line);
+
+// A scene's object, added to the report; borrowed.
+json_t *bench_report_add_scene(json_t *report, const bench_scene *scene);
+
+json_t *bench_report_summary(bench_summary summary);
+json_t *bench_report_agreement(const bench_agreement *agreement);
+
+#endif

@@ -1,0 +1,25 @@
+// Times of rounds, and what they come to.
+#ifndef GLINT_BENCH_SERIES_H
+#define GLINT_BENCH_SERIES_H
+
+#define BENCH_ROUNDS_MAX 1000
+
+// Milliseconds, one for each round.
+typedef struct bench_series {
+    int count;
+    double ms[BENCH_ROUNDS_MAX];
+} bench_series;
+
+// NaN where there are none.
+typedef struct bench_summary {
+    double median, min, max;
+} bench_summary;
+
+void bench_series_add(bench_series *series, double ms);
+
+bench_summary bench_summarize(const bench_series *series);
+
+// Of the quotients round by round; both have as many.
+bench_summary bench_summarize_ratio(const bench_series *above, const bench_series *below);
+
+#endif
