@@ -35,6 +35,7 @@
 #include "stack.cl"
 #include "intersect.cl"
 #include "traverse_packet.cl"
+#include "tile.cl"
 #include "traverse_tile.cl"
 #include "lookups.cl"
 #include "shade.cl"

@@ -1,45 +1,11 @@
-// Closest hits of the primary rays through a tile of pixels: one traversal for all of them.
-//
-// All primary rays come from one eye (or run alike), and their directions are affine in the pixel, so
-// that the scene can be looked at in image coordinates, (x, y, h) with x/h and y/h the place on the
-// image plane in pixels from its middle and z the depth (glint_frame_record). There a triangle's
-// edge is an affine function of the pixel, and so is the key that orders surfaces by depth.
+// Closest hits of the primary rays through a tile of pixels: one traversal for all of them, in image
+// coordinates (tile.cl).
 //
 // Which pixels a triangle covers is decided as Woop, Benthin and Wald do (intersect.cl): the vertices
 // are sheared by the pixel, and the signs of rounded products are never wrong. The affine functions
 // tell the same for nearly every pixel at a fraction of the cost; where one of them is closer to 0
 // than both ways' rounding errors together, the slow way decides. So every tile size and width finds
 // the same hits.
-//
-// A tile is TILE_COLUMNS × TILE_ROWS groups of pixels, each as many as a packet has lanes.
-#define TILE_COLUMNS GLINT_TILE_SIDE(GLINT_TILES)
-#define TILE_ROWS GLINT_TILE_SIDE(GLINT_TILES)
-#define TILE_GROUPS (TILE_COLUMNS * TILE_ROWS)
-
-// The primary rays of a frame in image coordinates.
-typedef struct image_space {
-    scalar origin[3];        // where the middle ray starts, stored coordinates
-    scalar rows[3][3];       // x, y and z of a point relative to it
-    scalar offset, slope;    // h = offset + slope z
-    scalar key_one, key_depth, key_normal; // see image_key
-    scalar key_limit;        // of the depth 0, where the rays start
-} image_space;
-
-// What a tile's rays have met so far, and what its traversal needs.
-typedef struct tile {
-    // Places on the image plane: of the pixels of each column and row of groups, of the groups'
-    // centres and of the tile's; the largest magnitudes in the tile.
-    real x[TILE_COLUMNS], y[TILE_ROWS];
-    block center_x, center_y;
-    scalar middle_x, middle_y;
-    scalar largest_x, largest_y;
-    scalar planes[4][3], plane_offsets[4]; // inside is ≥ 0; of points relative to the origin
-    real key[TILE_GROUPS];         // of the nearest hit; see image_key
-    lanes_int place[TILE_GROUPS];  // of the triangle hit, −1: none
-    block farthest;                // the least key of each group
-    scalar least;                  // and of the tile
-    scalar z_far;                  // no hit of the tile lies deeper
-} tile;
 
 // The functions of the 16 triangles of a cluster, each affine in the pixel: [x, y, 1].
 typedef struct image_triangles {
@@ -47,166 +13,34 @@ typedef struct image_triangles {
     block uncertain;   // edges closer to 0 than this may have the wrong sign
     block key[3];
     block key_largest; // at the vertices
+    block_mask groups; // those that the triangle's bounds reach, as bits
     block reach[3];    // how far the edges may rise from a group's centre
     block key_reach;   // and the key
 } image_triangles;
 
-static inline image_space make_image_space(const glint_frame_record *frame)
+// n·p for the corner p of each box that lies farthest along n.
+static inline boxes farthest_along(const scalar n[3], node_pointer node)
 {
-    image_space s;
+    boxes side = 0;
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        s.origin[k] = JOIN(frame->origin.high[k], frame->origin.low[k]);
-        s.rows[0][k] = JOIN(frame->image_x.high[k], frame->image_x.low[k]);
-        s.rows[1][k] = JOIN(frame->image_y.high[k], frame->image_y.low[k]);
-        s.rows[2][k] = JOIN(frame->image_z.high[k], frame->image_z.low[k]);
+        boxes corner = load_boxes(node + (n[k] > 0 ? 3 + k : k) * GLINT_BVH_WIDTH);
+        side = fused((boxes)n[k], corner, side);
     }
-    s.offset = JOIN(frame->image_offset[0], frame->image_offset[1]);
-    s.slope = frame->image_slope;
-    s.key_one = frame->key_is_inverse ? R(1.0) : R(0.0);
-    s.key_depth = R(1.0) - s.key_one;
-    s.key_normal = frame->key_is_inverse ? R(1.0) : s.offset;
-    s.key_limit = frame->key_is_inverse ? HUGE : R(0.0);
-    return s;
-}
-
-// The key of a depth, larger for nearer: 1/h for an eye near the scene, else −z/h. Both are affine
-// in the pixel on any plane; the second keeps its digits where the eye is far away or infinitely so.
-static inline block image_key(const image_space *s, block z, block h)
-{
-    return (s->key_one - s->key_depth * z) / h;
-}
-
-// ---- The tile and the tree ---------------------------------------------------------------------
-
-// The four planes through the tile's outermost rays, a little apart from them: x − X h ≥ 0 for the
-// left one, as a function of the place in stored coordinates. `margin` is what its own rounding
-// takes of the part that does not depend on the place.
-static inline void bound_tile(const image_space *s, tile *t, int plane, int row, scalar at,
-                              scalar sign)
-{
-#pragma unroll
-    for (int k = 0; k < 3; k++) {
-        t->planes[plane][k] = sign * (s->rows[row][k] - at * (s->slope * s->rows[2][k]));
-    }
-    scalar offset = -at * s->offset;
-    t->plane_offsets[plane] = sign * offset + R(4.0) * EPSILON * fabs(offset);
-}
-
-// How far the outermost pixels of a group and of the tile lie from its middle.
-#define GROUP_HALF_X (R(0.5) * (scalar)(PACKET_WIDTH - 1))
-#define GROUP_HALF_Y (R(0.5) * (scalar)(PACKET_HEIGHT - 1))
-#define TILE_HALF_X (R(0.5) * (scalar)(PACKET_WIDTH * TILE_COLUMNS - 1))
-#define TILE_HALF_Y (R(0.5) * (scalar)(PACKET_HEIGHT * TILE_ROWS - 1))
-
-// Columns and rows of a group's pixels, counted in the image.
-static inline lanes_int group_columns(int tile_column, int group)
-{
-    return lane_numbers() % (lane_int)PACKET_WIDTH +
-           (lane_int)(tile_column + group % TILE_COLUMNS * PACKET_WIDTH);
-}
-static inline lanes_int group_rows(int tile_row, int group)
-{
-    return lane_numbers() / (lane_int)PACKET_WIDTH +
-           (lane_int)(tile_row + group / TILE_COLUMNS * PACKET_HEIGHT);
-}
-
-static inline mask group_in_image(const glint_frame_record *frame, int tile_column, int tile_row,
-                                  int group)
-{
-    mask across = group_columns(tile_column, group) < (lane_int)frame->width;
-    mask down = group_rows(tile_row, group) < (lane_int)frame->height;
-    return across & down;
-}
-
-// The places on the image plane of samples that lie (right, down) from the upper left corner of
-// their pixels. All but the last operation is exact: the same for every size of tiles.
-static inline real place_x(const glint_frame_record *frame, lanes_int columns, scalar right)
-{
-    return to_real(columns) - R(0.5) * (scalar)frame->width + right;
-}
-static inline real place_y(const glint_frame_record *frame, lanes_int rows, scalar down)
-{
-    return R(0.5) * (scalar)frame->height - to_real(rows) - down;
-}
-
-// Nothing is met yet. Pixels outside the image hide everything, so that nothing is visited for them.
-static inline void clear_tile(const image_space *s, const glint_frame_record *frame, int column,
-                              int row, tile *t)
-{
-    scalar nothing = s->key_one > 0 ? R(0.0) : -HUGE;
-    t->farthest = block_of(HUGE);
-    for (int g = 0; g < TILE_GROUPS; g++) {
-        mask inside = group_in_image(frame, column, row, g);
-        t->key[g] = SELECT(inside, real_of(nothing), real_of(HUGE));
-        t->place[g] = int_of(-1);
-        ((scalar *)&t->farthest)[g] = smallest_lane(t->key[g]);
-    }
-    t->least = nothing;
-    t->z_far = HUGE;
-}
-
-// `column` and `row` name the tile's first pixel.
-static inline void begin_tile(const image_space *s, const glint_frame_record *frame, int column,
-                              int row, scalar right, scalar down, tile *t)
-{
-    for (int i = 0; i < TILE_COLUMNS; i++) {
-        t->x[i] = place_x(frame, group_columns(column, i), right);
-    }
-    for (int i = 0; i < TILE_ROWS; i++) {
-        t->y[i] = place_y(frame, group_rows(row, i * TILE_COLUMNS), down);
-    }
-    scalar low_x = LANE(t->x[0], 0), high_y = LANE(t->y[0], 0);
-    scalar high_x = low_x + R(2.0) * TILE_HALF_X, low_y = high_y - R(2.0) * TILE_HALF_Y;
-    t->middle_x = low_x + TILE_HALF_X;
-    t->middle_y = high_y - TILE_HALF_Y;
-    t->largest_x = LARGER(fabs(low_x), fabs(high_x));
-    t->largest_y = LARGER(fabs(low_y), fabs(high_y));
-    t->center_x = t->center_y = block_of(0);
-    for (int g = 0; g < TILE_GROUPS; g++) {
-        ((scalar *)&t->center_x)[g] =
-            low_x + GROUP_HALF_X + (scalar)(g % TILE_COLUMNS * PACKET_WIDTH);
-        ((scalar *)&t->center_y)[g] =
-            high_y - GROUP_HALF_Y - (scalar)(g / TILE_COLUMNS * PACKET_HEIGHT);
-    }
-    bound_tile(s, t, 0, 0, low_x, R(1.0));
-    bound_tile(s, t, 1, 0, high_x, R(-1.0));
-    bound_tile(s, t, 2, 1, low_y, R(1.0));
-    bound_tile(s, t, 3, 1, high_y, R(-1.0));
-    clear_tile(s, frame, column, row, t);
+    return side;
 }
 
 // Bit c is set if the tile's rays may meet box c of the node before what all of them have hit;
 // `near` is the least depth at which they may.
-static inline uint tile_meets_boxes(const image_space *s, const tile *t, global const float *node,
-                                    boxes *near)
+static inline uint tile_meets_boxes(const image_space *s, const tile *t, node_pointer node, boxes *near)
 {
-    boxes corner[6]; // low x, y, z, high x, y, z, relative to the origin
-#pragma unroll
-    for (int k = 0; k < 6; k++) {
-        corner[k] = load_boxes(node + k * GLINT_BVH_WIDTH) - s->origin[k % 3];
-    }
-    // Rounding displaces what lies in a box, seen from the origin, by a few parts in 2²⁴ of its
-    // distance at most.
-    boxes most = LARGER(corner[3], LARGER(corner[4], corner[5]));
-    boxes least = SMALLER(corner[0], SMALLER(corner[1], corner[2]));
-    boxes slack = LARGER(most, -least) * (R(32.0) * EPSILON);
-#pragma unroll
-    for (int k = 0; k < 3; k++) {
-        corner[k] -= slack;
-        corner[k + 3] += slack;
-    }
     const scalar *z = s->rows[2];
-    const int zx = z[0] > 0 ? 3 : 0, zy = z[1] > 0 ? 3 : 0, zz = z[2] > 0 ? 3 : 0;
-    boxes far = corner[zx] * z[0] + corner[1 + zy] * z[1] + corner[2 + zz] * z[2];
-    *near = corner[3 - zx] * z[0] + corner[4 - zy] * z[1] + corner[5 - zz] * z[2];
-    boxes_mask met = (far >= R(0.0)) & (*near <= t->z_far);
+    const scalar back[3] = {-z[0], -z[1], -z[2]};
+    *near = s->near_offset - farthest_along(back, node);
+    boxes_mask met = (farthest_along(z, node) >= s->far_offset) & (*near <= t->z_far);
 #pragma unroll
     for (int p = 0; p < 4; p++) {
-        const scalar *n = t->planes[p];
-        const int nx = n[0] > 0 ? 3 : 0, ny = n[1] > 0 ? 3 : 0, nz = n[2] > 0 ? 3 : 0;
-        boxes side = corner[nx] * n[0] + corner[1 + ny] * n[1] + corner[2 + nz] * n[2];
-        met &= side >= -t->plane_offsets[p];
+        met &= farthest_along(t->planes[p], node) >= -t->plane_offsets[p];
     }
     return box_bits(met);
 }
@@ -285,25 +119,67 @@ static inline block rounding_bound(const tile *t, block corners[3][4], block *la
     return (place_x * edge_y + place_y * edge_x) * (R(32.0) * EPSILON);
 }
 
+// The groups that the bounds of triangles reach, as bits. A triangle that a pixel sees has corners, as they
+// are stored, on both sides of it or on it (image_weights): beyond their quotients' rounding nothing is lost.
+// One with a corner that is not in front of the eye may reach all.
+static inline block_mask groups_in_bounds(const tile *t, const block places[2], block in_front,
+                                          const uchar16 corners[3])
+{
+    block low[2], high[2];
+#pragma unroll
+    for (int i = 0; i < 2; i++) {
+        block a = permute_block(places[i], corners[0]), b = permute_block(places[i], corners[1]);
+        block c = permute_block(places[i], corners[2]);
+        const scalar slack = R(16.0) * EPSILON, largest = i == 0 ? t->largest_x : t->largest_y;
+        low[i] = SMALLEST3(a, b, c);
+        high[i] = LARGEST3(a, b, c);
+        low[i] -= (fabs(low[i]) + largest) * slack;
+        high[i] += (fabs(high[i]) + largest) * slack;
+    }
+    block_mask columns = 0, groups = 0;
+#pragma unroll
+    for (int i = 0; i < TILE_COLUMNS; i++) {
+        const scalar center = ((const scalar *)&t->center_x)[i];
+        block_mask met = (high[0] >= center - GROUP_HALF_X) & (low[0] <= center + GROUP_HALF_X);
+        columns |= met & (block_mask)(1 << i);
+    }
+#pragma unroll
+    for (int i = 0; i < TILE_ROWS; i++) {
+        const scalar center = ((const scalar *)&t->center_y)[i * TILE_COLUMNS];
+        block_mask met = (high[1] >= center - GROUP_HALF_Y) & (low[1] <= center + GROUP_HALF_Y);
+        groups |= met & (columns << (i * TILE_COLUMNS));
+    }
+    return SELECT(in_front > R(0.0), groups, (block_mask)((1 << TILE_GROUPS) - 1));
+}
+
 // The functions of a cluster's triangles, and which of them may be seen in the tile.
 static inline uint make_image_triangles(const image_space *s, const tile *t,
                                         global const float *cluster, const block vertices[4],
                                         image_triangles *out)
 {
     global const uchar *indices = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
+    const uchar16 lanes[3] = {vload16(0, indices), vload16(1, indices), vload16(2, indices)};
     block corners[3][4];
-    block keys = SELECT(vertices[3] > R(0.0), image_key(s, vertices[2], vertices[3]),
-                        block_of(HUGE));
+    block_mask in_front = vertices[3] > R(0.0);
+    block inverse = R(1.0) / SELECT(in_front, vertices[3], block_of(1));
+    block keys = SELECT(in_front, image_key(s, vertices[2], inverse), block_of(HUGE));
     out->key_largest = -HUGE;
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        uchar16 lanes = vload16(k, indices);
 #pragma unroll
         for (int r = 0; r < 4; r++) {
-            corners[k][r] = permute_block(vertices[r], lanes);
+            corners[k][r] = permute_block(vertices[r], lanes[k]);
         }
-        block key = permute_block(keys, lanes);
+        block key = permute_block(keys, lanes[k]);
         out->key_largest = LARGER(key, out->key_largest);
+    }
+    if (TILE_GROUPS > 1) {
+        const block places[2] = {vertices[0] * inverse, vertices[1] * inverse};
+        block least_h = SMALLEST3(corners[0][3], corners[1][3], corners[2][3]);
+        out->groups = groups_in_bounds(t, places, least_h, lanes);
+        if (block_bits((out->groups != 0) & (out->key_largest >= t->least)) == 0) {
+            return 0;
+        }
     }
     block side, largest_h;
     key_function(s, corners, out->key, &side);
@@ -336,7 +212,7 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
     block highest = fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), middle + error));
     seen &= (highest >= t->least) & (out->key_largest >= t->least);
     out->key_reach = fused(ax, block_of(GROUP_HALF_X), fused(ay, block_of(GROUP_HALF_Y), error));
-    return block_bits(seen);
+    return TILE_GROUPS > 1 ? block_bits(seen & (out->groups != 0)) : block_bits(seen);
 }
 
 // The groups of the tile that a triangle may cover, and where it may be nearer than what is there.
@@ -473,6 +349,9 @@ static inline void update_depth(const image_space *s, tile *t, uint changed)
     }
 }
 
+// In so many groups a triangle is tested at once.
+#define FEW_GROUPS 2
+
 static inline void meet_cluster(const image_space *s, tile *t, const scene_buffers *scene, int index)
 {
     global const float *cluster = scene->clusters + GLINT_CLUSTER_VALUES * (size_t)index;
@@ -484,7 +363,13 @@ static inline void meet_cluster(const image_space *s, tile *t, const scene_buffe
     while (seen != 0) {
         int i = lowest_bit(seen);
         seen &= seen - 1;
-        uint groups = TILE_GROUPS > 1 ? groups_of(t, &triangles, i) : 1;
+        uint groups = 1;
+        if (TILE_GROUPS > 1) {
+            groups = (uint)((const lane_int *)&triangles.groups)[i];
+            if (popcount(groups) > FEW_GROUPS) {
+                groups &= groups_of(t, &triangles, i);
+            }
+        }
         while (groups != 0) {
             int g = lowest_bit(groups);
             groups &= groups - 1;
