@@ -1,5 +1,5 @@
-// Vectors whose lanes are not rays: blocks of 16 values, one for each vertex or triangle of a cluster
-// or group of a tile; boxes, one value for each child of a node.
+// Vectors whose lanes are not rays: blocks of 16 values, one for each vertex or triangle of a
+// cluster or group of a tile; boxes, one value for each child of a node.
 
 // ---- Blocks ------------------------------------------------------------------------------------
 

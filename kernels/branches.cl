@@ -27,7 +27,8 @@ static inline void restore3(const scalar *slot, real3 *v, int lane)
     LANE(v->z, lane) = slot[2];
 }
 
-// True where only one more branch fits: it must then be looked up, and so must the one that goes on.
+// True where only one more branch fits: it must then be looked up, and so must the one that goes
+// on.
 static inline mask nearly_full(const branches *waiting)
 {
     lanes_int count;

@@ -7,7 +7,7 @@ typedef struct cube_map {
 } cube_map;
 
 typedef struct cube_point {
-    lanes_int first;   // place of the upper left of the four texels
+    lanes_int first;  // place of the upper left of the four texels
     real right, down; // [0, 1): how far the point lies towards the right and the lower ones
 } cube_point;
 
@@ -68,8 +68,8 @@ static inline void prefetch_texels(const cube_map *map, size_t first)
 }
 
 // R, G, B and a fourth value at one ray's point: `first` is its upper left texel. Two texels are a
-// vector of eight, so it is interpolated downwards first, and then to the right: the order is the same
-// for every width, and with it the bits.
+// vector of eight, so it is interpolated downwards first, and then to the right: the order is the
+// same for every width, and with it the bits.
 static inline scalar4 fetch_from_cube(const cube_map *map, size_t first, scalar right, scalar down)
 {
     size_t pitch = (size_t)(map->edge + 2 * GLINT_CUBE_BORDER);

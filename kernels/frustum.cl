@@ -1,29 +1,31 @@
 // The frustum around a packet's rays: boxes and triangles that lie outside it are met by no ray.
 //
-// The rays run along one axis, w = sign × that coordinate, with u and v the other two. Where the first
-// ray starts and where the scene ends, the least and largest u of all rays give two planes, and v two
-// more: rays are straight, so that they stay between them. Rounding, here and in the tests of triangles,
-// moves places by no more than about 80 EPSILON (stored coordinates lie within [−1, 1], slopes within
-// ±2.5), so planes moved outwards by FRUSTUM_SLACK lose nothing that those tests would find.
+// The rays run along one axis, w = sign × that coordinate, with u and v the other two. Where the
+// first ray starts and where the scene ends, the least and largest u of all rays give two planes,
+// and v two more: rays are straight, so that they stay between them. Rounding, here and in the
+// tests of triangles, moves places by no more than about 80 EPSILON (stored coordinates lie within
+// [−1, 1], slopes within ±2.5), so planes moved outwards by FRUSTUM_SLACK lose nothing that those
+// tests would find.
 #define FRUSTUM_SLACK (R(128.0) * EPSILON)
 // A ray belongs to the frustum along an axis if its direction's component there is at least this
 // part of the largest.
 #define FRUSTUM_ALONG R(0.4)
-// The largest stored coordinate; and farther than the scene goes, so that children that are not there
-// (GLINT_FAR) lie beyond.
+// The largest stored coordinate; and farther than the scene goes, so that children that are not
+// there (GLINT_FAR) lie beyond.
 #define SCENE_REACH R(1.0)
 #define SCENE_END R(4.0)
-// Rays that end farther apart than this do not stay together: what the frustum meets, few of them may.
+// Rays that end farther apart than this do not stay together: what the frustum meets, few of them
+// may.
 #define WIDE R(0.1)
-// The frustum around several groups is worth its while if its cross-section is no larger than this many
-// times theirs together.
+// The frustum around several groups is worth its while if its cross-section is no larger than this
+// many times theirs together.
 #define COMPACT R(3.0)
 
 typedef struct frustum {
-    int along;        // the axis
-    scalar sign;      // of the directions along it: +1 or −1
-    scalar begin;     // the least w of the origins
-    real w, speed;    // w of the origins, and how fast it rises
+    int along;     // the axis
+    scalar sign;   // of the directions along it: +1 or −1
+    scalar begin;  // the least w of the origins
+    real w, speed; // w of the origins, and how fast it rises
     // Across u, then v: inside is u ≥ offset + slope × the coordinate along for [0] and ≤ for [1].
     scalar slope[2][2], offset[2][2];
     bool wide;
@@ -72,8 +74,8 @@ static inline frustum make_frustum(const real origin[3], const real direction[3]
     return f;
 }
 
-// Bit c is set if box c of the node reaches into the frustum before `farthest`; `near` is where along
-// the axis.
+// Bit c is set if box c of the node reaches into the frustum before `farthest`; `near` is where
+// along the axis.
 static inline uint frustum_meets_boxes(const frustum *f, global const float *node, scalar farthest,
                                        boxes *near)
 {
@@ -108,8 +110,7 @@ static inline uint frustum_meets_triangles(const frustum *f, global const float 
     for (int i = 0; i < 2; i++) {
         const int k = across_axis(f->along, i) * GLINT_CLUSTER_LANES;
         block across = load_block(cluster + k);
-        outside[2 * i] =
-            fused(block_of(f->slope[i][0]), along, block_of(f->offset[i][0])) - across;
+        outside[2 * i] = fused(block_of(f->slope[i][0]), along, block_of(f->offset[i][0])) - across;
         outside[2 * i + 1] =
             across - fused(block_of(f->slope[i][1]), along, block_of(f->offset[i][1]));
     }

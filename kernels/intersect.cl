@@ -1,12 +1,13 @@
 // Tests of the packet's rays against boxes and triangles.
 //
-// A triangle is tested as Woop, Benthin and Wald do (Watertight Ray/Triangle Intersection, 2013): in
-// a space sheared so that the ray is its third axis, the signs of three two-dimensional cross
+// A triangle is tested as Woop, Benthin and Wald do (Watertight Ray/Triangle Intersection, 2013):
+// in a space sheared so that the ray is its third axis, the signs of three two-dimensional cross
 // products decide. Vertices are mapped alike for every triangle that shares them, the products are
 // rounded separately (no fused multiply-add: rounding is monotonic, so the sign of a difference of
 // rounded products is never wrong, it can only become 0), and 0 counts as inside: no ray passes
-// between two triangles that share an edge or a vertex. Where a product is 0, perhaps by rounding alone,
-// as for a triangle seen edge-on from afar, the ray must also pass within its corners' bounds.
+// between two triangles that share an edge or a vertex. Where a product is 0, perhaps by rounding
+// alone, as for a triangle seen edge-on from afar, the ray must also pass within its corners'
+// bounds.
 
 // What the tests need of the rays.
 typedef struct packet {
@@ -18,15 +19,15 @@ typedef struct packet {
 } packet;
 
 typedef struct closest {
-    real t;          // in lengths of the direction; HUGE where nothing was hit
-    real b1, b2;     // barycentric weights of the second and third vertex
-    lanes_int place; // of the triangle hit, −1: none
+    real t;             // in lengths of the direction; HUGE where nothing was hit
+    real b1, b2;        // barycentric weights of the second and third vertex
+    lanes_int place;    // of the triangle hit, −1: none
     lanes_int triangle; // its number in the scene
 } closest;
 
-// The far distance is widened by this much, so that rounding never loses a box that is touched (Ize,
-// Robust BVH Ray Traversal, 2013): on either side a difference, a product and a division, and OpenCL
-// lets a division be wrong by 2.5 units in the last place, five times EPSILON.
+// The far distance is widened by this much, so that rounding never loses a box that is touched
+// (Ize, Robust BVH Ray Traversal, 2013): on either side a difference, a product and a division, and
+// OpenCL lets a division be wrong by 2.5 units in the last place, five times EPSILON.
 #define FAR_SLACK (R(1.0) + R(16.0) * EPSILON)
 
 // 1/d, kept finite so that 0 times it is 0 and not NaN: a ray along a box's face is inside it.
@@ -66,7 +67,8 @@ static inline packet make_packet(real3 origin, real3 direction)
 }
 
 // The rays that may meet one box before what they have hit so far.
-static inline mask rays_meet_box(const packet *p, global const float *node, int child, real farthest)
+static inline mask rays_meet_box(const packet *p, global const float *node, int child,
+                                 real farthest)
 {
     real near = real_of(0), far = farthest;
 #pragma unroll
@@ -153,13 +155,14 @@ static inline bool intersect_by_ray(const packet *p, int ray, global const float
                                     closest *hit)
 {
     const int z = (int)LANE_INT(p->axis, ray), x = (z + 1) % 3, y = (z + 2) % 3;
-    const block shear_x = block_of(-LANE(p->shear_x, ray)), shear_y = block_of(-LANE(p->shear_y, ray));
+    const block shear_x = block_of(-LANE(p->shear_x, ray)),
+                shear_y = block_of(-LANE(p->shear_y, ray));
     // Vertices relative to the origin, sheared, and then those of each corner.
     block depth = load_block(cluster + z * GLINT_CLUSTER_LANES) - LANE(p->origin[z], ray);
-    block across = fused(shear_x, depth, load_block(cluster + x * GLINT_CLUSTER_LANES) -
-                                             LANE(p->origin[x], ray));
-    block up = fused(shear_y, depth, load_block(cluster + y * GLINT_CLUSTER_LANES) -
-                                         LANE(p->origin[y], ray));
+    block across = fused(shear_x, depth,
+                         load_block(cluster + x * GLINT_CLUSTER_LANES) - LANE(p->origin[x], ray));
+    block up = fused(shear_y, depth,
+                     load_block(cluster + y * GLINT_CLUSTER_LANES) - LANE(p->origin[y], ray));
     global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
     block cx[3], cy[3], cz[3];
 #pragma unroll
@@ -179,10 +182,9 @@ static inline bool intersect_by_ray(const packet *p, int ray, global const float
         return false;
     }
     if (block_bits(inside & ((least == R(0.0)) | (most == R(0.0)))) != 0) {
-        inside &= (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) &
-                  (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) &
-                  (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) &
-                  (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
+        inside &=
+            (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) & (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) &
+            (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) & (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
     }
     block inverse = R(1.0) / SELECT(inside, determinant, block_of(1));
     block t = fused(u, cz[0], fused(v, cz[1], w * cz[2])) * LANE(p->shear_z, ray) * inverse;

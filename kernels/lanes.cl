@@ -1,5 +1,6 @@
 // Lanes: what a packet of rays is made of, at each width and precision. Other files loop over
-// GLINT_WIDTH lanes where they gather or scatter, and leave the rest to the types and functions here.
+// GLINT_WIDTH lanes where they gather or scatter, and leave the rest to the types and functions
+// here.
 //
 // `real` is one value per ray of the packet: a scalar for GLINT_WIDTH 1, a vector of 8 or 16
 // otherwise; of float or, with GLINT_DOUBLE, of double. `mask` says yes or no for each ray and
@@ -99,8 +100,8 @@ typedef LANES(int) mask;
 #define SMALLEST3(a, b, c) SMALLER(SMALLER(a, b), c)
 #define LARGEST3(a, b, c) LARGER(LARGER(a, b), c)
 
-// a × b + c, rounded once where the device does that in one instruction (FP_FAST_FMAF is OpenCL's way
-// to say so; PoCL's compiler says __FMA__). Elsewhere fma() is a function of many.
+// a × b + c, rounded once where the device does that in one instruction (FP_FAST_FMAF is OpenCL's
+// way to say so; PoCL's compiler says __FMA__). Elsewhere fma() is a function of many.
 #if defined(FP_FAST_FMAF) || defined(__FMA__)
 #define fused(a, b, c) fma(a, b, c)
 #else
@@ -271,8 +272,8 @@ static inline mask next_alike(lanes_int numbers, uint *left, int *number)
     return alike;
 }
 
-// Asks the memory for the line of 64 bytes at `p`, where the target has a cache and an instruction for
-// that; its compiler's builtin wants a pointer to private memory.
+// Asks the memory for the line of 64 bytes at `p`, where the target has a cache and an instruction
+// for that; its compiler's builtin wants a pointer to private memory.
 #if defined(__x86_64__) && defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
 #if __has_builtin(__builtin_prefetch)
 #define prefetch_line(p) __builtin_prefetch((const void *)(uintptr_t)(p))
@@ -313,7 +314,8 @@ typedef float16 pixel_row;
 // `pixels` is aligned to the row's size.
 #if GLINT_WIDTH > 1 && defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
 #if __has_builtin(__builtin_nontemporal_store)
-#define stream_pixel_row(values, pixels) __builtin_nontemporal_store(values, (global pixel_row *)(pixels))
+#define stream_pixel_row(values, pixels)                                                           \
+    __builtin_nontemporal_store(values, (global pixel_row *)(pixels))
 #endif
 #endif
 #ifndef stream_pixel_row
@@ -340,8 +342,9 @@ typedef float16 pixel_row;
 // Eight pixels, from the pairs (R, G) and (B, alpha) of each.
 static inline void store_eight_pixels(pixel_row rg, pixel_row ba, scalar *pixels)
 {
-    vstore16(__builtin_shufflevector(rg, ba, 0, 1, 16, 17, 2, 3, 18, 19, 4, 5, 20, 21, 6, 7, 22, 23),
-             0, pixels);
+    vstore16(
+        __builtin_shufflevector(rg, ba, 0, 1, 16, 17, 2, 3, 18, 19, 4, 5, 20, 21, 6, 7, 22, 23), 0,
+        pixels);
     vstore16(__builtin_shufflevector(rg, ba, 8, 9, 24, 25, 10, 11, 26, 27, 12, 13, 28, 29, 14, 15,
                                      30, 31),
              1, pixels);
@@ -359,7 +362,8 @@ static inline void to_pixels(real r, real g, real b, real a, scalar pixels[PIXEL
 static inline void to_pixels(real r, real g, real b, real a, scalar pixels[PIXEL_VALUES])
 {
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        vstore4((scalar4)(LANE(r, lane), LANE(g, lane), LANE(b, lane), LANE(a, lane)), lane, pixels);
+        vstore4((scalar4)(LANE(r, lane), LANE(g, lane), LANE(b, lane), LANE(a, lane)), lane,
+                pixels);
     }
 }
 #endif
@@ -380,16 +384,10 @@ static inline real3 real3_of(real x, real y, real z)
 }
 
 static inline real3 add(real3 a, real3 b) { return real3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline real3 subtract(real3 a, real3 b)
-{
-    return real3_of(a.x - b.x, a.y - b.y, a.z - b.z);
-}
+static inline real3 subtract(real3 a, real3 b) { return real3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
 static inline real3 negate(real3 a) { return real3_of(-a.x, -a.y, -a.z); }
 static inline real3 scale(real3 a, real s) { return real3_of(a.x * s, a.y * s, a.z * s); }
-static inline real3 multiply(real3 a, real3 b)
-{
-    return real3_of(a.x * b.x, a.y * b.y, a.z * b.z);
-}
+static inline real3 multiply(real3 a, real3 b) { return real3_of(a.x * b.x, a.y * b.y, a.z * b.z); }
 
 // a s + b
 static inline real3 scale_add(real3 a, real s, real3 b)
@@ -421,9 +419,9 @@ static inline real largest_magnitude3(real3 a)
     return largest3(real3_of(fabs(a.x), fabs(a.y), fabs(a.z)));
 }
 
-// 1/√x for x in [2⁻⁶⁰, 2⁶⁰], within 2 units in the last place: Newton's iteration from an estimate by
-// the exponent, good to 0.2%, then 5e-6, then 4e-11 (Lomont, Fast Inverse Square Root, 2003). The
-// same on every device, and a third of the time of a root and a division.
+// 1/√x for x in [2⁻⁶⁰, 2⁶⁰], within 2 units in the last place: Newton's iteration from an estimate
+// by the exponent, good to 0.2%, then 5e-6, then 4e-11 (Lomont, Fast Inverse Square Root, 2003).
+// The same on every device, and a third of the time of a root and a division.
 static inline real inverse_root(real x)
 {
 #if GLINT_DOUBLE
@@ -456,15 +454,12 @@ static inline real3 normalized(real3 a, mask *valid)
 {
     real largest = largest_magnitude3(a);
     // Written so that NaN is not valid: each comparison is false for it.
-    *valid = (largest > R(0.0)) & (fabs(a.x) < (scalar)INFINITY) &
-             (fabs(a.y) < (scalar)INFINITY) & (fabs(a.z) < (scalar)INFINITY);
+    *valid = (largest > R(0.0)) & (fabs(a.x) < (scalar)INFINITY) & (fabs(a.y) < (scalar)INFINITY) &
+             (fabs(a.z) < (scalar)INFINITY);
     real3 b = scale(a, inverse_exponent(SELECT(*valid, largest, real_of(1))));
     return scale(b, inverse_root(dot3(b, b)));
 }
 
 // A unit vector that has drifted by a few rounding errors, put right by one step of Newton's
 // iteration for 1/√(v·v).
-static inline real3 renormalized(real3 v)
-{
-    return scale(v, R(1.5) - R(0.5) * dot3(v, v));
-}
+static inline real3 renormalized(real3 v) { return scale(v, R(1.5) - R(0.5) * dot3(v, v)); }

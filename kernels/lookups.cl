@@ -54,8 +54,8 @@ static inline void finish_lookups(lookups *l, const cube_map *map)
     l->count = 0;
 }
 
-// Adds what the environment sends against the directions, times the weights, for the rays in `wanted`
-// of a group.
+// Adds what the environment sends against the directions, times the weights, for the rays in
+// `wanted` of a group.
 static inline void look_up_later(lookups *l, const cube_map *map, real3 direction, real3 weight,
                                  mask wanted, int group)
 {

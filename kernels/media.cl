@@ -8,7 +8,8 @@
 
 static inline lanes_int medium_on_top(lanes_int media) { return media & MEDIUM_MASK; }
 
-// The stack inside `medium` as well. Where it was full, its outermost entry is lost, and `lost` set.
+// The stack inside `medium` as well. Where it was full, its outermost entry is lost, and `lost`
+// set.
 static inline lanes_int enter_medium(lanes_int media, lanes_int medium, mask *lost)
 {
 #if GLINT_NESTED_MEDIA
@@ -20,8 +21,8 @@ static inline lanes_int enter_medium(lanes_int media, lanes_int medium, mask *lo
 #endif
 }
 
-// The stack without the innermost entry that is `medium`; unchanged where there is none. Nearly always
-// that is the first one.
+// The stack without the innermost entry that is `medium`; unchanged where there is none. Nearly
+// always that is the first one.
 static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
 {
 #if GLINT_NESTED_MEDIA
@@ -62,7 +63,8 @@ static inline real3 medium_transmittance(global const glint_medium_record *media
     while (left != 0) {
         int number;
         mask alike = next_alike(medium, &left, &number);
-        global const float *high = media[number].absorption_high, *low = media[number].absorption_low;
+        global const float *high = media[number].absorption_high,
+                           *low = media[number].absorption_low;
         sigma.x = SELECT(alike, real_of(JOIN(high[0], low[0])), sigma.x);
         sigma.y = SELECT(alike, real_of(JOIN(high[1], low[1])), sigma.y);
         sigma.z = SELECT(alike, real_of(JOIN(high[2], low[2])), sigma.z);

@@ -71,9 +71,9 @@ static inline real3 fold_to_side(real3 q, real3 geometric_normal, scalar sign)
     return select3(side * sign < R(0.0), folded, q);
 }
 
-// e^x for x ≤ 0, within about one unit in the last place. OpenCL's own exp() differs in its last bit
-// between scalars and vectors, and a frame must not depend on the packet's width.
-// x = k ln 2 + r with |r| ≤ ln(2)/2, and e^r is its Taylor sum up to where it no longer counts.
+// e^x for x ≤ 0, within about one unit in the last place. OpenCL's own exp() differs in its last
+// bit between scalars and vectors, and a frame must not depend on the packet's width. x = k ln 2 +
+// r with |r| ≤ ln(2)/2, and e^r is its Taylor sum up to where it no longer counts.
 static inline real exp_of_negative(real x)
 {
 #if GLINT_DOUBLE

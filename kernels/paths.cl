@@ -46,11 +46,12 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;
     path ray;
-    ray.origin = scale_add(join_vector(&frame->origin_y), y,
-                           scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
-    real3 d = scale_add(join_vector(&frame->direction_y), y,
-                        scale_add(join_vector(&frame->direction_x), x,
-                                  join_vector(&frame->direction)));
+    ray.origin =
+        scale_add(join_vector(&frame->origin_y), y,
+                  scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
+    real3 d =
+        scale_add(join_vector(&frame->direction_y), y,
+                  scale_add(join_vector(&frame->direction_x), x, join_vector(&frame->direction)));
     real length_squared = dot3(d, d); // 1 or more
     real inverse = inverse_root(length_squared);
     real length = length_squared * inverse;
@@ -85,8 +86,8 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     return branch;
 }
 
-// Rule 7: a branch that has met all the surfaces it may, or weighs too little, takes the environment
-// along its direction. What that leaves out is counted.
+// Rule 7: a branch that has met all the surfaces it may, or weighs too little, takes the
+// environment along its direction. What that leaves out is counted.
 static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
                               tally *tally)
 {
@@ -103,8 +104,7 @@ static inline void end_branch(const glint_frame_record *frame, path *branch, mas
 // The light that is left of the segment that ends here, in the medium on top of the stack.
 static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray, real t)
 {
-    real3 left =
-        medium_transmittance(scene->media, medium_on_top(ray->media), t + ray->travelled);
+    real3 left = medium_transmittance(scene->media, medium_on_top(ray->media), t + ray->travelled);
     return multiply(ray->weight, left);
 }
 #endif
@@ -134,14 +134,14 @@ static inline void count_transmissions(const surface *s, mask transmits, tally *
 }
 
 #if GLINT_SPLIT
-// Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack has
-// room for one more only, both are looked up, and counted.
+// Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack
+// has room for one more only, both are looked up, and counted.
 static inline mask split_path(branches *waiting, path *reflected, path *transmitted, mask reflects,
                               mask transmits, path *ray, tally *tally)
 {
     mask both = reflects & transmits;
-    mask reflect_first = reflects & (!transmits | (largest3(reflected->weight) <=
-                                                   largest3(transmitted->weight)));
+    mask reflect_first =
+        reflects & (!transmits | (largest3(reflected->weight) <= largest3(transmitted->weight)));
     mask full = both & nearly_full(waiting);
     if (any_lane(full)) {
         const real zero = real_of(0);
@@ -174,8 +174,8 @@ typedef struct paths {
 #endif
 } paths;
 
-// Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the branch
-// that goes on in their place. The result says which rays go on.
+// Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
+// branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
                                  const closest *hit, const triangle *triangles, mask met, int slot,
                                  paths *all, tally *tally)
@@ -217,7 +217,8 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);
 #if GLINT_SPLIT
-    return split_path(&all->waiting[slot], &reflected, &transmitted, reflects, transmits, ray, tally);
+    return split_path(&all->waiting[slot], &reflected, &transmitted, reflects, transmits, ray,
+                      tally);
 #else
     assign_path(ray, &transmitted, transmits);
     assign_path(ray, &reflected, reflects);
@@ -230,8 +231,8 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 }
 
 // The primary rays of a group: those in `active`.
-static inline void begin_paths(const glint_frame_record *frame, primary *first, int slot, mask active,
-                               paths *all)
+static inline void begin_paths(const glint_frame_record *frame, primary *first, int slot,
+                               mask active, paths *all)
 {
     all->ray[slot] = primary_rays(frame, first);
     all->active[slot] = active;
@@ -246,12 +247,12 @@ static inline void begin_paths(const glint_frame_record *frame, primary *first, 
 #endif
 }
 
-// Takes the paths of a group, which stand in a slot, on from what they have met: those that escaped are looked up, the others
-// go on from their surfaces, or with a branch that waited. `first` says what primary rays are, and is
-// NULL for others.
+// Takes the paths of a group, which stand in a slot, on from what they have met: those that escaped
+// are looked up, the others go on from their surfaces, or with a branch that waited. `first` says
+// what primary rays are, and is NULL for others.
 static inline void advance_paths(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const image_space *image, const primary *first, int group, int slot,
-                                 closest *hit, paths *all, lookups *later, tally *tally)
+                                 const image_space *image, const primary *first, int group,
+                                 int slot, closest *hit, paths *all, lookups *later, tally *tally)
 {
     mask active = all->active[slot];
     mask met = active & (hit->place >= (lane_int)0);
@@ -296,8 +297,8 @@ static inline void count_deepest(const paths *all, tally *tally)
     }
 }
 
-// Follows the primary rays of some groups, which stand in `first`, to their ends; those in the first slot
-// are of `first_group`.
+// Follows the primary rays of some groups, which stand in `first`, to their ends; those in the
+// first slot are of `first_group`.
 static inline void follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
                                 const image_space *image, const primary *first, int first_group,
                                 paths *all, lookups *later, tally *tally)
@@ -313,8 +314,8 @@ static inline void follow_paths(const scene_buffers *scene, const glint_frame_re
         }
         for (int i = 0; i < PATH_GROUPS; i++) {
             if (any_lane(all->active[SLOT(i)])) {
-                advance_paths(scene, frame, image, are_primary ? &first[SLOT(i)] : 0, first_group + i,
-                              SLOT(i), &hits[SLOT(i)], all, later, tally);
+                advance_paths(scene, frame, image, are_primary ? &first[SLOT(i)] : 0,
+                              first_group + i, SLOT(i), &hits[SLOT(i)], all, later, tally);
             }
         }
     }

@@ -44,7 +44,6 @@
 #include "traverse_together.cl"
 #include "paths.cl"
 
-
 // Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
 static inline void add_to_counter(global uint *counter, ulong amount)
 {
@@ -97,8 +96,7 @@ static inline real3 describe_hits(const scene_buffers *scene, const image_space 
     closest hit;
     measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, &hit);
     *number = triangles.number;
-    return real3_of(SELECT(met, hit.t, zero), SELECT(met, hit.b1, zero),
-                    SELECT(met, hit.b2, zero));
+    return real3_of(SELECT(met, hit.t, zero), SELECT(met, hit.b1, zero), SELECT(met, hit.b2, zero));
 }
 #endif
 
@@ -247,20 +245,24 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     }
 }
 
-// Work-item (i, j) of the global range renders tile i of band first_band + j of the frame. (An offset
-// of the range itself would make PoCL compile the kernel once more.)
+// Work-item (i, j) of the global range renders tile i of band first_band + j of the frame. (An
+// offset of the range itself would make PoCL compile the kernel once more.)
 //  pixels: [height][width][4] (R, G, B premultiplied, alpha). counters: see layout.h. The
 // other buffers are described in layout.h too; those that no compiled feature needs may be of any
 // size.
 kernel void render_tiles(global const float *nodes, global const float *clusters,
                          global const float *normals, global const int *numbers,
                          global const glint_material_record *materials,
-                         global const glint_medium_record *media,
-                         global const void *environment, global const float *irradiance,
-                         global scalar *pixels, global uint *counters,
-                         const glint_frame_record frame)
+                         global const glint_medium_record *media, global const void *environment,
+                         global const float *irradiance, global scalar *pixels,
+                         global uint *counters, const glint_frame_record frame)
 {
-    const scene_buffers scene = {nodes, clusters, normals, numbers, materials, media,
+    const scene_buffers scene = {nodes,
+                                 clusters,
+                                 normals,
+                                 numbers,
+                                 materials,
+                                 media,
                                  {environment, frame.environment_edge, GLINT_HALF_TEXELS},
                                  {irradiance, frame.irradiance_edge, false}};
     const int across = (int)get_global_id(0), down = (int)get_global_id(1);

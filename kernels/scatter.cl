@@ -1,9 +1,9 @@
-// How a surface divides light (rules 3 to 6): what it adds itself, and the weights and directions of
-// the reflected and of the transmitted branch.
+// How a surface divides light (rules 3 to 6): what it adds itself, and the weights and directions
+// of the reflected and of the transmitted branch.
 
 typedef struct scattering {
-    real3 emitted;              // radiance that the path gathers here: emission, paint, unlit colour
-    real3 reflected, reflected_weight;     // unit direction; factors of R, G, B
+    real3 emitted; // radiance that the path gathers here: emission, paint, unlit colour
+    real3 reflected, reflected_weight; // unit direction; factors of R, G, B
 #if GLINT_GLASS
     real3 transmitted, transmitted_weight;
     lanes_int media_transmitted; // the stack of media beyond the surface
@@ -97,11 +97,9 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     real solid_eta = cross_solid(scene, s, solid, media, &result.media_transmitted, media_lost);
     eta = SELECT(solid, solid_eta, eta);
 #endif
-    real reflectance =
-        glass_reflectance(s, v, eta, &result.transmitted, &result.total_reflection);
+    real reflectance = glass_reflectance(s, v, eta, &result.transmitted, &result.total_reflection);
 #if GLINT_THIN_WALL
-    result.transmitted =
-        select3(HAS_FLAG(*s, GLINT_MATERIAL_THIN), negate(v), result.transmitted);
+    result.transmitted = select3(HAS_FLAG(*s, GLINT_MATERIAL_THIN), negate(v), result.transmitted);
 #endif
     real reflected_glass = glass * reflectance;
     result.reflected_weight =

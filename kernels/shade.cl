@@ -6,12 +6,12 @@ typedef struct path {
     real3 origin, direction; // the direction is a unit vector
     real3 weight;            // what a unit of radiance that arrives now adds to the pixel
 #if GLINT_ABSORPTION
-    real travelled;          // the segment's length before its origin: primary rays start late
+    real travelled; // the segment's length before its origin: primary rays start late
 #endif
-    lanes_int from;          // place of the triangle that the ray starts on, −1: none
-    lanes_int met;           // surfaces met so far
-    lanes_int media;         // see media.cl
-    lanes_int looked_up;     // 1: takes the environment along its direction, without being traced
+    lanes_int from;      // place of the triangle that the ray starts on, −1: none
+    lanes_int met;       // surfaces met so far
+    lanes_int media;     // see media.cl
+    lanes_int looked_up; // 1: takes the environment along its direction, without being traced
 } path;
 
 // A hit, ready for optics.
@@ -75,8 +75,8 @@ static inline triangle load_triangles(const scene_buffers *scene, lanes_int plac
         mask here = next_alike(places, &left, &place);
         size_t cluster = (size_t)place / GLINT_CLUSTER_LANES;
         global const float *values = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
-        global const uchar *corners = (global const uchar *)(values + GLINT_CLUSTER_CORNERS) +
-                                      place % GLINT_CLUSTER_LANES;
+        global const uchar *corners =
+            (global const uchar *)(values + GLINT_CLUSTER_CORNERS) + place % GLINT_CLUSTER_LANES;
 #if GLINT_MANY_MATERIALS
         const int material = ((global const int *)values)[GLINT_CLUSTER_MATERIAL];
         t.material = SELECT(here, int_of(material), t.material);
@@ -105,8 +105,8 @@ static inline real3 interpolate(const real3 vertices[3], real b1, real b2)
 
 // The position, and a bound of its distance to the triangle's plane: the interpolation makes about
 // 8 roundings of values no larger than the largest vertex, coordinate by coordinate (Pharr, Jakob,
-// Humphreys, Physically Based Rendering, 6.8). A ray that starts this far off the plane, on the side
-// that it leaves to, cannot meet the neighbours of its triangle because of rounding.
+// Humphreys, Physically Based Rendering, 6.8). A ray that starts this far off the plane, on the
+// side that it leaves to, cannot meet the neighbours of its triangle because of rounding.
 static inline void place_on_triangle(const real3 vertices[3], const closest *hit, surface *s)
 {
     s->position = interpolate(vertices, hit->b1, hit->b2);
@@ -186,8 +186,8 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     surface s;
     const real3 *vertices = t->vertices;
     mask valid;
-    s.geometric_normal = normalized(cross3(subtract(vertices[1], vertices[0]),
-                                           subtract(vertices[2], vertices[0])), &valid);
+    s.geometric_normal = normalized(
+        cross3(subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0])), &valid);
     // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
     s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
 #if GLINT_INTERREFLECTION

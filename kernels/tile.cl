@@ -1,9 +1,10 @@
 // A tile of pixels and the space in which its primary rays are traced.
 //
-// All primary rays come from one eye (or run alike), and their directions are affine in the pixel, so
-// that the scene can be looked at in image coordinates, (x, y, h) with x/h and y/h the place on the
-// image plane in pixels from its middle and z the depth (glint_frame_record). There a triangle's
-// edge is an affine function of the pixel, and so is the key that orders surfaces by depth.
+// All primary rays come from one eye (or run alike), and their directions are affine in the pixel,
+// so that the scene can be looked at in image coordinates, (x, y, h) with x/h and y/h the place on
+// the image plane in pixels from its middle and z the depth (glint_frame_record). There a
+// triangle's edge is an affine function of the pixel, and so is the key that orders surfaces by
+// depth.
 //
 // A tile is TILE_COLUMNS × TILE_ROWS groups of pixels, each as many as a packet has lanes.
 #define TILE_COLUMNS GLINT_TILE_SIDE(GLINT_TILES)
@@ -12,14 +13,14 @@
 
 // The primary rays of a frame in image coordinates.
 typedef struct image_space {
-    scalar origin[3];        // where the middle ray starts, stored coordinates
-    scalar rows[3][3];       // x, y and z of a point relative to it
-    scalar offset, slope;    // h = offset + slope z
+    scalar origin[3];                      // where the middle ray starts, stored coordinates
+    scalar rows[3][3];                     // x, y and z of a point relative to it
+    scalar offset, slope;                  // h = offset + slope z
     scalar key_one, key_depth, key_normal; // see image_key
-    scalar key_limit;        // of the depth 0, where the rays start
-    scalar slack;            // what rounding may move a box's corner by
+    scalar key_limit;                      // of the depth 0, where the rays start
+    scalar slack;                          // what rounding may move a box's corner by
     scalar near_offset, far_offset; // what to add to z·corner for a depth, see tile_meets_boxes
-    scalar end;              // deeper than the scene goes; children that are not there lie beyond
+    scalar end; // deeper than the scene goes; children that are not there lie beyond
 } image_space;
 
 // What a tile's rays have met so far, and what its traversal needs.
@@ -31,11 +32,11 @@ typedef struct tile {
     scalar middle_x, middle_y;
     scalar largest_x, largest_y;
     scalar planes[4][3], plane_offsets[4]; // inside is ≥ 0
-    real key[TILE_GROUPS];         // of the nearest hit; see image_key
-    lanes_int place[TILE_GROUPS];  // of the triangle hit, −1: none
-    block farthest;                // the least key of each group
-    scalar least;                  // and of the tile
-    scalar z_far;                  // no hit of the tile lies deeper
+    real key[TILE_GROUPS];                 // of the nearest hit; see image_key
+    lanes_int place[TILE_GROUPS];          // of the triangle hit, −1: none
+    block farthest;                        // the least key of each group
+    scalar least;                          // and of the tile
+    scalar z_far;                          // no hit of the tile lies deeper
 } tile;
 
 static inline image_space make_image_space(const glint_frame_record *frame)
@@ -66,7 +67,8 @@ static inline image_space make_image_space(const glint_frame_record *frame)
 }
 
 // The key of a depth, larger for nearer: 1/h for an eye near the scene, else −z/h. Both are affine
-// in the pixel on any plane; the second keeps its digits where the eye is far away or infinitely so.
+// in the pixel on any plane; the second keeps its digits where the eye is far away or infinitely
+// so.
 static inline block image_key(const image_space *s, block z, block inverse_h)
 {
     return (s->key_one - s->key_depth * z) * inverse_h;
@@ -75,8 +77,8 @@ static inline block image_key(const image_space *s, block z, block inverse_h)
 // ---- The tile and the tree ---------------------------------------------------------------------
 
 // The four planes through the tile's outermost rays, a little apart from them: x − X h ≥ 0 for the
-// left one, as a function of the place in stored coordinates. What is added to its offset is more than
-// rounding can take, here and where a corner (within ±SCENE_REACH) is put in.
+// left one, as a function of the place in stored coordinates. What is added to its offset is more
+// than rounding can take, here and where a corner (within ±SCENE_REACH) is put in.
 static inline void bound_tile(const image_space *s, tile *t, int plane, int row, scalar at,
                               scalar sign)
 {
@@ -86,7 +88,8 @@ static inline void bound_tile(const image_space *s, tile *t, int plane, int row,
     }
     const scalar *n = t->planes[plane], *o = s->origin;
     scalar offset = -at * s->offset;
-    scalar slack = s->slack * (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) + R(8.0) * EPSILON * fabs(offset);
+    scalar slack =
+        s->slack * (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) + R(8.0) * EPSILON * fabs(offset);
     t->plane_offsets[plane] = sign * offset - (n[0] * o[0] + n[1] * o[1] + n[2] * o[2]) + slack;
 }
 
@@ -127,7 +130,8 @@ static inline real place_y(const glint_frame_record *frame, lanes_int rows, scal
     return R(0.5) * (scalar)frame->height - to_real(rows) - down;
 }
 
-// Nothing is met yet. Pixels outside the image hide everything, so that nothing is visited for them.
+// Nothing is met yet. Pixels outside the image hide everything, so that nothing is visited for
+// them.
 static inline void clear_tile(const image_space *s, const glint_frame_record *frame, int column,
                               int row, tile *t)
 {

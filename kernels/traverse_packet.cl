@@ -37,7 +37,8 @@ static inline bundle make_bundle(packet *p, int along, scalar sign, mask active)
 }
 
 // The rays that may meet a box, one of all nodes' children.
-static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int box, const closest *hit)
+static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int box,
+                               const closest *hit)
 {
     node_pointer node = node_at(scene, box / GLINT_BVH_WIDTH);
     return mask_bits(b->active & rays_meet_box(b->rays, node, box % GLINT_BVH_WIDTH, hit->t));
@@ -46,10 +47,10 @@ static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int 
 // With more triangles than this it pays to find the rays that meet the cluster at all.
 #define SPARSE_TRIANGLES 4
 
-// `from` is the place of the triangle that each ray starts on, which it cannot hit: −1 for none. True if
-// a ray has met a triangle.
-static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene, int index, int box,
-                                     lanes_int from, closest *hit)
+// `from` is the place of the triangle that each ray starts on, which it cannot hit: −1 for none.
+// True if a ray has met a triangle.
+static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene, int index,
+                                     int box, lanes_int from, closest *hit)
 {
     global const float *cluster = scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES;
     const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];

@@ -1,11 +1,11 @@
-// Closest hits of the primary rays through a tile of pixels: one traversal for all of them, in image
-// coordinates (tile.cl).
+// Closest hits of the primary rays through a tile of pixels: one traversal for all of them, in
+// image coordinates (tile.cl).
 //
-// Which pixels a triangle covers is decided as Woop, Benthin and Wald do (intersect.cl): the vertices
-// are sheared by the pixel, and the signs of rounded products are never wrong. The affine functions
-// tell the same for nearly every pixel at a fraction of the cost; where one of them is closer to 0
-// than both ways' rounding errors together, the slow way decides. So every tile size and width finds
-// the same hits.
+// Which pixels a triangle covers is decided as Woop, Benthin and Wald do (intersect.cl): the
+// vertices are sheared by the pixel, and the signs of rounded products are never wrong. The affine
+// functions tell the same for nearly every pixel at a fraction of the cost; where one of them is
+// closer to 0 than both ways' rounding errors together, the slow way decides. So every tile size
+// and width finds the same hits.
 
 // The functions of the 16 triangles of a cluster, each affine in the pixel: [x, y, 1].
 typedef struct image_triangles {
@@ -32,7 +32,8 @@ static inline boxes farthest_along(const scalar n[3], node_pointer node)
 
 // Bit c is set if the tile's rays may meet box c of the node before what all of them have hit;
 // `near` is the least depth at which they may.
-static inline uint tile_meets_boxes(const image_space *s, const tile *t, node_pointer node, boxes *near)
+static inline uint tile_meets_boxes(const image_space *s, const tile *t, node_pointer node,
+                                    boxes *near)
 {
     const scalar *z = s->rows[2];
     const scalar back[3] = {-z[0], -z[1], -z[2]};
@@ -63,8 +64,8 @@ static inline void to_image(const image_space *s, global const float *cluster, b
     v[3] = fused(block_of(s->slope), v[2], block_of(s->offset));
 }
 
-// The function of the edge from a to b: 2 (a × b)·(X, Y, 1), as (a + b) × (b − a). Changing the ends
-// changes nothing but the sign, so that both triangles at an edge agree about its pixels.
+// The function of the edge from a to b: 2 (a × b)·(X, Y, 1), as (a + b) × (b − a). Changing the
+// ends changes nothing but the sign, so that both triangles at an edge agree about its pixels.
 static inline void edge_function(const block a[4], const block b[4], block edge[3])
 {
     block sx = a[0] + b[0], sy = a[1] + b[1], sh = a[3] + b[3];
@@ -74,9 +75,9 @@ static inline void edge_function(const block a[4], const block b[4], block edge[
     edge[2] = fused(sx, dy, -(sy * dx));
 }
 
-// The key's function on the triangles' planes, from the plane n·(x, y, z) = D with x = X h, y = Y h:
-// (A (n_x X + n_y Y) + B n_z − C D)/(slope D + offset n_z), see image_key. `side` is the denominator:
-// twice the volume that the triangle spans with the eye, above 0 if it winds left.
+// The key's function on the triangles' planes, from the plane n·(x, y, z) = D with x = X h, y = Y
+// h: (A (n_x X + n_y Y) + B n_z − C D)/(slope D + offset n_z), see image_key. `side` is the
+// denominator: twice the volume that the triangle spans with the eye, above 0 if it winds left.
 static inline void key_function(const image_space *s, block corners[3][4], block key[3],
                                 block *side)
 {
@@ -119,9 +120,9 @@ static inline block rounding_bound(const tile *t, block corners[3][4], block *la
     return (place_x * edge_y + place_y * edge_x) * (R(32.0) * EPSILON);
 }
 
-// The groups that the bounds of triangles reach, as bits. A triangle that a pixel sees has corners, as they
-// are stored, on both sides of it or on it (image_weights): beyond their quotients' rounding nothing is lost.
-// One with a corner that is not in front of the eye may reach all.
+// The groups that the bounds of triangles reach, as bits. A triangle that a pixel sees has corners,
+// as they are stored, on both sides of it or on it (image_weights): beyond their quotients'
+// rounding nothing is lost. One with a corner that is not in front of the eye may reach all.
 static inline block_mask groups_in_bounds(const tile *t, const block places[2], block in_front,
                                           const uchar16 corners[3])
 {
@@ -199,17 +200,22 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
             edge[i] = SELECT(side < R(0.0), -edge[i], edge[i]);
         }
         block ax = fabs(edge[0]), ay = fabs(edge[1]);
-        block middle = fused(edge[0], block_of(t->middle_x), fused(edge[1], block_of(t->middle_y), edge[2]));
-        block rise = fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), out->uncertain));
+        block middle =
+            fused(edge[0], block_of(t->middle_x), fused(edge[1], block_of(t->middle_y), edge[2]));
+        block rise =
+            fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), out->uncertain));
         seen &= middle >= -rise;
-        out->reach[k] = fused(ax, block_of(GROUP_HALF_X), fused(ay, block_of(GROUP_HALF_Y), out->uncertain));
+        out->reach[k] =
+            fused(ax, block_of(GROUP_HALF_X), fused(ay, block_of(GROUP_HALF_Y), out->uncertain));
     }
     block ax = fabs(out->key[0]), ay = fabs(out->key[1]);
-    block error = (fused(ax, block_of(t->largest_x), fused(ay, block_of(t->largest_y),
-                                                          fabs(out->key[2])))) * (R(8.0) * EPSILON);
+    block error =
+        (fused(ax, block_of(t->largest_x), fused(ay, block_of(t->largest_y), fabs(out->key[2])))) *
+        (R(8.0) * EPSILON);
     block middle = fused(out->key[0], block_of(t->middle_x),
                          fused(out->key[1], block_of(t->middle_y), out->key[2]));
-    block highest = fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), middle + error));
+    block highest =
+        fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), middle + error));
     seen &= (highest >= t->least) & (out->key_largest >= t->least);
     out->key_reach = fused(ax, block_of(GROUP_HALF_X), fused(ay, block_of(GROUP_HALF_Y), error));
     return TILE_GROUPS > 1 ? block_bits(seen & (out->groups != 0)) : block_bits(seen);
@@ -228,7 +234,8 @@ static inline uint groups_of(const tile *t, const image_triangles *triangles, in
     }
     const block *key = triangles->key;
     block at = fused(OF(key[0]), t->center_x, fused(OF(key[1]), t->center_y, OF(key[2])));
-    met &= (at + OF(triangles->key_reach) >= t->farthest) & (OF(triangles->key_largest) >= t->farthest);
+    met &= (at + OF(triangles->key_reach) >= t->farthest) &
+           (OF(triangles->key_largest) >= t->farthest);
     return block_bits(met);
 #undef OF
 }
@@ -282,7 +289,8 @@ static inline mask covers_exactly(const block vertices[4], global const float *c
 }
 
 // Of two triangles at one depth the one with the lower number in the scene is seen.
-static inline mask has_lower_number(global const int *numbers, int place, lanes_int other, mask wanted)
+static inline mask has_lower_number(global const int *numbers, int place, lanes_int other,
+                                    mask wanted)
 {
     lanes_int lower = int_of(0);
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
@@ -295,9 +303,9 @@ static inline mask has_lower_number(global const int *numbers, int place, lanes_
 }
 
 // Tests triangle i of a cluster against the pixels of one group; true if any sees it.
-static inline bool meet_group(const image_space *s, tile *t, const image_triangles *triangles, const block vertices[4],
-                              global const float *cluster, global const int *numbers,
-                              int cluster_index, int i, int g)
+static inline bool meet_group(const image_space *s, tile *t, const image_triangles *triangles,
+                              const block vertices[4], global const float *cluster,
+                              global const int *numbers, int cluster_index, int i, int g)
 {
 #define OF(values) real_of(((const scalar *)&(values))[i])
     real x = t->x[g % TILE_COLUMNS], y = t->y[g / TILE_COLUMNS];
@@ -305,8 +313,8 @@ static inline bool meet_group(const image_space *s, tile *t, const image_triangl
     real e0 = fused(OF(edges[0][0]), x, fused(OF(edges[0][1]), y, OF(edges[0][2])));
     real e1 = fused(OF(edges[1][0]), x, fused(OF(edges[1][1]), y, OF(edges[1][2])));
     real e2 = fused(OF(edges[2][0]), x, fused(OF(edges[2][1]), y, OF(edges[2][2])));
-    real key = fused(OF(triangles->key[0]), x,
-                     fused(OF(triangles->key[1]), y, OF(triangles->key[2])));
+    real key =
+        fused(OF(triangles->key[0]), x, fused(OF(triangles->key[1]), y, OF(triangles->key[2])));
     // Never nearer than the nearest corner, whatever rounding says: that is what culling rests on.
     key = SMALLER(key, OF(triangles->key_largest));
     real least = SMALLER(e0, e1);
@@ -352,7 +360,8 @@ static inline void update_depth(const image_space *s, tile *t, uint changed)
 // In so many groups a triangle is tested at once.
 #define FEW_GROUPS 2
 
-static inline void meet_cluster(const image_space *s, tile *t, const scene_buffers *scene, int index)
+static inline void meet_cluster(const image_space *s, tile *t, const scene_buffers *scene,
+                                int index)
 {
     global const float *cluster = scene->clusters + GLINT_CLUSTER_VALUES * (size_t)index;
     block vertices[4];
@@ -403,13 +412,14 @@ static inline void trace_tile(const image_space *s, tile *t, const scene_buffers
         int base = size;
         for (; met != 0; met &= met - 1) {
             int child = lowest_bit(met);
-            size = push_waiting(scene, stack, base, size, next.child, child, ((scalar *)&near)[child]);
+            size =
+                push_waiting(scene, stack, base, size, next.child, child, ((scalar *)&near)[child]);
         }
     }
 }
 
-// Distances and barycentric weights of what the pixels at (x, y) see, the corners of which are given.
-// `length` is that of their directions before they were made unit vectors.
+// Distances and barycentric weights of what the pixels at (x, y) see, the corners of which are
+// given. `length` is that of their directions before they were made unit vectors.
 static inline void measure_hits(const image_space *s, const real3 vertices[3], real x, real y,
                                 real length, mask met, closest *hit)
 {
@@ -428,8 +438,8 @@ static inline void measure_hits(const image_space *s, const real3 vertices[3], r
     real weights[3];
     image_weights(&c, x, y, weights);
     real inverse = R(1.0) / SELECT(met, weights[0] + weights[1] + weights[2], real_of(1));
-    real z = fused(weights[0], c.at[0][2],
-                   fused(weights[1], c.at[1][2], weights[2] * c.at[2][2])) * inverse;
+    real z = fused(weights[0], c.at[0][2], fused(weights[1], c.at[1][2], weights[2] * c.at[2][2])) *
+             inverse;
     hit->t = SELECT(met, z * length, real_of(HUGE));
     hit->b1 = weights[1] * inverse;
     hit->b2 = weights[2] * inverse;

@@ -1,14 +1,14 @@
-// Closest hits of the rays of a tile, group by group, in the wide tree. Groups whose rays run about the
-// same way and stay close to each other go through the tree together, as one frustum around theirs; at a
-// leaf each group has its turn. Otherwise each goes alone. The same hits, bit for bit.
+// Closest hits of the rays of a tile, group by group, in the wide tree. Groups whose rays run about
+// the same way and stay close to each other go through the tree together, as one frustum around
+// theirs; at a leaf each group has its turn. Otherwise each goes alone. The same hits, bit for bit.
 
 // Groups of a tile whose paths are followed at the same time.
 #define PATH_GROUPS (GLINT_INTERREFLECTION && !GLINT_SPLIT ? TILE_GROUPS : 1)
 // The place of one of them; a constant where there is only one, so that compilers see that it is.
 #define SLOT(i) (PATH_GROUPS == 1 ? 0 : (i))
 
-// The frusta of a tile's groups: one lane of each block for each group, for a group that takes no part
-// an empty one.
+// The frusta of a tile's groups: one lane of each block for each group, for a group that takes no
+// part an empty one.
 typedef struct group_frusta {
     block slope[2][2], offset[2][2]; // see frustum
     block begin, farthest;
@@ -78,8 +78,9 @@ static inline scalar sum_of_16(scalar16 a)
     return two.x + two.y;
 }
 
-// The frustum around all groups', into *all. True if it is not much larger than these together where the
-// first ray starts, half-way, and where the scene ends: then the groups have much in common.
+// The frustum around all groups', into *all. True if it is not much larger than these together
+// where the first ray starts, half-way, and where the scene ends: then the groups have much in
+// common.
 static inline bool enclose_frusta(const group_frusta *f, int along, scalar sign, frustum *all)
 {
     all->along = along;
@@ -97,8 +98,10 @@ static inline bool enclose_frusta(const group_frusta *f, int along, scalar sign,
 #pragma unroll
         for (int side = 0; side < 2; side++) {
             const scalar turn = side == 0 ? R(1.0) : R(-1.0);
-            block at_begin = fused(f->slope[i][side], block_of(sign * all->begin), f->offset[i][side]);
-            block at_end = fused(f->slope[i][side], block_of(sign * (all->begin + distance)), f->offset[i][side]);
+            block at_begin =
+                fused(f->slope[i][side], block_of(sign * all->begin), f->offset[i][side]);
+            block at_end = fused(f->slope[i][side], block_of(sign * (all->begin + distance)),
+                                 f->offset[i][side]);
             ends[side][0] = turn * (smallest_of_16(turn * at_begin) - FRUSTUM_SLACK);
             ends[side][1] = turn * (smallest_of_16(turn * at_end) - FRUSTUM_SLACK);
             half_way[side] = at_begin + at_end;
@@ -113,12 +116,13 @@ static inline bool enclose_frusta(const group_frusta *f, int along, scalar sign,
 }
 
 // The groups whose frusta reach into a box, one of all nodes' children, before their farthest hits.
-static inline uint groups_at_box(const group_frusta *f, const frustum *all, const scene_buffers *scene,
-                                 int box)
+static inline uint groups_at_box(const group_frusta *f, const frustum *all,
+                                 const scene_buffers *scene, int box)
 {
     node_pointer low = node_at(scene, box / GLINT_BVH_WIDTH) + box % GLINT_BVH_WIDTH;
     node_pointer high = low + 3 * GLINT_BVH_WIDTH;
-    const scalar low_w = low[all->along * GLINT_BVH_WIDTH], high_w = high[all->along * GLINT_BVH_WIDTH];
+    const scalar low_w = low[all->along * GLINT_BVH_WIDTH];
+    const scalar high_w = high[all->along * GLINT_BVH_WIDTH];
     const scalar near = all->sign > 0 ? low_w : -high_w, far = all->sign > 0 ? high_w : -low_w;
     block_mask met = (f->farthest >= near) & (f->begin <= far);
 #pragma unroll
@@ -141,8 +145,8 @@ typedef struct party {
 } party;
 
 // Puts the children that some ray may meet on the stack, the nearest on top.
-static inline int push_children(const party *p, const scene_buffers *scene, int node, waiting *stack,
-                                int size)
+static inline int push_children(const party *p, const scene_buffers *scene, int node,
+                                waiting *stack, int size)
 {
     boxes near;
     uint met = frustum_meets_boxes(&p->bounds, node_at(scene, node), p->farthest, &near);
@@ -177,8 +181,8 @@ static inline void meet_leaf(party *p, group_frusta *f, bundle *bundles, const s
     }
 }
 
-static inline void trace_party(party *p, group_frusta *f, bundle *bundles, const scene_buffers *scene,
-                               const path *rays, closest *hits)
+static inline void trace_party(party *p, group_frusta *f, bundle *bundles,
+                               const scene_buffers *scene, const path *rays, closest *hits)
 {
     waiting stack[GLINT_TRAVERSAL_STACK];
     stack[0].child = 0;
@@ -230,7 +234,8 @@ static inline void trace_groups(const scene_buffers *scene, const path *rays, co
     mask left[PATH_GROUPS];
     for (int g = 0; g < PATH_GROUPS; g++) {
         const path *ray = &rays[g];
-        left[g] = active[g] & (ray->looked_up == (lane_int)0) & is_sound(ray->origin, ray->direction);
+        left[g] =
+            active[g] & (ray->looked_up == (lane_int)0) & is_sound(ray->origin, ray->direction);
         if (any_lane(left[g])) {
             packets[g] = make_packet(ray->origin, ray->direction);
         }
