@@ -23,8 +23,8 @@ glint_status bench_stage_renderer(const bench_stage *stage, bench_job job,
                                   const glint_settings *settings, glint_renderer **renderer,
                                   glint_error *error);
 
-// A frame; *ms is what it took on the device. *image is zero or an earlier frame, whose memory is used
-// again, and the caller's to free.
+// A frame; *ms is what it took on the device. *image is zero or an earlier frame, whose memory is
+// used again, and the caller's to free.
 glint_status bench_stage_frame(const bench_stage *stage, glint_renderer *renderer, double *ms,
                                glint_image *image, glint_error *error);
 

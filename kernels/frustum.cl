@@ -3,10 +3,12 @@
 // The rays run along one axis, w = sign × that coordinate, with u and v the other two. Where the
 // first ray starts and where the scene ends, the least and largest u of all rays give two planes,
 // and v two more: rays are straight, so that they stay between them. Rounding, here and in the
-// tests of triangles, moves places by no more than about 80 EPSILON (stored coordinates lie within
-// [−1, 1], slopes within ±2.5), so planes moved outwards by FRUSTUM_SLACK lose nothing that those
-// tests would find.
-#define FRUSTUM_SLACK (R(128.0) * EPSILON)
+// tests of triangles, moves places by less than FRUSTUM_SLACK, so planes moved outwards by that
+// lose nothing that those tests would find. In units of EPSILON, with stored coordinates in [−1,
+// 1], slopes in ±2.5, ways of 2 and divisions off by 5 (OpenCL's 2.5 units in the last place): a
+// slope at the far end 30, the planes' slopes 30, their places 17, their offsets 17; Woop's test
+// 17, or 43 across an axis that is not the ray's largest: 140 in all.
+#define FRUSTUM_SLACK (R(256.0) * EPSILON)
 // A ray belongs to the frustum along an axis if its direction's component there is at least this
 // part of the largest.
 #define FRUSTUM_ALONG R(0.4)

@@ -162,13 +162,14 @@ static inline uint bits_of_8(MASK_TYPE(8) m)
 #endif
 }
 
-static inline int lowest_bit(uint bits)
-{
 #if defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
 #if __has_builtin(__builtin_ctz)
 #define HAS_CTZ
 #endif
 #endif
+
+static inline int lowest_bit(uint bits)
+{
 #ifdef HAS_CTZ
     return __builtin_ctz(bits);
 #else
@@ -192,6 +193,18 @@ static inline scalar smallest_of_8(scalar8 a)
 }
 
 static inline scalar smallest_of_16(scalar16 a) { return smallest_of_8(SMALLER(a.lo, a.hi)); }
+
+static inline scalar largest_of_16(scalar16 a) { return -smallest_of_16(-a); }
+
+static inline scalar sum_of_16(scalar16 a)
+{
+    scalar8 eight = a.lo + a.hi;
+    scalar4 four = eight.lo + eight.hi;
+    scalar2 two = four.lo + four.hi;
+    return two.x + two.y;
+}
+
+static inline bool has_several_bits(uint bits) { return (bits & (bits - 1)) != 0; }
 
 #if GLINT_WIDTH == 1
 
@@ -282,6 +295,14 @@ static inline mask next_alike(lanes_int numbers, uint *left, int *number)
 #ifndef prefetch_line
 #define prefetch_line(p)
 #endif
+
+static inline void prefetch_values(global const float *values, int count)
+{
+#pragma unroll
+    for (int i = 0; i < count; i += 16) {
+        prefetch_line(values + i);
+    }
+}
 
 // ---- Pixels, as memory holds them: [lane][R, G, B, alpha] --------------------------------------
 

@@ -97,9 +97,6 @@ typedef struct glint_medium_record {
 #define GLINT_PACKET_ROWS(lanes) ((lanes) / GLINT_PACKET_COLUMNS(lanes))
 // A tile is what one work-item renders: one packet, or 4 × 4 packets beside each other.
 #define GLINT_TILE_SIDE(tiles) ((tiles) ? 4 : 1)
-// Tiles are rendered band by band, so many rows high, and within it column by column: what
-// neighbours have fetched from memory is then still in the caches.
-#define GLINT_BAND(tiles) ((tiles) ? 4 : 1)
 
 // ---- Frame -------------------------------------------------------------------------------------
 // Values that may change from frame to frame without compiling again. A vector is an unevaluated
@@ -132,8 +129,10 @@ typedef struct glint_frame_record {
     int depth;             // surfaces that a path meets at most, 1 or more
     int environment_edge;  // texels, without border
     int irradiance_edge;
-    int first_band; // of tiles: where this launch begins
-    int unused[2];
+    // Tiles are rendered band by band, and within one column by column.
+    int band;       // how many rows of tiles, 1 or more
+    int first_band; // where this launch begins
+    int unused;
 } glint_frame_record;
 
 // ---- Counters ----------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 // The entry point: one work-item renders one tile of pixels, sample by sample: it finds what the
-// primary rays meet, all at once, and then follows every path to its end, packet by packet.
+// primary rays meet, all at once, and then follows every path to its end, the groups of the tile
+// together or, where paths split, one by one.
 //
 // The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
 // GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_HALF_TEXELS, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS,
@@ -34,7 +35,7 @@
 #include "frustum.cl"
 #include "stack.cl"
 #include "intersect.cl"
-#include "traverse_packet.cl"
+#include "bundle.cl"
 #include "tile.cl"
 #include "traverse_tile.cl"
 #include "lookups.cl"
@@ -266,7 +267,7 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                                  {environment, frame.environment_edge, GLINT_HALF_TEXELS},
                                  {irradiance, frame.irradiance_edge, false}};
     const int across = (int)get_global_id(0), down = (int)get_global_id(1);
-    const int band = GLINT_BAND(GLINT_TILES);
+    const int band = frame.band;
     const int column = across / band * PACKET_WIDTH * TILE_COLUMNS;
     const int row = ((down + frame.first_band) * band + across % band) * PACKET_HEIGHT * TILE_ROWS;
     if (column >= frame.width || row >= frame.height) {

@@ -1,7 +1,7 @@
 // What happens where a ray meets a surface: light that is added there, and the directions in which
 // the path goes on. The rules are those of ARCHITECTURE.md, "Light transport".
 
-// A path on its way: a ray and what it has gathered.
+// A path on its way: a ray, its weight and what it has passed.
 typedef struct path {
     real3 origin, direction; // the direction is a unit vector
     real3 weight;            // what a unit of radiance that arrives now adds to the pixel

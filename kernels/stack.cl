@@ -34,19 +34,15 @@ typedef struct waiting {
 // Asks for what the traversal will soon come to: a node, or a cluster and its normals.
 static inline void prefetch_child(const scene_buffers *scene, int child)
 {
-    const size_t index = (size_t)(child < 0 ? ~child : child);
-    node_pointer node = node_at(scene, (int)index);
-    global const float *first = child < 0 ? scene->clusters + index * GLINT_CLUSTER_VALUES : node;
-    global const float *second =
-        child < 0 ? scene->normals + index * GLINT_CLUSTER_NORMALS : node + GLINT_CLUSTER_VALUES;
-#pragma unroll
-    for (int i = 0; i < GLINT_CLUSTER_VALUES; i += 16) {
-        prefetch_line(first + i);
+    if (child >= 0) {
+        prefetch_values(node_at(scene, child), GLINT_NODE_VALUES * GLINT_BVH_WIDTH);
+        return;
     }
-#pragma unroll
-    for (int i = 0; i < GLINT_CLUSTER_NORMALS; i += 16) {
-        prefetch_line(second + i);
-    }
+    const size_t index = (size_t)~child;
+    prefetch_values(scene->clusters + index * GLINT_CLUSTER_VALUES, GLINT_CLUSTER_VALUES);
+#if GLINT_SMOOTH_NORMALS
+    prefetch_values(scene->normals + index * GLINT_CLUSTER_NORMALS, GLINT_CLUSTER_NORMALS);
+#endif
 }
 
 // Puts a child of a node on the stack, in order of falling distance down to `base`, where the

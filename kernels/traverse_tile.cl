@@ -216,7 +216,8 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
                          fused(out->key[1], block_of(t->middle_y), out->key[2]));
     block highest =
         fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), middle + error));
-    seen &= (highest >= t->least) & (out->key_largest >= t->least);
+    // A key that is NaN, of a triangle seen exactly edge-on, hides nothing: no comparison drops it.
+    seen &= !(highest < t->least) & !(out->key_largest < t->least);
     out->key_reach = fused(ax, block_of(GROUP_HALF_X), fused(ay, block_of(GROUP_HALF_Y), error));
     return TILE_GROUPS > 1 ? block_bits(seen & (out->groups != 0)) : block_bits(seen);
 }
@@ -234,7 +235,7 @@ static inline uint groups_of(const tile *t, const image_triangles *triangles, in
     }
     const block *key = triangles->key;
     block at = fused(OF(key[0]), t->center_x, fused(OF(key[1]), t->center_y, OF(key[2])));
-    met &= (at + OF(triangles->key_reach) >= t->farthest) &
+    met &= !(at + OF(triangles->key_reach) < t->farthest) &
            (OF(triangles->key_largest) >= t->farthest);
     return block_bits(met);
 #undef OF

@@ -1,8 +1,12 @@
 // Closest hits of the rays of a tile, group by group, in the wide tree. Groups whose rays run about
 // the same way and stay close to each other go through the tree together, as one frustum around
-// theirs; at a leaf each group has its turn. Otherwise each goes alone. The same hits, bit for bit.
+// theirs, with one stack; otherwise each goes alone. A node's boxes are tested all at once against
+// the frustum; where a group's rays spread apart, a node that passes is then tested against each
+// ray, so that they do not visit all that lies between. At a leaf each group has its turn
+// (bundle.cl). The same hits in any company, bit for bit.
 
-// Groups of a tile whose paths are followed at the same time.
+// Groups of a tile whose paths are followed at the same time. Where paths split that is one: each
+// group needs a stack of branches then, and rays that spread gain nothing from company.
 #define PATH_GROUPS (GLINT_INTERREFLECTION && !GLINT_SPLIT ? TILE_GROUPS : 1)
 // The place of one of them; a constant where there is only one, so that compilers see that it is.
 #define SLOT(i) (PATH_GROUPS == 1 ? 0 : (i))
@@ -68,14 +72,6 @@ static inline void set_frustum(group_frusta *f, int group, const frustum *one)
             ((scalar *)&f->offset[i][side])[group] = one->offset[i][side];
         }
     }
-}
-
-static inline scalar sum_of_16(scalar16 a)
-{
-    scalar8 eight = a.lo + a.hi;
-    scalar4 four = eight.lo + eight.hi;
-    scalar2 two = four.lo + four.hi;
-    return two.x + two.y;
 }
 
 // The frustum around all groups', into *all. True if it is not much larger than these together
@@ -161,23 +157,24 @@ static inline int push_children(const party *p, const scene_buffers *scene, int 
 static inline void meet_leaf(party *p, group_frusta *f, bundle *bundles, const scene_buffers *scene,
                              const waiting *leaf, const path *rays, closest *hits)
 {
+    const bool several = has_several_bits(p->groups);
     uint groups = p->groups;
-    if ((groups & (groups - 1)) != 0) {
+    if (several) {
         groups &= groups_at_box(f, &p->bounds, scene, leaf->box);
     }
     bool found = false;
     for (; groups != 0; groups &= groups - 1) {
-        int g = lowest_bit(groups);
+        int g = SLOT(lowest_bit(groups));
         bundle *b = &bundles[g];
         if (intersect_cluster(b, scene, ~leaf->child, leaf->box, rays[g].from, &hits[g])) {
             update_farthest(b, &hits[g]);
             ((scalar *)&f->farthest)[g] = b->farthest;
-            p->farthest = b->farthest;
             found = true;
         }
     }
-    if (found && (p->groups & (p->groups - 1)) != 0) {
-        p->farthest = -smallest_of_16(-f->farthest);
+    if (found) {
+        p->farthest =
+            several ? largest_of_16(f->farthest) : bundles[SLOT(lowest_bit(p->groups))].farthest;
     }
 }
 
@@ -199,7 +196,7 @@ static inline void trace_party(party *p, group_frusta *f, bundle *bundles,
             continue;
         }
         if (p->bounds.wide && next.child > 0) {
-            int g = lowest_bit(p->groups);
+            int g = SLOT(lowest_bit(p->groups));
             if (rays_at_box(&bundles[g], scene, next.box, &hits[g]) == 0) {
                 continue;
             }
@@ -264,14 +261,14 @@ static inline void trace_groups(const scene_buffers *scene, const path *rays, co
         }
         party p;
         const uint near = groups & ~alone;
-        if ((near & (near - 1)) == 0 || !enclose_frusta(&frusta, along, sign, &p.bounds)) {
+        if (!has_several_bits(near) || !enclose_frusta(&frusta, along, sign, &p.bounds)) {
             alone = groups;
         }
         while (groups != 0) {
             p.groups = groups & ~alone;
             if (p.groups == 0) {
                 p.groups = groups & -groups;
-                p.bounds = bundles[lowest_bit(groups)].bounds;
+                p.bounds = bundles[SLOT(lowest_bit(groups))].bounds;
             }
             p.farthest = SCENE_END;
             trace_party(&p, &frusta, bundles, scene, rays, hits);

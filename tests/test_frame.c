@@ -1,5 +1,6 @@
 // Properties of a rendered frame that hold whatever the scene: the same bits at every packet width
 // and with every feature compiled, exact environments, alpha, samples, counters, interruption.
+#include "device/opencl.h"
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -241,6 +242,28 @@ static bool stop_at_once(void *context, uint64_t done, uint64_t total)
     return false;
 }
 
+static void a_device_with_memory_of_its_own_makes_the_same_frame(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    test_scene_load("materials", &scene);
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    glint_settings settings = small_frame(1);
+    glint_capabilities *capabilities = &test_device()->capabilities;
+    const bool shares = capabilities->shares_memory;
+    test_frame shared, copied;
+    test_render(&scene, &environment, NULL, &settings, &shared);
+    capabilities->shares_memory = false;
+    test_render(&scene, &environment, NULL, &settings, &copied);
+    capabilities->shares_memory = shares;
+    assert_int_equal(test_count_different(&shared.image, &copied.image), 0);
+    test_frame_free(&shared);
+    test_frame_free(&copied);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
 static void a_frame_that_is_stopped_leaves_no_image(void **state)
 {
     (void)state;
@@ -326,6 +349,7 @@ int main(void)
         cmocka_unit_test(a_transparent_background_is_left_out_and_surfaces_stay_whole),
         cmocka_unit_test(light_that_is_cut_off_is_reported_and_never_black),
         cmocka_unit_test(rays_are_counted_by_class),
+        cmocka_unit_test(a_device_with_memory_of_its_own_makes_the_same_frame),
         cmocka_unit_test(a_frame_that_is_stopped_leaves_no_image),
         cmocka_unit_test(a_frame_that_the_device_cannot_hold_is_refused_at_once),
         cmocka_unit_test(a_kernel_that_does_not_compile_is_reported_with_its_file),

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 
 static glint_status make(int width, int height, int channels, void *(*allocate)(size_t, size_t),
@@ -37,7 +38,7 @@ glint_status glint_image_reuse(int width, int height, int channels, glint_image 
                                glint_error *error)
 {
     if (image->pixels != NULL && image->width == width && image->height == height &&
-        image->channels == channels) {
+        image->channels == channels && (uintptr_t)image->pixels % 64 == 0) {
         return GLINT_OK;
     }
     glint_image_free(image);

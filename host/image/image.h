@@ -14,14 +14,14 @@ extern "C" {
 typedef struct glint_image {
     int width, height; // pixels, row 0 at the top, column 0 at the left
     int channels;      // 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA, premultiplied)
-    float *pixels;     // [height][width][channels], owned; linear Rec.709 radiance
+    float *pixels;     // [height][width][channels], owned; linear Rec.709 radiance; aligned to 64
 } glint_image;
 
 // Zeroed pixels. Fails on sizes that are not positive or whose product overflows.
 glint_status glint_image_create(int width, int height, int channels, glint_image *image,
                                 glint_error *error);
-// The same, but keeps the pixels that *image has (zero, or an image) where it is of that shape
-// already, and leaves new ones unset. On failure *image is empty.
+// The same, but keeps the pixels that *image has (zero, or an image) where it is of that shape and
+// aligned already, and leaves new ones unset. On failure *image is empty.
 glint_status glint_image_reuse(int width, int height, int channels, glint_image *image,
                                glint_error *error);
 void glint_image_free(glint_image *image);

@@ -22,8 +22,12 @@
 #define IRRADIANCE_EDGE 64
 // Launches are made long enough to keep a device busy and short enough for progress and signals.
 #define LAUNCH_MS 100.0
-// The first one tells the speed.
+// The first frame's first one tells the speed.
 #define FIRST_LAUNCH_SAMPLES 32768.0
+// Rows of tiles that are rendered side by side: what neighbours have fetched from memory is then
+// still in the caches. One where so many rows would be a long launch by themselves.
+#define BAND_ROWS 4
+#define BAND_SAMPLES 2e6
 
 struct glint_renderer {
     glint_device *device;
@@ -157,8 +161,8 @@ static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t
     size_t local[2];
     local_size(&r->plan, local);
     size_t columns = ((size_t)r->settings.width + (size_t)tile_width - 1) / (size_t)tile_width;
-    size_t band = GLINT_BAND(r->plan.tiles);
-    const size_t global[2] = {round_up(columns * band, local[0]), round_up(bands, local[1])};
+    const size_t across = columns * (size_t)record->band;
+    const size_t global[2] = {round_up(across, local[0]), round_up(bands, local[1])};
     cl_int code =
         clEnqueueNDRangeKernel(r->device->queue, r->kernel, 2, NULL, global, local, 0, NULL, NULL);
     if (code == CL_SUCCESS) {
@@ -181,7 +185,8 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
         status = set_buffers(r, error);
     }
     if (status == GLINT_OK) {
-        glint_frame_record nothing = {0};
+        // No pixel is written, so that a device that writes into images needs none yet.
+        glint_frame_record nothing = {.band = 1};
         status = launch(r, &nothing, 0, 1, error);
     }
     return status;
@@ -319,9 +324,7 @@ void glint_renderer_free(glint_renderer *renderer)
     }
     glint_scene_memory_free(&renderer->memory);
     glint_pixels_free(&renderer->pixels);
-    if (renderer->counters != NULL) {
-        clReleaseMemObject(renderer->counters);
-    }
+    glint_buffer_release(renderer->counters);
     if (renderer->kernel != NULL) {
         clReleaseKernel(renderer->kernel);
     }
@@ -393,12 +396,13 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
     tile_size(&r->plan, &tile_width, &tile_height);
     size_t local[2];
     local_size(&r->plan, local);
-    const int band_height = tile_height * GLINT_BAND(r->plan.tiles);
+    double row_samples =
+        (double)record->width * tile_height * record->samples_per_axis * record->samples_per_axis;
+    record->band = r->plan.tiles && BAND_ROWS * row_samples <= BAND_SAMPLES ? BAND_ROWS : 1;
+    const int band_height = tile_height * record->band;
     size_t bands = ((size_t)record->height + (size_t)band_height - 1) / (size_t)band_height;
-    double band_samples =
-        (double)record->width * band_height * record->samples_per_axis * record->samples_per_axis;
-    double first_step =
-        r->bands_per_ms > 0 ? r->bands_per_ms * LAUNCH_MS : FIRST_LAUNCH_SAMPLES / band_samples;
+    double first_step = r->bands_per_ms > 0 ? r->bands_per_ms * LAUNCH_MS
+                                            : FIRST_LAUNCH_SAMPLES / (row_samples * record->band);
     size_t step = round_up((size_t)fmax(1, first_step), local[1]);
     double begin = now_ms();
     for (size_t first = 0; first < bands;) {

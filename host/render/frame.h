@@ -53,7 +53,7 @@ typedef struct glint_frame_report {
     double kernel_ms, readback_ms; // of this frame
 } glint_frame_report;
 
-// Called between launches with how many rows of packets, of all there are, have been rendered.
+// Called between launches with how many bands of tiles, of all there are, have been rendered.
 // Returning false stops the frame with GLINT_INTERRUPTED.
 typedef struct glint_progress {
     bool (*step)(void *context, uint64_t done, uint64_t total);
@@ -80,7 +80,7 @@ const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);
 const glint_phases *glint_renderer_phases(const glint_renderer *renderer);
 
-// Bytes that the renderer holds on the device.
+// Bytes of the buffers that the device works on; a CPU's lie in the host's memory.
 typedef struct glint_device_bytes {
     size_t scene;       // clusters of triangles, normals, materials
     size_t tree;        // nodes

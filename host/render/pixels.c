@@ -34,18 +34,11 @@ glint_status glint_pixels_create(const struct glint_device *device, int width, i
                                &pixels->own, error);
 }
 
-static void release(cl_mem *buffer)
-{
-    if (*buffer != NULL) {
-        clReleaseMemObject(*buffer);
-    }
-    *buffer = NULL;
-}
-
 void glint_pixels_free(glint_pixels *pixels)
 {
-    release(&pixels->own);
-    release(&pixels->around_image);
+    glint_buffer_release(pixels->own);
+    glint_buffer_release(pixels->around_image);
+    *pixels = (glint_pixels){0};
 }
 
 size_t glint_pixels_bytes(const glint_pixels *pixels)
@@ -123,7 +116,8 @@ glint_status glint_pixels_end(glint_pixels *pixels, bool rendered, glint_image *
         status = pixels->own != NULL ? read_rounded(pixels, image->pixels, error)
                                      : map_image(pixels, error);
     }
-    release(&pixels->around_image);
+    glint_buffer_release(pixels->around_image);
+    pixels->around_image = NULL;
     return status;
 }
 

@@ -29,11 +29,12 @@ glint_status glint_pixels_create(const struct glint_device *device, int width, i
                                  size_t scalar_bytes, glint_pixels *pixels, glint_error *error);
 void glint_pixels_free(glint_pixels *pixels);
 
-// Bytes that the device holds for a frame.
+// What a frame takes where the device writes it.
 size_t glint_pixels_bytes(const glint_pixels *pixels);
 
 // Makes *image RGBA of the frame's size (keeping its memory if it is that already) and says where
-// the device has to write. glint_pixels_end must follow.
+// the device has to write. glint_pixels_end must follow, and *image be left alone until then.
+// Errors: GLINT_DEVICE_FAILED.
 glint_status glint_pixels_begin(glint_pixels *pixels, glint_image *image, cl_mem *target,
                                 glint_error *error);
 

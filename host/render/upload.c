@@ -99,7 +99,8 @@ static glint_status hand_over(const struct glint_device *device, const char *wha
                               void **data, glint_scene_memory *memory, cl_mem *buffer,
                               glint_error *error)
 {
-    if (!device->capabilities.shares_memory || bytes < LEAST_BYTES) {
+    if (!device->capabilities.shares_memory || bytes < LEAST_BYTES ||
+        memory->kept_count == GLINT_KEPT_MAX) {
         return glint_buffer_create(device, what, bytes, *data, buffer, error);
     }
     glint_status status = check_size(device, what, bytes, error);
@@ -284,7 +285,7 @@ glint_status glint_scene_upload(const glint_upload_inputs *in, glint_scene_memor
     return status;
 }
 
-static void release(cl_mem buffer)
+void glint_buffer_release(cl_mem buffer)
 {
     if (buffer != NULL) {
         clReleaseMemObject(buffer);
@@ -293,14 +294,14 @@ static void release(cl_mem buffer)
 
 void glint_scene_memory_free(glint_scene_memory *memory)
 {
-    release(memory->nodes);
-    release(memory->clusters);
-    release(memory->normals);
-    release(memory->numbers);
-    release(memory->materials);
-    release(memory->media);
-    release(memory->environment);
-    release(memory->irradiance);
+    glint_buffer_release(memory->nodes);
+    glint_buffer_release(memory->clusters);
+    glint_buffer_release(memory->normals);
+    glint_buffer_release(memory->numbers);
+    glint_buffer_release(memory->materials);
+    glint_buffer_release(memory->media);
+    glint_buffer_release(memory->environment);
+    glint_buffer_release(memory->irradiance);
     for (int i = 0; i < memory->kept_count; i++) {
         free(memory->kept[i]);
     }

@@ -9,12 +9,14 @@
 #include "render/plan.h"
 #include "scene/scene.h"
 
+#define GLINT_KEPT_MAX 8
+
 // Zero is valid: no buffers. Each is described in kernels/layout.h; those that the plan does not
 // need are a few bytes long, as a kernel's arguments cannot be left out.
 typedef struct glint_scene_memory {
     cl_mem nodes, clusters, normals, numbers, materials, media, environment, irradiance;
     // The host's memory that buffers lie in, on devices that share it.
-    void *kept[5];
+    void *kept[GLINT_KEPT_MAX];
     int kept_count;
 } glint_scene_memory;
 
@@ -45,6 +47,9 @@ void glint_scene_memory_free(glint_scene_memory *memory);
 // it in messages.
 glint_status glint_buffer_create(const struct glint_device *device, const char *what, size_t bytes,
                                  const void *data, cl_mem *buffer, glint_error *error);
+
+// NULL is allowed.
+void glint_buffer_release(cl_mem buffer);
 
 // What the buffer takes, 0 for NULL.
 size_t glint_buffer_bytes(cl_mem buffer);

@@ -1,11 +1,9 @@
-// Closest hits of a packet of rays in the wide tree: one stack for all rays that run about the same
-// way. A node's boxes are tested all at once against the frustum around the rays; where the rays
-// spread apart, a box that passes is then tested against each, so that they do not visit all that
-// lies between. At a leaf the frustum selects triangles, and the loop runs over these, each tested
-// against all rays, or over the rays, each tested against all triangles, whichever is less work.
-// The same operations in either order: the same hits, bit for bit.
+// A bundle of rays that run about the same way, at a leaf: its frustum selects triangles, and the
+// loop runs over these, each tested against all rays, or over the rays, each tested against all
+// triangles, whichever is less work. The same operations in either order: the same hits, bit for
+// bit.
 
-// One traversal: rays that run along one axis, and their frustum.
+// Rays of a packet that run along one axis, and their frustum.
 typedef struct bundle {
     const packet *rays;
     frustum bounds;
@@ -21,7 +19,7 @@ static inline void update_farthest(bundle *b, const closest *hit)
     b->farthest = SMALLER(farthest, SCENE_END);
 }
 
-static inline bundle make_bundle(packet *p, int along, scalar sign, mask active)
+static inline bundle make_bundle(const packet *p, int along, scalar sign, mask active)
 {
     bundle b;
     b.rays = p;
