@@ -16,13 +16,12 @@
 #define BUILD_ROUNDS 5
 
 typedef struct request {
-    char *scenes; // names with commas between, owned
+    bench_request shared;
     unsigned jobs;
-    int width, height, rounds, sweep_rounds;
-    bool medium_only, robust;
-    const char *device, *json;
+    int sweep_rounds;
+    bool medium_only, robust, list;
+    const char *device;
     uint64_t leaks;
-    bool help, list;
 } request;
 
 static const char help[] =
@@ -75,39 +74,28 @@ static glint_status parse_jobs(const char *text, unsigned *jobs, glint_error *er
     return GLINT_OK;
 }
 
-enum { SCENES = 1, JOBS, ROUNDS, SIZE, MEDIUM, ROBUST, DEVICE, LEAKS, JSON, QUICK, LIST, HELP };
+enum { JOBS = BENCH_OWN_OPTIONS, MEDIUM, ROBUST, DEVICE, LEAKS, QUICK, LIST };
 
 static const struct option long_options[] = {
-    {"scenes", required_argument, NULL, SCENES},
+    BENCH_SHARED_OPTIONS,
     {"jobs", required_argument, NULL, JOBS},
-    {"rounds", required_argument, NULL, ROUNDS},
-    {"size", required_argument, NULL, SIZE},
     {"medium", no_argument, NULL, MEDIUM},
     {"device", required_argument, NULL, DEVICE},
     {"leaks", required_argument, NULL, LEAKS},
-    {"json", required_argument, NULL, JSON},
     {"quick", no_argument, NULL, QUICK},
     {"list", no_argument, NULL, LIST},
     {"robust", no_argument, NULL, ROBUST},
-    {"help", no_argument, NULL, HELP},
     {NULL, 0, NULL, 0},
 };
 
-static glint_status take_option(int option, request *r, glint_error *error)
+static glint_status take_option(int option, void *context, glint_error *error)
 {
+    request *r = context;
     glint_status status = GLINT_OK;
     double count = 0;
     switch (option) {
-    case SCENES:
-        return bench_set_text(&r->scenes, optarg, error);
     case JOBS:
         return parse_jobs(optarg, &r->jobs, error);
-    case ROUNDS:
-        status = bench_parse_count("rounds", optarg, BENCH_ROUNDS_MAX, &count, error);
-        r->rounds = (int)count;
-        return status;
-    case SIZE:
-        return bench_parse_size(optarg, &r->width, &r->height, error);
     case MEDIUM:
         r->medium_only = true;
         return GLINT_OK;
@@ -121,43 +109,28 @@ static glint_status take_option(int option, request *r, glint_error *error)
         status = bench_parse_count("leaks", optarg, 1e12, &count, error);
         r->leaks = (uint64_t)count;
         return status;
-    case JSON:
-        r->json = optarg;
-        return GLINT_OK;
     case QUICK:
-        r->rounds = 3;
+        r->shared.rounds = 3;
         r->sweep_rounds = 2;
         r->jobs = 1u << BENCH_TRAVERSE | 1u << BENCH_REFLECT;
-        return bench_set_text(&r->scenes, "S0", error);
+        return bench_set_text(&r->shared.scenes, "S0", error);
     case LIST:
         r->list = true;
         return GLINT_OK;
-    case HELP:
-        r->help = true;
-        return GLINT_OK;
     default:
-        return glint_fail(error, GLINT_USAGE, "an option is unknown or lacks its value (--help)");
+        return bench_take_option(option, &r->shared, error);
     }
 }
 
 static glint_status parse(int argc, char **argv, request *r, glint_error *error)
 {
-    *r = (request){.jobs = (1u << (JOB_BUILD + 1)) - 1,
-                   .width = 1920,
-                   .height = 1088,
-                   .rounds = 9,
+    *r = (request){.shared = {.width = 1920, .height = 1088, .rounds = 9},
+                   .jobs = (1u << (JOB_BUILD + 1)) - 1,
                    .sweep_rounds = 3,
                    .device = "cpu"};
-    glint_status status = bench_set_text(&r->scenes, "S0,S1,S2,needles,stadium,G0", error);
-    int option;
-    opterr = 0;
-    while (status == GLINT_OK && (option = getopt_long(argc, argv, "", long_options, NULL)) != -1) {
-        status = take_option(option, r, error);
-    }
-    if (status == GLINT_OK && optind < argc) {
-        status = glint_fail(error, GLINT_USAGE, "unexpected argument '%s'", argv[optind]);
-    }
-    return status;
+    glint_status status = bench_set_text(&r->shared.scenes, "S0,S1,S2,needles,stadium,G0", error);
+    return status == GLINT_OK ? bench_parse_options(argc, argv, long_options, take_option, r, error)
+                              : status;
 }
 
 // ---- Work --------------------------------------------------------------------------------------
@@ -167,6 +140,9 @@ static glint_status list_scenes(glint_error *error)
     for (size_t i = 0; bench_scene_names[i] != NULL; i++) {
         bench_scene scene;
         glint_status status = bench_scene_make(bench_scene_names[i], &scene, error);
+        if (status != GLINT_OK) {
+            return status;
+        }
         printf("%-8s %8zu triangles:", scene.name, scene.triangle_count);
         for (int job = 0; job < BENCH_JOBS; job++) {
             if (scene.jobs & 1u << job) {
@@ -175,9 +151,6 @@ static glint_status list_scenes(glint_error *error)
         }
         printf("\n");
         bench_scene_free(&scene);
-        if (status != GLINT_OK) {
-            return status;
-        }
     }
     return GLINT_OK;
 }
@@ -203,8 +176,9 @@ static glint_status run_jobs(const request *r, const bench_arena *arena, json_t 
     if (status == GLINT_OK && r->jobs & 1u << JOB_BUILD) {
         fprintf(stderr, "%s: build\n", arena->stage.scene->name);
         bench_build build;
-        status = bench_build_run(arena, r->rounds > BUILD_ROUNDS ? r->rounds : BUILD_ROUNDS, &build,
-                                 error);
+        status = bench_build_run(arena,
+                                 r->shared.rounds > BUILD_ROUNDS ? r->shared.rounds : BUILD_ROUNDS,
+                                 &build, error);
         if (status == GLINT_OK) {
             embree_report_build(object, &build);
         }
@@ -275,13 +249,13 @@ static glint_status run_all(const request *r, const bench_arena *arena, bench_po
     } else {
         bench_report_head("Embree");
         char *rest = NULL;
-        for (char *name = strtok_r(r->scenes, ",", &rest); status == GLINT_OK && name != NULL;
-             name = strtok_r(NULL, ",", &rest)) {
+        for (char *name = strtok_r(r->shared.scenes, ",", &rest);
+             status == GLINT_OK && name != NULL; name = strtok_r(NULL, ",", &rest)) {
             status = run_scene(r, *arena, pool, name, report, error);
         }
     }
-    if (status == GLINT_OK && r->json != NULL) {
-        return glint_json_write(r->json, report, error);
+    if (status == GLINT_OK && r->shared.json != NULL) {
+        return glint_json_write(r->shared.json, report, error);
     }
     json_decref(report);
     return status;
@@ -293,9 +267,9 @@ static glint_status run(const request *r, glint_error *error)
     bench_pool *pool = NULL;
     bench_arena arena = {
         .stage = {.environment = &environment,
-                  .width = r->width,
-                  .height = r->height,
-                  .rounds = r->rounds},
+                  .width = r->shared.width,
+                  .height = r->shared.height,
+                  .rounds = r->shared.rounds},
         .sweep_rounds = r->sweep_rounds,
         .high = !r->medium_only,
         .robust = r->robust,
@@ -321,18 +295,13 @@ int main(int argc, char **argv)
     request r;
     glint_error error = {0};
     glint_status status = parse(argc, argv, &r, &error);
-    if (status == GLINT_OK && r.help) {
+    if (status == GLINT_OK && r.shared.help) {
         fputs(help, stdout);
     } else if (status == GLINT_OK && r.list) {
         status = list_scenes(&error);
     } else if (status == GLINT_OK) {
         status = run(&r, &error);
     }
-    if (status != GLINT_OK) {
-        fprintf(stderr, "bench/embree: %s\n%s", error.message,
-                error.details != NULL ? error.details : "");
-    }
-    glint_error_free(&error);
-    free(r.scenes);
-    return (int)status;
+    free(r.shared.scenes);
+    return bench_finish("bench/embree", status, &error);
 }

@@ -12,13 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct request {
-    char *scenes; // names with commas between, owned
-    int width, height, rounds;
-    const char *json;
-    bool help;
-} request;
-
 static const char help[] =
     "Usage: bench/run llvmpipe [options]\n"
     "\n"
@@ -36,51 +29,19 @@ static const char help[] =
 
 // ---- Options -----------------------------------------------------------------------------------
 
-enum { SCENES = 1, ROUNDS, SIZE, JSON, HELP };
+static const struct option long_options[] = {BENCH_SHARED_OPTIONS, {NULL, 0, NULL, 0}};
 
-static const struct option long_options[] = {
-    {"scenes", required_argument, NULL, SCENES}, {"rounds", required_argument, NULL, ROUNDS},
-    {"size", required_argument, NULL, SIZE},     {"json", required_argument, NULL, JSON},
-    {"help", no_argument, NULL, HELP},           {NULL, 0, NULL, 0},
-};
-
-static glint_status take_option(int option, request *r, glint_error *error)
+static glint_status take_option(int option, void *request, glint_error *error)
 {
-    glint_status status;
-    double count = 0;
-    switch (option) {
-    case SCENES:
-        return bench_set_text(&r->scenes, optarg, error);
-    case ROUNDS:
-        status = bench_parse_count("rounds", optarg, BENCH_ROUNDS_MAX, &count, error);
-        r->rounds = (int)count;
-        return status;
-    case SIZE:
-        return bench_parse_size(optarg, &r->width, &r->height, error);
-    case JSON:
-        r->json = optarg;
-        return GLINT_OK;
-    case HELP:
-        r->help = true;
-        return GLINT_OK;
-    default:
-        return glint_fail(error, GLINT_USAGE, "an option is unknown or lacks its value (--help)");
-    }
+    return bench_take_option(option, request, error);
 }
 
-static glint_status parse(int argc, char **argv, request *r, glint_error *error)
+static glint_status parse(int argc, char **argv, bench_request *r, glint_error *error)
 {
-    *r = (request){.width = 1920, .height = 1088, .rounds = 9};
+    *r = (bench_request){.width = 1920, .height = 1088, .rounds = 9};
     glint_status status = bench_set_text(&r->scenes, "S0,S1", error);
-    int option;
-    opterr = 0;
-    while (status == GLINT_OK && (option = getopt_long(argc, argv, "", long_options, NULL)) != -1) {
-        status = take_option(option, r, error);
-    }
-    if (status == GLINT_OK && optind < argc) {
-        status = glint_fail(error, GLINT_USAGE, "unexpected argument '%s'", argv[optind]);
-    }
-    return status;
+    return status == GLINT_OK ? bench_parse_options(argc, argv, long_options, take_option, r, error)
+                              : status;
 }
 
 // ---- Work --------------------------------------------------------------------------------------
@@ -109,7 +70,7 @@ static glint_status run_scene(bench_stage stage, const char *name, json_t *repor
     return status;
 }
 
-static glint_status run_scenes(const request *r, const bench_stage *stage, json_t *report,
+static glint_status run_scenes(const bench_request *r, const bench_stage *stage, json_t *report,
                                glint_error *error)
 {
     glint_status status = GLINT_OK;
@@ -125,7 +86,7 @@ static glint_status run_scenes(const request *r, const bench_stage *stage, json_
     return status;
 }
 
-static glint_status run(const request *r, glint_error *error)
+static glint_status run(const bench_request *r, glint_error *error)
 {
     glint_environment environment = {0};
     llvmpipe_context *context = NULL;
@@ -149,7 +110,7 @@ static glint_status run(const request *r, glint_error *error)
 
 int main(int argc, char **argv)
 {
-    request r;
+    bench_request r;
     glint_error error = {0};
     glint_status status = parse(argc, argv, &r, &error);
     if (status == GLINT_OK && r.help) {
@@ -157,11 +118,6 @@ int main(int argc, char **argv)
     } else if (status == GLINT_OK) {
         status = run(&r, &error);
     }
-    if (status != GLINT_OK) {
-        fprintf(stderr, "bench/llvmpipe: %s\n%s", error.message,
-                error.details != NULL ? error.details : "");
-    }
-    glint_error_free(&error);
     free(r.scenes);
-    return (int)status;
+    return bench_finish("bench/llvmpipe", status, &error);
 }

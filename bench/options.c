@@ -1,5 +1,7 @@
-// Values of options that the contests share. See options.h.
+// Options that the contests share. See options.h.
 #include "options.h"
+
+#include "series.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,4 +33,55 @@ glint_status bench_set_text(char **copy, const char *text, glint_error *error)
     free(*copy);
     *copy = strdup(text);
     return *copy != NULL ? GLINT_OK : glint_fail_memory(error, "the options");
+}
+
+glint_status bench_take_option(int option, bench_request *request, glint_error *error)
+{
+    double count = 0;
+    glint_status status;
+    switch (option) {
+    case BENCH_SCENES:
+        return bench_set_text(&request->scenes, optarg, error);
+    case BENCH_ROUNDS:
+        status = bench_parse_count("rounds", optarg, BENCH_ROUNDS_MAX, &count, error);
+        request->rounds = (int)count;
+        return status;
+    case BENCH_SIZE:
+        return bench_parse_size(optarg, &request->width, &request->height, error);
+    case BENCH_JSON:
+        request->json = optarg;
+        return GLINT_OK;
+    case BENCH_HELP:
+        request->help = true;
+        return GLINT_OK;
+    default:
+        return glint_fail(error, GLINT_USAGE, "an option is unknown or lacks its value (--help)");
+    }
+}
+
+glint_status bench_parse_options(int argc, char **argv, const struct option *options,
+                                 glint_status (*take)(int option, void *context,
+                                                      glint_error *error),
+                                 void *context, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    int option;
+    opterr = 0;
+    while (status == GLINT_OK && (option = getopt_long(argc, argv, "", options, NULL)) != -1) {
+        status = take(option, context, error);
+    }
+    if (status == GLINT_OK && optind < argc) {
+        status = glint_fail(error, GLINT_USAGE, "unexpected argument '%s'", argv[optind]);
+    }
+    return status;
+}
+
+int bench_finish(const char *program, glint_status status, glint_error *error)
+{
+    if (status != GLINT_OK) {
+        fprintf(stderr, "%s: %s\n%s", program, error->message,
+                error->details != NULL ? error->details : "");
+    }
+    glint_error_free(error);
+    return (int)status;
 }

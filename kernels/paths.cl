@@ -41,7 +41,8 @@ typedef struct primary {
     lanes_int places; // of the triangles hit, −1: none
 } primary;
 
-// The primary rays through the points (x, y) of the image plane, see glint_frame_record.
+// The primary rays through the points (x, y) of the image plane, see glint_frame_record. Sets their
+// length.
 static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;

@@ -101,12 +101,11 @@ static inline real3 describe_hits(const scene_buffers *scene, const image_space 
 }
 #endif
 
-// What a tile's pixels have gathered so far without the environment, sample by sample.
+// What a tile's pixels have gathered so far without the environment, sample by sample: used with
+// GATHERS alone.
 typedef struct gathered {
-#if GATHERS
     real3 color[TILE_GROUPS];
     real alpha[TILE_GROUPS];
-#endif
 } gathered;
 
 // The primary rays of a group, and which triangles they meet.
@@ -151,7 +150,7 @@ static inline void add_hits(const scene_buffers *scene, const glint_frame_record
 {
     for (int g = 0; g < TILE_GROUPS; g++) {
         primary first = primary_of(t, g);
-        primary_rays(frame, &first);
+        primary_rays(frame, &first); // for their length
         sum->color[g] = describe_hits(scene, image, &first, &sum->alpha[g]);
     }
 }

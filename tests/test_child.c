@@ -1,5 +1,6 @@
 // Properties of work in a process of its own.
 #include "base/child.h"
+#include "support/scratch.h"
 
 #include <setjmp.h>
 #include <signal.h>
@@ -147,10 +148,12 @@ static void a_child_that_is_abandoned_can_clean_up(void **state)
 {
     (void)state;
     assert_false(glint_child_is_abandoned());
-    char path[] = "/tmp/glint-test-XXXXXX";
-    close(mkstemp(path));
-    const glint_child child = {
-        .work = wait_and_clean_up, .context = path, .stop_requested = stop_at_the_third_question};
+    scratch_write("left", "behind", -1);
+    const char *path = scratch_path("left");
+    assert_int_equal(access(path, F_OK), 0);
+    const glint_child child = {.work = wait_and_clean_up,
+                               .context = (void *)path,
+                               .stop_requested = stop_at_the_third_question};
     char *text;
     questions = 0;
     assert_int_equal(glint_child_run(&child, &text, NULL), GLINT_INTERRUPTED);
@@ -164,7 +167,8 @@ int main(void)
         cmocka_unit_test(an_error_comes_back_with_its_details),
         cmocka_unit_test(a_child_that_crashes_is_an_error),
         cmocka_unit_test(a_stop_ends_a_child_that_heeds_nothing),
-        cmocka_unit_test(a_child_that_is_abandoned_can_clean_up),
+        cmocka_unit_test_setup_teardown(a_child_that_is_abandoned_can_clean_up, scratch_setup,
+                                        scratch_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

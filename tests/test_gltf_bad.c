@@ -3,6 +3,7 @@
 #include "scene/scene.h"
 
 #include "support/gltf_text.h"
+#include "support/scratch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -547,5 +548,5 @@ int main(void)
         cmocka_unit_test(damaged_files_are_refused_or_loaded),
         cmocka_unit_test(the_folder_of_bad_files_gets_a_line_each),
     };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

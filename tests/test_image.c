@@ -424,9 +424,28 @@ static void damaged_files_are_survived(void **state)
     }
 }
 
+static void memory_is_used_again_where_it_fits(void **state)
+{
+    (void)state;
+    glint_image image = {0};
+    assert_int_equal(glint_image_reuse(6, 4, 4, &image, NULL), GLINT_OK);
+    float *first = image.pixels;
+    assert_int_equal((uintptr_t)first % 64, 0);
+    first[95] = 7;
+    assert_int_equal(glint_image_reuse(6, 4, 4, &image, NULL), GLINT_OK);
+    assert_ptr_equal(image.pixels, first);
+    assert_true(image.pixels[95] == 7);
+    assert_int_equal(glint_image_reuse(4, 6, 4, &image, NULL), GLINT_OK);
+    assert_int_equal(image.width, 4);
+    assert_int_equal(image.height, 6);
+    assert_int_equal(glint_image_reuse(0, 6, 4, &image, NULL), GLINT_BAD_INPUT);
+    assert_null(image.pixels);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_is_used_again_where_it_fits),
         cmocka_unit_test(srgb_codes_survive_decoding_and_encoding),
         cmocka_unit_test(eight_bit_codes_are_the_rounded_curve),
         cmocka_unit_test(values_outside_the_range_are_clamped),

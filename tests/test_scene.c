@@ -2,6 +2,7 @@
 #include "scene/scene.h"
 
 #include "support/gltf_text.h"
+#include "support/scratch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -480,5 +481,5 @@ int main(void)
         cmocka_unit_test(a_scale_of_zero_hides_what_is_below),
         cmocka_unit_test(a_mesh_scaled_flat_stays_visible),
     };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

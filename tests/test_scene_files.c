@@ -4,6 +4,7 @@
 
 #include "scene/topology.h"
 #include "support/gltf_text.h"
+#include "support/scratch.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -335,5 +336,5 @@ int main(void)
         cmocka_unit_test(data_uris_may_have_any_media_type),
         cmocka_unit_test(models_load_as_their_makers_meant),
     };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

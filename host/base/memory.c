@@ -6,7 +6,6 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#define ALIGNMENT ((size_t)64)
 #define PAGE_BYTES ((uintptr_t)4096)
 #define HUGE_BYTES ((size_t)1 << 22) // from here on large pages are worth asking for
 
@@ -23,12 +22,12 @@ bool glint_multiply(size_t a, size_t b, size_t *product)
 void *glint_allocate_unset(size_t count, size_t size)
 {
     size_t bytes;
-    if (!glint_multiply(count, size, &bytes) || bytes > (size_t)-1 - ALIGNMENT) {
+    if (!glint_multiply(count, size, &bytes) || bytes > (size_t)-1 - GLINT_ALIGNMENT) {
         return NULL;
     }
     // aligned_alloc wants a multiple of the alignment.
-    bytes = (bytes + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
-    void *memory = aligned_alloc(ALIGNMENT, bytes);
+    bytes = (bytes + GLINT_ALIGNMENT) / GLINT_ALIGNMENT * GLINT_ALIGNMENT;
+    void *memory = aligned_alloc(GLINT_ALIGNMENT, bytes);
 #ifdef MADV_HUGEPAGE
     // Where each page is touched for the first time the kernel's work counts: the tree of a million
     // triangles is built in a tenth less time with large pages. A wish, which may be refused.

@@ -9,9 +9,10 @@
 extern "C" {
 #endif
 
-// count × size zeroed bytes, aligned to 64 (a cache line, and what a zero-copy OpenCL buffer
-// wants). NULL when the product overflows or memory is short. Release with free(). A count of 0
-// gives a pointer that can be freed.
+#define GLINT_ALIGNMENT ((size_t)64) // a cache line, and what a zero-copy OpenCL buffer wants
+
+// count × size zeroed bytes, aligned to GLINT_ALIGNMENT. NULL when the product overflows or memory
+// is short. Release with free(). A count of 0 gives a pointer that can be freed.
 void *glint_allocate(size_t count, size_t size);
 
 // The same, but the bytes are not set: for large arrays that are written at once, from several

@@ -38,7 +38,7 @@ glint_status glint_image_reuse(int width, int height, int channels, glint_image 
                                glint_error *error)
 {
     if (image->pixels != NULL && image->width == width && image->height == height &&
-        image->channels == channels && (uintptr_t)image->pixels % 64 == 0) {
+        image->channels == channels && (uintptr_t)image->pixels % GLINT_ALIGNMENT == 0) {
         return GLINT_OK;
     }
     glint_image_free(image);

@@ -14,7 +14,7 @@ extern "C" {
 typedef struct glint_image {
     int width, height; // pixels, row 0 at the top, column 0 at the left
     int channels;      // 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA, premultiplied)
-    float *pixels;     // [height][width][channels], owned; linear Rec.709 radiance; aligned to 64
+    float *pixels;     // [height][width][channels], owned; linear Rec.709 radiance
 } glint_image;
 
 // Zeroed pixels. Fails on sizes that are not positive or whose product overflows.

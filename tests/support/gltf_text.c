@@ -6,47 +6,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <cmocka.h>
-#include <dirent.h>
 
 const tetrahedron the_tetrahedron = {
     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
     {{-0.57735026f, -0.57735026f, -0.57735026f}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
     {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3},
 };
-
-int folder_make(void **state)
-{
-    const char *base = getenv("TMPDIR");
-    char *path = malloc(4096);
-    assert_non_null(path);
-    snprintf(path, 4096, "%s/glint_test_XXXXXX", base ? base : "/tmp");
-    if (mkdtemp(path) == NULL) {
-        free(path);
-        return 1;
-    }
-    *state = path;
-    return 0;
-}
-
-int folder_remove(void **state)
-{
-    DIR *folder = opendir(*state);
-    for (struct dirent *entry = folder ? readdir(folder) : NULL; entry; entry = readdir(folder)) {
-        const char *path = folder_path(*state, entry->d_name);
-        if (entry->d_name[0] != '.' && unlink(path) != 0) {
-            rmdir(path);
-        }
-    }
-    if (folder) {
-        closedir(folder);
-    }
-    int failed = rmdir(*state);
-    free(*state);
-    return failed;
-}
 
 const char *folder_path(const char *folder, const char *name)
 {

@@ -1,5 +1,5 @@
-// glTF files for tests, made in the test itself: a folder of its own, a text with its data as a
-// data URI, and a small mesh that most tests start from.
+// glTF files for tests, made in the test itself in a folder of its own (scratch.h): a text with its
+// data as a data URI, and a small mesh that most tests start from.
 #ifndef GLINT_TESTS_SUPPORT_GLTF_TEXT_H
 #define GLINT_TESTS_SUPPORT_GLTF_TEXT_H
 
@@ -8,10 +8,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-// cmocka set-up and tear-down of a folder under $TMPDIR or /tmp; *state is its path.
-int folder_make(void **state);
-int folder_remove(void **state);
 
 // The path of a file in the folder; the text lasts until the next call.
 const char *folder_path(const char *folder, const char *name);

@@ -87,8 +87,7 @@ int scratch_count(void)
 
 int scratch_setup(void **state)
 {
-    (void)state;
-    scratch_make();
+    *state = (void *)scratch_make();
     return 0;
 }
 

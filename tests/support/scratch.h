@@ -10,7 +10,7 @@ const char *scratch_make(void);
 // Removes it and all that is in it.
 void scratch_remove(void);
 
-// The same as cmocka's setup and teardown of a test.
+// The same as cmocka's setup and teardown of a test; *state is the folder's path.
 int scratch_setup(void **state);
 int scratch_teardown(void **state);
 
