@@ -1,83 +1,178 @@
-// The branches of a path that wait for their turn, on a stack of each ray's own. The path goes on
-// with the lighter of two branches and the heavier waits: as the lighter has at most half of the
-// weight, at most log2(1/min-weight) + 1 branches ever wait (the argument that bounds quicksort's
-// stack), and GLINT_STACK_CAPACITY, chosen by the plan, holds them all unless the plan says not.
+// The branches of a tile's paths that wait for their turn. Where paths split, those of a tile
+// advance in lists: one list holds, of each pixel at most one, branches that have met equally many
+// surfaces. Of the two branches into which a path splits, the lighter joins the list that is
+// followed next, and the heavier one that waits until nothing is left of the first: each pixel's
+// branches are followed depth first, in an order that no other pixel has a say in. A list fills
+// packets whatever became of its pixels' neighbours, sorted by the way the rays run.
+//
+// As the lighter branch has at most half of the weight, at most log2(1/min-weight) + 1 of a pixel's
+// branches ever wait (the argument that bounds quicksort's stack), and GLINT_STACK_CAPACITY, chosen
+// by the plan, holds them all unless the plan says not.
+
+// Which of the tile's pixels the rays of a packet belong to: where paths do not split, those of a
+// group in their order.
+#if GLINT_SPLIT
+typedef lanes_int pixels;
+#define pixels_of_group(group) (lane_numbers() + (lane_int)((group)*GLINT_WIDTH))
+#define pixel_of(pixels, lane) ((int)LANE_INT(pixels, lane))
+#else
+typedef int pixels;
+#define pixels_of_group(group) (group)
+#define pixel_of(pixels, lane) ((pixels)*GLINT_WIDTH + (lane))
+#endif
+
 #if GLINT_SPLIT
 
-#define BRANCH_REALS 9 // weight, direction, origin
-#define BRANCH_INTS 4  // from, met, media, looked up
+#define TILE_PIXELS (TILE_GROUPS * GLINT_WIDTH)
+// Kinds of branches: six for the ways they run, and those that are looked up without being traced.
+#define BRANCH_KINDS 7
+#define LOOKED_UP 6
+
+typedef struct branch {
+    scalar origin[3], direction[3], weight[3];
+    lane_int from, media;
+    int pixel, met, kind;
+} branch;
 
 typedef struct branches {
-    int count[GLINT_WIDTH];
-    scalar reals[GLINT_STACK_CAPACITY * BRANCH_REALS * GLINT_WIDTH];
-    lane_int ints[GLINT_STACK_CAPACITY * BRANCH_INTS * GLINT_WIDTH];
+    int next_count, waiting_count;
+    int of_pixel[TILE_PIXELS]; // how many wait
+    branch next[TILE_PIXELS];
+    branch waiting[TILE_PIXELS * GLINT_STACK_CAPACITY]; // lists, told apart by `met`, which rises
 } branches;
 
-static inline void save3(scalar *slot, real3 v, int lane)
+static inline void no_branches(branches *b)
 {
-    slot[0] = LANE(v.x, lane);
-    slot[1] = LANE(v.y, lane);
-    slot[2] = LANE(v.z, lane);
-}
-
-static inline void restore3(const scalar *slot, real3 *v, int lane)
-{
-    LANE(v->x, lane) = slot[0];
-    LANE(v->y, lane) = slot[1];
-    LANE(v->z, lane) = slot[2];
+    b->next_count = b->waiting_count = 0;
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        b->of_pixel[i] = 0;
+    }
 }
 
 // True where only one more branch fits: it must then be looked up, and so must the one that goes
 // on.
-static inline mask nearly_full(const branches *waiting)
+static inline mask nearly_full(const branches *b, const pixels *pixels)
 {
     lanes_int count;
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        LANE_INT(count, lane) = waiting->count[lane];
+        LANE_INT(count, lane) = b->of_pixel[pixel_of(*pixels, lane)];
     }
     return count >= (lane_int)(GLINT_STACK_CAPACITY - 1);
 }
 
-static inline void push_branch(branches *waiting, const path *branch, mask pushed)
+static inline void save3(scalar *values, const real3 *v, int lane)
 {
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        if (!lane_is_set(pushed, lane) || waiting->count[lane] >= GLINT_STACK_CAPACITY) {
-            continue;
-        }
-        int slot = waiting->count[lane]++ * GLINT_WIDTH + lane;
-        scalar *reals = waiting->reals + slot * BRANCH_REALS;
-        lane_int *ints = waiting->ints + slot * BRANCH_INTS;
-        save3(reals, branch->weight, lane);
-        save3(reals + 3, branch->direction, lane);
-        save3(reals + 6, branch->origin, lane);
-        ints[0] = LANE_INT(branch->from, lane);
-        ints[1] = LANE_INT(branch->met, lane);
-        ints[2] = LANE_INT(branch->media, lane);
-        ints[3] = LANE_INT(branch->looked_up, lane);
+    values[0] = LANE(v->x, lane);
+    values[1] = LANE(v->y, lane);
+    values[2] = LANE(v->z, lane);
+}
+
+static inline void restore3(const scalar *values, real3 *v, int lane)
+{
+    LANE(v->x, lane) = values[0];
+    LANE(v->y, lane) = values[1];
+    LANE(v->z, lane) = values[2];
+}
+
+static inline lanes_int kinds_of_rays(const path *ray)
+{
+    const real3 d = ray->direction;
+    real ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
+    mask x_major = (ax >= ay) & (ax >= az);
+    mask y_major = !x_major & (ay >= az);
+    real along = SELECT(x_major, d.x, SELECT(y_major, d.y, d.z));
+    lanes_int kind = SELECT(x_major, int_of(0), SELECT(y_major, int_of(2), int_of(4)));
+    kind += SELECT(along > R(0.0), int_of(1), int_of(0));
+    return SELECT(ray->looked_up != (lane_int)0, int_of(LOOKED_UP), kind);
+}
+
+static inline void save_branch(const path *ray, const pixels *pixels, lanes_int kinds, int lane,
+                               branch *b)
+{
+    save3(b->origin, &ray->origin, lane);
+    save3(b->direction, &ray->direction, lane);
+    save3(b->weight, &ray->weight, lane);
+    b->from = LANE_INT(ray->from, lane);
+    b->media = LANE_INT(ray->media, lane);
+    b->met = (int)LANE_INT(ray->met, lane);
+    b->kind = (int)LANE_INT(kinds, lane);
+    b->pixel = pixel_of(*pixels, lane);
+}
+
+// Puts branches into the list that is followed next.
+static inline void follow_next(branches *b, const path *ray, const pixels *pixels, mask these)
+{
+    lanes_int kinds = kinds_of_rays(ray);
+    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
+        save_branch(ray, pixels, kinds, lowest_bit(left), &b->next[b->next_count++]);
     }
 }
 
-// Gives each ray in `free` its latest waiting branch; the result says which rays got one.
-static inline mask pop_branch(branches *waiting, path *ray, mask free)
+// Puts branches into the list that waits; what does not fit is lost (see nearly_full).
+static inline void let_wait(branches *b, const path *ray, const pixels *pixels, mask these)
 {
-    lanes_int got = int_of(0);
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        if (!lane_is_set(free, lane) || waiting->count[lane] == 0) {
-            continue;
+    lanes_int kinds = kinds_of_rays(ray);
+    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        int *of_pixel = &b->of_pixel[pixel_of(*pixels, lane)];
+        if (*of_pixel < GLINT_STACK_CAPACITY) {
+            (*of_pixel)++;
+            save_branch(ray, pixels, kinds, lane, &b->waiting[b->waiting_count++]);
         }
-        int slot = --waiting->count[lane] * GLINT_WIDTH + lane;
-        const scalar *reals = waiting->reals + slot * BRANCH_REALS;
-        const lane_int *ints = waiting->ints + slot * BRANCH_INTS;
-        restore3(reals, &ray->weight, lane);
-        restore3(reals + 3, &ray->direction, lane);
-        restore3(reals + 6, &ray->origin, lane);
-        LANE_INT(ray->from, lane) = ints[0];
-        LANE_INT(ray->met, lane) = ints[1];
-        LANE_INT(ray->media, lane) = ints[2];
-        LANE_INT(ray->looked_up, lane) = ints[3];
-        LANE_INT(got, lane) = 1;
     }
-    return got != (lane_int)0;
+}
+
+// The list that is to be followed now: the next or, if that is empty, the latest that waits. Sets
+// its length.
+static inline const branch *take_list(branches *b, int *count)
+{
+    *count = b->next_count;
+    b->next_count = 0;
+    if (*count > 0) {
+        return b->next;
+    }
+    int begin = b->waiting_count;
+    while (begin > 0 && b->waiting[begin - 1].met == b->waiting[b->waiting_count - 1].met) {
+        begin--;
+        b->of_pixel[b->waiting[begin].pixel]--;
+    }
+    *count = b->waiting_count - begin;
+    b->waiting_count = begin;
+    return b->waiting + begin;
+}
+
+// Fills packets with the list that is to be followed now, sorted by kind; `active` says which of
+// their rays there are.
+static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *active)
+{
+    int count;
+    const branch *list = take_list(b, &count);
+    int ends[BRANCH_KINDS + 1] = {0}; // where each kind ends so far, in the order of kinds
+    for (int i = 0; i < count; i++) {
+        ends[list[i].kind + 1]++;
+    }
+    for (int kind = 1; kind < BRANCH_KINDS; kind++) {
+        ends[kind] += ends[kind - 1];
+    }
+    for (int i = 0; i < count; i++) {
+        const int place = ends[list[i].kind]++;
+        const int lane = place % GLINT_WIDTH;
+        path *ray = &rays[place / GLINT_WIDTH];
+        restore3(list[i].origin, &ray->origin, lane);
+        restore3(list[i].direction, &ray->direction, lane);
+        restore3(list[i].weight, &ray->weight, lane);
+        LANE_INT(ray->from, lane) = list[i].from;
+        LANE_INT(ray->media, lane) = list[i].media;
+        LANE_INT(ray->looked_up, lane) = list[i].kind == LOOKED_UP;
+        LANE_INT(pixels[place / GLINT_WIDTH], lane) = list[i].pixel;
+    }
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        active[g] = lane_numbers() < (lane_int)(count - g * GLINT_WIDTH);
+        rays[g].met = int_of(count > 0 ? list[0].met : 0);
+#if GLINT_ABSORPTION
+        rays[g].travelled = real_of(0);
+#endif
+    }
 }
 
 #endif

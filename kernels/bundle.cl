@@ -60,8 +60,8 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
         if (popcount(rays) < popcount(met)) {
             for (; rays != 0; rays &= rays - 1) {
                 int ray = lowest_bit(rays);
-                found |= intersect_by_ray(b->rays, ray, cluster, scene->numbers, first, count,
-                                          (int)LANE_INT(from, ray), hit);
+                const lone_ray alone = take_ray(b->rays, ray, from);
+                found |= intersect_by_ray(&alone, cluster, scene->numbers, first, hit, ray);
             }
             return found;
         }
@@ -70,7 +70,7 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
         int place = first + lowest_bit(met);
         float vertices[9];
         load_triangle(cluster, place - first, vertices);
-        found |= intersect_triangle(b->rays, b->axes, vertices, place, scene->numbers[place],
+        found |= intersect_triangle(b->rays, b->axes, vertices, place, scene->numbers,
                                     b->active & (from != (lane_int)place), hit);
     }
     return found;

@@ -16,8 +16,8 @@
 // there (GLINT_FAR) lie beyond.
 #define SCENE_REACH R(1.0)
 #define SCENE_END R(4.0)
-// Rays that end farther apart than this do not stay together: what the frustum meets, few of them
-// may.
+// Rays that end farther apart than this do not stay together: of what their frustum meets, each may
+// meet little.
 #define WIDE R(0.1)
 // The frustum around several groups is worth its while if its cross-section is no larger than this
 // many times theirs together.
@@ -65,7 +65,7 @@ static inline frustum make_frustum(const real origin[3], const real direction[3]
         scalar high = largest_lane(SELECT(rays, first, real_of(-HUGE)));
         scalar last_low = smallest_lane(SELECT(rays, last, real_of(HUGE)));
         scalar last_high = largest_lane(SELECT(rays, last, real_of(-HUGE)));
-        f.wide = f.wide || last_high - last_low > WIDE;
+        f.wide = f.wide || (GLINT_WIDTH > 1 && last_high - last_low > WIDE);
         scalar least = (last_low - low) / distance, most = (last_high - high) / distance;
         f.offset[i][0] = low - least * f.begin - FRUSTUM_SLACK;
         f.offset[i][1] = high - most * f.begin + FRUSTUM_SLACK;

@@ -19,10 +19,9 @@ typedef struct packet {
 } packet;
 
 typedef struct closest {
-    real t;             // in lengths of the direction; HUGE where nothing was hit
-    real b1, b2;        // barycentric weights of the second and third vertex
-    lanes_int place;    // of the triangle hit, −1: none
-    lanes_int triangle; // its number in the scene
+    real t;          // in lengths of the direction; HUGE where nothing was hit
+    real b1, b2;     // barycentric weights of the second and third vertex
+    lanes_int place; // of the triangle hit, −1: none
 } closest;
 
 // The far distance is widened by this much, so that rounding never loses a box that is touched
@@ -98,10 +97,22 @@ static inline void load_triangle(global const float *cluster, int lane, float ve
     }
 }
 
-// Tests one triangle against the rays in `active` and keeps the nearer hit. At equal distance the
-// triangle with the lower number in the scene wins, whatever the order of the tests.
+// Of two triangles at one distance the one with the lower number in the scene is seen, whatever the
+// order of the tests: where that is `place` and not `other`.
+static inline mask has_lower_number(global const int *numbers, int place, lanes_int other,
+                                    mask wanted)
+{
+    lanes_int lower = int_of(0);
+    for (uint left = mask_bits(wanted); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left), rival = (int)LANE_INT(other, lane);
+        LANE_INT(lower, lane) = rival < 0 || numbers[place] < numbers[rival];
+    }
+    return lower != (lane_int)0;
+}
+
+// Tests one triangle against the rays in `active` and keeps the nearer hit.
 static inline bool intersect_triangle(const packet *p, int axes, const float vertices[9], int place,
-                                      int triangle, mask active, closest *hit)
+                                      global const int *numbers, mask active, closest *hit)
 {
     bool found = false;
 #pragma unroll
@@ -136,33 +147,57 @@ static inline bool intersect_triangle(const packet *p, int axes, const float ver
         }
         real inverse = R(1.0) / SELECT(inside, determinant, real_of(1));
         real t = fused(u, az, fused(v, bz, w * cz)) * p->shear_z * inverse;
-        mask nearer = (t < hit->t) | ((t == hit->t) & (hit->triangle > (lane_int)triangle));
-        mask taken = inside & (t > R(0.0)) & nearer;
+        inside = inside & (t > R(0.0));
+        mask taken = inside & (t < hit->t), tied = inside & (t == hit->t);
+        if (any_lane(tied)) {
+            taken = taken | (tied & has_lower_number(numbers, place, hit->place, tied));
+        }
         found = found || any_lane(taken);
         hit->t = SELECT(taken, t, hit->t);
         hit->b1 = SELECT(taken, v * inverse, hit->b1);
         hit->b2 = SELECT(taken, w * inverse, hit->b2);
         hit->place = SELECT(taken, int_of(place), hit->place);
-        hit->triangle = SELECT(taken, int_of(triangle), hit->triangle);
     }
     return found;
 }
 
-// The same test of one ray against all triangles of a cluster, which stand from place `first` on:
-// operation by operation that of intersect_triangle, so that both find the same.
-static inline bool intersect_by_ray(const packet *p, int ray, global const float *cluster,
-                                    global const int *numbers, int first, int count, int from,
-                                    closest *hit)
+// One ray of a packet, for tests against many boxes or triangles at once.
+typedef struct lone_ray {
+    scalar origin[3];
+    scalar shear_x, shear_y, shear_z;
+    int axis, from; // `from` is the place of the triangle that it starts on, −1: none
+} lone_ray;
+
+static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
 {
-    const int z = (int)LANE_INT(p->axis, ray), x = (z + 1) % 3, y = (z + 2) % 3;
-    const block shear_x = block_of(-LANE(p->shear_x, ray)),
-                shear_y = block_of(-LANE(p->shear_y, ray));
+    lone_ray ray;
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        ray.origin[k] = LANE(p->origin[k], lane);
+    }
+    ray.shear_x = LANE(p->shear_x, lane);
+    ray.shear_y = LANE(p->shear_y, lane);
+    ray.shear_z = LANE(p->shear_z, lane);
+    ray.axis = (int)LANE_INT(p->axis, lane);
+    ray.from = (int)LANE_INT(from, lane);
+    return ray;
+}
+
+// The same test of one ray against all triangles of a cluster, which stand from place `first` on:
+// operation by operation that of intersect_triangle, so that both find the same. The ray's hit is
+// in a lane of *hit.
+static inline bool intersect_by_ray(const lone_ray *ray, global const float *cluster,
+                                    global const int *numbers, int first, closest *hit, int lane)
+{
+    const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
+    const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
+    const block shear_x = block_of(-ray->shear_x), shear_y = block_of(-ray->shear_y);
     // Vertices relative to the origin, sheared, and then those of each corner.
-    block depth = load_block(cluster + z * GLINT_CLUSTER_LANES) - LANE(p->origin[z], ray);
-    block across = fused(shear_x, depth,
-                         load_block(cluster + x * GLINT_CLUSTER_LANES) - LANE(p->origin[x], ray));
-    block up = fused(shear_y, depth,
-                     load_block(cluster + y * GLINT_CLUSTER_LANES) - LANE(p->origin[y], ray));
+    block depth = load_block(cluster + z * GLINT_CLUSTER_LANES) - ray->origin[z];
+    block across =
+        fused(shear_x, depth, load_block(cluster + x * GLINT_CLUSTER_LANES) - ray->origin[x]);
+    block up =
+        fused(shear_y, depth, load_block(cluster + y * GLINT_CLUSTER_LANES) - ray->origin[y]);
     global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
     block cx[3], cy[3], cz[3];
 #pragma unroll
@@ -177,7 +212,8 @@ static inline bool intersect_by_ray(const packet *p, int ray, global const float
     block least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
     block determinant = u + v + w;
     block_mask inside = ((least >= R(0.0)) | (most <= R(0.0))) & (determinant != R(0.0)) &
-                        (BLOCK_LANES < (scalar)count) & (BLOCK_LANES != (scalar)(from - first));
+                        (BLOCK_LANES < (scalar)count) &
+                        (BLOCK_LANES != (scalar)(ray->from - first));
     if (block_bits(inside) == 0) {
         return false;
     }
@@ -187,21 +223,18 @@ static inline bool intersect_by_ray(const packet *p, int ray, global const float
             (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) & (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
     }
     block inverse = R(1.0) / SELECT(inside, determinant, block_of(1));
-    block t = fused(u, cz[0], fused(v, cz[1], w * cz[2])) * LANE(p->shear_z, ray) * inverse;
-    t = SELECT(inside & (t > R(0.0)) & (t <= LANE(hit->t, ray)), t, block_of(HUGE));
+    block t = fused(u, cz[0], fused(v, cz[1], w * cz[2])) * ray->shear_z * inverse;
+    t = SELECT(inside & (t > R(0.0)) & (t <= LANE(hit->t, lane)), t, block_of(HUGE));
     scalar nearest = smallest_of_16(t);
     uint found = nearest < HUGE ? block_bits(t == nearest) : 0;
     bool nearer = false;
-    while (found != 0) {
-        int i = lowest_bit(found);
-        found &= found - 1;
-        int number = numbers[first + i];
-        if (nearest < LANE(hit->t, ray) || number < (int)LANE_INT(hit->triangle, ray)) {
-            LANE(hit->t, ray) = nearest;
-            LANE(hit->b1, ray) = ((scalar *)&v)[i] * ((scalar *)&inverse)[i];
-            LANE(hit->b2, ray) = ((scalar *)&w)[i] * ((scalar *)&inverse)[i];
-            LANE_INT(hit->place, ray) = first + i;
-            LANE_INT(hit->triangle, ray) = number;
+    for (; found != 0; found &= found - 1) {
+        const int i = lowest_bit(found), rival = (int)LANE_INT(hit->place, lane);
+        if (nearest < LANE(hit->t, lane) || numbers[first + i] < numbers[rival]) {
+            LANE(hit->t, lane) = nearest;
+            LANE(hit->b1, lane) = ((scalar *)&v)[i] * ((scalar *)&inverse)[i];
+            LANE(hit->b2, lane) = ((scalar *)&w)[i] * ((scalar *)&inverse)[i];
+            LANE_INT(hit->place, lane) = first + i;
             nearer = true;
         }
     }

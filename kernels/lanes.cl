@@ -147,6 +147,13 @@ static inline uint bits_of_16(MASK_TYPE(16) m)
 #endif
 }
 
+// The same of 32-bit numbers, whatever the precision.
+#if GLINT_DOUBLE
+static inline uint bits_of_int16(int16 m) { return bits_of_16(convert_long16(m)); }
+#else
+static inline uint bits_of_int16(int16 m) { return bits_of_16(m); }
+#endif
+
 static inline uint bits_of_8(MASK_TYPE(8) m)
 {
 #if HAS_MASK_REGISTERS
@@ -174,6 +181,19 @@ static inline int lowest_bit(uint bits)
     return __builtin_ctz(bits);
 #else
     return 31 - (int)clz(bits & -bits);
+#endif
+}
+
+// Stores the numbers that `bits` chooses side by side; what follows them, up to 16 in all, means
+// nothing.
+static inline void store_chosen(int16 numbers, uint bits, int *list)
+{
+#if HAS_MASK_REGISTERS
+    vstore16(__builtin_ia32_compresssi512_mask(numbers, (int16)0, (ushort)bits), 0, list);
+#else
+    for (; bits != 0; bits &= bits - 1) {
+        *list++ = ((int *)&numbers)[lowest_bit(bits)];
+    }
 #endif
 }
 

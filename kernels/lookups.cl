@@ -8,7 +8,7 @@
 
 typedef struct lookups {
     int count;
-    int group[LOOKUPS];
+    pixels pixels[LOOKUPS];
     uint wanted[LOOKUPS]; // rays, as bits
     bool white[LOOKUPS];  // all wanted rays weigh 1
     lanes_int first[LOOKUPS];
@@ -38,33 +38,34 @@ static inline void finish_lookups(lookups *l, const cube_map *map)
 {
     for (int i = 0; i < l->count; i++) {
         const scalar *weights = l->weights + i * PIXEL_VALUES;
-        scalar *sums = l->sums + l->group[i] * PIXEL_VALUES;
         if (l->white[i] && l->wanted[i] == ALL_RAYS) { // most are
             for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-                vstore4(vload4(lane, sums) + look_up(l, map, i, lane), lane, sums);
+                const int pixel = pixel_of(l->pixels[i], lane);
+                vstore4(vload4(pixel, l->sums) + look_up(l, map, i, lane), pixel, l->sums);
             }
             continue;
         }
         for (uint left = l->wanted[i]; left != 0; left &= left - 1) {
             int lane = lowest_bit(left);
             scalar4 light = vload4(lane, weights) * look_up(l, map, i, lane);
-            vstore4(vload4(lane, sums) + light, lane, sums);
+            const int pixel = pixel_of(l->pixels[i], lane);
+            vstore4(vload4(pixel, l->sums) + light, pixel, l->sums);
         }
     }
     l->count = 0;
 }
 
 // Adds what the environment sends against the directions, times the weights, for the rays in
-// `wanted` of a group.
+// `wanted`.
 static inline void look_up_later(lookups *l, const cube_map *map, real3 direction, real3 weight,
-                                 mask wanted, int group)
+                                 mask wanted, const pixels *pixels)
 {
     if (l->count == LOOKUPS) {
         finish_lookups(l, map);
     }
     int i = l->count++;
     cube_point point = find_on_cube(direction, map->edge);
-    l->group[i] = group;
+    l->pixels[i] = *pixels;
     l->wanted[i] = mask_bits(wanted);
     l->first[i] = point.first;
     l->right[i] = point.right;

@@ -133,17 +133,52 @@ static inline void count_transmissions(const surface *s, mask transmits, tally *
     tally->counts[GLINT_COUNT_REFRACTED_OUT] += (ulong)count_lanes(transmits & solid & !s->outside);
     tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
 }
+#endif
+
+// The paths of some of a tile's pixels on their way.
+typedef struct paths {
+    path ray[PATH_GROUPS];
+    mask active[PATH_GROUPS];
+    pixels pixels[PATH_GROUPS];
+    lanes_int deepest; // surfaces met
+#if GATHERS
+    // Gathered on their way, without the environment, by the tile's groups of pixels.
+    real3 radiance[PATH_GROUPS];
+#endif
+#if GLINT_SPLIT
+    branches branches;
+#endif
+} paths;
+
+#if GATHERS
+static inline void gather(paths *all, int slot, real3 light, mask lit)
+{
+#if GLINT_SPLIT
+    lit = lit & ((light.x != R(0.0)) | (light.y != R(0.0)) | (light.z != R(0.0)));
+    for (uint left = mask_bits(lit); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left), pixel = pixel_of(all->pixels[slot], lane);
+        real3 *sum = &all->radiance[pixel / GLINT_WIDTH];
+        LANE(sum->x, pixel % GLINT_WIDTH) += LANE(light.x, lane);
+        LANE(sum->y, pixel % GLINT_WIDTH) += LANE(light.y, lane);
+        LANE(sum->z, pixel % GLINT_WIDTH) += LANE(light.z, lane);
+    }
+#else
+    real3 *sum = &all->radiance[slot];
+    *sum = select3(lit, add(*sum, light), *sum);
+#endif
+}
+#endif
 
 #if GLINT_SPLIT
-// Where a path splits it goes on with the lighter branch, and the heavier waits; where the stack
-// has room for one more only, both are looked up, and counted.
-static inline mask split_path(branches *waiting, path *reflected, path *transmitted, mask reflects,
-                              mask transmits, path *ray, tally *tally)
+// Both branches go on, the lighter first; where only one more may wait both are looked up, and
+// counted.
+static inline void split_path(paths *all, int slot, path *reflected, path *transmitted,
+                              mask reflects, mask transmits, tally *tally)
 {
+    branches *b = &all->branches;
+    const pixels *pixels = &all->pixels[slot];
     mask both = reflects & transmits;
-    mask reflect_first =
-        reflects & (!transmits | (largest3(reflected->weight) <= largest3(transmitted->weight)));
-    mask full = both & nearly_full(waiting);
+    mask full = both & nearly_full(b, pixels);
     if (any_lane(full)) {
         const real zero = real_of(0);
         mask unended_r = full & (reflected->looked_up == (lane_int)0);
@@ -153,27 +188,14 @@ static inline mask split_path(branches *waiting, path *reflected, path *transmit
         reflected->looked_up = SELECT(full, int_of(1), reflected->looked_up);
         transmitted->looked_up = SELECT(full, int_of(1), transmitted->looked_up);
     }
-    assign_path(ray, reflected, reflects);
-    assign_path(ray, transmitted, transmits & !reflect_first);
-    assign_path(reflected, transmitted, both & reflect_first);
-    push_branch(waiting, reflected, both);
-    return reflects | transmits;
+    mask reflected_waits = both & (largest3(reflected->weight) > largest3(transmitted->weight));
+    mask transmitted_waits = both & !reflected_waits;
+    follow_next(b, reflected, pixels, reflects & !reflected_waits);
+    follow_next(b, transmitted, pixels, transmits & !transmitted_waits);
+    let_wait(b, reflected, pixels, reflected_waits);
+    let_wait(b, transmitted, pixels, transmitted_waits);
 }
 #endif
-#endif
-
-// The paths of some groups of a tile's pixels on their way.
-typedef struct paths {
-    path ray[PATH_GROUPS];
-    mask active[PATH_GROUPS];
-    lanes_int deepest[PATH_GROUPS]; // surfaces met
-#if GATHERS
-    real3 radiance[PATH_GROUPS]; // gathered on their way, without the environment
-#endif
-#if GLINT_SPLIT
-    branches waiting[PATH_GROUPS];
-#endif
-} paths;
 
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
@@ -196,8 +218,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
 #endif
 #if GATHERS
-    real3 gathered = add(all->radiance[slot], multiply(ray->weight, out.emitted));
-    all->radiance[slot] = select3(met, gathered, all->radiance[slot]);
+    gather(all, slot, multiply(ray->weight, out.emitted), met);
 #endif
     tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
 
@@ -218,8 +239,8 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);
 #if GLINT_SPLIT
-    return split_path(&all->waiting[slot], &reflected, &transmitted, reflects, transmits, ray,
-                      tally);
+    split_path(all, slot, &reflected, &transmitted, reflects, transmits, tally);
+    return mask_none();
 #else
     assign_path(ray, &transmitted, transmits);
     assign_path(ray, &reflected, reflects);
@@ -232,28 +253,23 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 }
 
 // The primary rays of a group: those in `active`.
-static inline void begin_paths(const glint_frame_record *frame, primary *first, int slot,
+static inline void begin_paths(const glint_frame_record *frame, primary *first, int slot, int group,
                                mask active, paths *all)
 {
     all->ray[slot] = primary_rays(frame, first);
     all->active[slot] = active;
-    all->deepest[slot] = int_of(0);
+    all->pixels[slot] = pixels_of_group(group);
+    all->deepest = int_of(0);
 #if GATHERS
     all->radiance[slot] = real3_of(real_of(0), real_of(0), real_of(0));
 #endif
-#if GLINT_SPLIT
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        all->waiting[slot].count[lane] = 0;
-    }
-#endif
 }
 
-// Takes the paths of a group, which stand in a slot, on from what they have met: those that escaped
-// are looked up, the others go on from their surfaces, or with a branch that waited. `first` says
-// what primary rays are, and is NULL for others.
+// Takes the paths in a slot on from what they have met: those that escaped are looked up, the
+// others go on from their surfaces. `first` says what primary rays are, and is NULL for others.
 static inline void advance_paths(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const image_space *image, const primary *first, int group,
-                                 int slot, closest *hit, paths *all, lookups *later, tally *tally)
+                                 const image_space *image, const primary *first, int slot,
+                                 closest *hit, paths *all, lookups *later, tally *tally)
 {
     mask active = all->active[slot];
     mask met = active & (hit->place >= (lane_int)0);
@@ -261,63 +277,56 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
         const path *ray = &all->ray[slot];
         look_up_later(later, &scene->environment, turn_into_environment(frame, ray->direction),
-                      ray->weight, escaped, group);
+                      ray->weight, escaped, &all->pixels[slot]);
     }
     active = mask_none();
 #if GLINT_GEOMETRY
-    mask ended = escaped;
     if (any_lane(met)) {
         triangle triangles = load_triangles(scene, hit->place, met);
         if (first != 0) {
             measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, hit);
         }
         lanes_int depth = all->ray[slot].met + (lane_int)1;
-        lanes_int deepest = all->deepest[slot];
-        all->deepest[slot] = SELECT(met & (depth > deepest), depth, deepest);
+        all->deepest = SELECT(met & (depth > all->deepest), depth, all->deepest);
         active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);
-        ended = ended | (met & !active);
     }
-#if GLINT_SPLIT
-    if (any_lane(ended)) {
-        active = active | pop_branch(&all->waiting[slot], &all->ray[slot], ended);
-    }
-#endif
 #endif
     all->active[slot] = active;
 }
 
 static inline void count_deepest(const paths *all, tally *tally)
 {
-    lanes_int deepest = all->deepest[0];
-    for (int i = 1; i < PATH_GROUPS; i++) {
-        deepest = LARGER(all->deepest[i], deepest);
-    }
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        ulong depth = (ulong)LANE_INT(deepest, lane);
+        ulong depth = (ulong)LANE_INT(all->deepest, lane);
         tally->counts[GLINT_COUNT_DEEPEST] = max(tally->counts[GLINT_COUNT_DEEPEST], depth);
     }
 }
 
-// Follows the primary rays of some groups, which stand in `first`, to their ends; those in the
-// first slot are of `first_group`.
+// Follows the primary rays of some groups, which stand in `first`, to their ends.
 static inline void follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
-                                const image_space *image, const primary *first, int first_group,
-                                paths *all, lookups *later, tally *tally)
+                                const image_space *image, const primary *first, paths *all,
+                                lookups *later, tally *tally)
 {
     closest hits[PATH_GROUPS];
     for (int i = 0; i < PATH_GROUPS; i++) {
         hits[SLOT(i)] = no_hit();
         hits[SLOT(i)].place = first[SLOT(i)].places;
     }
+#if GLINT_SPLIT
+    no_branches(&all->branches);
+#endif
     for (bool are_primary = true; are_primary || any_active(all->active); are_primary = false) {
         if (!are_primary) {
             trace_groups(scene, all->ray, all->active, hits);
         }
         for (int i = 0; i < PATH_GROUPS; i++) {
             if (any_lane(all->active[SLOT(i)])) {
-                advance_paths(scene, frame, image, are_primary ? &first[SLOT(i)] : 0,
-                              first_group + i, SLOT(i), &hits[SLOT(i)], all, later, tally);
+                advance_paths(scene, frame, image, are_primary ? &first[SLOT(i)] : 0, SLOT(i),
+                              &hits[SLOT(i)], all, later, tally);
             }
         }
+#if GLINT_SPLIT
+        take_branches(&all->branches, all->ray, all->pixels, all->active);
+#endif
     }
 }

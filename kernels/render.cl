@@ -1,6 +1,5 @@
 // The entry point: one work-item renders one tile of pixels, sample by sample: it finds what the
-// primary rays meet, all at once, and then follows every path to its end, the groups of the tile
-// together or, where paths split, one by one.
+// primary rays meet, all at once, and then follows every path to its end.
 //
 // The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
 // GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_HALF_TEXELS, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS,
@@ -38,10 +37,11 @@
 #include "bundle.cl"
 #include "tile.cl"
 #include "traverse_tile.cl"
-#include "lookups.cl"
 #include "shade.cl"
 #include "scatter.cl"
 #include "branches.cl"
+#include "lookups.cl"
+#include "stream.cl"
 #include "traverse_together.cl"
 #include "paths.cl"
 
@@ -129,9 +129,9 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
         for (int i = 0; i < PATH_GROUPS; i++) {
             const int g = first_group + i;
             first[SLOT(i)] = primary_of(t, g);
-            begin_paths(frame, &first[SLOT(i)], SLOT(i), inside[g], &all);
+            begin_paths(frame, &first[SLOT(i)], SLOT(i), g, inside[g], &all);
         }
-        follow_paths(scene, frame, image, first, first_group, &all, later, tally);
+        follow_paths(scene, frame, image, first, &all, later, tally);
         count_deepest(&all, tally);
 #if GATHERS
         for (int i = 0; i < PATH_GROUPS; i++) {

@@ -289,20 +289,6 @@ static inline mask covers_exactly(const block vertices[4], global const float *c
     return image_weights(&c, x, y, weights);
 }
 
-// Of two triangles at one depth the one with the lower number in the scene is seen.
-static inline mask has_lower_number(global const int *numbers, int place, lanes_int other,
-                                    mask wanted)
-{
-    lanes_int lower = int_of(0);
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        if (lane_is_set(wanted, lane)) {
-            int rival = (int)LANE_INT(other, lane);
-            LANE_INT(lower, lane) = rival < 0 || numbers[place] < numbers[rival];
-        }
-    }
-    return lower != (lane_int)0;
-}
-
 // Tests triangle i of a cluster against the pixels of one group; true if any sees it.
 static inline bool meet_group(const image_space *s, tile *t, const image_triangles *triangles,
                               const block vertices[4], global const float *cluster,

@@ -1,13 +1,11 @@
 // Closest hits of the rays of a tile, group by group, in the wide tree. Groups whose rays run about
 // the same way and stay close to each other go through the tree together, as one frustum around
 // theirs, with one stack; otherwise each goes alone. A node's boxes are tested all at once against
-// the frustum; where a group's rays spread apart, a node that passes is then tested against each
-// ray, so that they do not visit all that lies between. At a leaf each group has its turn
-// (bundle.cl). The same hits in any company, bit for bit.
+// the frustum, and at a leaf each group has its turn (bundle.cl). Where a group's own rays spread
+// apart they join a stream instead (stream.cl). The same hits in any company, bit for bit.
 
-// Groups of a tile whose paths are followed at the same time. Where paths split that is one: each
-// group needs a stack of branches then, and rays that spread gain nothing from company.
-#define PATH_GROUPS (GLINT_INTERREFLECTION && !GLINT_SPLIT ? TILE_GROUPS : 1)
+// Groups of rays that are followed at the same time.
+#define PATH_GROUPS (GLINT_INTERREFLECTION || GLINT_SPLIT ? TILE_GROUPS : 1)
 // The place of one of them; a constant where there is only one, so that compilers see that it is.
 #define SLOT(i) (PATH_GROUPS == 1 ? 0 : (i))
 
@@ -33,7 +31,6 @@ static inline closest no_hit(void)
     hit.b1 = real_of(0);
     hit.b2 = real_of(0);
     hit.place = int_of(-1);
-    hit.triangle = int_of(0x7fffffff);
     return hit;
 }
 
@@ -195,12 +192,6 @@ static inline void trace_party(party *p, group_frusta *f, bundle *bundles,
             meet_leaf(p, f, bundles, scene, &next, rays, hits);
             continue;
         }
-        if (p->bounds.wide && next.child > 0) {
-            int g = SLOT(lowest_bit(p->groups));
-            if (rays_at_box(&bundles[g], scene, next.box, &hits[g]) == 0) {
-                continue;
-            }
-        }
         size = push_children(p, scene, next.child, stack, size);
     }
 }
@@ -218,6 +209,45 @@ static inline void choose_axis(const packet *packets, const mask *left, int *alo
     *sign = LANE(p->direction[*along], leader) > 0 ? R(1.0) : R(-1.0);
 }
 
+#if GLINT_GEOMETRY && GLINT_INTERREFLECTION
+// What is left of the rays of a tile's groups to trace.
+typedef struct crowd {
+    packet packets[PATH_GROUPS];
+    bundle bundles[PATH_GROUPS];
+    mask left[PATH_GROUPS];
+    stream apart; // of the rays of wide groups
+} crowd;
+
+// Takes the rays that run along the axis, upwards or downwards, out of those that are left: groups
+// whose frusta are narrow, as bits, are returned and have these set; the rays of the others join
+// the stream.
+static inline uint divide_crowd(crowd *c, const path *rays, int along, scalar sign,
+                                group_frusta *frusta)
+{
+    uint narrow = 0;
+    *frusta = empty_frusta();
+    c->apart.count = 0;
+    for (int g = 0; g < PATH_GROUPS; g++) {
+        if (!any_lane(c->left[g])) {
+            continue;
+        }
+        mask together = rays_along(&rays[g].direction, along, sign, c->left[g]);
+        if (!any_lane(together)) {
+            continue;
+        }
+        c->left[g] = c->left[g] & !together;
+        c->bundles[g] = make_bundle(&c->packets[g], along, sign, together);
+        if (c->bundles[g].bounds.wide) {
+            join_stream(&c->apart, &c->packets[g], g, together, rays[g].from);
+        } else {
+            narrow |= 1u << g;
+            set_frustum(frusta, g, &c->bundles[g].bounds);
+        }
+    }
+    return narrow;
+}
+#endif
+
 // The closest hits of the rays that are active and not to be looked up.
 static inline void trace_groups(const scene_buffers *scene, const path *rays, const mask *active,
                                 closest *hits)
@@ -226,52 +256,31 @@ static inline void trace_groups(const scene_buffers *scene, const path *rays, co
         hits[SLOT(g)] = no_hit();
     }
 #if GLINT_GEOMETRY && GLINT_INTERREFLECTION
-    packet packets[PATH_GROUPS];
-    bundle bundles[PATH_GROUPS];
-    mask left[PATH_GROUPS];
+    crowd c;
     for (int g = 0; g < PATH_GROUPS; g++) {
         const path *ray = &rays[g];
-        left[g] =
+        c.left[g] =
             active[g] & (ray->looked_up == (lane_int)0) & is_sound(ray->origin, ray->direction);
-        if (any_lane(left[g])) {
-            packets[g] = make_packet(ray->origin, ray->direction);
+        if (any_lane(c.left[g])) {
+            c.packets[g] = make_packet(ray->origin, ray->direction);
         }
     }
-    while (any_active(left)) {
+    while (any_active(c.left)) {
         int along;
         scalar sign;
-        choose_axis(packets, left, &along, &sign);
-        group_frusta frusta = empty_frusta();
-        uint groups = 0, alone = 0;
-        for (int g = 0; g < PATH_GROUPS; g++) {
-            mask together = mask_none();
-            if (any_lane(left[g])) {
-                together = rays_along(&rays[g].direction, along, sign, left[g]);
-            }
-            if (any_lane(together)) {
-                bundles[g] = make_bundle(&packets[g], along, sign, together);
-                groups |= 1u << g;
-                if (bundles[g].bounds.wide) {
-                    alone |= 1u << g;
-                } else {
-                    set_frustum(&frusta, g, &bundles[g].bounds);
-                }
-                left[g] = left[g] & !together;
-            }
-        }
-        party p;
-        const uint near = groups & ~alone;
-        if (!has_several_bits(near) || !enclose_frusta(&frusta, along, sign, &p.bounds)) {
-            alone = groups;
-        }
+        choose_axis(c.packets, c.left, &along, &sign);
+        group_frusta frusta;
+        uint groups = divide_crowd(&c, rays, along, sign, &frusta);
+        trace_stream(&c.apart, scene, along, sign, hits);
+        frustum around;
+        const bool together =
+            has_several_bits(groups) && enclose_frusta(&frusta, along, sign, &around);
         while (groups != 0) {
-            p.groups = groups & ~alone;
-            if (p.groups == 0) {
-                p.groups = groups & -groups;
-                p.bounds = bundles[SLOT(lowest_bit(groups))].bounds;
-            }
+            party p;
+            p.groups = together ? groups : groups & -groups;
+            p.bounds = together ? around : c.bundles[SLOT(lowest_bit(groups))].bounds;
             p.farthest = SCENE_END;
-            trace_party(&p, &frusta, bundles, scene, rays, hits);
+            trace_party(&p, &frusta, c.bundles, scene, rays, hits);
             groups &= ~p.groups;
         }
     }

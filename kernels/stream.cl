@@ -1,0 +1,163 @@
+// Closest hits of the rays of a tile that have too little in common for a frustum: a stream of them
+// goes through the tree together, node by node, with a list of those that each child's box is met
+// by. A ray is tested against all boxes of a node at once, and against all triangles of a leaf: the
+// tests of one ray do not wait for another's, and a node or a leaf is fetched once for all.
+
+#define STREAM_RAYS (TILE_GROUPS * GLINT_WIDTH)
+// Lists end with up to a block's lanes that mean nothing.
+#define STREAM_PADDING 16
+
+typedef struct stream_ray {
+    lone_ray ray;
+    scalar inverse[3], widening[3]; // see boxes_at_ray
+    int near[3];                    // where a node's near sides stand
+    scalar farthest;
+    int group, lane; // of the packets
+} stream_ray;
+
+// The rays that may meet a node or leaf: numbers in stream.list.
+typedef struct stream_child {
+    int child, first, count;
+} stream_child;
+
+typedef struct stream {
+    int count;
+    stream_ray rays[STREAM_RAYS];
+    int list[STREAM_RAYS * GLINT_TRAVERSAL_STACK + STREAM_PADDING]; // of all that waits
+    // Of the node at hand: its rays, and the children that each of them may meet, as bits.
+    int here[STREAM_RAYS + STREAM_PADDING], met[STREAM_RAYS + STREAM_PADDING];
+} stream;
+
+static inline void join_stream(stream *s, const packet *p, int group, mask these, lanes_int from)
+{
+    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        stream_ray *r = &s->rays[s->count++];
+        r->ray = take_ray(p, lane, from);
+#pragma unroll
+        for (int k = 0; k < 3; k++) {
+            r->inverse[k] = LANE(p->inverse[k], lane);
+            r->widening[k] = FRUSTUM_SLACK * fabs(r->inverse[k]);
+            r->near[k] = (r->inverse[k] > R(0.0) ? k : 3 + k) * GLINT_BVH_WIDTH;
+        }
+        r->farthest = SCENE_END;
+        r->group = group;
+        r->lane = lane;
+    }
+}
+
+// The boxes of a node that a ray may meet before its farthest hit, as bits. As rays_meet_box.
+static inline uint boxes_at_ray(const stream_ray *r, node_pointer node)
+{
+    boxes near = (boxes)R(0.0), far = (boxes)r->farthest;
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        node_pointer near_side = node + r->near[k];
+        node_pointer far_side = node + (2 * k + 3) * GLINT_BVH_WIDTH - r->near[k];
+        const boxes inverse = (boxes)r->inverse[k], widening = (boxes)r->widening[k];
+        boxes enter = fused(load_boxes(near_side) - r->ray.origin[k], inverse, -widening);
+        boxes leave = fused(load_boxes(far_side) - r->ray.origin[k], inverse, widening);
+        near = LARGER(enter, near);
+        far = SMALLER(leave, far);
+    }
+    return box_bits(near <= far * FAR_SLACK);
+}
+
+// The numbers of the rays at hand that may meet a child, into `list`; returns how many.
+static inline int list_rays(const stream *s, int count, int child, int *list)
+{
+    int listed = 0;
+    for (int i = 0; i < count; i += 16) {
+        int16 met = vload16(0, s->met + i) & (int16)(1 << child);
+        uint bits = bits_of_int16(met != 0);
+        bits &= i + 16 > count ? (1u << (count - i)) - 1 : 0xffff;
+        store_chosen(vload16(0, s->here + i), bits, list + listed);
+        listed += (int)popcount(bits);
+    }
+    return listed;
+}
+
+// Children in the order of falling distance along the axis.
+static inline int order_children(node_pointer node, uint met, int along, scalar sign,
+                                 int children[GLINT_BVH_WIDTH])
+{
+    boxes near = load_boxes(node + (sign > 0 ? along : 3 + along) * GLINT_BVH_WIDTH) * sign;
+    scalar distances[GLINT_BVH_WIDTH];
+    int count = 0;
+    for (; met != 0; met &= met - 1) {
+        const int child = lowest_bit(met);
+        const scalar distance = ((scalar *)&near)[child];
+        int i = count++;
+        for (; i > 0 && distances[i - 1] <= distance; i--) {
+            distances[i] = distances[i - 1];
+            children[i] = children[i - 1];
+        }
+        distances[i] = distance;
+        children[i] = child;
+    }
+    return count;
+}
+
+static inline void stream_meets_leaf(stream *s, const stream_child *leaf,
+                                     const scene_buffers *scene, closest *hits)
+{
+    const int index = ~leaf->child;
+    global const float *cluster = scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES;
+    for (int i = 0; i < leaf->count; i++) {
+        stream_ray *r = &s->rays[s->list[leaf->first + i]];
+        closest *hit = &hits[r->group];
+        if (intersect_by_ray(&r->ray, cluster, scene->numbers, index * GLINT_CLUSTER_LANES, hit,
+                             r->lane)) {
+            r->farthest = LANE(hit->t, r->lane);
+        }
+    }
+}
+
+// Puts the children that some ray may meet on the stack, the nearest on top, in place of the node.
+static inline int push_children_of_stream(stream *s, const stream_child *parent,
+                                          const scene_buffers *scene, int along, scalar sign,
+                                          stream_child *stack, int size)
+{
+    node_pointer node = node_at(scene, parent->child);
+    uint met = 0;
+    for (int i = 0; i < parent->count; i++) {
+        s->here[i] = s->list[parent->first + i];
+        s->met[i] = (int)boxes_at_ray(&s->rays[s->here[i]], node);
+        met |= (uint)s->met[i];
+    }
+    int children[GLINT_BVH_WIDTH];
+    const int count = order_children(node, met, along, sign, children);
+    int end = parent->first;
+    for (int i = 0; i < count; i++) {
+        stream_child *next = &stack[size++];
+        next->child = child_of(node, children[i]);
+        next->first = end;
+        next->count = list_rays(s, parent->count, children[i], s->list + end);
+        end += next->count;
+        prefetch_child(scene, next->child);
+    }
+    return size;
+}
+
+// The closest hits of the stream's rays, which run along one axis, upwards or downwards.
+static inline void trace_stream(stream *s, const scene_buffers *scene, int along, scalar sign,
+                                closest *hits)
+{
+    stream_child stack[GLINT_TRAVERSAL_STACK];
+    for (int i = 0; i < s->count; i++) {
+        s->list[i] = i;
+    }
+    stack[0].child = 0;
+    stack[0].first = 0;
+    stack[0].count = s->count;
+    int size = s->count > 0 ? 1 : 0;
+    while (size > 0) {
+        const stream_child next = stack[--size];
+        if (next.child < 0) {
+            stream_meets_leaf(s, &next, scene, hits);
+        } else {
+            size = push_children_of_stream(s, &next, scene, along, sign, stack, size);
+        }
+    }
+    s->count = 0;
+}
