@@ -42,6 +42,27 @@ static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int 
     return mask_bits(b->active & rays_meet_box(b->rays, node, box % GLINT_BVH_WIDTH, hit->t));
 }
 
+// Tests some rays against all triangles of a cluster, which stand from place `first` on. True if
+// one has met a triangle.
+static inline bool intersect_by_rays(const packet *p, uint rays, lanes_int from,
+                                     global const float *cluster, global const int *numbers,
+                                     int first, closest *hit)
+{
+    lone_ray alone[GLINT_WIDTH];
+    cluster_test tests[GLINT_WIDTH];
+    int count = 0;
+    for (uint left = rays; left != 0; left &= left - 1) {
+        alone[count] = take_ray(p, lowest_bit(left), from);
+        test_cluster(&alone[count], cluster, first, &tests[count]);
+        count++;
+    }
+    bool found = false;
+    for (int i = 0; i < count; i++, rays &= rays - 1) {
+        found |= take_nearest(&alone[i], &tests[i], cluster, numbers, first, hit, lowest_bit(rays));
+    }
+    return found;
+}
+
 // With more triangles than this it pays to find the rays that meet the cluster at all.
 #define SPARSE_TRIANGLES 4
 
@@ -58,12 +79,7 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
     if (GLINT_WIDTH > 1 && popcount(met) > SPARSE_TRIANGLES) {
         uint rays = rays_at_box(b, scene, box, hit);
         if (popcount(rays) < popcount(met)) {
-            for (; rays != 0; rays &= rays - 1) {
-                int ray = lowest_bit(rays);
-                const lone_ray alone = take_ray(b->rays, ray, from);
-                found |= intersect_by_ray(&alone, cluster, scene->numbers, first, hit, ray);
-            }
-            return found;
+            return intersect_by_rays(b->rays, rays, from, cluster, scene->numbers, first, hit);
         }
     }
     for (; met != 0; met &= met - 1) {

@@ -183,11 +183,18 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
     return ray;
 }
 
-// The same test of one ray against all triangles of a cluster, which stand from place `first` on:
-// operation by operation that of intersect_triangle, so that both find the same. The ray's hit is
-// in a lane of *hit.
-static inline bool intersect_by_ray(const lone_ray *ray, global const float *cluster,
-                                    global const int *numbers, int first, closest *hit, int lane)
+// A ray against all triangles of a cluster: bits say for which the ray is inside or, perhaps by
+// rounding alone, on an edge; u, v and w as in intersect_triangle.
+typedef struct cluster_test {
+    uint inside, on_edge;
+    block u, v, w;
+} cluster_test;
+
+// The first half of intersect_triangle for one ray and the triangles of a cluster, which stand from
+// place `first` on: operation by operation the same. Without a branch, so that one ray's test does
+// not wait for another's.
+static inline void test_cluster(const lone_ray *ray, global const float *cluster, int first,
+                                cluster_test *test)
 {
     const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
     const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
@@ -199,44 +206,72 @@ static inline bool intersect_by_ray(const lone_ray *ray, global const float *clu
     block up =
         fused(shear_y, depth, load_block(cluster + y * GLINT_CLUSTER_LANES) - ray->origin[y]);
     global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
-    block cx[3], cy[3], cz[3];
-#pragma unroll
-    for (int k = 0; k < 3; k++) {
-        uchar16 lanes = vload16(k, corners);
-        cx[k] = permute_block(across, lanes);
-        cy[k] = permute_block(up, lanes);
-        cz[k] = permute_block(depth, lanes);
-    }
-    block u = cx[2] * cy[1] - cy[2] * cx[1], v = cx[0] * cy[2] - cy[0] * cx[2];
-    block w = cx[1] * cy[0] - cy[1] * cx[0];
+    const uchar16 a = vload16(0, corners), b = vload16(1, corners), c = vload16(2, corners);
+    block ax = permute_block(across, a), ay = permute_block(up, a);
+    block bx = permute_block(across, b), by = permute_block(up, b);
+    block cx = permute_block(across, c), cy = permute_block(up, c);
+    block u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
     block least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
-    block determinant = u + v + w;
-    block_mask inside = ((least >= R(0.0)) | (most <= R(0.0))) & (determinant != R(0.0)) &
+    block_mask inside = ((least >= R(0.0)) | (most <= R(0.0))) & (u + v + w != R(0.0)) &
                         (BLOCK_LANES < (scalar)count) &
                         (BLOCK_LANES != (scalar)(ray->from - first));
-    if (block_bits(inside) == 0) {
-        return false;
-    }
-    if (block_bits(inside & ((least == R(0.0)) | (most == R(0.0)))) != 0) {
-        inside &=
-            (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) & (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) &
-            (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) & (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
-    }
-    block inverse = R(1.0) / SELECT(inside, determinant, block_of(1));
-    block t = fused(u, cz[0], fused(v, cz[1], w * cz[2])) * ray->shear_z * inverse;
-    t = SELECT(inside & (t > R(0.0)) & (t <= LANE(hit->t, lane)), t, block_of(HUGE));
-    scalar nearest = smallest_of_16(t);
-    uint found = nearest < HUGE ? block_bits(t == nearest) : 0;
-    bool nearer = false;
-    for (; found != 0; found &= found - 1) {
-        const int i = lowest_bit(found), rival = (int)LANE_INT(hit->place, lane);
-        if (nearest < LANE(hit->t, lane) || numbers[first + i] < numbers[rival]) {
-            LANE(hit->t, lane) = nearest;
-            LANE(hit->b1, lane) = ((scalar *)&v)[i] * ((scalar *)&inverse)[i];
-            LANE(hit->b2, lane) = ((scalar *)&w)[i] * ((scalar *)&inverse)[i];
-            LANE_INT(hit->place, lane) = first + i;
-            nearer = true;
+    test->inside = block_bits(inside);
+    test->on_edge = block_bits(inside & ((least == R(0.0)) | (most == R(0.0))));
+    test->u = u;
+    test->v = v;
+    test->w = w;
+}
+
+// The second half, for triangle i: whether it is hit before *hit, in one lane of which the ray's
+// hit is. Then it takes its place.
+static inline bool take_if_nearer(const lone_ray *ray, const cluster_test *test, int i,
+                                  global const float *cluster, global const int *numbers, int first,
+                                  closest *hit, int lane)
+{
+    float at[9];
+    load_triangle(cluster, i, at);
+    const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
+    const scalar *o = ray->origin;
+    const scalar az = at[z] - o[z], bz = at[3 + z] - o[z], cz = at[6 + z] - o[z];
+    if (test->on_edge & (1u << i)) {
+        const scalar ax = fused(-ray->shear_x, az, at[x] - o[x]),
+                     ay = fused(-ray->shear_y, az, at[y] - o[y]),
+                     bx = fused(-ray->shear_x, bz, at[3 + x] - o[x]),
+                     by = fused(-ray->shear_y, bz, at[3 + y] - o[y]),
+                     cx = fused(-ray->shear_x, cz, at[6 + x] - o[x]),
+                     cy = fused(-ray->shear_y, cz, at[6 + y] - o[y]);
+        if (!(SMALLEST3(ax, bx, cx) <= R(0.0) && LARGEST3(ax, bx, cx) >= R(0.0) &&
+              SMALLEST3(ay, by, cy) <= R(0.0) && LARGEST3(ay, by, cy) >= R(0.0))) {
+            return false;
         }
     }
-    return nearer;
+    const scalar u = ((const scalar *)&test->u)[i], v = ((const scalar *)&test->v)[i],
+                 w = ((const scalar *)&test->w)[i];
+    const scalar inverse = R(1.0) / (u + v + w);
+    const scalar t = fused(u, az, fused(v, bz, w * cz)) * ray->shear_z * inverse;
+    const scalar before = LANE(hit->t, lane);
+    if (!(t > R(0.0) && t <= before)) {
+        return false;
+    }
+    const int rival = (int)LANE_INT(hit->place, lane);
+    if (t == before && rival >= 0 && numbers[first + i] > numbers[rival]) {
+        return false;
+    }
+    LANE(hit->t, lane) = t;
+    LANE(hit->b1, lane) = v * inverse;
+    LANE(hit->b2, lane) = w * inverse;
+    LANE_INT(hit->place, lane) = first + i;
+    return true;
+}
+
+// The triangles of the cluster that the test found, against the ray's hit. True if one is nearer.
+static inline bool take_nearest(const lone_ray *ray, const cluster_test *test,
+                                global const float *cluster, global const int *numbers, int first,
+                                closest *hit, int lane)
+{
+    bool found = false;
+    for (uint left = test->inside; left != 0; left &= left - 1) {
+        found |= take_if_nearer(ray, test, lowest_bit(left), cluster, numbers, first, hit, lane);
+    }
+    return found;
 }

@@ -6,6 +6,10 @@
 #define STREAM_RAYS (TILE_GROUPS * GLINT_WIDTH)
 // Lists end with up to a block's lanes that mean nothing.
 #define STREAM_PADDING 16
+// Rays that are tested against a leaf before the first of them takes what it has met.
+#define STREAM_TESTS 8
+// So many do not visit a node's children in the order of their distance.
+#define FEW_RAYS 4
 
 typedef struct stream_ray {
     lone_ray ray;
@@ -77,10 +81,12 @@ static inline int list_rays(const stream *s, int count, int child, int *list)
     return listed;
 }
 
-// Children in the order of falling distance along the axis.
-static inline int order_children(node_pointer node, uint met, int along, scalar sign,
+// The children to visit, the last one first: in the order of falling distance along the axis or,
+// for few rays, which would not earn it back, as they stand.
+static inline int order_children(node_pointer node, uint met, int rays, int along, scalar sign,
                                  int children[GLINT_BVH_WIDTH])
 {
+    const bool in_order = rays > FEW_RAYS;
     boxes near = load_boxes(node + (sign > 0 ? along : 3 + along) * GLINT_BVH_WIDTH) * sign;
     scalar distances[GLINT_BVH_WIDTH];
     int count = 0;
@@ -88,7 +94,7 @@ static inline int order_children(node_pointer node, uint met, int along, scalar 
         const int child = lowest_bit(met);
         const scalar distance = ((scalar *)&near)[child];
         int i = count++;
-        for (; i > 0 && distances[i - 1] <= distance; i--) {
+        for (; in_order && i > 0 && distances[i - 1] <= distance; i--) {
             distances[i] = distances[i - 1];
             children[i] = children[i - 1];
         }
@@ -103,12 +109,20 @@ static inline void stream_meets_leaf(stream *s, const stream_child *leaf,
 {
     const int index = ~leaf->child;
     global const float *cluster = scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES;
-    for (int i = 0; i < leaf->count; i++) {
-        stream_ray *r = &s->rays[s->list[leaf->first + i]];
-        closest *hit = &hits[r->group];
-        if (intersect_by_ray(&r->ray, cluster, scene->numbers, index * GLINT_CLUSTER_LANES, hit,
-                             r->lane)) {
-            r->farthest = LANE(hit->t, r->lane);
+    const int first = index * GLINT_CLUSTER_LANES;
+    const int *list = s->list + leaf->first;
+    cluster_test tests[STREAM_TESTS];
+    for (int begin = 0; begin < leaf->count; begin += STREAM_TESTS) {
+        const int count = min(leaf->count - begin, STREAM_TESTS);
+        for (int i = 0; i < count; i++) {
+            test_cluster(&s->rays[list[begin + i]].ray, cluster, first, &tests[i]);
+        }
+        for (int i = 0; i < count; i++) {
+            stream_ray *r = &s->rays[list[begin + i]];
+            closest *hit = &hits[r->group];
+            if (take_nearest(&r->ray, &tests[i], cluster, scene->numbers, first, hit, r->lane)) {
+                r->farthest = LANE(hit->t, r->lane);
+            }
         }
     }
 }
@@ -126,7 +140,7 @@ static inline int push_children_of_stream(stream *s, const stream_child *parent,
         met |= (uint)s->met[i];
     }
     int children[GLINT_BVH_WIDTH];
-    const int count = order_children(node, met, along, sign, children);
+    const int count = order_children(node, met, parent->count, along, sign, children);
     int end = parent->first;
     for (int i = 0; i < count; i++) {
         stream_child *next = &stack[size++];

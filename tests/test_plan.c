@@ -178,6 +178,28 @@ static void the_stack_holds_every_branch_that_the_least_weight_allows(void **sta
     assert_non_null(strstr(plan.stack_reason, "truncated"));
 }
 
+static void the_plan_says_how_secondary_rays_are_traced(void **state)
+{
+    (void)state;
+    test_scene s;
+    glint_material mirror = white_paint;
+    mirror.metallic = 1;
+    make_scene(&s, &mirror, 1);
+    glint_settings settings = glint_settings_default;
+    glint_plan plan;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_non_null(strstr(plan.secondary, "together"));
+    settings.tile_packets = 1;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_null(strstr(plan.secondary, "together"));
+    settings.kernel_width = 1;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_string_equal(plan.secondary, "one by one");
+    settings.depth = 1;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_string_equal(plan.secondary, "none");
+}
+
 static void media_take_as_few_bits_as_can_name_them(void **state)
 {
     (void)state;
@@ -311,6 +333,7 @@ int main(void)
         cmocka_unit_test(unlit_and_blended_materials_hide_their_other_factors),
         cmocka_unit_test(the_width_follows_the_device),
         cmocka_unit_test(the_stack_holds_every_branch_that_the_least_weight_allows),
+        cmocka_unit_test(the_plan_says_how_secondary_rays_are_traced),
         cmocka_unit_test(media_take_as_few_bits_as_can_name_them),
         cmocka_unit_test(texels_are_half_where_that_does_no_harm),
         cmocka_unit_test(texels_are_what_is_asked_for_or_refused),

@@ -179,6 +179,7 @@ static void print_plan(const glint_subject *subject)
     printf("  %d lanes: %s\n", plan->kernel_width, plan->width_reason);
     printf("  tiles of %d packet%s: %s\n", plan->tiles ? 16 : 1, plan->tiles ? "s" : "",
            plan->tiles_reason);
+    printf("  secondary rays: %s\n", plan->secondary);
     printf("  %s texels: %s\n", plan->half_texels ? "half" : "float", plan->texels_reason);
     if (plan->stack_capacity > 0) {
         printf("  %d waiting branches a ray: %s\n", plan->stack_capacity, plan->stack_reason);

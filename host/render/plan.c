@@ -272,6 +272,20 @@ static void choose_tiles(const glint_settings *settings, glint_plan *plan)
     snprintf(plan->tiles_reason, sizeof plan->tiles_reason, "%s", reason);
 }
 
+// Says what kernels/traverse_together.cl makes of width and tiles.
+static void describe_secondary_rays(glint_plan *plan)
+{
+    const char *how = "packets, together where a tile's run alike, in a stream where they spread";
+    if (!plan->features[GLINT_FEATURE_INTERREFLECTION].compiled) {
+        how = "none";
+    } else if (plan->kernel_width == 1) {
+        how = "one by one";
+    } else if (!plan->tiles) {
+        how = "packets, in a stream where they spread";
+    }
+    snprintf(plan->secondary, sizeof plan->secondary, "%s", how);
+}
+
 // What rounding may add to what is seen of the environment (visible_rmse). Where all is as bright
 // as the mean it comes to 2.1e-4; more means that texels are too dark for half and lose digits.
 #define TEXEL_TOLERANCE 2.5e-4
@@ -417,6 +431,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     }
     choose_width(in, plan);
     choose_tiles(settings, plan);
+    describe_secondary_rays(plan);
     choose_stack(settings, plan);
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;

@@ -87,6 +87,7 @@ typedef struct glint_plan {
     char width_reason[120];
     bool tiles; // a work-item renders 4 × 4 packets, whose primary rays are traced together
     char tiles_reason[120];
+    char secondary[120]; // how rays from one surface to the next are traced
     bool half_texels; // of the environment, else float; the irradiance map's are float always
     char texels_reason[160];
     double texels_rmse; // relative RMSE that half texels add to the environment; 0 with float

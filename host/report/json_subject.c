@@ -79,6 +79,7 @@ json_t *glint_json_plan(const glint_plan *plan)
     glint_json_put_text(object, "kernel_width_reason", plan->width_reason);
     glint_json_put(object, "tile_packets", json_integer(plan->tiles ? 16 : 1));
     glint_json_put_text(object, "tile_packets_reason", plan->tiles_reason);
+    glint_json_put_text(object, "secondary_rays", plan->secondary);
     glint_json_put_text(object, "texels", plan->half_texels ? "half" : "float");
     glint_json_put_text(object, "texels_reason", plan->texels_reason);
     glint_json_put_real(object, "texels_relative_rmse", plan->texels_rmse);
