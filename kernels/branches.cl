@@ -30,6 +30,9 @@ typedef int pixels;
 
 typedef struct branch {
     scalar origin[3], direction[3], weight[3];
+#if GLINT_MIP_LEVELS
+    scalar width, spread; // see cone
+#endif
     lane_int from, media;
     int pixel, met, kind;
 } branch;
@@ -92,6 +95,10 @@ static inline void save_branch(const path *ray, const pixels *pixels, lanes_int 
     save3(b->origin, &ray->origin, lane);
     save3(b->direction, &ray->direction, lane);
     save3(b->weight, &ray->weight, lane);
+#if GLINT_MIP_LEVELS
+    b->width = LANE(ray->cone.width, lane);
+    b->spread = LANE(ray->cone.spread, lane);
+#endif
     b->from = LANE_INT(ray->from, lane);
     b->media = LANE_INT(ray->media, lane);
     b->met = (int)LANE_INT(ray->met, lane);
@@ -161,6 +168,10 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
         restore3(list[i].origin, &ray->origin, lane);
         restore3(list[i].direction, &ray->direction, lane);
         restore3(list[i].weight, &ray->weight, lane);
+#if GLINT_MIP_LEVELS
+        LANE(ray->cone.width, lane) = list[i].width;
+        LANE(ray->cone.spread, lane) = list[i].spread;
+#endif
         LANE_INT(ray->from, lane) = list[i].from;
         LANE_INT(ray->media, lane) = list[i].media;
         LANE_INT(ray->looked_up, lane) = list[i].kind == LOOKED_UP;

@@ -13,7 +13,8 @@ typedef struct cube_point {
 
 // Where a direction of any length but zero meets the cube. On a tie of the largest components the
 // order x, y, z decides, as in ImfEnvmap.h; the border makes both answers agree.
-static inline cube_point find_on_cube(real3 d, int edge)
+// `edge` is the map's or that of one of its levels, which begins at the texel `start`.
+static inline cube_point find_on_cube(real3 d, lanes_int edge, lanes_int start)
 {
     real ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
     mask x_major = (ax >= ay) & (ax >= az);
@@ -32,19 +33,19 @@ static inline cube_point find_on_cube(real3 d, int edge)
     face = SELECT(negative, face + (lane_int)1, face);
 
     // Texel i has its centre at s = (2i + 1)/edge − 1 and stands in column i + 1.
-    scalar half_edge = (scalar)edge * R(0.5);
+    real half_edge = to_real(edge) * R(0.5);
     real per_major = half_edge / major;
-    real column = fused(s, per_major, real_of(half_edge + R(0.5)));
-    real row = fused(t, per_major, real_of(half_edge + R(0.5)));
+    real column = fused(s, per_major, half_edge + R(0.5));
+    real row = fused(t, per_major, half_edge + R(0.5));
     // A direction that is not finite must not read outside: NaN compares false and becomes 0.
-    real last = real_of((scalar)edge + R(0.5));
+    real last = to_real(edge) + R(0.5);
     column = SELECT(column > R(0.0), SMALLER(column, last), real_of(0));
     row = SELECT(row > R(0.0), SMALLER(row, last), real_of(0));
 
     lanes_int i = to_int_down(column), j = to_int_down(row);
-    lane_int pitch = edge + 2 * GLINT_CUBE_BORDER;
+    lanes_int pitch = edge + (lane_int)(2 * GLINT_CUBE_BORDER);
     cube_point point;
-    point.first = (face * pitch + j) * pitch + i;
+    point.first = start + (face * pitch + j) * pitch + i;
     point.right = column - to_real(i);
     point.down = row - to_real(j);
     return point;
@@ -58,21 +59,22 @@ static inline scalar8 load_texels(const cube_map *map, size_t place)
 }
 
 // Asks the memory for what fetch_from_cube will read.
-static inline void prefetch_texels(const cube_map *map, size_t first)
+static inline void prefetch_texels(const cube_map *map, int edge, size_t first)
 {
     const size_t size = map->are_half ? 4 * sizeof(half) : 4 * sizeof(float);
-    const size_t pitch = (size_t)(map->edge + 2 * GLINT_CUBE_BORDER);
+    const size_t pitch = (size_t)(edge + 2 * GLINT_CUBE_BORDER);
     global const char *texel = (global const char *)map->texels + size * first;
     prefetch_line(texel);
     prefetch_line(texel + size * pitch);
 }
 
-// R, G, B and a fourth value at one ray's point: `first` is its upper left texel. Two texels are a
-// vector of eight, so it is interpolated downwards first, and then to the right: the order is the
-// same for every width, and with it the bits.
-static inline scalar4 fetch_from_cube(const cube_map *map, size_t first, scalar right, scalar down)
+// R, G, B and a fourth value at one ray's point: `first` is its upper left texel, of the map or of
+// a level of the given edge. Two texels are a vector of eight, so it is interpolated downwards
+// first, and then to the right: the order is the same for every width, and with it the bits.
+static inline scalar4 fetch_from_cube(const cube_map *map, int edge, size_t first, scalar right,
+                                      scalar down)
 {
-    size_t pitch = (size_t)(map->edge + 2 * GLINT_CUBE_BORDER);
+    size_t pitch = (size_t)(edge + 2 * GLINT_CUBE_BORDER);
     scalar8 upper = load_texels(map, first), lower = load_texels(map, first + pitch);
     scalar8 sides = fused((scalar8)down, lower - upper, upper);
     return fused((scalar4)right, sides.hi - sides.lo, sides.lo);
@@ -81,13 +83,13 @@ static inline scalar4 fetch_from_cube(const cube_map *map, size_t first, scalar 
 // The value of the map along d, for the rays in `wanted`; the others get 0.
 static inline real3 sample_cube(const cube_map *map, real3 d, mask wanted)
 {
-    cube_point point = find_on_cube(d, map->edge);
+    cube_point point = find_on_cube(d, int_of(map->edge), int_of(0));
     real3 value = real3_of(real_of(0), real_of(0), real_of(0));
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
         if (!lane_is_set(wanted, lane)) {
             continue;
         }
-        scalar4 found = fetch_from_cube(map, (size_t)LANE_INT(point.first, lane),
+        scalar4 found = fetch_from_cube(map, map->edge, (size_t)LANE_INT(point.first, lane),
                                         LANE(point.right, lane), LANE(point.down, lane));
         LANE(value.x, lane) = found.x;
         LANE(value.y, lane) = found.y;

@@ -27,6 +27,7 @@
     FEATURE(SUPERSAMPLING, "several samples a pixel")                                              \
     FEATURE(TRANSPARENT, "the background is left out and alpha kept")                              \
     FEATURE(ENV_ROTATION, "the environment is turned about +Y")                                    \
+    FEATURE(MIP_LEVELS, "the environment is averaged over what a pixel sees of it")                \
     FEATURE(HITS, "a pixel holds what its ray met instead of a colour")
 
 #endif

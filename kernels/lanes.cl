@@ -490,6 +490,16 @@ static inline real inverse_exponent(real a)
     return real_from_bits(twice_the_bias - bits);
 }
 
+// e of a finite a in [2ᵉ, 2ᵉ⁺¹).
+static inline lanes_int exponent_of(real a)
+{
+#if GLINT_DOUBLE
+    return ((bits_from_real(a) >> 52) & 0x7ff) - 1023;
+#else
+    return ((bits_from_real(a) >> 23) & 0xff) - 127;
+#endif
+}
+
 // The unit vector along `a`, and whether there is one: not for zero, infinite or NaN components.
 static inline real3 normalized(real3 a, mask *valid)
 {

@@ -34,6 +34,9 @@
         -1, -1, -1, 1, -1, -1                                                                      \
     }
 #define GLINT_CUBE_BORDER 1
+// With GLINT_MIP_LEVELS coarser maps follow in the same buffer, each with half of the last one's
+// edge, rounded down, to the edge 1: at most so many with the first.
+#define GLINT_LEVELS_MAX 14
 
 // ---- Tree --------------------------------------------------------------------------------------
 // A node of width B is 7 × B 32-bit values: the children's low x, low y, low z, high x, high y,

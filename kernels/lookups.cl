@@ -11,26 +11,56 @@ typedef struct lookups {
     pixels pixels[LOOKUPS];
     uint wanted[LOOKUPS]; // rays, as bits
     bool white[LOOKUPS];  // all wanted rays weigh 1
-    lanes_int first[LOOKUPS];
-    real right[LOOKUPS], down[LOOKUPS]; // see cube_point
+    cube_point points[LOOKUPS];
+#if GLINT_MIP_LEVELS
+    level_choice levels[LOOKUPS];
+    cube_point coarser[LOOKUPS]; // on the next level
+    int level_count;
+    int level_starts[GLINT_LEVELS_MAX]; // texels before a level
+#endif
     scalar weights[LOOKUPS * PIXEL_VALUES];
     scalar sums[TILE_GROUPS * PIXEL_VALUES]; // R, G, B; the fourth value means nothing
 } lookups;
 
 #define ALL_RAYS ((uint)((1 << GLINT_WIDTH) - 1))
 
-static inline void begin_lookups(lookups *l)
+static inline void begin_lookups(lookups *l, const cube_map *map)
 {
     l->count = 0;
+#if GLINT_MIP_LEVELS
+    l->level_count = 0;
+    int start = 0;
+    for (int edge = map->edge; edge > 0; edge /= 2) {
+        const int pitch = edge + 2 * GLINT_CUBE_BORDER;
+        l->level_starts[l->level_count++] = start;
+        start += GLINT_CUBE_FACES * pitch * pitch;
+    }
+#endif
     for (int i = 0; i < TILE_GROUPS * PIXEL_VALUES; i++) {
         l->sums[i] = 0;
     }
 }
 
+static inline scalar4 fetch_at(const cube_point *point, const cube_map *map, int edge, int lane)
+{
+    return fetch_from_cube(map, edge, (size_t)LANE_INT(point->first, lane),
+                           LANE(point->right, lane), LANE(point->down, lane));
+}
+
 static inline scalar4 look_up(const lookups *l, const cube_map *map, int i, int lane)
 {
-    return fetch_from_cube(map, (size_t)LANE_INT(l->first[i], lane), LANE(l->right[i], lane),
-                           LANE(l->down[i], lane));
+    int edge = map->edge;
+#if GLINT_MIP_LEVELS
+    edge >>= LANE_INT(l->levels[i].level, lane);
+#endif
+    scalar4 light = fetch_at(&l->points[i], map, edge, lane);
+#if GLINT_MIP_LEVELS
+    const scalar blend = LANE(l->levels[i].blend, lane);
+    if (blend > R(0.0)) {
+        light = fused((scalar4)blend, fetch_at(&l->coarser[i], map, edge / 2, lane) - light, light);
+    }
+#endif
+    return light;
 }
 
 // Makes all look-ups that wait.
@@ -55,24 +85,50 @@ static inline void finish_lookups(lookups *l, const cube_map *map)
     l->count = 0;
 }
 
-// Adds what the environment sends against the directions, times the weights, for the rays in
-// `wanted`.
-static inline void look_up_later(lookups *l, const cube_map *map, real3 direction, real3 weight,
+// Finds where the directions of some rays meet the map, for later.
+static inline void find_points(lookups *l, const cube_map *map, const path *rays, real3 direction,
+                               uint wanted, int i)
+{
+#if GLINT_MIP_LEVELS
+    const int last = l->level_count - 1;
+    const level_choice choice = choose_level(&rays->cone, direction, map->edge, last);
+    l->levels[i] = choice;
+    lanes_int edges = int_of(map->edge), starts = int_of(0);
+    if (any_lane((choice.level > (lane_int)0) | (choice.blend > R(0.0)))) {
+        lanes_int next_edges = int_of(0), next = int_of(0);
+        for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+            const int level = (int)LANE_INT(choice.level, lane), after = min(level + 1, last);
+            LANE_INT(edges, lane) = map->edge >> level;
+            LANE_INT(starts, lane) = l->level_starts[level];
+            LANE_INT(next_edges, lane) = map->edge >> after;
+            LANE_INT(next, lane) = l->level_starts[after];
+        }
+        l->coarser[i] = find_on_cube(direction, next_edges, next);
+    }
+#else
+    const lanes_int edges = int_of(map->edge), starts = int_of(0);
+#endif
+    l->points[i] = find_on_cube(direction, edges, starts);
+    for (; wanted != 0; wanted &= wanted - 1) {
+        const int lane = lowest_bit(wanted);
+        prefetch_texels(map, (int)LANE_INT(edges, lane),
+                        (size_t)LANE_INT(l->points[i].first, lane));
+    }
+}
+
+// Adds what the environment sends to the rays in `wanted`, times their weights; `direction` is
+// theirs, turned into the environment.
+static inline void look_up_later(lookups *l, const cube_map *map, const path *rays, real3 direction,
                                  mask wanted, const pixels *pixels)
 {
+    const real3 weight = rays->weight;
     if (l->count == LOOKUPS) {
         finish_lookups(l, map);
     }
     int i = l->count++;
-    cube_point point = find_on_cube(direction, map->edge);
     l->pixels[i] = *pixels;
     l->wanted[i] = mask_bits(wanted);
-    l->first[i] = point.first;
-    l->right[i] = point.right;
-    l->down[i] = point.down;
-    for (uint left = l->wanted[i]; left != 0; left &= left - 1) {
-        prefetch_texels(map, (size_t)LANE_INT(point.first, lowest_bit(left)));
-    }
+    find_points(l, map, rays, direction, l->wanted[i], i);
     mask tinted = (weight.x != R(1.0)) | (weight.y != R(1.0)) | (weight.z != R(1.0));
     l->white[i] = !any_lane(wanted & tinted);
     if (!l->white[i] || l->wanted[i] != ALL_RAYS) {

@@ -62,6 +62,9 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 #if GLINT_ABSORPTION
     ray.travelled = length * JOIN(frame->start[0], frame->start[1]);
 #endif
+#if GLINT_MIP_LEVELS
+    ray.cone = primary_cone(frame, inverse);
+#endif
     ray.from = int_of(-1);
     ray.met = int_of(0);
     ray.media = int_of(0);
@@ -118,6 +121,10 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
     ray->weight = select3(yes, branch->weight, ray->weight);
 #if GLINT_ABSORPTION
     ray->travelled = SELECT(yes, branch->travelled, ray->travelled);
+#endif
+#if GLINT_MIP_LEVELS
+    ray->cone.width = SELECT(yes, branch->cone.width, ray->cone.width);
+    ray->cone.spread = SELECT(yes, branch->cone.spread, ray->cone.spread);
 #endif
     ray->from = SELECT(yes, branch->from, ray->from);
     ray->met = SELECT(yes, branch->met, ray->met);
@@ -220,11 +227,18 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #if GATHERS
     gather(all, slot, multiply(ray->weight, out.emitted), met);
 #endif
+#if GLINT_MIP_LEVELS
+    const real width = width_after(&ray->cone, hit->t);
+    const real spread = ray->cone.spread;
+#endif
     tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
 
     path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
     reflected.weight = multiply(ray->weight, out.reflected_weight);
     reflected.media = out.media_reflected;
+#if GLINT_MIP_LEVELS
+    reflected.cone = leave_surface(width, spread, real_of(1), real_of(2), s.curvature);
+#endif
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, tally);
@@ -233,6 +247,9 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
     transmitted.weight = multiply(ray->weight, out.transmitted_weight);
     transmitted.media = out.media_transmitted;
+#if GLINT_MIP_LEVELS
+    transmitted.cone = leave_surface(width, spread, out.eta, out.bend, s.curvature);
+#endif
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
     end_branch(frame, &transmitted, transmits, tally);
     count_transmissions(&s, transmits, tally);
@@ -276,8 +293,8 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     mask escaped = active & !met;
     if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
         const path *ray = &all->ray[slot];
-        look_up_later(later, &scene->environment, turn_into_environment(frame, ray->direction),
-                      ray->weight, escaped, &all->pixels[slot]);
+        look_up_later(later, &scene->environment, ray, turn_into_environment(frame, ray->direction),
+                      escaped, &all->pixels[slot]);
     }
     active = mask_none();
 #if GLINT_GEOMETRY

@@ -37,6 +37,7 @@
 #include "bundle.cl"
 #include "tile.cl"
 #include "traverse_tile.cl"
+#include "cones.cl"
 #include "shade.cl"
 #include "scatter.cl"
 #include "branches.cl"
@@ -219,7 +220,7 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
 #else
     const int k = 1;
 #endif
-    begin_lookups(&later);
+    begin_lookups(&later, &scene->environment);
     for (int sample = 0; sample < k * k; sample++) {
         tile t;
         begin_tile(&image, frame, column, row, ((scalar)(sample % k) + R(0.5)) / (scalar)k,

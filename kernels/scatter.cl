@@ -8,6 +8,9 @@ typedef struct scattering {
     real3 transmitted, transmitted_weight;
     lanes_int media_transmitted; // the stack of media beyond the surface
     mask total_reflection;
+#if GLINT_MIP_LEVELS
+    real eta, bend; // of the transmitted ray, see leave_surface
+#endif
 #endif
     lanes_int media_reflected;
 } scattering;
@@ -16,7 +19,7 @@ typedef struct scattering {
 // Rule 4, glass: reflectance and transmitted direction. A thin wall is one interface from empty
 // space, whatever the side, and lets light pass straight on.
 static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 *transmitted,
-                                     mask *total_reflection)
+                                     real *bend, mask *total_reflection)
 {
     real squared = transmitted_cosine_squared(s->cosine, eta);
     *total_reflection = !(squared >= R(0.0));
@@ -27,6 +30,7 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
     real reflectance = real_of(0);
 #endif
     reflectance = SELECT(*total_reflection, real_of(1), reflectance);
+    *bend = fused(eta, s->cosine, -cosine_t);
     *transmitted = fold_to_side(refract_direction(v, s->normal, s->cosine, eta, cosine_t),
                                 s->geometric_normal, R(-1.0));
     *transmitted = renormalized(*transmitted);
@@ -97,9 +101,18 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     real solid_eta = cross_solid(scene, s, solid, media, &result.media_transmitted, media_lost);
     eta = SELECT(solid, solid_eta, eta);
 #endif
-    real reflectance = glass_reflectance(s, v, eta, &result.transmitted, &result.total_reflection);
+    real bend;
+    real reflectance =
+        glass_reflectance(s, v, eta, &result.transmitted, &bend, &result.total_reflection);
 #if GLINT_THIN_WALL
-    result.transmitted = select3(HAS_FLAG(*s, GLINT_MATERIAL_THIN), negate(v), result.transmitted);
+    mask thin = HAS_FLAG(*s, GLINT_MATERIAL_THIN);
+    result.transmitted = select3(thin, negate(v), result.transmitted);
+    bend = SELECT(thin, real_of(0), bend);
+    eta = SELECT(thin, real_of(1), eta);
+#endif
+#if GLINT_MIP_LEVELS
+    result.eta = eta;
+    result.bend = bend;
 #endif
     real reflected_glass = glass * reflectance;
     result.reflected_weight =

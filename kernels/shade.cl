@@ -8,6 +8,9 @@ typedef struct path {
 #if GLINT_ABSORPTION
     real travelled; // the segment's length before its origin: primary rays start late
 #endif
+#if GLINT_MIP_LEVELS
+    cone cone;
+#endif
     lanes_int from;      // place of the triangle that the ray starts on, −1: none
     lanes_int met;       // surfaces met so far
     lanes_int media;     // see media.cl
@@ -21,7 +24,10 @@ typedef struct surface {
     real3 geometric_normal; // unit, towards the viewer
     real3 normal;           // unit shading normal, n·v ≥ 0
     real cosine;            // n·v
-    mask outside;           // the viewer is on the side from which the triangle winds left
+#if GLINT_MIP_LEVELS
+    real curvature; // seen from the viewer's side: more than 0 where it is convex
+#endif
+    mask outside; // the viewer is on the side from which the triangle winds left
     real3 base_color, emission;
     real metallic, transmission, ior, blend;
     lanes_int flags, medium;
@@ -128,6 +134,9 @@ static inline void orient_normals(const triangle *t, const path *ray, const clos
     s->outside = facing > R(0.0);
     s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
     s->normal = s->geometric_normal;
+#if GLINT_MIP_LEVELS
+    s->curvature = real_of(0);
+#endif
 #if GLINT_SMOOTH_NORMALS
     const real3 *normals = t->normals;
     // A vertex without a usable normal is (0, 0, 0); then the geometric normal serves.
@@ -144,6 +153,11 @@ static inline void orient_normals(const triangle *t, const path *ray, const clos
     real cosine = dot3(s->normal, v);
     mask away = cosine < R(0.0);
     s->normal = select3(away, negate(s->normal), s->normal);
+#if GLINT_MIP_LEVELS && GLINT_SMOOTH_NORMALS
+    const real curvature = curvature_of(t->vertices, normals);
+    mask turned = dot3(interpolate(normals, hit->b1, hit->b2), s->normal) < R(0.0);
+    s->curvature = SELECT(given & valid, SELECT(turned, -curvature, curvature), s->curvature);
+#endif
     cosine = fabs(cosine);
     s->cosine = SMALLER(cosine, real_of(1));
 }

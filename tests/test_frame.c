@@ -35,7 +35,7 @@ static void render_named(const char *name, const glint_settings *settings, test_
     glint_scene_free(&scene);
 }
 
-// Single precision has half texels here, double has float ones.
+// Single precision has half texels here, double has float ones; one scene is seen through cones.
 static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
 {
     (void)state;
@@ -45,6 +45,7 @@ static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
         for (int precision = 0; precision < (i == 0 ? 2 : 1); precision++) {
             glint_settings settings = small_frame(0);
             settings.precision = precision ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
+            settings.filter = i == 1 ? GLINT_FILTER_MIP : GLINT_FILTER_BILINEAR;
             settings.kernel_width = 1;
             test_frame one, more;
             render_named(names[i], &settings, &one);
@@ -86,6 +87,82 @@ static void half_texels_change_a_frame_by_their_rounding_alone(void **state)
         test_frame_free(&half);
         test_frame_free(&whole);
     }
+}
+
+// Light and dark texels at random.
+static void noise_environment(int edge, glint_environment *environment)
+{
+    *environment = (glint_environment){.layout = GLINT_LAYOUT_CUBE};
+    assert_int_equal(glint_cube_create(edge, &environment->radiance, NULL), GLINT_OK);
+    uint32_t random = 1;
+    for (int k = 0; k < 6 * edge * edge; k++) {
+        float *texel =
+            glint_cube_texel(&environment->radiance, k / edge / edge, k % edge, k / edge % edge);
+        random = random * 1664525u + 1013904223u;
+        texel[0] = texel[1] = texel[2] = (float)(random >> 31);
+    }
+    glint_cube_fill_border(&environment->radiance);
+}
+
+static double rmse_between(const test_frame *a, const test_frame *b)
+{
+    double sum = 0;
+    for (size_t p = 0; p < 4 * 61 * 43; p++) {
+        sum += (a->exact[p] - b->exact[p]) * (a->exact[p] - b->exact[p]);
+    }
+    return sqrt(sum / (4 * 61 * 43));
+}
+
+// Of texels much finer than pixels one look-up is as good as random, off by half of the range; a
+// cone takes a mean, as many samples do. Found: a quarter of the error, both for a mirror and for
+// glass.
+static void cones_see_what_many_samples_see(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"mirror_sphere", "glass_sphere"};
+    glint_environment noise;
+    noise_environment(512, &noise);
+    for (size_t i = 0; i < 2; i++) {
+        glint_scene scene = {0};
+        test_scene_load(names[i], &scene);
+        glint_settings settings = small_frame(3);
+        test_frame one, cones, many;
+        test_render(&scene, &noise, NULL, &settings, &one);
+        settings.filter = GLINT_FILTER_MIP;
+        test_render(&scene, &noise, NULL, &settings, &cones);
+        settings.filter = GLINT_FILTER_BILINEAR;
+        settings.samples_per_axis = 8;
+        test_render(&scene, &noise, NULL, &settings, &many);
+        const double without = rmse_between(&one, &many), with = rmse_between(&cones, &many);
+        print_message("%s: %.4f without cones, %.4f with\n", names[i], without, with);
+        assert_true(with < 0.3 * without);
+        assert_memory_equal(&one.report.rays, &cones.report.rays, sizeof one.report.rays);
+        test_frame_free(&one);
+        test_frame_free(&cones);
+        test_frame_free(&many);
+        glint_scene_free(&scene);
+    }
+    glint_environment_free(&noise);
+}
+
+// Where a pixel sees less than a texel there is nothing to average.
+static void cones_change_nothing_where_texels_are_wide(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    test_scene_load("mirror_sphere", &scene);
+    glint_environment noise;
+    noise_environment(4, &noise);
+    glint_settings settings = small_frame(1);
+    test_frame bilinear, cones;
+    test_render(&scene, &noise, NULL, &settings, &bilinear);
+    settings.filter = GLINT_FILTER_MIP;
+    test_render(&scene, &noise, NULL, &settings, &cones);
+    assert_int_equal(test_count_different(&bilinear.image, &cones.image), 0);
+    test_frame_free(&bilinear);
+    test_frame_free(&cones);
+    glint_environment_free(&noise);
+    glint_scene_free(&scene);
 }
 
 static void features_that_a_scene_does_not_need_change_nothing(void **state)
@@ -343,6 +420,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(packets_of_1_8_and_16_rays_give_the_same_bits),
         cmocka_unit_test(half_texels_change_a_frame_by_their_rounding_alone),
+        cmocka_unit_test(cones_see_what_many_samples_see),
+        cmocka_unit_test(cones_change_nothing_where_texels_are_wide),
         cmocka_unit_test(features_that_a_scene_does_not_need_change_nothing),
         cmocka_unit_test(the_environment_turns_counter_clockwise_seen_from_above),
         cmocka_unit_test(a_sample_grid_is_the_mean_of_its_samples),

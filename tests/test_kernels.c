@@ -328,6 +328,62 @@ static void the_cube_is_exact_at_texel_centres_and_seamless_on_ties(void **state
     at_every_width_and_precision(check_cube);
 }
 
+// Focal lengths of paraxial optics: a concave mirror's is R/2, a surface's R/(1 − η) behind it.
+static void check_cones(probe *p)
+{
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        p->in[i][0] = pow(10, -6 + 12 * (double)i / ELEMENTS);
+        p->in[i][1] = i % 2 ? 1e-3 : -2;
+        p->in[i][2] = 1 / (1.1 + (double)(i % 16) / 10);
+    }
+    run(p, "probe_cones", NULL);
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        const double radius = p->in[i][0], behind = radius / (1 - p->in[i][2]);
+        // Normals are unit vectors to a rounding, their differences a third or more.
+        assert_true(fabs(p->out[i][0] * radius - 1) <= 32 * p->u);
+        assert_true(fabs(p->out[i][1] - radius / 2) <= 40 * p->u * radius);
+        // 1 − η of the rounded η: another eleventh of it at least.
+        assert_true(fabs(p->out[i][2] - behind) <= 40 * p->u * behind);
+        assert_true(fabs(p->out[i][3] + behind) <= 40 * p->u * behind);
+    }
+}
+
+static void cones_are_focused_where_mirrors_and_lenses_focus(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_cones);
+}
+
+static void check_levels(probe *p)
+{
+    static const double odd[] = {0, -0.0, NAN, INFINITY, -INFINITY, 1e-40, 1e38, -1e38};
+    const size_t odd_count = sizeof odd / sizeof *odd;
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        p->in[i][0] = (i % 2 ? 1 : -1) * pow(2, -8 + 12 * (double)i / ELEMENTS);
+        p->in[i][1] = 0.5773503 + 0.4226497 * (double)(i % 7) / 6;
+    }
+    for (size_t i = 0; i < odd_count; i++) {
+        p->in[i][0] = odd[i];
+    }
+    run(p, "probe_levels", NULL);
+    for (size_t i = 0; i < ELEMENTS; i++) {
+        const double level = p->out[i][0], blend = p->out[i][1];
+        // In texels of the first level, 64 to 2 units at the distance 1 / component; half a level
+        // finer than the cone.
+        const double texels = fabs(p->in[i][0]) * 32 / p->in[i][1] * sqrt(0.5);
+        const double wanted = texels > 1 ? fmin(texels, 64) : 1; // NaN: 1
+        assert_true(level >= 0 && level <= 6 && level == floor(level));
+        assert_true(blend >= 0 && (level < 6 ? blend < 1 : blend == 0));
+        assert_true(fabs(exp2(level) * (1 + blend) - wanted) <= 8 * p->u * wanted);
+    }
+}
+
+static void levels_are_as_coarse_as_the_cone_is_wide(void **state)
+{
+    (void)state;
+    at_every_width_and_precision(check_levels);
+}
+
 static double random_share(void)
 {
     static uint64_t random = 7;
@@ -420,6 +476,8 @@ int main(void)
         cmocka_unit_test(directions_agree_with_the_oracle),
         cmocka_unit_test(the_exponential_is_within_four_rounding_errors),
         cmocka_unit_test(vectors_of_any_length_are_normalized_and_hopeless_ones_are_told),
+        cmocka_unit_test(cones_are_focused_where_mirrors_and_lenses_focus),
+        cmocka_unit_test(levels_are_as_coarse_as_the_cone_is_wide),
         cmocka_unit_test(the_cube_is_exact_at_texel_centres_and_seamless_on_ties),
         cmocka_unit_test(the_cube_is_interpolated_alike_at_every_width),
         cmocka_unit_test(half_texels_are_read_exactly_denormal_ones_too),

@@ -169,6 +169,11 @@ const glint_option glint_settings_options[] = {
      .help = "The environment's texels on the device: half is faster and holds values up to 65504; "
              "auto takes it where rounding to it does no harm, and float for precision double.",
      .fallback = "auto", .offset = OFFSET(texels), .choices = "auto|half|float"},
+    {GLINT_OPTION_CHOICE, .name = "filter", .argument = "KIND",
+     .help = "How the environment is taken along a direction: bilinear, between the four nearest "
+             "texels; mip, averaged over what a pixel sees of it, so that fine or bright detail "
+             "does not sparkle in curved mirrors and glass.",
+     .fallback = "bilinear", .offset = OFFSET(filter), .choices = "bilinear|mip"},
     {GLINT_OPTION_TEXT, .name = "device", .argument = "SELECTOR",
      .help = "The OpenCL device: an index of `glint devices`, cpu, gpu, or a part of a name.",
      .fallback = "the first GPU, else the CPU", .offset = OFFSET(device)},
@@ -215,6 +220,7 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
         request->precision == 0 ? GLINT_PRECISION_FLOAT : GLINT_PRECISION_DOUBLE;
     request->settings.fresnel = request->fresnel == 0 ? GLINT_FRESNEL_EXACT : GLINT_FRESNEL_NONE;
     request->settings.texels = (glint_texels)request->texels;
+    request->settings.filter = (glint_filter)request->filter;
     return GLINT_OK;
 }
 

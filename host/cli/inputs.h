@@ -25,6 +25,7 @@ typedef struct glint_input_request {
     int precision; // 0 float, 1 double
     int fresnel;   // 0 exact, 1 none
     int texels;    // a glint_texels, in the order of the choices
+    int filter;    // a glint_filter, likewise
     glint_settings settings;
 } glint_input_request;
 

@@ -3,6 +3,7 @@
 
 #include "base/half.h"
 #include "environment/half_texels.h"
+#include "environment/mip_levels.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -190,6 +191,8 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
     bool hits =
         settings->output == GLINT_OUTPUT_HITS && plan->features[GLINT_FEATURE_GEOMETRY].compiled;
     decide(plan, GLINT_FEATURE_HITS, hits, "%s", hits ? "hits were asked for" : "colour is wanted");
+    bool mip = settings->filter == GLINT_FILTER_MIP && !hits;
+    decide(plan, GLINT_FEATURE_MIP_LEVELS, mip, "filter %s", mip ? "mip" : "bilinear");
     bool turned = fmod(settings->env_rotate, 360) != 0;
     decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
 }
@@ -333,7 +336,9 @@ static glint_status choose_texels(const glint_plan_inputs *in, glint_plan *plan,
 {
     const glint_texels asked = in->settings->texels;
     const char *reason = NULL;
-    plan->environment_bytes = glint_cube_size(in->environment) * sizeof(float);
+    plan->environment_bytes = sizeof(float) * (plan->features[GLINT_FEATURE_MIP_LEVELS].compiled
+                                                   ? glint_mip_levels_size(in->environment->edge)
+                                                   : glint_cube_size(in->environment));
     if (asked == GLINT_TEXELS_FLOAT) {
         reason = "asked for";
     } else if (asked == GLINT_TEXELS_AUTO && plan->precision == GLINT_PRECISION_DOUBLE) {
@@ -391,7 +396,7 @@ static void compile_everything(glint_plan *plan)
 {
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         bool changes_picture = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
-                               i == GLINT_FEATURE_HITS ||
+                               i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
                                (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (changes_picture || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

@@ -41,6 +41,12 @@ typedef enum glint_texels {
     GLINT_TEXELS_FLOAT,
 } glint_texels;
 
+// How the environment is taken along a direction.
+typedef enum glint_filter {
+    GLINT_FILTER_BILINEAR, // between the four nearest texels, however much a pixel sees of it
+    GLINT_FILTER_MIP,      // from levels whose texels are as wide as what a pixel sees
+} glint_filter;
+
 typedef enum glint_feature {
 #define GLINT_FEATURE_NAME(name, meaning) GLINT_FEATURE_##name,
     GLINT_FEATURES(GLINT_FEATURE_NAME)
@@ -64,6 +70,7 @@ typedef struct glint_settings {
     glint_fresnel fresnel;
     glint_output output;
     glint_texels texels;
+    glint_filter filter;
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
     bool all_features; // compile everything, needed or not (to test that it changes nothing)
@@ -88,7 +95,7 @@ typedef struct glint_plan {
     bool tiles; // a work-item renders 4 × 4 packets, whose primary rays are traced together
     char tiles_reason[120];
     char secondary[120]; // how rays from one surface to the next are traced
-    bool half_texels; // of the environment, else float; the irradiance map's are float always
+    bool half_texels;    // of the environment, else float; the irradiance map's are float always
     char texels_reason[160];
     double texels_rmse; // relative RMSE that half texels add to the environment; 0 with float
     int bvh_width;      // children of a node

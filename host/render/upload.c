@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "environment/half_texels.h"
+#include "environment/mip_levels.h"
 #include "kernels/layout.h"
 
 #include <math.h>
@@ -246,10 +247,39 @@ static glint_status upload_cube(const glint_upload_inputs *in, const char *what,
     return glint_buffer_create(in->device, what, bytes, cube->texels, buffer, error);
 }
 
+// The environment and its coarser levels.
+static glint_status upload_levels(const glint_upload_inputs *in, glint_scene_memory *memory,
+                                  glint_error *error)
+{
+    const char *what = "the environment";
+    const int edge = in->environment->edge;
+    const bool half = in->plan->half_texels;
+    const size_t count = glint_mip_levels_size(edge);
+    void *floats = glint_allocate_unset(count, sizeof(float));
+    void *halfs = half ? glint_allocate_unset(count, sizeof(uint16_t)) : NULL;
+    glint_status status;
+    if (floats == NULL || (half && halfs == NULL)) {
+        status = glint_fail_memory(error, what);
+    } else {
+        glint_mip_levels_fill(in->environment, floats);
+        if (half) {
+            glint_mip_levels_to_half(edge, floats, halfs);
+        }
+        status = hand_over(in->device, what, count * (half ? sizeof(uint16_t) : sizeof(float)),
+                           half ? &halfs : &floats, memory, &memory->environment, error);
+    }
+    free(floats);
+    free(halfs);
+    return status;
+}
+
 static glint_status upload_environment(const glint_upload_inputs *in, glint_scene_memory *memory,
                                        glint_error *error)
 {
     const char *what = "the environment";
+    if (in->plan->features[GLINT_FEATURE_MIP_LEVELS].compiled) {
+        return upload_levels(in, memory, error);
+    }
     if (!in->plan->half_texels) {
         return upload_cube(in, what, in->environment, &memory->environment, error);
     }

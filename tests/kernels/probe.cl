@@ -4,6 +4,8 @@
 #include "lanes.cl"
 #include "cubemap.cl"
 #include "optics.cl"
+#define GLINT_MIP_LEVELS 1
+#include "cones.cl"
 
 static real load(global const scalar *in, int which)
 {
@@ -100,4 +102,43 @@ kernel void probe_directions(global const scalar *in, global scalar *out,
     real3 t = refract_direction(v, n, cosine, eta, cosine_t);
     real3 r = reflect_direction(v, n, cosine);
     store3(out, real3_of(t.x, t.z, r.x), r.z);
+}
+
+// in: a sphere's radius, a beam's width, η. out: the curvature of a small triangle of that sphere, then
+// how far from it a parallel beam along the normal comes to a point: reflected from inside, refracted
+// into it, refracted into its other side.
+kernel void probe_cones(global const scalar *in, global scalar *out, global const void *texels,
+                        int edge)
+{
+    const real radius = load(in, 0), eta = load(in, 2), one = real_of(1), zero = real_of(0);
+    real3 vertices[3], normals[3];
+    normals[0] = real3_of(one, zero, zero);
+    normals[1] = real3_of(real_of(R(0.96)), real_of(R(0.28)), zero);
+    normals[2] = real3_of(real_of(R(0.8)), real_of(R(0.36)), real_of(R(0.48)));
+    for (int k = 0; k < 3; k++) {
+        vertices[k] = scale(normals[k], radius);
+    }
+    const real curvature = curvature_of(vertices, normals);
+    cone beam;
+    beam.width = load(in, 1);
+    beam.spread = zero;
+    const real width = width_after(&beam, real_of(3)), bend = eta - one;
+    const cone reflected = leave_surface(width, zero, one, real_of(2), -curvature);
+    const cone entering = leave_surface(width, zero, eta, bend, curvature);
+    const cone beyond = leave_surface(width, zero, eta, bend, -curvature);
+    store3(out, real3_of(curvature, -width / reflected.spread, -width / entering.spread),
+           -width / beyond.spread);
+}
+
+// in: a spread, and a unit vector's largest component. out: the level of an edge of 64 texels with 7
+// levels, and the blend.
+kernel void probe_levels(global const scalar *in, global scalar *out, global const void *texels,
+                         int edge)
+{
+    cone c;
+    c.width = real_of(0);
+    c.spread = load(in, 0);
+    const real3 d = real3_of(real_of(0), -load(in, 1), real_of(0));
+    const level_choice choice = choose_level(&c, d, 64, 6);
+    store3(out, real3_of(to_real(choice.level), choice.blend, real_of(0)), real_of(0));
 }

@@ -1,0 +1,118 @@
+// Coarser levels of a cube map. See mip_levels.h.
+#include "environment/mip_levels.h"
+
+#include "base/parallel.h"
+#include "environment/half_texels.h"
+#include "kernels/layout.h"
+
+#include <math.h>
+#include <string.h>
+
+int glint_mip_level_count(int edge)
+{
+    int count = 0;
+    for (; edge > 0; edge /= 2) {
+        count++;
+    }
+    return count;
+}
+
+size_t glint_mip_levels_size(int edge)
+{
+    size_t size = 0;
+    for (; edge > 0; edge /= 2) {
+        size += glint_cube_size(&(glint_cube){.edge = edge});
+    }
+    return size;
+}
+
+// Which texels of a row of the finer level a texel of the coarser one covers, and how much of each:
+// three at most, as an edge of 2m + 1 texels becomes one of m.
+typedef struct span {
+    int first, count;
+    double shares[3];
+} span;
+
+static span find_span(int place, int finer, int coarser)
+{
+    const double ratio = (double)finer / (double)coarser;
+    const double begin = place * ratio, end = (place + 1) * ratio;
+    span s = {.first = (int)begin};
+    for (int i = s.first; i < finer && i < end && s.count < 3; i++) {
+        s.shares[s.count++] = fmin(end, i + 1.0) - fmax(begin, (double)i);
+    }
+    return s;
+}
+
+// The solid angle of the rectangle from the corner (0, 0) to (s, t) at the distance 1.
+static double corner_angle(double s, double t)
+{
+    return atan2(s * t, sqrt(1 + s * s + t * t));
+}
+
+static double texel_angle(int edge, int i, int j)
+{
+    const double s0 = 2.0 * i / edge - 1, s1 = 2.0 * (i + 1) / edge - 1;
+    const double t0 = 2.0 * j / edge - 1, t1 = 2.0 * (j + 1) / edge - 1;
+    return corner_angle(s1, t1) - corner_angle(s0, t1) - corner_angle(s1, t0) +
+           corner_angle(s0, t0);
+}
+
+typedef struct halving {
+    const glint_cube *from;
+    glint_cube *to;
+} halving;
+
+// Texel (i, j) of all faces of the coarser level.
+static void halve_texel(const halving *h, int i, int j, const span *columns, const span *rows)
+{
+    double sums[GLINT_CUBE_FACES][4] = {{0}}, weights = 0;
+    for (int k = 0; k < rows->count * columns->count; k++) {
+        const int y = k / columns->count, x = k % columns->count;
+        const int column = columns->first + x, row = rows->first + y;
+        const double weight =
+            rows->shares[y] * columns->shares[x] * texel_angle(h->from->edge, column, row);
+        weights += weight;
+        for (int n = 0; n < GLINT_CUBE_FACES * 4; n++) {
+            sums[n / 4][n % 4] +=
+                weight * (double)glint_cube_texel(h->from, n / 4, column, row)[n % 4];
+        }
+    }
+    for (int n = 0; n < GLINT_CUBE_FACES * 4; n++) {
+        glint_cube_texel(h->to, n / 4, i, j)[n % 4] = (float)(sums[n / 4][n % 4] / weights);
+    }
+}
+
+static void halve_row(size_t index, void *context)
+{
+    const halving *h = context;
+    const int finer = h->from->edge, coarser = h->to->edge, j = (int)index;
+    const span rows = find_span(j, finer, coarser);
+    for (int i = 0; i < coarser; i++) {
+        const span columns = find_span(i, finer, coarser);
+        halve_texel(h, i, j, &columns, &rows);
+    }
+}
+
+void glint_mip_levels_fill(const glint_cube *cube, float *texels)
+{
+    glint_cube finer = {cube->edge, texels};
+    memcpy(texels, cube->texels, glint_cube_size(cube) * sizeof(float));
+    while (finer.edge > 1) {
+        glint_cube coarser = {finer.edge / 2, finer.texels + glint_cube_size(&finer)};
+        halving h = {&finer, &coarser};
+        glint_parallel_for((size_t)coarser.edge, halve_row, &h);
+        glint_cube_fill_border(&coarser);
+        finer = coarser;
+    }
+}
+
+void glint_mip_levels_to_half(int edge, float *levels, uint16_t *texels)
+{
+    for (; edge > 0; edge /= 2) {
+        const glint_cube level = {edge, levels};
+        glint_cube_to_half(&level, texels);
+        levels += glint_cube_size(&level);
+        texels += glint_cube_size(&level);
+    }
+}

@@ -1,0 +1,91 @@
+// What of the environment a pixel sees: each ray carries a cone, how wide it is where the ray
+// starts and how fast it widens, which surfaces change as lenses do in paraxial optics
+// (Akenine-Möller et al., Improved Shader and Texture Level of Detail Using Ray Cones, 2021). Both
+// numbers keep their sign past a focus. Where the cone ends, the environment is taken from the
+// levels whose texels are as wide.
+#if GLINT_MIP_LEVELS
+
+typedef struct cone {
+    real width;  // across, stored units
+    real spread; // what is added to the width per unit of length
+} cone;
+
+// The cone of a primary ray of length 1/inverse: its neighbour's distance, mean of both ways.
+static inline cone primary_cone(const glint_frame_record *frame, real inverse)
+{
+    const scalar share = R(0.5) / (scalar)frame->samples_per_axis;
+    scalar width = 0, spread = 0;
+#pragma unroll
+    for (int way = 0; way < 2; way++) {
+        const glint_split_vector *o = way == 0 ? &frame->origin_x : &frame->origin_y;
+        const glint_split_vector *d = way == 0 ? &frame->direction_x : &frame->direction_y;
+        scalar o2 = 0, d2 = 0;
+#pragma unroll
+        for (int k = 0; k < 3; k++) {
+            const scalar ok = JOIN(o->high[k], o->low[k]), dk = JOIN(d->high[k], d->low[k]);
+            o2 = fused(ok, ok, o2);
+            d2 = fused(dk, dk, d2);
+        }
+        width += share * sqrt(o2);
+        spread += share * sqrt(d2);
+    }
+    cone c;
+    c.width = real_of(width);
+    c.spread = spread * inverse;
+    return c;
+}
+
+// The cone's width after the distance t.
+static inline real width_after(const cone *c, real t) { return fused(c->spread, t, c->width); }
+
+// How fast the normals of a triangle turn, per unit of length along it: the root mean square over
+// its edges, more than 0 where they part. 0 where a vertex has no normal.
+static inline real curvature_of(const real3 vertices[3], const real3 normals[3])
+{
+    real turned = real_of(0), parted = real_of(0), length = real_of(0);
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        const real3 edge = subtract(vertices[(k + 1) % 3], vertices[k]);
+        const real3 turn = subtract(normals[(k + 1) % 3], normals[k]);
+        turned += dot3(turn, turn);
+        parted += dot3(turn, edge);
+        length += dot3(edge, edge);
+    }
+    real magnitude = sqrt(turned / SELECT(length > R(0.0), length, real_of(1)));
+    return SELECT(parted < R(0.0), -magnitude, magnitude);
+}
+
+// The cone that leaves a surface: `scaled` is what becomes of the spread by itself (1, or η for
+// light that is refracted), `bend` how much the ray turns for each turn of the normal.
+static inline cone leave_surface(real width, real spread, real scaled, real bend, real curvature)
+{
+    cone c;
+    c.width = width;
+    c.spread = fused(bend * curvature, width, scaled * spread);
+    return c;
+}
+
+// Levels finer than a cone's width by this much look sharper and hardly alias.
+#define LEVEL_BIAS R(0.7071067811865476)
+
+// The level whose texels are about as wide as a cone, and how far towards the next one to go.
+typedef struct level_choice {
+    lanes_int level;
+    real blend; // [0, 1)
+} level_choice;
+
+// `direction` is a unit vector. A texel is 2/edge wide at a distance of 1/(its largest component).
+// Between powers of two log2 is taken to be linear.
+static inline level_choice choose_level(const cone *c, real3 direction, int edge, int last)
+{
+    const scalar texels_at_1 = R(0.5) * (scalar)edge * LEVEL_BIAS;
+    real texels = fabs(c->spread) * texels_at_1 / largest_magnitude3(direction);
+    const real most = real_of((scalar)(1 << last));
+    texels = SELECT(texels > R(1.0), SMALLER(texels, most), real_of(1)); // NaN becomes 1
+    level_choice choice;
+    choice.level = exponent_of(texels);
+    choice.blend = texels * inverse_exponent(texels) - R(1.0);
+    return choice;
+}
+
+#endif
