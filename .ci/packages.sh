@@ -17,6 +17,8 @@ packages_to_bench='
     libembree-dev
     libepoxy-dev libegl-dev libegl1 libegl-mesa0 libopengl0 libgl1 libgl1-mesa-dri'
 
+packages_to_plot='jq/jq gnuplot-nox/gnuplot util-linux/taskset'
+
 packages_to_test_fully='qemu-user/qemu-x86_64'
 
 needs_in_words="CMake 3.25, a C11 and C++17 compiler, pkg-config, an OpenCL ICD loader with its \

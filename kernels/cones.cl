@@ -39,7 +39,7 @@ static inline cone primary_cone(const glint_frame_record *frame, real inverse)
 static inline real width_after(const cone *c, real t) { return fused(c->spread, t, c->width); }
 
 // How fast the normals of a triangle turn, per unit of length along it: the root mean square over
-// its edges, more than 0 where they part. 0 where a vertex has no normal.
+// its edges, more than 0 where they part.
 static inline real curvature_of(const real3 vertices[3], const real3 normals[3])
 {
     real turned = real_of(0), parted = real_of(0), length = real_of(0);

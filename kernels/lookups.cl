@@ -90,7 +90,7 @@ static inline void find_points(lookups *l, const cube_map *map, const path *rays
                                uint wanted, int i)
 {
 #if GLINT_MIP_LEVELS
-    const int last = l->level_count - 1;
+    const int last = max(l->level_count - 1, 0);
     const level_choice choice = choose_level(&rays->cone, direction, map->edge, last);
     l->levels[i] = choice;
     lanes_int edges = int_of(map->edge), starts = int_of(0);

@@ -154,6 +154,7 @@ static inline void orient_normals(const triangle *t, const path *ray, const clos
     mask away = cosine < R(0.0);
     s->normal = select3(away, negate(s->normal), s->normal);
 #if GLINT_MIP_LEVELS && GLINT_SMOOTH_NORMALS
+    // Flat where a vertex has no normal.
     const real curvature = curvature_of(t->vertices, normals);
     mask turned = dot3(interpolate(normals, hit->b1, hit->b2), s->normal) < R(0.0);
     s->curvature = SELECT(given & valid, SELECT(turned, -curvature, curvature), s->curvature);

@@ -173,5 +173,4 @@ static inline void trace_stream(stream *s, const scene_buffers *scene, int along
             size = push_children_of_stream(s, &next, scene, along, sign, stack, size);
         }
     }
-    s->count = 0;
 }

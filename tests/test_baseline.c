@@ -27,7 +27,8 @@ static void format_scene(const crafted *scene, char *text, size_t capacity)
 {
     snprintf(text, capacity,
              "{\"name\": \"%s\", \"device\": {\"name\": \"%s\", \"compute_units\": 2},"
-             " \"settings\": {\"width\": %d, \"height\": 1080, \"depth\": \"auto\"},"
+             " \"settings\": {\"width\": %d, \"height\": 1080, \"depth\": \"auto\","
+             " \"filter\": \"bilinear\"},"
              " \"environment\": {\"name\": \"%s\", \"width\": 0},"
              " \"camera\": {\"eye\": [0.0, 0.0, 2.5]}, \"scene\": {\"triangle_count\": %d},"
              " \"frames\": {\"kernel\": {\"median\": %.6f, \"lower_quartile\": %.6f,"
@@ -213,21 +214,49 @@ static void malformed_files_are_refused_by_name(void **state)
     assert_non_null(strstr(error.message, "missing.json"));
 }
 
-static void a_report_that_was_written_is_read(void **state)
+// A file of one scene, read.
+static json_t *written_and_read(const char *scene)
 {
-    (void)state;
-    char scene[1024], text[1200];
-    format_scene(&plain, scene, sizeof scene);
+    char text[1200];
     snprintf(text, sizeof text, "{\"format\": \"glint bench\", \"schema\": 1, \"scenes\": [%s]}",
              scene);
     scratch_write("old.json", text, -1);
     json_t *baseline;
     assert_int_equal(glint_baseline_load(scratch_path("old.json"), &baseline, NULL), GLINT_OK);
-    json_t *now = scene_of(&plain);
+    return baseline;
+}
+
+static void a_report_that_was_written_is_read(void **state)
+{
+    (void)state;
+    char scene[1024];
+    format_scene(&plain, scene, sizeof scene);
+    json_t *baseline = written_and_read(scene), *now = scene_of(&plain);
     glint_comparison comparison;
     assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
                      GLINT_OK);
     assert_int_equal(comparison.verdict, GLINT_VERDICT_SAME);
+    json_decref(now);
+    json_decref(baseline);
+}
+
+// Files of before there was a choice of filters say nothing of it: all was bilinear then.
+static void a_report_from_before_filters_is_bilinear(void **state)
+{
+    (void)state;
+    static const char member[] = ", \"filter\": \"bilinear\"";
+    char scene[1024];
+    format_scene(&plain, scene, sizeof scene);
+    char *filter = strstr(scene, member);
+    assert_non_null(filter);
+    memset(filter, ' ', strlen(member));
+    json_t *baseline = written_and_read(scene), *now = scene_of(&plain);
+    glint_comparison comparison;
+    assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
+                     GLINT_OK);
+    json_object_set_new(json_object_get(now, "settings"), "filter", json_string("mip"));
+    assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
+                     GLINT_BAD_INPUT);
     json_decref(now);
     json_decref(baseline);
 }
@@ -244,6 +273,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(malformed_files_are_refused_by_name, scratch_setup,
                                         scratch_teardown),
         cmocka_unit_test_setup_teardown(a_report_that_was_written_is_read, scratch_setup,
+                                        scratch_teardown),
+        cmocka_unit_test_setup_teardown(a_report_from_before_filters_is_bilinear, scratch_setup,
                                         scratch_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -40,18 +40,21 @@ static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
 {
     (void)state;
     static const char *const names[] = {"materials", "nested_glass", "absorption_box"};
-    static const int widths[] = {8, 16};
+    // Widths and tiles; the last two are for the scene that has everything.
+    static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}, {1, 16}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         for (int precision = 0; precision < (i == 0 ? 2 : 1); precision++) {
             glint_settings settings = small_frame(0);
             settings.precision = precision ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
             settings.filter = i == 1 ? GLINT_FILTER_MIP : GLINT_FILTER_BILINEAR;
             settings.kernel_width = 1;
+            settings.tile_packets = 1;
             test_frame one, more;
             render_named(names[i], &settings, &one);
             assert_int_equal(one.plan.half_texels, precision == 0);
-            for (size_t w = 0; w < 2; w++) {
-                settings.kernel_width = widths[w];
+            for (size_t w = 0; w < (i == 1 ? 4 : 2); w++) {
+                settings.kernel_width = forms[w][0];
+                settings.tile_packets = forms[w][1];
                 render_named(names[i], &settings, &more);
                 assert_int_equal(test_count_different(&one.image, &more.image), 0);
                 assert_memory_equal(&one.report.rays, &more.report.rays, sizeof one.report.rays);
@@ -113,36 +116,67 @@ static double rmse_between(const test_frame *a, const test_frame *b)
     return sqrt(sum / (4 * 61 * 43));
 }
 
-// Of texels much finer than pixels one look-up is as good as random, off by half of the range; a
-// cone takes a mean, as many samples do. Found: a quarter of the error, both for a mirror and for
-// glass.
+// How far one look-up a pixel, and one cone, are from the mean of 64 look-ups.
+static void compare_with_many_samples(const char *name, const glint_environment *environment,
+                                      double *without, double *with)
+{
+    glint_scene scene = {0};
+    test_scene_load(name, &scene);
+    glint_settings settings = small_frame(3);
+    test_frame one, cones, many;
+    test_render(&scene, environment, NULL, &settings, &one);
+    settings.filter = GLINT_FILTER_MIP;
+    test_render(&scene, environment, NULL, &settings, &cones);
+    settings.filter = GLINT_FILTER_BILINEAR;
+    settings.samples_per_axis = 8;
+    test_render(&scene, environment, NULL, &settings, &many);
+    assert_memory_equal(&one.report.rays, &cones.report.rays, sizeof one.report.rays);
+    *without = rmse_between(&one, &many);
+    *with = rmse_between(&cones, &many);
+    print_message("%s: %.4f without cones, %.4f with\n", name, *without, *with);
+    test_frame_free(&one);
+    test_frame_free(&cones);
+    test_frame_free(&many);
+    glint_scene_free(&scene);
+}
+
+// Of texels much finer than pixels one look-up is off by half of the range at random. A cone is the
+// mean of some: with levels half a level finer than itself of two at least, across each of two
+// ways, so of four, which halve the error.
 static void cones_see_what_many_samples_see(void **state)
 {
     (void)state;
-    static const char *const names[] = {"mirror_sphere", "glass_sphere"};
     glint_environment noise;
     noise_environment(512, &noise);
-    for (size_t i = 0; i < 2; i++) {
-        glint_scene scene = {0};
-        test_scene_load(names[i], &scene);
-        glint_settings settings = small_frame(3);
-        test_frame one, cones, many;
-        test_render(&scene, &noise, NULL, &settings, &one);
-        settings.filter = GLINT_FILTER_MIP;
-        test_render(&scene, &noise, NULL, &settings, &cones);
-        settings.filter = GLINT_FILTER_BILINEAR;
-        settings.samples_per_axis = 8;
-        test_render(&scene, &noise, NULL, &settings, &many);
-        const double without = rmse_between(&one, &many), with = rmse_between(&cones, &many);
-        print_message("%s: %.4f without cones, %.4f with\n", names[i], without, with);
-        assert_true(with < 0.3 * without);
-        assert_memory_equal(&one.report.rays, &cones.report.rays, sizeof one.report.rays);
-        test_frame_free(&one);
-        test_frame_free(&cones);
-        test_frame_free(&many);
-        glint_scene_free(&scene);
-    }
+    double without, with;
+    compare_with_many_samples("mirror_sphere", &noise, &without, &with);
+    assert_true(with < 0.5 * without);
+    compare_with_many_samples("glass_sphere", &noise, &without, &with);
+    assert_true(with < 0.5 * without);
     glint_environment_free(&noise);
+}
+
+// Light from half of all directions: a cone that is too wide spreads the border between them, and
+// would be farther from many samples than one look-up is.
+static void cones_are_no_wider_than_what_is_seen(void **state)
+{
+    (void)state;
+    glint_environment half;
+    noise_environment(512, &half);
+    for (int k = 0; k < 6 * 512 * 512; k++) {
+        const int face = k >> 18, i = k & 511, j = k >> 9 & 511;
+        const glint_vec3 d =
+            glint_cube_direction(face, (2.0 * i + 1) / 512 - 1, (2.0 * j + 1) / 512 - 1);
+        float *texel = glint_cube_texel(&half.radiance, face, i, j);
+        texel[0] = texel[1] = texel[2] = d.x + 0.3 * d.y + 0.2 * d.z > 0.1 ? 1 : 0;
+    }
+    glint_cube_fill_border(&half.radiance);
+    double without, with;
+    compare_with_many_samples("mirror_sphere", &half, &without, &with);
+    assert_true(with < 0.9 * without);
+    compare_with_many_samples("glass_sphere", &half, &without, &with);
+    assert_true(with < 0.9 * without);
+    glint_environment_free(&half);
 }
 
 // Where a pixel sees less than a texel there is nothing to average.
@@ -421,6 +455,7 @@ int main(void)
         cmocka_unit_test(packets_of_1_8_and_16_rays_give_the_same_bits),
         cmocka_unit_test(half_texels_change_a_frame_by_their_rounding_alone),
         cmocka_unit_test(cones_see_what_many_samples_see),
+        cmocka_unit_test(cones_are_no_wider_than_what_is_seen),
         cmocka_unit_test(cones_change_nothing_where_texels_are_wide),
         cmocka_unit_test(features_that_a_scene_does_not_need_change_nothing),
         cmocka_unit_test(the_environment_turns_counter_clockwise_seen_from_above),

@@ -328,23 +328,35 @@ static void the_cube_is_exact_at_texel_centres_and_seamless_on_ties(void **state
     at_every_width_and_precision(check_cube);
 }
 
-// Focal lengths of paraxial optics: a concave mirror's is R/2, a surface's R/(1 − η) behind it.
+// A beam of this width and spread, bent by `turn` for each unit of its width, comes to a point at
+// the distance f: |f| is right to the rounding of both parts of the new spread.
+static void check_focus(const probe *p, double f, double width, double scaled, double turn)
+{
+    const double spread = scaled + turn * width;
+    const double parts = fabs(scaled) + fabs(turn * width);
+    assert_true(fabs(f + width / spread) <=
+                64 * p->u * parts / fabs(spread) * fabs(width / spread));
+}
+
+// The mirror equation and the lens-maker's: a concave mirror turns rays by 2/R for each unit of
+// height, a surface by (1 − η)/R. Parallel beams, and such as come to a point by themselves.
 static void check_cones(probe *p)
 {
     for (size_t i = 0; i < ELEMENTS; i++) {
         p->in[i][0] = pow(10, -6 + 12 * (double)i / ELEMENTS);
         p->in[i][1] = i % 2 ? 1e-3 : -2;
         p->in[i][2] = 1 / (1.1 + (double)(i % 16) / 10);
+        p->in[i][3] = i % 3 == 0 ? 0 : -0.1 * p->in[i][1];
     }
     run(p, "probe_cones", NULL);
     for (size_t i = 0; i < ELEMENTS; i++) {
-        const double radius = p->in[i][0], behind = radius / (1 - p->in[i][2]);
+        const double radius = p->in[i][0], eta = p->in[i][2], spread = p->in[i][3];
+        const double width = p->in[i][1] + 3 * spread;
         // Normals are unit vectors to a rounding, their differences a third or more.
         assert_true(fabs(p->out[i][0] * radius - 1) <= 32 * p->u);
-        assert_true(fabs(p->out[i][1] - radius / 2) <= 40 * p->u * radius);
-        // 1 − η of the rounded η: another eleventh of it at least.
-        assert_true(fabs(p->out[i][2] - behind) <= 40 * p->u * behind);
-        assert_true(fabs(p->out[i][3] + behind) <= 40 * p->u * behind);
+        check_focus(p, p->out[i][1], width, spread, -2 / radius);
+        check_focus(p, p->out[i][2], width, eta * spread, (eta - 1) / radius);
+        check_focus(p, p->out[i][3], width, eta * spread, (1 - eta) / radius);
     }
 }
 

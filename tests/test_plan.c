@@ -195,6 +195,9 @@ static void the_plan_says_how_secondary_rays_are_traced(void **state)
     settings.kernel_width = 1;
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_string_equal(plan.secondary, "one by one");
+    settings.tile_packets = 16;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_string_equal(plan.secondary, "one by one, together where a tile's run alike");
     settings.depth = 1;
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_string_equal(plan.secondary, "none");

@@ -182,7 +182,7 @@ static void print_plan(const glint_subject *subject)
     printf("  secondary rays: %s\n", plan->secondary);
     printf("  %s texels: %s\n", plan->half_texels ? "half" : "float", plan->texels_reason);
     if (plan->stack_capacity > 0) {
-        printf("  %d waiting branches a ray: %s\n", plan->stack_capacity, plan->stack_reason);
+        printf("  %d waiting branches a pixel: %s\n", plan->stack_capacity, plan->stack_reason);
     }
     for (int compiled = 1; compiled >= 0; compiled--) {
         printf("  %s\n", compiled ? "compiled in" : "left out");

@@ -9,6 +9,7 @@
 
 // Far above what is useful, and below where an int overflows: (edge + 2)² × 6 × 4 < 2³¹.
 #define EDGE_MAX 9000
+_Static_assert(EDGE_MAX >> GLINT_LEVELS_MAX == 0, "a cube of EDGE_MAX has too many levels");
 
 static const int s_axis[GLINT_CUBE_FACES] = GLINT_CUBE_S_AXIS;
 static const int s_sign[GLINT_CUBE_FACES] = GLINT_CUBE_S_SIGN;

@@ -1,21 +1,12 @@
 // Coarser levels of a cube map. See mip_levels.h.
 #include "environment/mip_levels.h"
 
+#include "base/half.h"
 #include "base/parallel.h"
 #include "environment/half_texels.h"
 #include "kernels/layout.h"
 
 #include <math.h>
-#include <string.h>
-
-int glint_mip_level_count(int edge)
-{
-    int count = 0;
-    for (; edge > 0; edge /= 2) {
-        count++;
-    }
-    return count;
-}
 
 size_t glint_mip_levels_size(int edge)
 {
@@ -94,25 +85,31 @@ static void halve_row(size_t index, void *context)
     }
 }
 
-void glint_mip_levels_fill(const glint_cube *cube, float *texels)
+void glint_mip_levels_fill(const glint_cube *cube, float *coarser)
 {
-    glint_cube finer = {cube->edge, texels};
-    memcpy(texels, cube->texels, glint_cube_size(cube) * sizeof(float));
+    glint_cube finer = *cube;
     while (finer.edge > 1) {
-        glint_cube coarser = {finer.edge / 2, finer.texels + glint_cube_size(&finer)};
-        halving h = {&finer, &coarser};
-        glint_parallel_for((size_t)coarser.edge, halve_row, &h);
-        glint_cube_fill_border(&coarser);
-        finer = coarser;
+        glint_cube level = {finer.edge / 2, coarser};
+        halving h = {&finer, &level};
+        glint_parallel_for((size_t)level.edge, halve_row, &h);
+        glint_cube_fill_border(&level);
+        coarser += glint_cube_size(&level);
+        finer = level;
     }
 }
 
-void glint_mip_levels_to_half(int edge, float *levels, uint16_t *texels)
+void glint_mip_levels_to_half(const glint_cube *cube, float *coarser, uint16_t *texels)
 {
-    for (; edge > 0; edge /= 2) {
-        const glint_cube level = {edge, levels};
+    glint_cube_to_half(cube, texels);
+    texels += glint_cube_size(cube);
+    for (int edge = cube->edge / 2; edge > 0; edge /= 2) {
+        const glint_cube level = {edge, coarser};
+        const size_t size = glint_cube_size(&level);
+        for (size_t i = 0; i < size; i++) {
+            coarser[i] = fmaxf(fminf(coarser[i], GLINT_HALF_MAX), -GLINT_HALF_MAX);
+        }
         glint_cube_to_half(&level, texels);
-        levels += glint_cube_size(&level);
-        texels += glint_cube_size(&level);
+        coarser += size;
+        texels += size;
     }
 }

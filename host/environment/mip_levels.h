@@ -10,20 +10,20 @@
 extern "C" {
 #endif
 
-// How many levels a map of this edge has, itself included: each has half of the last one's edge,
-// rounded down, to the edge 1. 0 without texels.
-int glint_mip_level_count(int edge);
+// A map's levels are itself and ever coarser ones: each has half of the last one's edge, rounded
+// down, to the edge 1. They stand one after the other, each with its border.
 
-// The number of floats in all levels, one after the other, each with its border.
+// The number of values in all levels, the map's own included.
 size_t glint_mip_levels_size(int edge);
 
-// Writes all levels to `texels`, glint_mip_levels_size(cube->edge) floats: first the map's own
-// texels, then level by level the means of those of the last by solid angle, so that each level
-// sends the same light as the map: to a rounding where edges are even, nearly where one is odd.
-void glint_mip_levels_fill(const glint_cube *cube, float *texels);
+// Writes the levels after the first: glint_mip_levels_size(cube->edge) − glint_cube_size(cube)
+// floats. Texels are means of those of the last level by solid angle, so that each level sends the
+// same light as the map: to a rounding where edges are even, nearly where one is odd.
+void glint_mip_levels_fill(const glint_cube *cube, float *coarser);
 
-// The same as halfs, from such floats.
-void glint_mip_levels_to_half(int edge, float *levels, uint16_t *texels);
+// Writes all levels as halfs, from the map and what glint_mip_levels_fill wrote. Where a border,
+// which is extrapolated, is more than half holds, it becomes the most that half holds.
+void glint_mip_levels_to_half(const glint_cube *cube, float *coarser, uint16_t *texels);
 
 #ifdef __cplusplus
 }

@@ -278,15 +278,13 @@ static void choose_tiles(const glint_settings *settings, glint_plan *plan)
 // Says what kernels/traverse_together.cl makes of width and tiles.
 static void describe_secondary_rays(glint_plan *plan)
 {
-    const char *how = "packets, together where a tile's run alike, in a stream where they spread";
+    const bool packets = plan->kernel_width > 1;
+    snprintf(plan->secondary, sizeof plan->secondary, "%s%s%s", packets ? "packets" : "one by one",
+             plan->tiles ? ", together where a tile's run alike" : "",
+             packets ? ", in a stream where they spread" : "");
     if (!plan->features[GLINT_FEATURE_INTERREFLECTION].compiled) {
-        how = "none";
-    } else if (plan->kernel_width == 1) {
-        how = "one by one";
-    } else if (!plan->tiles) {
-        how = "packets, in a stream where they spread";
+        snprintf(plan->secondary, sizeof plan->secondary, "none");
     }
-    snprintf(plan->secondary, sizeof plan->secondary, "%s", how);
 }
 
 // What rounding may add to what is seen of the environment (visible_rmse). Where all is as bright
@@ -488,9 +486,11 @@ void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity)
 {
     char depth[32];
     snprintf(depth, sizeof depth, plan->depth_is_auto ? "auto (at most %d)" : "%d", plan->depth);
-    snprintf(text, capacity,
-             "shading pixel, depth %s, precision %s, %s texels, width %d, %d of %d features", depth,
-             plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
-             plan->half_texels ? "half" : "float", plan->kernel_width,
-             glint_plan_feature_count(plan), GLINT_FEATURE_COUNT);
+    snprintf(
+        text, capacity,
+        "shading pixel, depth %s, precision %s, %s texels, filter %s, width %d, %d of %d features",
+        depth, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
+        plan->half_texels ? "half" : "float",
+        plan->features[GLINT_FEATURE_MIP_LEVELS].compiled ? "mip" : "bilinear", plan->kernel_width,
+        glint_plan_feature_count(plan), GLINT_FEATURE_COUNT);
 }

@@ -101,7 +101,7 @@ typedef struct glint_plan {
     int bvh_width;      // children of a node
     int depth;          // surfaces at most
     bool depth_is_auto;
-    int stack_capacity; // waiting branches a ray; 0 without GLASS
+    int stack_capacity; // waiting branches of a pixel; 0 without SPLIT
     char stack_reason[120];
     int media_count;     // distinct media (index of refraction and absorption), without empty space
     int media_bits;      // bits of one entry of the stack of media

@@ -247,26 +247,29 @@ static glint_status upload_cube(const glint_upload_inputs *in, const char *what,
     return glint_buffer_create(in->device, what, bytes, cube->texels, buffer, error);
 }
 
-// The environment and its coarser levels.
+// The environment and its coarser levels. Of halfs the map's own texels need no copy in between.
 static glint_status upload_levels(const glint_upload_inputs *in, glint_scene_memory *memory,
                                   glint_error *error)
 {
     const char *what = "the environment";
-    const int edge = in->environment->edge;
+    const glint_cube *cube = in->environment;
     const bool half = in->plan->half_texels;
-    const size_t count = glint_mip_levels_size(edge);
-    void *floats = glint_allocate_unset(count, sizeof(float));
+    const size_t own = glint_cube_size(cube), count = glint_mip_levels_size(cube->edge);
+    void *floats = glint_allocate_unset(half ? count - own : count, sizeof(float));
     void *halfs = half ? glint_allocate_unset(count, sizeof(uint16_t)) : NULL;
     glint_status status;
     if (floats == NULL || (half && halfs == NULL)) {
         status = glint_fail_memory(error, what);
+    } else if (half) {
+        glint_mip_levels_fill(cube, floats);
+        glint_mip_levels_to_half(cube, floats, halfs);
+        status = hand_over(in->device, what, count * sizeof(uint16_t), &halfs, memory,
+                           &memory->environment, error);
     } else {
-        glint_mip_levels_fill(in->environment, floats);
-        if (half) {
-            glint_mip_levels_to_half(edge, floats, halfs);
-        }
-        status = hand_over(in->device, what, count * (half ? sizeof(uint16_t) : sizeof(float)),
-                           half ? &halfs : &floats, memory, &memory->environment, error);
+        memcpy(floats, cube->texels, own * sizeof(float));
+        glint_mip_levels_fill(cube, (float *)floats + own);
+        status = hand_over(in->device, what, count * sizeof(float), &floats, memory,
+                           &memory->environment, error);
     }
     free(floats);
     free(halfs);

@@ -54,6 +54,18 @@ static glint_status check_form(const json_t *root, const char *path, glint_error
     return GLINT_OK;
 }
 
+// Settings that came later had one value before: what a file leaves out is that.
+static void complete_settings(json_t *root)
+{
+    json_t *list = json_object_get(root, "scenes");
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        json_t *settings = json_object_get(json_array_get(list, i), "settings");
+        if (json_is_object(settings) && json_object_get(settings, "filter") == NULL) {
+            json_object_set_new(settings, "filter", json_string("bilinear"));
+        }
+    }
+}
+
 glint_status glint_baseline_load(const char *path, json_t **baseline, glint_error *error)
 {
     json_error_t cause;
@@ -68,6 +80,8 @@ glint_status glint_baseline_load(const char *path, json_t **baseline, glint_erro
     if (status != GLINT_OK) {
         json_decref(*baseline);
         *baseline = NULL;
+    } else {
+        complete_settings(*baseline);
     }
     return status;
 }

@@ -60,10 +60,10 @@ mkdir in/folder.gltf in/empty
 # ---- help ---------------------------------------------------------------------------------------
 
 render_options='output exposure compression exr-type stats progress env env-layout env-rotate camera
-    scene size samples depth min-weight background precision fresnel texels device kernel-width
-    kernel-tile kernel-dir help'
+    scene size samples depth min-weight background precision fresnel texels filter device
+    kernel-width kernel-tile kernel-dir help'
 info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
-    precision fresnel texels device kernel-width kernel-tile help'
+    precision fresnel texels filter device kernel-width kernel-tile help'
 
 # shellcheck disable=SC2086 # lists of words
 {
@@ -125,6 +125,7 @@ done
 refuses 2 '--min-weight' render "${ok[@]}" --min-weight -0.1
 refuses 2 '--precision half' render "${ok[@]}" --precision half
 refuses 2 '--texels double' render "${ok[@]}" --texels double
+refuses 2 '--filter sharp' render "${ok[@]}" --filter sharp
 refuses 2 '--background plate.png' render "${ok[@]}" --background plate.png
 refuses 2 '--progress loud' render "${ok[@]}" --progress loud
 refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
@@ -277,6 +278,8 @@ for texels in auto half float; do
     renders "--texels $texels" out/x.png --texels $texels
     clean
 done
+renders '--filter mip' out/x.png --filter mip --texels float
+clean
 run devices --json
 if grep -q '"fp64": true' stdout; then
     renders '--precision double' out/x.exr --precision double --exr-type float
@@ -374,6 +377,8 @@ check 'info --json: material' stat_is metal scene materials 0 kind
 check 'info --json: depth' stat_is 2 settings depth
 check 'info --json: texels' stat_is auto settings texels
 check 'info --json: they are half' stat_is half plan texels
+check 'info --json: filter' stat_is bilinear settings filter
+check 'info --json: secondary rays' "$json_get" out/stats.json plan secondary_rays
 check 'info --json: and why' "$json_get" out/stats.json plan texels_reason
 check 'info --json: what that adds' stat_is_positive plan texels_relative_rmse
 check 'info --json: features' stat_is true plan features SUPERSAMPLING compiled

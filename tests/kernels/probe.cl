@@ -104,9 +104,9 @@ kernel void probe_directions(global const scalar *in, global scalar *out,
     store3(out, real3_of(t.x, t.z, r.x), r.z);
 }
 
-// in: a sphere's radius, a beam's width, η. out: the curvature of a small triangle of that sphere, then
-// how far from it a parallel beam along the normal comes to a point: reflected from inside, refracted
-// into it, refracted into its other side.
+// in: a sphere's radius, a beam's width 3 units before it, η, the beam's spread. out: the curvature of a
+// triangle of that sphere, then how far from it the beam along the normal comes to a point: reflected
+// from inside, refracted into it, refracted into its other side.
 kernel void probe_cones(global const scalar *in, global scalar *out, global const void *texels,
                         int edge)
 {
@@ -121,11 +121,11 @@ kernel void probe_cones(global const scalar *in, global scalar *out, global cons
     const real curvature = curvature_of(vertices, normals);
     cone beam;
     beam.width = load(in, 1);
-    beam.spread = zero;
+    beam.spread = load(in, 3);
     const real width = width_after(&beam, real_of(3)), bend = eta - one;
-    const cone reflected = leave_surface(width, zero, one, real_of(2), -curvature);
-    const cone entering = leave_surface(width, zero, eta, bend, curvature);
-    const cone beyond = leave_surface(width, zero, eta, bend, -curvature);
+    const cone reflected = leave_surface(width, beam.spread, one, real_of(2), -curvature);
+    const cone entering = leave_surface(width, beam.spread, eta, bend, curvature);
+    const cone beyond = leave_surface(width, beam.spread, eta, bend, -curvature);
     store3(out, real3_of(curvature, -width / reflected.spread, -width / entering.spread),
            -width / beyond.spread);
 }
