@@ -80,9 +80,8 @@ static inline void restore3(const scalar *values, real3 *v, int lane)
 static inline lanes_int kinds_of_rays(const path *ray)
 {
     const real3 d = ray->direction;
-    real ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
-    mask x_major = (ax >= ay) & (ax >= az);
-    mask y_major = !x_major & (ay >= az);
+    mask x_major, y_major;
+    find_major(d, &x_major, &y_major);
     real along = SELECT(x_major, d.x, SELECT(y_major, d.y, d.z));
     lanes_int kind = SELECT(x_major, int_of(0), SELECT(y_major, int_of(2), int_of(4)));
     kind += SELECT(along > R(0.0), int_of(1), int_of(0));

@@ -42,23 +42,21 @@ static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int 
     return mask_bits(b->active & rays_meet_box(b->rays, node, box % GLINT_BVH_WIDTH, hit->t));
 }
 
-// Tests some rays against all triangles of a cluster, which stand from place `first` on. True if
-// one has met a triangle.
-static inline bool intersect_by_rays(const packet *p, uint rays, lanes_int from,
-                                     global const float *cluster, global const int *numbers,
-                                     int first, closest *hit)
+// Tests some rays against all triangles of a cluster. True if one has met a triangle.
+static inline bool intersect_by_rays(const packet *p, uint rays, lanes_int from, const leaf *leaf,
+                                     closest *hit)
 {
     lone_ray alone[GLINT_WIDTH];
     cluster_test tests[GLINT_WIDTH];
     int count = 0;
     for (uint left = rays; left != 0; left &= left - 1) {
         alone[count] = take_ray(p, lowest_bit(left), from);
-        test_cluster(&alone[count], cluster, first, &tests[count]);
+        test_cluster(&alone[count], leaf, &tests[count]);
         count++;
     }
     bool found = false;
     for (int i = 0; i < count; i++, rays &= rays - 1) {
-        found |= take_nearest(&alone[i], &tests[i], cluster, numbers, first, hit, lowest_bit(rays));
+        found |= take_nearest(&alone[i], leaf, &tests[i], hit, lowest_bit(rays));
     }
     return found;
 }
@@ -79,7 +77,8 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
     if (GLINT_WIDTH > 1 && popcount(met) > SPARSE_TRIANGLES) {
         uint rays = rays_at_box(b, scene, box, hit);
         if (popcount(rays) < popcount(met)) {
-            return intersect_by_rays(b->rays, rays, from, cluster, scene->numbers, first, hit);
+            const leaf leaf = {cluster, scene->numbers, first};
+            return intersect_by_rays(b->rays, rays, from, &leaf, hit);
         }
     }
     for (; met != 0; met &= met - 1) {

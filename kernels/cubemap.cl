@@ -12,13 +12,13 @@ typedef struct cube_point {
 } cube_point;
 
 // Where a direction of any length but zero meets the cube. On a tie of the largest components the
-// order x, y, z decides, as in ImfEnvmap.h; the border makes both answers agree.
-// `edge` is the map's or that of one of its levels, which begins at the texel `start`.
+// border makes all answers agree. `edge` is the map's or that of one of its levels, which begins at
+// the texel `start`.
 static inline cube_point find_on_cube(real3 d, lanes_int edge, lanes_int start)
 {
+    mask x_major, y_major;
+    find_major(d, &x_major, &y_major);
     real ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
-    mask x_major = (ax >= ay) & (ax >= az);
-    mask y_major = !x_major & (ay >= az);
     real major = SELECT(x_major, ax, SELECT(y_major, ay, az));
     real along = SELECT(x_major, d.x, SELECT(y_major, d.y, d.z));
     mask negative = along < R(0.0);

@@ -47,9 +47,8 @@ static inline packet make_packet(real3 origin, real3 direction)
     p.direction[1] = direction.y;
     p.direction[2] = direction.z;
     const real *d = p.direction;
-    real ax = fabs(d[0]), ay = fabs(d[1]), az = fabs(d[2]);
-    mask x_major = (ax >= ay) & (ax >= az);
-    mask y_major = !x_major & (ay >= az);
+    mask x_major, y_major;
+    find_major(direction, &x_major, &y_major);
     p.axis = SELECT(x_major, int_of(0), SELECT(y_major, int_of(1), int_of(2)));
     // The two other components follow cyclically: y z, z x, x y.
     real along = SELECT(x_major, d[0], SELECT(y_major, d[1], d[2]));
@@ -183,6 +182,13 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
     return ray;
 }
 
+// A cluster, whose triangles stand from place `first` on, and all triangles' numbers.
+typedef struct leaf {
+    global const float *cluster;
+    global const int *numbers;
+    int first;
+} leaf;
+
 // A ray against all triangles of a cluster: bits say for which the ray is inside or, perhaps by
 // rounding alone, on an edge; u, v and w as in intersect_triangle.
 typedef struct cluster_test {
@@ -190,12 +196,11 @@ typedef struct cluster_test {
     block u, v, w;
 } cluster_test;
 
-// The first half of intersect_triangle for one ray and the triangles of a cluster, which stand from
-// place `first` on: operation by operation the same. Without a branch, so that one ray's test does
-// not wait for another's.
-static inline void test_cluster(const lone_ray *ray, global const float *cluster, int first,
-                                cluster_test *test)
+// The first half of intersect_triangle for one ray and the triangles of a cluster: operation by
+// operation the same. Without a branch, so that one ray's test does not wait for another's.
+static inline void test_cluster(const lone_ray *ray, const leaf *leaf, cluster_test *test)
 {
+    global const float *cluster = leaf->cluster;
     const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
     const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
     const block shear_x = block_of(-ray->shear_x), shear_y = block_of(-ray->shear_y);
@@ -214,7 +219,7 @@ static inline void test_cluster(const lone_ray *ray, global const float *cluster
     block least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
     block_mask inside = ((least >= R(0.0)) | (most <= R(0.0))) & (u + v + w != R(0.0)) &
                         (BLOCK_LANES < (scalar)count) &
-                        (BLOCK_LANES != (scalar)(ray->from - first));
+                        (BLOCK_LANES != (scalar)(ray->from - leaf->first));
     test->inside = block_bits(inside);
     test->on_edge = block_bits(inside & ((least == R(0.0)) | (most == R(0.0))));
     test->u = u;
@@ -224,12 +229,11 @@ static inline void test_cluster(const lone_ray *ray, global const float *cluster
 
 // The second half, for triangle i: whether it is hit before *hit, in one lane of which the ray's
 // hit is. Then it takes its place.
-static inline bool take_if_nearer(const lone_ray *ray, const cluster_test *test, int i,
-                                  global const float *cluster, global const int *numbers, int first,
-                                  closest *hit, int lane)
+static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const cluster_test *test,
+                                  int i, closest *hit, int lane)
 {
     float at[9];
-    load_triangle(cluster, i, at);
+    load_triangle(leaf->cluster, i, at);
     const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
     const scalar *o = ray->origin;
     const scalar az = at[z] - o[z], bz = at[3 + z] - o[z], cz = at[6 + z] - o[z];
@@ -253,25 +257,24 @@ static inline bool take_if_nearer(const lone_ray *ray, const cluster_test *test,
     if (!(t > R(0.0) && t <= before)) {
         return false;
     }
-    const int rival = (int)LANE_INT(hit->place, lane);
-    if (t == before && rival >= 0 && numbers[first + i] > numbers[rival]) {
+    const int place = leaf->first + i, rival = (int)LANE_INT(hit->place, lane);
+    if (t == before && rival >= 0 && leaf->numbers[place] > leaf->numbers[rival]) {
         return false;
     }
     LANE(hit->t, lane) = t;
     LANE(hit->b1, lane) = v * inverse;
     LANE(hit->b2, lane) = w * inverse;
-    LANE_INT(hit->place, lane) = first + i;
+    LANE_INT(hit->place, lane) = place;
     return true;
 }
 
 // The triangles of the cluster that the test found, against the ray's hit. True if one is nearer.
-static inline bool take_nearest(const lone_ray *ray, const cluster_test *test,
-                                global const float *cluster, global const int *numbers, int first,
+static inline bool take_nearest(const lone_ray *ray, const leaf *leaf, const cluster_test *test,
                                 closest *hit, int lane)
 {
     bool found = false;
     for (uint left = test->inside; left != 0; left &= left - 1) {
-        found |= take_if_nearer(ray, test, lowest_bit(left), cluster, numbers, first, hit, lane);
+        found |= take_if_nearer(ray, leaf, test, lowest_bit(left), hit, lane);
     }
     return found;
 }

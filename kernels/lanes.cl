@@ -460,6 +460,15 @@ static inline real largest_magnitude3(real3 a)
     return largest3(real3_of(fabs(a.x), fabs(a.y), fabs(a.z)));
 }
 
+// Where the largest component is x, and where y, else z. On a tie the order x, y, z decides, as in
+// ImfEnvmap.h.
+static inline void find_major(real3 d, mask *x, mask *y)
+{
+    real ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
+    *x = (ax >= ay) & (ax >= az);
+    *y = !*x & (ay >= az);
+}
+
 // 1/√x for x in [2⁻⁶⁰, 2⁶⁰], within 2 units in the last place: Newton's iteration from an estimate
 // by the exponent, good to 0.2%, then 5e-6, then 4e-11 (Lomont, Fast Inverse Square Root, 2003).
 // The same on every device, and a third of the time of a root and a division.

@@ -104,23 +104,22 @@ static inline int order_children(node_pointer node, uint met, int rays, int alon
     return count;
 }
 
-static inline void stream_meets_leaf(stream *s, const stream_child *leaf,
+static inline void stream_meets_leaf(stream *s, const stream_child *child,
                                      const scene_buffers *scene, closest *hits)
 {
-    const int index = ~leaf->child;
-    global const float *cluster = scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES;
-    const int first = index * GLINT_CLUSTER_LANES;
-    const int *list = s->list + leaf->first;
+    const int index = ~child->child, *list = s->list + child->first;
+    const leaf leaf = {scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES, scene->numbers,
+                       index * GLINT_CLUSTER_LANES};
     cluster_test tests[STREAM_TESTS];
-    for (int begin = 0; begin < leaf->count; begin += STREAM_TESTS) {
-        const int count = min(leaf->count - begin, STREAM_TESTS);
+    for (int begin = 0; begin < child->count; begin += STREAM_TESTS) {
+        const int count = min(child->count - begin, STREAM_TESTS);
         for (int i = 0; i < count; i++) {
-            test_cluster(&s->rays[list[begin + i]].ray, cluster, first, &tests[i]);
+            test_cluster(&s->rays[list[begin + i]].ray, &leaf, &tests[i]);
         }
         for (int i = 0; i < count; i++) {
             stream_ray *r = &s->rays[list[begin + i]];
             closest *hit = &hits[r->group];
-            if (take_nearest(&r->ray, &tests[i], cluster, scene->numbers, first, hit, r->lane)) {
+            if (take_nearest(&r->ray, &leaf, &tests[i], hit, r->lane)) {
                 r->farthest = LANE(hit->t, r->lane);
             }
         }

@@ -176,6 +176,12 @@ static void the_stack_holds_every_branch_that_the_least_weight_allows(void **sta
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_int_equal(plan.stack_capacity, GLINT_DEPTH_MAX + 1);
     assert_non_null(strstr(plan.stack_reason, "truncated"));
+    assert_true(plan.tiles);
+    settings.precision = GLINT_PRECISION_DOUBLE;
+    settings.kernel_width = 16;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_false(plan.tiles); // 256 pixels × 65 branches × 120 bytes
+    assert_non_null(strstr(plan.tiles_reason, "branches"));
 }
 
 static void the_plan_says_how_secondary_rays_are_traced(void **state)

@@ -371,6 +371,24 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
     }
 }
 
+// What the waiting branches of a tile may take of a work-item's own memory, which on CPUs is a
+// thread's stack: the C library's least default is 2 MiB.
+#define BRANCHES_MAX_BYTES ((size_t)5 << 18)
+
+// A tile's pixels each have room for as many branches as one path may need; where that comes to too
+// much a work-item renders one packet.
+static void limit_branches(glint_plan *plan)
+{
+    // The struct branch of kernels/branches.cl, at most.
+    const size_t branch = plan->precision == GLINT_PRECISION_DOUBLE ? 120 : 64;
+    const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
+    if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
+        plan->tiles = false;
+        snprintf(plan->tiles_reason, sizeof plan->tiles_reason,
+                 "the waiting branches of a tile would take %zu KiB", bytes >> 10);
+    }
+}
+
 // Entries of the fewest bits that can name every medium; without nesting one entry is enough.
 static void choose_media(const glint_scene *scene, glint_plan *plan)
 {
@@ -434,8 +452,9 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     }
     choose_width(in, plan);
     choose_tiles(settings, plan);
-    describe_secondary_rays(plan);
     choose_stack(settings, plan);
+    limit_branches(plan);
+    describe_secondary_rays(plan);
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
     return choose_texels(in, plan, error);
