@@ -57,8 +57,9 @@ static double texel_angle(int edge, int i, int j)
     const int parts = 32;
     double sum = 0;
     for (int k = 0; k < parts * parts; k++) {
-        const double s = 2 * (i + (k % parts + 0.5) / parts) / edge - 1;
-        const double t = 2 * (j + (k / parts + 0.5) / parts) / edge - 1;
+        const int column = k % parts, row = k / parts;
+        const double s = 2 * (i + (column + 0.5) / parts) / edge - 1;
+        const double t = 2 * (j + (row + 0.5) / parts) / edge - 1;
         sum += pow(1 + s * s + t * t, -1.5);
     }
     return sum * 4 / ((double)edge * edge * parts * parts);

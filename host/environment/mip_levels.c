@@ -89,7 +89,8 @@ void glint_mip_levels_fill(const glint_cube *cube, float *coarser)
 {
     glint_cube finer = *cube;
     while (finer.edge > 1) {
-        glint_cube level = {finer.edge / 2, coarser};
+        glint_cube level = {.edge = finer.edge / 2};
+        level.texels = coarser;
         halving h = {&finer, &level};
         glint_parallel_for((size_t)level.edge, halve_row, &h);
         glint_cube_fill_border(&level);
