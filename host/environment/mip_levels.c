@@ -18,7 +18,7 @@ size_t glint_mip_levels_size(int edge)
 }
 
 // Which texels of a row of the finer level a texel of the coarser one covers, and how much of each:
-// three at most, as an edge of 2m + 1 texels becomes one of m.
+// two or, where an edge of 2m + 1 texels becomes one of m, three.
 typedef struct span {
     int first, count;
     double shares[3];
@@ -26,13 +26,10 @@ typedef struct span {
 
 static span find_span(int place, int finer, int coarser)
 {
-    const double ratio = (double)finer / (double)coarser;
-    const double begin = place * ratio, end = (place + 1) * ratio;
-    span s = {.first = (int)begin};
-    for (int i = s.first; i < finer && i < end && s.count < 3; i++) {
-        s.shares[s.count++] = fmin(end, i + 1.0) - fmax(begin, (double)i);
+    if (finer == 2 * coarser) {
+        return (span){2 * place, 2, {1, 1}};
     }
-    return s;
+    return (span){2 * place, 3, {1 - (double)place / coarser, 1, (place + 1.0) / coarser}};
 }
 
 // The solid angle of the rectangle from the corner (0, 0) to (s, t) at the distance 1.
