@@ -4,15 +4,18 @@
 // ---- Blocks ------------------------------------------------------------------------------------
 
 typedef scalar16 block;
+typedef MASK_TYPE(16) block_mask;
 #if GLINT_DOUBLE
 #define load_block(p) convert_double16(vload16(0, p))
+#define to_block(integers) convert_double16(integers)
 #else
 #define load_block(p) vload16(0, p)
+#define to_block(integers) convert_float16(integers)
 #endif
-typedef MASK_TYPE(16) block_mask;
 #define block_of(x) ((block)(scalar)(x))
 #define block_bits(m) bits_of_16(m)
 #define BLOCK_LANES (block)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#define BLOCK_NUMBERS (block_mask)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 
 // Lane i of the result is lane indices[i] of the values.
 static inline block permute_block(block values, uchar16 indices)

@@ -12,6 +12,7 @@
     FEATURE(MANY_MATERIALS, "materials are looked up for each hit")                                \
     FEATURE(FRESNEL, "reflectance rises towards grazing angles")                                   \
     FEATURE(MIRROR, "metal reflects")                                                              \
+    FEATURE(TINT, "metal colours what it reflects")                                                \
     FEATURE(GLASS, "light passes through transmitting surfaces")                                   \
     FEATURE(SPLIT, "a path may go on both ways: reflected and transmitted")                        \
     FEATURE(SOLID, "light refracts into and out of solids by Snell's law")                         \

@@ -234,6 +234,7 @@ static inline bool has_several_bits(uint bits) { return (bits & (bits - 1)) != 0
 #define mask_all() 1
 #define to_real(integers) ((real)(integers))
 #define to_int_down(value) ((lanes_int)floor(value))
+#define to_int_truncated(value) ((lanes_int)(value))
 #define mask_bits(m) ((uint)(m))
 static inline bool any_lane(mask m) { return m != 0; }
 static inline bool lane_is_set(mask m, int lane) { return m != 0; }
@@ -260,6 +261,7 @@ static inline lanes_int lane_numbers(void) { return 0; }
 #define CONVERT_INT(width) CONVERT_INT_(width)
 #define to_real(integers) CONVERT_REAL(GLINT_WIDTH)(integers)
 #define to_int_down(value) CONVERT_INT(GLINT_WIDTH)(floor(value))
+#define to_int_truncated(value) CONVERT_INT(GLINT_WIDTH)(value)
 
 #if GLINT_WIDTH == 16
 #define mask_bits(m) bits_of_16(m)

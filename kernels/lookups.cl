@@ -19,14 +19,15 @@ typedef struct lookups {
     int level_starts[GLINT_LEVELS_MAX]; // texels before a level
 #endif
     scalar weights[LOOKUPS * PIXEL_VALUES];
-    scalar sums[TILE_GROUPS * PIXEL_VALUES]; // R, G, B; the fourth value means nothing
+    scalar *sums; // of the tile's pixels: R, G, B; the fourth value means nothing
 } lookups;
 
 #define ALL_RAYS ((uint)((1 << GLINT_WIDTH) - 1))
 
-static inline void begin_lookups(lookups *l, const cube_map *map)
+static inline void begin_lookups(lookups *l, const cube_map *map, scalar *sums)
 {
     l->count = 0;
+    l->sums = sums;
 #if GLINT_MIP_LEVELS
     l->level_count = 0;
     int start = 0;
@@ -37,7 +38,7 @@ static inline void begin_lookups(lookups *l, const cube_map *map)
     }
 #endif
     for (int i = 0; i < TILE_GROUPS * PIXEL_VALUES; i++) {
-        l->sums[i] = 0;
+        sums[i] = 0;
     }
 }
 

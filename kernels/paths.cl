@@ -3,6 +3,7 @@
 // What one work-item counts; added to the counters at its end.
 typedef struct tally {
     ulong counts[GLINT_COUNTERS];
+    lanes_int deepest; // surfaces that a path has met
     real weight_by_depth, weight_by_min_weight, weight_by_stack;
 } tally;
 
@@ -12,6 +13,7 @@ static inline tally no_tally(void)
     for (int i = 0; i < GLINT_COUNTERS; i++) {
         t.counts[i] = 0;
     }
+    t.deepest = int_of(0);
     t.weight_by_depth = t.weight_by_min_weight = t.weight_by_stack = real_of(0);
     return t;
 }
@@ -41,8 +43,16 @@ typedef struct primary {
     lanes_int places; // of the triangles hit, −1: none
 } primary;
 
-// The primary rays through the points (x, y) of the image plane, see glint_frame_record. Sets their
-// length.
+// The directions of the primary rays through points (x, y) of the image plane, see
+// glint_frame_record: 1 long or more.
+static inline real3 primary_directions(const glint_frame_record *frame, real x, real y)
+{
+    return scale_add(
+        join_vector(&frame->direction_y), y,
+        scale_add(join_vector(&frame->direction_x), x, join_vector(&frame->direction)));
+}
+
+// The primary rays; sets their length.
 static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;
@@ -50,10 +60,8 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
     ray.origin =
         scale_add(join_vector(&frame->origin_y), y,
                   scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
-    real3 d =
-        scale_add(join_vector(&frame->direction_y), y,
-                  scale_add(join_vector(&frame->direction_x), x, join_vector(&frame->direction)));
-    real length_squared = dot3(d, d); // 1 or more
+    real3 d = primary_directions(frame, x, y);
+    real length_squared = dot3(d, d);
     real inverse = inverse_root(length_squared);
     real length = length_squared * inverse;
     first->length = length;
@@ -90,18 +98,25 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     return branch;
 }
 
-// Rule 7: a branch that has met all the surfaces it may, or weighs too little, takes the
-// environment along its direction. What that leaves out is counted.
-static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
-                              tally *tally)
+// Rule 7: which of the branches that exist have met all the surfaces they may, or weigh too little.
+// What that leaves out is counted.
+static inline mask ended(const glint_frame_record *frame, real weight, lanes_int met, mask exists,
+                         tally *tally)
 {
-    real weight = largest3(branch->weight);
-    mask deep = exists & (branch->met >= (lane_int)frame->depth);
+    mask deep = exists & (met >= (lane_int)frame->depth);
     mask light = exists & !deep & (weight < (scalar)frame->min_weight);
     const real zero = real_of(0);
     tally->weight_by_depth += SELECT(deep, weight, zero);
     tally->weight_by_min_weight += SELECT(light, weight, zero);
-    branch->looked_up = SELECT(deep | light, int_of(1), int_of(0));
+    return deep | light;
+}
+
+// Such a branch takes the environment along its direction.
+static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
+                              tally *tally)
+{
+    mask ends = ended(frame, largest3(branch->weight), branch->met, exists, tally);
+    branch->looked_up = SELECT(ends, int_of(1), int_of(0));
 }
 
 #if GLINT_ABSORPTION
@@ -147,7 +162,6 @@ typedef struct paths {
     path ray[PATH_GROUPS];
     mask active[PATH_GROUPS];
     pixels pixels[PATH_GROUPS];
-    lanes_int deepest; // surfaces met
 #if GATHERS
     // Gathered on their way, without the environment, by the tile's groups of pixels.
     real3 radiance[PATH_GROUPS];
@@ -276,7 +290,6 @@ static inline void begin_paths(const glint_frame_record *frame, primary *first, 
     all->ray[slot] = primary_rays(frame, first);
     all->active[slot] = active;
     all->pixels[slot] = pixels_of_group(group);
-    all->deepest = int_of(0);
 #if GATHERS
     all->radiance[slot] = real3_of(real_of(0), real_of(0), real_of(0));
 #endif
@@ -304,19 +317,11 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
             measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, hit);
         }
         lanes_int depth = all->ray[slot].met + (lane_int)1;
-        all->deepest = SELECT(met & (depth > all->deepest), depth, all->deepest);
+        tally->deepest = SELECT(met & (depth > tally->deepest), depth, tally->deepest);
         active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);
     }
 #endif
     all->active[slot] = active;
-}
-
-static inline void count_deepest(const paths *all, tally *tally)
-{
-    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-        ulong depth = (ulong)LANE_INT(all->deepest, lane);
-        tally->counts[GLINT_COUNT_DEEPEST] = max(tally->counts[GLINT_COUNT_DEEPEST], depth);
-    }
 }
 
 // Follows the primary rays of some groups, which stand in `first`, to their ends.

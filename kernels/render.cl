@@ -45,6 +45,7 @@
 #include "stream.cl"
 #include "traverse_together.cl"
 #include "paths.cl"
+#include "mirrors.cl"
 
 // Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
 static inline void add_to_counter(global uint *counter, ulong amount)
@@ -60,6 +61,9 @@ static inline void add_to_counter(global uint *counter, ulong amount)
 // A sum of weights in the counters' unit.
 static inline ulong weight_units(real weights)
 {
+    if (!any_lane(weights != R(0.0))) {
+        return 0;
+    }
     return (ulong)(sum_of_lanes(weights) * (scalar)(1UL << GLINT_WEIGHT_BITS));
 }
 
@@ -67,6 +71,7 @@ static inline void report(tally *tally, global uint *counters)
 {
     const uint slot = (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0));
     ulong *counts = tally->counts;
+    counts[GLINT_COUNT_DEEPEST] = (ulong)largest_lane(to_real(tally->deepest));
     counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = weight_units(tally->weight_by_depth);
     counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] = weight_units(tally->weight_by_min_weight);
     counts[GLINT_COUNT_WEIGHT_BY_STACK] = weight_units(tally->weight_by_stack);
@@ -109,6 +114,12 @@ typedef struct gathered {
     real alpha[TILE_GROUPS];
 } gathered;
 
+#if GLINT_SUPERSAMPLING
+#define SAMPLES_PER_AXIS(frame) ((frame)->samples_per_axis)
+#else
+#define SAMPLES_PER_AXIS(frame) 1
+#endif
+
 // The primary rays of a group, and which triangles they meet.
 static inline primary primary_of(const tile *t, int group)
 {
@@ -119,6 +130,19 @@ static inline primary primary_of(const tile *t, int group)
     return first;
 }
 
+#if ONE_LOOKUP
+static inline void add_sample(const scene_buffers *scene, const glint_frame_record *frame,
+                              const image_space *image, const tile *t, bool is_first, scalar *sums,
+                              tally *tally)
+{
+    sights all;
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        const primary first = primary_of(t, g);
+        find_sights(scene, frame, image, &first, g, &all, tally);
+    }
+    add_sights(scene, &all, is_first, sums);
+}
+#else
 // Adds one sample of each pixel, given what the primary rays meet.
 static inline void add_sample(const scene_buffers *scene, const glint_frame_record *frame,
                               const image_space *image, const tile *t, const mask *inside,
@@ -133,7 +157,6 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
             begin_paths(frame, &first[SLOT(i)], SLOT(i), g, inside[g], &all);
         }
         follow_paths(scene, frame, image, first, &all, later, tally);
-        count_deepest(&all, tally);
 #if GATHERS
         for (int i = 0; i < PATH_GROUPS; i++) {
             const int g = first_group + i;
@@ -144,6 +167,7 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
 #endif
     }
 }
+#endif
 
 #if GLINT_HITS
 static inline void add_hits(const scene_buffers *scene, const glint_frame_record *frame,
@@ -198,29 +222,25 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
     }
 }
 
-// Renders the tile whose first pixel is in the given column and row.
-static inline void render_tile(const scene_buffers *scene, const glint_frame_record *frame,
-                               int column, int row, global scalar *pixels, global uint *counters)
+// Adds up the samples of a tile's pixels: `sums` is what look-ups bring, `sum` the rest.
+static inline void sample_tile(const scene_buffers *scene, const glint_frame_record *frame,
+                               int column, int row, scalar *sums, gathered *sum, tally *tally)
 {
     const image_space image = make_image_space(frame);
-    tally tally = no_tally();
-    gathered sum;
-    lookups later;
+#if !ONE_LOOKUP
     mask inside[TILE_GROUPS];
     for (int g = 0; g < TILE_GROUPS; g++) {
 #if GATHERS
         const real zero = real_of(0);
-        sum.color[g] = real3_of(zero, zero, zero);
-        sum.alpha[g] = zero;
+        sum->color[g] = real3_of(zero, zero, zero);
+        sum->alpha[g] = zero;
 #endif
         inside[g] = group_in_image(frame, column, row, g);
     }
-#if GLINT_SUPERSAMPLING
-    const int k = frame->samples_per_axis;
-#else
-    const int k = 1;
+    lookups later;
+    begin_lookups(&later, &scene->environment, sums);
 #endif
-    begin_lookups(&later, &scene->environment);
+    const int k = SAMPLES_PER_AXIS(frame);
     for (int sample = 0; sample < k * k; sample++) {
         tile t;
         begin_tile(&image, frame, column, row, ((scalar)(sample % k) + R(0.5)) / (scalar)k,
@@ -228,21 +248,35 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
 #if GLINT_GEOMETRY
         trace_tile(&image, &t, scene);
 #endif
-#if GLINT_HITS
-        add_hits(scene, frame, &image, &t, &sum);
+#if ONE_LOOKUP
+        add_sample(scene, frame, &image, &t, sample == 0, sums, tally);
+#elif GLINT_HITS
+        add_hits(scene, frame, &image, &t, sum);
 #else
-        add_sample(scene, frame, &image, &t, inside, &sum, &later, &tally);
+        add_sample(scene, frame, &image, &t, inside, sum, &later, tally);
 #endif
     }
+#if !ONE_LOOKUP
     finish_lookups(&later, &scene->environment);
+#endif
+}
+
+// Renders the tile whose first pixel is in the given column and row.
+static inline void render_tile(const scene_buffers *scene, const glint_frame_record *frame,
+                               int column, int row, global scalar *pixels, global uint *counters)
+{
+    tally tally = no_tally();
+    gathered sum;
+    scalar sums[TILE_GROUPS * PIXEL_VALUES];
+    sample_tile(scene, frame, column, row, sums, &sum, &tally);
     // Before the pixels are stored: an atomic operation waits for all stores before it.
     report(&tally, counters);
+    const int k = SAMPLES_PER_AXIS(frame);
     scalar share = R(1.0) / (scalar)(k * k);
     for (int g = 0; g < TILE_GROUPS; g++) {
-        scalar *sums = later.sums + PIXEL_VALUES * g;
-        add_gathered(&sum, g, sums);
+        add_gathered(&sum, g, sums + PIXEL_VALUES * g);
         store_group(pixels, frame, column + g % TILE_COLUMNS * PACKET_WIDTH,
-                    row + g / TILE_COLUMNS * PACKET_HEIGHT, sums, share);
+                    row + g / TILE_COLUMNS * PACKET_HEIGHT, sums + PIXEL_VALUES * g, share);
     }
 }
 

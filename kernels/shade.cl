@@ -49,15 +49,50 @@ typedef struct triangle {
 #endif
 } triangle;
 
-// Sets a vertex's coordinates, x[16] y[16] z[16] from `values` on, for the rays in `yes`.
-static inline void set_vertex(global const float *values, mask yes, real3 *vertex)
+// Which of a cluster's 16 values rays take, of its triangles or its vertices. Neighbouring rays
+// tend to hit the same triangles, so what was hit is fetched once: where an instruction permutes
+// vectors a cluster at a time, of which each ray takes its own value, else a triangle at a time,
+// whose values all its rays take.
+#if HAS_MASK_REGISTERS && GLINT_WIDTH == 16
+#define FETCHED_BITS 4 // of a place: what they tell apart is fetched at once
+typedef lanes_int choice;
+static inline choice choice_of(lanes_int places, int first) { return places; }
+static inline real value_at(global const float *values, choice which)
 {
-    vertex->x = SELECT(yes, real_of(values[0]), vertex->x);
-    vertex->y = SELECT(yes, real_of(values[GLINT_CLUSTER_LANES]), vertex->y);
-    vertex->z = SELECT(yes, real_of(values[2 * GLINT_CLUSTER_LANES]), vertex->z);
+    return __builtin_ia32_permvarsf512(vload16(0, values), which);
+}
+static inline real number_at(global const int *numbers, choice which)
+{
+    return to_real(__builtin_ia32_permvarsi512(vload16(0, numbers), which));
+}
+static inline choice corner_at(global const uchar *corners, choice which)
+{
+    return __builtin_ia32_permvarsi512(convert_int16(vload16(0, corners)), which);
+}
+#else
+#define FETCHED_BITS 0
+typedef int choice;
+static inline choice choice_of(lanes_int places, int first) { return first % GLINT_CLUSTER_LANES; }
+static inline real value_at(global const float *values, choice which)
+{
+    return real_of(values[which]);
+}
+static inline real number_at(global const int *numbers, choice which)
+{
+    return real_of((scalar)numbers[which]);
+}
+static inline choice corner_at(global const uchar *corners, choice which) { return corners[which]; }
+#endif
+
+// Sets a vertex's coordinates from x[16] y[16] z[16] for the rays in `yes`.
+static inline void set_vertex(global const float *values, choice corner, mask yes, real3 *vertex)
+{
+    vertex->x = SELECT(yes, value_at(values, corner), vertex->x);
+    vertex->y = SELECT(yes, value_at(values + GLINT_CLUSTER_LANES, corner), vertex->y);
+    vertex->z = SELECT(yes, value_at(values + 2 * GLINT_CLUSTER_LANES, corner), vertex->z);
 }
 
-// Neighbouring rays tend to hit the same triangle, so each that was hit is fetched once.
+// The triangles at the places of the rays in `met`.
 static inline triangle load_triangles(const scene_buffers *scene, lanes_int places, mask met)
 {
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
@@ -77,25 +112,27 @@ static inline triangle load_triangles(const scene_buffers *scene, lanes_int plac
 #endif
     uint left = mask_bits(met);
     while (left != 0) {
-        int place;
-        mask here = next_alike(places, &left, &place);
-        size_t cluster = (size_t)place / GLINT_CLUSTER_LANES;
+        int first;
+        mask here = next_alike(places >> FETCHED_BITS, &left, &first);
+        first <<= FETCHED_BITS;
+        const choice triangles = choice_of(places, first);
+        const size_t cluster = (size_t)first / GLINT_CLUSTER_LANES;
         global const float *values = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
-        global const uchar *corners =
-            (global const uchar *)(values + GLINT_CLUSTER_CORNERS) + place % GLINT_CLUSTER_LANES;
+        global const uchar *corners = (global const uchar *)(values + GLINT_CLUSTER_CORNERS);
 #if GLINT_MANY_MATERIALS
         const int material = ((global const int *)values)[GLINT_CLUSTER_MATERIAL];
         t.material = SELECT(here, int_of(material), t.material);
 #endif
 #if GLINT_HITS
-        t.number = SELECT(here, real_of((scalar)scene->numbers[place]), t.number);
+        global const int *numbers = scene->numbers + cluster * GLINT_CLUSTER_LANES;
+        t.number = SELECT(here, number_at(numbers, triangles), t.number);
 #endif
 #pragma unroll
         for (int k = 0; k < 3; k++) {
-            int corner = corners[k * GLINT_CLUSTER_LANES];
-            set_vertex(values + corner, here, &t.vertices[k]);
+            const choice corner = corner_at(corners + k * GLINT_CLUSTER_LANES, triangles);
+            set_vertex(values, corner, here, &t.vertices[k]);
 #if GLINT_SMOOTH_NORMALS
-            set_vertex(scene->normals + cluster * GLINT_CLUSTER_NORMALS + corner, here,
+            set_vertex(scene->normals + cluster * GLINT_CLUSTER_NORMALS, corner, here,
                        &t.normals[k]);
 #endif
         }

@@ -136,11 +136,16 @@ static inline void clear_tile(const image_space *s, const glint_frame_record *fr
                               int row, tile *t)
 {
     scalar nothing = s->key_one > 0 ? R(0.0) : -HUGE;
-    t->farthest = block_of(HUGE);
+    t->farthest = SELECT(BLOCK_LANES < (scalar)TILE_GROUPS, block_of(nothing), block_of(HUGE));
     for (int g = 0; g < TILE_GROUPS; g++) {
+        t->key[g] = real_of(nothing);
+        t->place[g] = int_of(-1);
+    }
+    const bool cut = column + TILE_COLUMNS * PACKET_WIDTH > frame->width ||
+                     row + TILE_ROWS * PACKET_HEIGHT > frame->height;
+    for (int g = 0; g < TILE_GROUPS && cut; g++) {
         mask inside = group_in_image(frame, column, row, g);
         t->key[g] = SELECT(inside, real_of(nothing), real_of(HUGE));
-        t->place[g] = int_of(-1);
         ((scalar *)&t->farthest)[g] = smallest_lane(t->key[g]);
     }
     t->least = nothing;
@@ -163,13 +168,11 @@ static inline void begin_tile(const image_space *s, const glint_frame_record *fr
     t->middle_y = high_y - TILE_HALF_Y;
     t->largest_x = LARGER(fabs(low_x), fabs(high_x));
     t->largest_y = LARGER(fabs(low_y), fabs(high_y));
-    t->center_x = t->center_y = block_of(0);
-    for (int g = 0; g < TILE_GROUPS; g++) {
-        ((scalar *)&t->center_x)[g] =
-            low_x + GROUP_HALF_X + (scalar)(g % TILE_COLUMNS * PACKET_WIDTH);
-        ((scalar *)&t->center_y)[g] =
-            high_y - GROUP_HALF_Y - (scalar)(g / TILE_COLUMNS * PACKET_HEIGHT);
-    }
+    const block_mask groups = BLOCK_NUMBERS;
+    t->center_x = to_block(groups % (lane_int)TILE_COLUMNS * (lane_int)PACKET_WIDTH);
+    t->center_y = to_block(groups / (lane_int)TILE_COLUMNS * (lane_int)-PACKET_HEIGHT);
+    t->center_x += low_x + GROUP_HALF_X;
+    t->center_y += high_y - GROUP_HALF_Y;
     bound_tile(s, t, 0, 0, low_x, R(1.0));
     bound_tile(s, t, 1, 0, high_x, R(-1.0));
     bound_tile(s, t, 2, 1, low_y, R(1.0));

@@ -405,10 +405,8 @@ static inline void trace_tile(const image_space *s, tile *t, const scene_buffers
     }
 }
 
-// Distances and barycentric weights of what the pixels at (x, y) see, the corners of which are
-// given. `length` is that of their directions before they were made unit vectors.
-static inline void measure_hits(const image_space *s, const real3 vertices[3], real x, real y,
-                                real length, mask met, closest *hit)
+// The corners in image coordinates.
+static inline image_corners corners_in_image(const image_space *s, const real3 vertices[3])
 {
     image_corners c;
 #pragma unroll
@@ -422,6 +420,15 @@ static inline void measure_hits(const image_space *s, const real3 vertices[3], r
         }
         c.at[k][3] = fused(real_of(s->slope), c.at[k][2], real_of(s->offset));
     }
+    return c;
+}
+
+// Distances and barycentric weights of what the pixels at (x, y) see, the corners of which are
+// given. `length` is that of their directions before they were made unit vectors.
+static inline void measure_hits(const image_space *s, const real3 vertices[3], real x, real y,
+                                real length, mask met, closest *hit)
+{
+    const image_corners c = corners_in_image(s, vertices);
     real weights[3];
     image_weights(&c, x, y, weights);
     real inverse = R(1.0) / SELECT(met, weights[0] + weights[1] + weights[2], real_of(1));

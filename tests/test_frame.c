@@ -183,7 +183,7 @@ static void cones_change_nothing_where_texels_are_wide(void **state)
     test_scene_load("mirror_sphere", &scene);
     glint_environment noise;
     noise_environment(4, &noise);
-    glint_settings settings = small_frame(1);
+    glint_settings settings = small_frame(2);
     test_frame bilinear, cones;
     test_render(&scene, &noise, NULL, &settings, &bilinear);
     settings.filter = GLINT_FILTER_MIP;

@@ -91,6 +91,10 @@ static void a_mirror_compiles_no_glass_and_no_paint(void **state)
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         assert_true(plan.features[i].reason[0] != '\0');
     }
+    mirror.base_color[2] = 0.5f;
+    make_scene(&s, &mirror, 1);
+    assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_TINT) && compiles(&plan, GLINT_FEATURE_FRESNEL));
 }
 
 static void glass_compiles_what_its_volume_asks_for(void **state)

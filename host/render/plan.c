@@ -44,7 +44,7 @@ const char *glint_feature_meaning(glint_feature feature)
 typedef struct material_census {
     size_t used;
     size_t metal, glass, solid, thin, absorbing, paint, gloss, blend, unlit, emissive;
-    size_t angular_metal;   // metal whose reflectance depends on the angle: not of base colour 1
+    size_t tinted;          // metal of another base colour than 1: it depends on the angle, too
     size_t metal_and_glass; // both at once
 } material_census;
 
@@ -72,7 +72,7 @@ static void count_material(const glint_material *m, material_census *census)
     census->metal += m->metallic > 0;
     census->glass += glass;
     bool white = m->base_color[0] == 1 && m->base_color[1] == 1 && m->base_color[2] == 1;
-    census->angular_metal += m->metallic > 0 && !white;
+    census->tinted += m->metallic > 0 && !white;
     census->metal_and_glass += glass && m->metallic > 0;
     census->solid += glint_material_is_solid(m);
     census->thin += glass && !glint_material_is_solid(m);
@@ -129,6 +129,7 @@ static void decide_materials(const material_census *c, glint_plan *plan)
     decide(plan, GLINT_FEATURE_MANY_MATERIALS, c->used > 1, "%zu material%s in use", c->used,
            c->used == 1 ? "" : "s");
     decide_by_count(plan, GLINT_FEATURE_MIRROR, c->metal, c->used, "a metallic share");
+    decide_by_count(plan, GLINT_FEATURE_TINT, c->tinted, c->used, "coloured metal");
     decide_by_count(plan, GLINT_FEATURE_GLASS, c->glass, c->used, "transmission");
     decide_by_count(plan, GLINT_FEATURE_SOLID, c->solid, c->used, "a volume");
     decide_by_count(plan, GLINT_FEATURE_THIN_WALL, c->thin, c->used, "transmission and no volume");
@@ -144,7 +145,7 @@ static void decide_materials(const material_census *c, glint_plan *plan)
 static void decide_optics(const material_census *c, glint_fresnel fresnel, glint_plan *plan)
 {
     bool exact = fresnel == GLINT_FRESNEL_EXACT;
-    bool angular = c->angular_metal > 0 || c->glass > 0 || c->gloss > 0;
+    bool angular = c->tinted > 0 || c->glass > 0 || c->gloss > 0;
     decide(plan, GLINT_FEATURE_FRESNEL, exact && angular, "%s",
            !exact    ? "no Fresnel term was asked for"
            : angular ? "coloured metal, glass or smooth paint"
@@ -407,12 +408,14 @@ static void choose_media(const glint_scene *scene, glint_plan *plan)
 }
 
 // To show that unneeded features change nothing. A feature that contradicts the settings (a
-// transparent background) would change the picture and stays as it is.
+// transparent background) would change the picture and stays as it is, and so do normals that the
+// scene does not have.
 static void compile_everything(glint_plan *plan)
 {
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         bool changes_picture = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
                                i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
+                               i == GLINT_FEATURE_SMOOTH_NORMALS ||
                                (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (changes_picture || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

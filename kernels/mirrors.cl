@@ -1,0 +1,161 @@
+// Frames in which every sample takes one look-up: mirrors that see nothing but the environment, and
+// the environment alone. A look-up's direction may be of any length, and which way a normal points
+// does not matter to r = 2n(n·v) − v, so nothing is made a unit vector or turned here: the normals
+// are sums of the vertices' with weights that need not sum to 1.
+#define ONE_LOOKUP                                                                                 \
+    (!GLINT_INTERREFLECTION && !GLINT_GLASS && !GLINT_MIP_LEVELS && !GATHERS &&                    \
+     (GLINT_MIRROR || !GLINT_GEOMETRY))
+#if ONE_LOOKUP
+
+// Where the samples of a tile's pixels meet the environment.
+typedef struct sights {
+    cube_point points[TILE_GROUPS];
+#if GLINT_TINT
+    scalar weights[TILE_GROUPS * PIXEL_VALUES];
+#endif
+} sights;
+
+#if GLINT_GEOMETRY
+// A vector along `a` whose largest component is in [1, 2), so that its square is clear of overflow
+// and underflow, and whether there is one.
+static inline real3 moderate(real3 a, mask *valid)
+{
+    const real largest = largest_magnitude3(a);
+    *valid = (largest > R(0.0)) & (largest < (scalar)INFINITY);
+    return scale(a, inverse_exponent(SELECT(*valid, largest, real_of(1))));
+}
+
+static inline mask is_zero3(real3 a)
+{
+    const lanes_int bits = bits_from_real(a.x) | bits_from_real(a.y) | bits_from_real(a.z);
+    return (bits << 1) == (lane_int)0;
+}
+
+// Normals along which the surfaces reflect: the interpolated ones, or the triangles' own.
+static inline real3 mirror_normals(const image_space *image, const triangle *t, real3 geometric,
+                                   const primary *first, mask met)
+{
+#if GLINT_SMOOTH_NORMALS
+    const image_corners corners = corners_in_image(image, t->vertices);
+    real weights[3];
+    image_weights(&corners, first->x, first->y, weights);
+    const real3 *n = t->normals;
+    // A vertex without a usable normal is (0, 0, 0).
+    mask given = !(is_zero3(n[0]) | is_zero3(n[1]) | is_zero3(n[2]));
+    mask valid;
+    real3 smooth = moderate(
+        scale_add(n[2], weights[2], scale_add(n[1], weights[1], scale(n[0], weights[0]))), &valid);
+    given &= valid;
+    if (!any_lane(met & !given)) {
+        return smooth;
+    }
+    return select3(given, smooth, moderate(geometric, &valid));
+#else
+    mask valid;
+    return moderate(geometric, &valid);
+#endif
+}
+
+// Directions in which mirrors show the environment to rays along d; `cosine` is that of the angle
+// between the normal and the viewer.
+static inline real3 mirrored(const image_space *image, const triangle *t, const primary *first,
+                             real3 d, mask met, real *cosine)
+{
+    const real3 *vertices = t->vertices;
+    real3 geometric =
+        cross3(subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0]));
+    // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
+    geometric = select3(is_zero3(geometric), d, geometric);
+    const real3 n = mirror_normals(image, t, geometric, first, met);
+    const real squared = dot3(n, n), along = dot3(n, d);
+    real3 r = scale_add(n, R(-2.0) * along, scale(d, squared));
+    // What ends on the other side of the surface than the viewer's is folded back (fold_to_side).
+    const real viewer_side = -dot3(d, geometric), side = dot3(r, geometric);
+    mask beyond = met & ((side < R(0.0)) != (viewer_side < R(0.0)));
+    if (any_lane(beyond)) {
+        mask valid;
+        const real3 g = moderate(geometric, &valid);
+        r = select3(beyond, scale_add(g, R(-2.0) * dot3(r, g) / dot3(g, g), r), r);
+    }
+    *cosine = fabs(along) * inverse_root(squared) * inverse_root(dot3(d, d));
+    return r;
+}
+
+// What the mirrors leave of the light, and how much that is counted.
+static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame_record *frame,
+                                   const triangle *t, real cosine, mask met, tally *tally)
+{
+    const real one = real_of(1);
+    real3 weights = real3_of(one, one, one);
+#if GLINT_TINT
+    surface s;
+    load_materials(scene, t, &s);
+    weights = select3(met, metal_reflectance(s.base_color, SMALLER(cosine, one)), weights);
+#endif
+    mask reflects = met & (largest3(weights) > R(0.0));
+    ended(frame, largest3(weights), int_of(1), reflects, tally);
+    tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
+    return weights;
+}
+#endif
+
+// Finds where the samples of a group see the environment.
+static inline void find_sights(const scene_buffers *scene, const glint_frame_record *frame,
+                               const image_space *image, const primary *first, int group,
+                               sights *all, tally *tally)
+{
+    real3 d = primary_directions(frame, first->x, first->y);
+    bool shows_mirrors = false;
+#if GLINT_GEOMETRY
+    mask met = first->places >= (lane_int)0;
+    shows_mirrors = any_lane(met);
+    real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
+    if (shows_mirrors) {
+        const triangle t = load_triangles(scene, first->places, met);
+        real cosine;
+        d = select3(met, mirrored(image, &t, first, d, met, &cosine), d);
+        weights = mirror_weights(scene, frame, &t, cosine, met, tally);
+        tally->deepest = SELECT(met, int_of(1), tally->deepest);
+    }
+#if GLINT_TINT
+    to_pixels(weights.x, weights.y, weights.z, real_of(0), all->weights + group * PIXEL_VALUES);
+#endif
+#endif
+    const cube_map *map = &scene->environment;
+    cube_point *point = &all->points[group];
+    *point = find_on_cube(turn_into_environment(frame, d), int_of(map->edge), int_of(0));
+    // Pixels that show nothing else share the environment's texels with their neighbours.
+    for (int lane = 0; lane < GLINT_WIDTH && shows_mirrors; lane++) {
+        prefetch_texels(map, map->edge, (size_t)LANE_INT(point->first, lane));
+    }
+}
+
+// What the environment sends to a row of a group's pixels.
+static inline pixel_row look_up_row(const cube_map *map, const cube_point *point, int row)
+{
+#define AT(lane) fetch_at(point, map, map->edge, row * PACKET_WIDTH + lane)
+#if GLINT_WIDTH == 1
+    return AT(0);
+#else
+    return (pixel_row)(AT(0), AT(1), AT(2), AT(3));
+#endif
+#undef AT
+}
+
+// Adds a sample of each of the tile's pixels to their sums, which the first one sets.
+static inline void add_sights(const scene_buffers *scene, const sights *all, bool is_first,
+                              scalar *sums)
+{
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        scalar *pixels = sums + g * PIXEL_VALUES;
+#pragma unroll
+        for (int j = 0; j < PACKET_HEIGHT; j++) {
+            pixel_row light = look_up_row(&scene->environment, &all->points[g], j);
+#if GLINT_TINT && GLINT_GEOMETRY
+            light *= load_pixel_row(j, all->weights + g * PIXEL_VALUES);
+#endif
+            store_pixel_row(is_first ? light : load_pixel_row(j, pixels) + light, j, pixels);
+        }
+    }
+}
+#endif

@@ -1,0 +1,250 @@
+// Mirrors that see the environment alone take a shorter way through the kernel (mirrors.cl):
+// against the oracle, against the kernel that has everything, and at every width and size of tiles.
+#include "bench/random.h"
+#include "support/bridge.h"
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define EDGE 256 // of the environment's cube
+
+static void keep(glint_scene *scene)
+{
+    (void)scene;
+}
+
+static void drop_normals(glint_scene *scene)
+{
+    free(scene->normals);
+    scene->normals = NULL;
+}
+
+// Every seventh vertex has none: some triangles have no corner with a normal, some have three.
+static void drop_some_normals(glint_scene *scene)
+{
+    for (size_t i = 0; i < 3 * scene->triangle_count; i += 7) {
+        memset(scene->normals + 3 * i, 0, 3 * sizeof *scene->normals);
+    }
+}
+
+static void turn_some_normals(glint_scene *scene)
+{
+    for (size_t i = 0; i < 9 * scene->triangle_count; i++) {
+        scene->normals[i] = i / 9 % 2 == 0 ? scene->normals[i] : -scene->normals[i];
+    }
+}
+
+// By 53 degrees at most, so that many rays would go on behind the surface, and no interpolated
+// normal is shorter than 0.6.
+static void roughen(glint_scene *scene)
+{
+    bench_random random = {1};
+    for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
+        float *n = scene->normals + 3 * i;
+        const glint_vec3 a = bench_random_direction(&random);
+        const double x = n[0] + 0.8 * a.x, y = n[1] + 0.8 * a.y, z = n[2] + 0.8 * a.z;
+        const double length = sqrt(x * x + y * y + z * z);
+        n[0] = (float)(x / length);
+        n[1] = (float)(y / length);
+        n[2] = (float)(z / length);
+    }
+}
+
+// One colour is not reflected at all.
+static void color(glint_scene *scene)
+{
+    const float copper[3] = {0.95f, 0.5f, 0};
+    memcpy(scene->materials[0].base_color, copper, sizeof copper);
+}
+
+static void color_and_roughen(glint_scene *scene)
+{
+    color(scene);
+    roughen(scene);
+}
+
+// What single precision makes of a direction: a few dozen roundings, and the error of a triangle's
+// weights times the angle by which its normals part. The weights err as the pixel's distance to the
+// image's middle, 45 pixels and four roundings, divided by the triangle's thickness as it is seen,
+// which is a tenth of a pixel at the sphere's rim: 1800 roundings. The sphere's own normals part
+// by less than 0.1.
+#define ROUNDING 0x1p-24
+#define SMOOTH_ERROR (200 * ROUNDING)
+#define ROUGH_ERROR (2000 * ROUNDING)
+
+typedef struct mirror_case {
+    const char *name;
+    void (*change)(glint_scene *scene);
+    double error;
+} mirror_case;
+
+static const mirror_case cases[] = {
+    {"smooth", keep, SMOOTH_ERROR},
+    {"facets", drop_normals, SMOOTH_ERROR},
+    {"some vertices without normals", drop_some_normals, SMOOTH_ERROR},
+    {"normals turned inwards", turn_some_normals, SMOOTH_ERROR},
+    {"rough", roughen, ROUGH_ERROR},
+    {"copper", color, SMOOTH_ERROR},
+    {"rough copper", color_and_roughen, ROUGH_ERROR},
+};
+#define CASES (sizeof cases / sizeof *cases)
+
+static glint_settings small_frame(void)
+{
+    glint_settings settings = glint_settings_default;
+    // Not multiples of the packet, so that packets hang over both edges.
+    settings.width = 91;
+    settings.height = 70;
+    settings.depth = 1;
+    settings.texels = GLINT_TEXELS_FLOAT; // the oracle's
+    return settings;
+}
+
+static void load_case(const mirror_case *c, glint_scene *scene, glint_environment *environment)
+{
+    *scene = (glint_scene){0};
+    test_scene_load("mirror_sphere", scene);
+    assert_int_equal(scene->material_count, 1);
+    assert_non_null(scene->normals);
+    c->change(scene);
+    bridge_direction_environment(EDGE, environment);
+}
+
+static void free_case(glint_scene *scene, glint_environment *environment)
+{
+    glint_environment_free(environment);
+    glint_scene_free(scene);
+}
+
+// The environment is 0.5 + 0.5 d: a radiance errs by half as much as the direction, and where
+// rounding decides between two faces of the cube by what their interpolations differ.
+#define LOOKUP_ERROR (2 * (2.0 / EDGE) * (2.0 / EDGE) / 8 * 0.5)
+
+static void compare_with_oracle(const mirror_case *c, const glint_settings *settings,
+                                double tolerance)
+{
+    glint_scene scene;
+    glint_environment environment;
+    load_case(c, &scene, &environment);
+    test_frame frame;
+    test_render(&scene, &environment, NULL, settings, &frame);
+    bridge *b = bridge_create(&scene, &environment);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    const oracle_view view = bridge_view(&camera, settings);
+    const int pixels = settings->width * settings->height;
+    double largest = 0;
+    int near_edges = 0;
+    for (int i = 0; i < pixels; i++) {
+        const int pixel[2] = {i % settings->width, i / settings->width};
+        double rgba[4];
+        oracle_report report;
+        oracle_pixel(bridge_scene(b), &view, pixel, rgba, &report);
+        if (report.edge < 1e-6) {
+            near_edges++;
+            continue;
+        }
+        for (int k = 0; k < 4; k++) {
+            largest = fmax(largest, fabs(frame.exact[4 * i + k] - rgba[k]));
+        }
+    }
+    print_message("%-30s %s: off by %.2g at most\n", c->name,
+                  settings->precision == GLINT_PRECISION_DOUBLE ? "double" : "float", largest);
+    assert_true(largest <= tolerance);
+    assert_true(near_edges < pixels / 200);
+    assert_true(frame.report.rays.reflected > (uint64_t)pixels / 10);
+    bridge_free(b);
+    test_frame_free(&frame);
+    free_case(&scene, &environment);
+}
+
+static void mirrors_agree_with_the_oracle(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CASES; i++) {
+        glint_settings settings = small_frame();
+        compare_with_oracle(&cases[i], &settings, LOOKUP_ERROR + cases[i].error);
+        settings.precision = GLINT_PRECISION_DOUBLE;
+        compare_with_oracle(&cases[i], &settings, LOOKUP_ERROR + 1e-12);
+    }
+    // Coloured metal without Fresnel's equations has one weight at every angle.
+    glint_settings settings = small_frame();
+    settings.fresnel = GLINT_FRESNEL_NONE;
+    compare_with_oracle(&cases[CASES - 1], &settings, LOOKUP_ERROR + cases[CASES - 1].error);
+}
+
+// With everything compiled the general way is taken.
+static void mirrors_agree_with_paths(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < CASES; i++) {
+        glint_scene scene;
+        glint_environment environment;
+        load_case(&cases[i], &scene, &environment);
+        glint_settings settings = small_frame();
+        settings.samples_per_axis = 2;
+        settings.env_rotate = 30;
+        test_frame mirrors, paths;
+        test_render(&scene, &environment, NULL, &settings, &mirrors);
+        settings.all_features = true;
+        test_render(&scene, &environment, NULL, &settings, &paths);
+        for (size_t p = 0; p < 4 * (size_t)(settings.width * settings.height); p++) {
+            assert_true(fabs(mirrors.exact[p] - paths.exact[p]) <= LOOKUP_ERROR + cases[i].error);
+        }
+        assert_memory_equal(&mirrors.report.rays, &paths.report.rays, sizeof paths.report.rays);
+        assert_int_equal(mirrors.report.deepest, paths.report.deepest);
+        // Sums of rounded weights: 4 samples of each pixel.
+        const double weight = paths.report.truncation.by_depth;
+        assert_true(fabs(mirrors.report.truncation.by_depth - weight) <= 1e-6 * weight);
+        assert_true(weight > 0);
+        test_frame_free(&mirrors);
+        test_frame_free(&paths);
+        free_case(&scene, &environment);
+    }
+}
+
+static void mirrors_are_the_same_at_every_width_and_size_of_tiles(void **state)
+{
+    (void)state;
+    static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}, {1, 16}};
+    for (size_t i = 0; i < CASES; i++) {
+        glint_scene scene;
+        glint_environment environment;
+        load_case(&cases[i], &scene, &environment);
+        glint_settings settings = small_frame();
+        settings.samples_per_axis = i % 2 == 0 ? 1 : 2;
+        settings.texels = GLINT_TEXELS_HALF;
+        settings.kernel_width = 1;
+        settings.tile_packets = 1;
+        test_frame one, more;
+        test_render(&scene, &environment, NULL, &settings, &one);
+        for (size_t w = 0; w < sizeof forms / sizeof *forms; w++) {
+            settings.kernel_width = forms[w][0];
+            settings.tile_packets = forms[w][1];
+            test_render(&scene, &environment, NULL, &settings, &more);
+            assert_int_equal(test_count_different(&one.image, &more.image), 0);
+            assert_memory_equal(&one.report.rays, &more.report.rays, sizeof one.report.rays);
+            test_frame_free(&more);
+        }
+        test_frame_free(&one);
+        free_case(&scene, &environment);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mirrors_agree_with_the_oracle),
+        cmocka_unit_test(mirrors_agree_with_paths),
+        cmocka_unit_test(mirrors_are_the_same_at_every_width_and_size_of_tiles),
+    };
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
