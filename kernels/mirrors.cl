@@ -3,7 +3,7 @@
 // does not matter to r = 2n(n·v) − v, so nothing is made a unit vector or turned here: the normals
 // are sums of the vertices' with weights that need not sum to 1.
 #define ONE_LOOKUP                                                                                 \
-    (!GLINT_INTERREFLECTION && !GLINT_GLASS && !GLINT_MIP_LEVELS && !GATHERS &&                    \
+    (!GLINT_INTERREFLECTION && !GLINT_GLASS && !GLINT_MIP_LEVELS && !GATHERS && !GLINT_HITS &&     \
      (GLINT_MIRROR || !GLINT_GEOMETRY))
 #if ONE_LOOKUP
 
@@ -133,7 +133,8 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
 // What the environment sends to a row of a group's pixels.
 static inline pixel_row look_up_row(const cube_map *map, const cube_point *point, int row)
 {
-#define AT(lane) fetch_at(point, map, map->edge, row * PACKET_WIDTH + lane)
+    const int first = row * PACKET_WIDTH;
+#define AT(i) fetch_at(point, map, map->edge, first + i)
 #if GLINT_WIDTH == 1
     return AT(0);
 #else

@@ -21,9 +21,8 @@
 #endif
 
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
-// Pixels get more than what the environment's look-ups bring.
-#define GATHERS                                                                                    \
-    (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT || GLINT_HITS)
+// Paths gather more than what the environment's look-ups bring.
+#define GATHERS (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT)
 
 #include "layout.h"
 #include "lanes.cl"
@@ -88,25 +87,6 @@ static inline void report(tally *tally, global uint *counters)
     }
 }
 
-#if GLINT_HITS
-// Instead of a colour: distance, barycentric weights, and the triangle's number as the alpha.
-static inline real3 describe_hits(const scene_buffers *scene, const image_space *image,
-                                  const primary *first, real *number)
-{
-    const real zero = real_of(0);
-    mask met = first->places >= (lane_int)0;
-    if (!any_lane(met)) {
-        *number = real_of(-1);
-        return real3_of(zero, zero, zero);
-    }
-    triangle triangles = load_triangles(scene, first->places, met);
-    closest hit;
-    measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, &hit);
-    *number = triangles.number;
-    return real3_of(SELECT(met, hit.t, zero), SELECT(met, hit.b1, zero), SELECT(met, hit.b2, zero));
-}
-#endif
-
 // What a tile's pixels have gathered so far without the environment, sample by sample: used with
 // GATHERS alone.
 typedef struct gathered {
@@ -130,7 +110,31 @@ static inline primary primary_of(const tile *t, int group)
     return first;
 }
 
-#if ONE_LOOKUP
+#if GLINT_HITS
+// Instead of colours: distance, barycentric weights, and the triangle's number as the alpha.
+static inline void describe_hits(const scene_buffers *scene, const glint_frame_record *frame,
+                                 const image_space *image, const tile *t, scalar *sums)
+{
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        primary first = primary_of(t, g);
+        mask met = first.places >= (lane_int)0;
+        closest hit = no_hit();
+        hit.t = real_of(0);
+        real number = real_of(-1);
+        if (any_lane(met)) {
+            const triangle triangles = load_triangles(scene, first.places, met);
+            primary_rays(frame, &first); // for their length
+            measure_hits(image, triangles.vertices, first.x, first.y, first.length, met, &hit);
+            const real zero = real_of(0);
+            hit.t = SELECT(met, hit.t, zero);
+            hit.b1 = SELECT(met, hit.b1, zero);
+            hit.b2 = SELECT(met, hit.b2, zero);
+            number = triangles.number;
+        }
+        to_pixels(hit.t, hit.b1, hit.b2, number, sums + g * PIXEL_VALUES);
+    }
+}
+#elif ONE_LOOKUP
 static inline void add_sample(const scene_buffers *scene, const glint_frame_record *frame,
                               const image_space *image, const tile *t, bool is_first, scalar *sums,
                               tally *tally)
@@ -169,33 +173,17 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
 }
 #endif
 
-#if GLINT_HITS
-static inline void add_hits(const scene_buffers *scene, const glint_frame_record *frame,
-                            const image_space *image, const tile *t, gathered *sum)
-{
-    for (int g = 0; g < TILE_GROUPS; g++) {
-        primary first = primary_of(t, g);
-        primary_rays(frame, &first); // for their length
-        sum->color[g] = describe_hits(scene, image, &first, &sum->alpha[g]);
-    }
-}
-#endif
-
 // Adds what a group's pixels have gathered to what look-ups brought.
 static inline void add_gathered(const gathered *sum, int group, scalar *sums)
 {
 #if GATHERS
     const real3 color = sum->color[group];
-#if GLINT_HITS
-    to_pixels(color.x, color.y, color.z, sum->alpha[group], sums);
-#else
     scalar values[PIXEL_VALUES];
     to_pixels(color.x, color.y, color.z, sum->alpha[group], values);
     for (int j = 0; j < PACKET_HEIGHT; j++) {
         pixel_row light = without_alpha(load_pixel_row(j, sums));
         store_pixel_row(load_pixel_row(j, values) + light, j, sums);
     }
-#endif
 #endif
 }
 
@@ -206,7 +194,7 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
     const bool aligned = frame->width % PACKET_WIDTH == 0;
     for (int j = 0; j < PACKET_HEIGHT && y0 + j < frame->height; j++) {
         pixel_row means = load_pixel_row(j, sums) * (pixel_row)share;
-        means = GATHERS ? means : opaque(means);
+        means = GATHERS || GLINT_HITS ? means : opaque(means);
         global scalar *row = pixels + 4 * ((size_t)(y0 + j) * (size_t)frame->width + (size_t)x0);
         if (x0 + PACKET_WIDTH <= frame->width) {
             if (aligned) {
@@ -222,12 +210,14 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
     }
 }
 
+#define FOLLOWS_PATHS (!GLINT_HITS && !ONE_LOOKUP)
+
 // Adds up the samples of a tile's pixels: `sums` is what look-ups bring, `sum` the rest.
 static inline void sample_tile(const scene_buffers *scene, const glint_frame_record *frame,
                                int column, int row, scalar *sums, gathered *sum, tally *tally)
 {
     const image_space image = make_image_space(frame);
-#if !ONE_LOOKUP
+#if FOLLOWS_PATHS
     mask inside[TILE_GROUPS];
     for (int g = 0; g < TILE_GROUPS; g++) {
 #if GATHERS
@@ -248,15 +238,15 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #if GLINT_GEOMETRY
         trace_tile(&image, &t, scene);
 #endif
-#if ONE_LOOKUP
+#if GLINT_HITS
+        describe_hits(scene, frame, &image, &t, sums);
+#elif ONE_LOOKUP
         add_sample(scene, frame, &image, &t, sample == 0, sums, tally);
-#elif GLINT_HITS
-        add_hits(scene, frame, &image, &t, sum);
 #else
         add_sample(scene, frame, &image, &t, inside, sum, &later, tally);
 #endif
     }
-#if !ONE_LOOKUP
+#if FOLLOWS_PATHS
     finish_lookups(&later, &scene->environment);
 #endif
 }
