@@ -14,8 +14,9 @@ typedef MASK_TYPE(16) block_mask;
 #endif
 #define block_of(x) ((block)(scalar)(x))
 #define block_bits(m) bits_of_16(m)
-#define BLOCK_LANES (block)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+// The lanes' numbers, as whole numbers and to compare with values.
 #define BLOCK_NUMBERS (block_mask)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#define BLOCK_LANES to_block(BLOCK_NUMBERS)
 
 // Lane i of the result is lane indices[i] of the values.
 static inline block permute_block(block values, uchar16 indices)

@@ -42,6 +42,7 @@ static inline cube_point find_on_cube(real3 d, lanes_int edge, lanes_int start)
     column = SELECT(column > R(0.0), SMALLER(column, last), real_of(0));
     row = SELECT(row > R(0.0), SMALLER(row, last), real_of(0));
 
+    // Neither is below 0, so that this rounds down.
     lanes_int i = to_int_truncated(column), j = to_int_truncated(row);
     lanes_int pitch = edge + (lane_int)(2 * GLINT_CUBE_BORDER);
     cube_point point;

@@ -511,15 +511,29 @@ static inline lanes_int exponent_of(real a)
 #endif
 }
 
-// The unit vector along `a`, and whether there is one: not for zero, infinite or NaN components.
-static inline real3 normalized(real3 a, mask *valid)
+// A vector along `a` of a moderate length, the square of which is clear of overflow and underflow,
+// and whether there is one: not for zero, infinite or NaN components.
+static inline real3 moderate(real3 a, mask *valid)
 {
     real largest = largest_magnitude3(a);
     // Written so that NaN is not valid: each comparison is false for it.
     *valid = (largest > R(0.0)) & (fabs(a.x) < (scalar)INFINITY) & (fabs(a.y) < (scalar)INFINITY) &
              (fabs(a.z) < (scalar)INFINITY);
-    real3 b = scale(a, inverse_exponent(SELECT(*valid, largest, real_of(1))));
+    return scale(a, inverse_exponent(SELECT(*valid, largest, real_of(1))));
+}
+
+// The unit vector along `a`, and whether there is one.
+static inline real3 normalized(real3 a, mask *valid)
+{
+    real3 b = moderate(a, valid);
     return scale(b, inverse_root(dot3(b, b)));
+}
+
+// All components are 0 or −0.
+static inline mask is_zero3(real3 a)
+{
+    const lanes_int bits = bits_from_real(a.x) | bits_from_real(a.y) | bits_from_real(a.z);
+    return (bits << 1) == (lane_int)0;
 }
 
 // A unit vector that has drifted by a few rounding errors, put right by one step of Newton's

@@ -10,27 +10,12 @@
 // Where the samples of a tile's pixels meet the environment.
 typedef struct sights {
     cube_point points[TILE_GROUPS];
-#if GLINT_TINT
+#if GLINT_TINT // which has GEOMETRY, too
     scalar weights[TILE_GROUPS * PIXEL_VALUES];
 #endif
 } sights;
 
 #if GLINT_GEOMETRY
-// A vector along `a` whose largest component is in [1, 2), so that its square is clear of overflow
-// and underflow, and whether there is one.
-static inline real3 moderate(real3 a, mask *valid)
-{
-    const real largest = largest_magnitude3(a);
-    *valid = (largest > R(0.0)) & (largest < (scalar)INFINITY);
-    return scale(a, inverse_exponent(SELECT(*valid, largest, real_of(1))));
-}
-
-static inline mask is_zero3(real3 a)
-{
-    const lanes_int bits = bits_from_real(a.x) | bits_from_real(a.y) | bits_from_real(a.z);
-    return (bits << 1) == (lane_int)0;
-}
-
 // Normals along which the surfaces reflect: the interpolated ones, or the triangles' own.
 static inline real3 mirror_normals(const image_space *image, const triangle *t, real3 geometric,
                                    const primary *first, mask met)
@@ -40,12 +25,10 @@ static inline real3 mirror_normals(const image_space *image, const triangle *t, 
     real weights[3];
     image_weights(&corners, first->x, first->y, weights);
     const real3 *n = t->normals;
-    // A vertex without a usable normal is (0, 0, 0).
-    mask given = !(is_zero3(n[0]) | is_zero3(n[1]) | is_zero3(n[2]));
     mask valid;
     real3 smooth = moderate(
         scale_add(n[2], weights[2], scale_add(n[1], weights[1], scale(n[0], weights[0]))), &valid);
-    given &= valid;
+    const mask given = normals_given(n) & valid;
     if (!any_lane(met & !given)) {
         return smooth;
     }
@@ -61,9 +44,7 @@ static inline real3 mirror_normals(const image_space *image, const triangle *t, 
 static inline real3 mirrored(const image_space *image, const triangle *t, const primary *first,
                              real3 d, mask met, real *cosine)
 {
-    const real3 *vertices = t->vertices;
-    real3 geometric =
-        cross3(subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0]));
+    real3 geometric = normal_of(t->vertices);
     // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
     geometric = select3(is_zero3(geometric), d, geometric);
     const real3 n = mirror_normals(image, t, geometric, first, met);
@@ -71,7 +52,7 @@ static inline real3 mirrored(const image_space *image, const triangle *t, const 
     real3 r = scale_add(n, R(-2.0) * along, scale(d, squared));
     // What ends on the other side of the surface than the viewer's is folded back (fold_to_side).
     const real viewer_side = -dot3(d, geometric), side = dot3(r, geometric);
-    mask beyond = met & ((side < R(0.0)) != (viewer_side < R(0.0)));
+    mask beyond = met & ((side > R(0.0)) != (viewer_side > R(0.0)));
     if (any_lane(beyond)) {
         mask valid;
         const real3 g = moderate(geometric, &valid);
@@ -81,7 +62,7 @@ static inline real3 mirrored(const image_space *image, const triangle *t, const 
     return r;
 }
 
-// What the mirrors leave of the light, and how much that is counted.
+// The mirrors' weights. Counts the rays that they send on, and what the depth cuts off.
 static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame_record *frame,
                                    const triangle *t, real cosine, mask met, tally *tally)
 {
@@ -107,7 +88,7 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
     real3 d = primary_directions(frame, first->x, first->y);
     bool shows_mirrors = false;
 #if GLINT_GEOMETRY
-    mask met = first->places >= (lane_int)0;
+    mask met = first->places >= (lane_int)0; // pixels outside the image meet nothing: clear_tile
     shows_mirrors = any_lane(met);
     real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
     if (shows_mirrors) {
@@ -152,7 +133,7 @@ static inline void add_sights(const scene_buffers *scene, const sights *all, boo
 #pragma unroll
         for (int j = 0; j < PACKET_HEIGHT; j++) {
             pixel_row light = look_up_row(&scene->environment, &all->points[g], j);
-#if GLINT_TINT && GLINT_GEOMETRY
+#if GLINT_TINT
             light *= load_pixel_row(j, all->weights + g * PIXEL_VALUES);
 #endif
             store_pixel_row(is_first ? light : load_pixel_row(j, pixels) + light, j, pixels);

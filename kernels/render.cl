@@ -10,6 +10,9 @@
 #if (GLINT_ABSORPTION || GLINT_NESTED_MEDIA) && !GLINT_SOLID
 #error "ABSORPTION and NESTED_MEDIA need SOLID"
 #endif
+#if GLINT_TINT && !GLINT_MIRROR
+#error "TINT needs MIRROR"
+#endif
 #if GLINT_GLOSS && !GLINT_PAINT
 #error "GLOSS needs PAINT"
 #endif
@@ -22,7 +25,9 @@
 
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
 // Paths gather more than what the environment's look-ups bring.
-#define GATHERS (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT)
+#define GATHERS                                                                                    \
+    (!GLINT_HITS &&                                                                                \
+     (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT))
 
 #include "layout.h"
 #include "lanes.cl"

@@ -89,8 +89,10 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
 
     real3 r = reflect_direction(v, s->normal, s->cosine);
     result.reflected = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
-#if GLINT_MIRROR
+#if GLINT_TINT
     result.reflected_weight = scale(metal_reflectance(s->base_color, s->cosine), s->metallic);
+#elif GLINT_MIRROR
+    result.reflected_weight = real3_of(s->metallic, s->metallic, s->metallic);
 #endif
 #if GLINT_GLASS
     mask is_glass = glass > R(0.0);

@@ -140,6 +140,18 @@ static inline triangle load_triangles(const scene_buffers *scene, lanes_int plac
     return t;
 }
 
+// The geometric normal, as long as twice the triangle's area.
+static inline real3 normal_of(const real3 vertices[3])
+{
+    return cross3(subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0]));
+}
+
+// A vertex without a usable normal is (0, 0, 0); then the geometric normal serves.
+static inline mask normals_given(const real3 normals[3])
+{
+    return !(is_zero3(normals[0]) | is_zero3(normals[1]) | is_zero3(normals[2]));
+}
+
 static inline real3 interpolate(const real3 vertices[3], real b1, real b2)
 {
     real b0 = R(1.0) - b1 - b2;
@@ -176,11 +188,7 @@ static inline void orient_normals(const triangle *t, const path *ray, const clos
 #endif
 #if GLINT_SMOOTH_NORMALS
     const real3 *normals = t->normals;
-    // A vertex without a usable normal is (0, 0, 0); then the geometric normal serves.
-    real smallest = largest_magnitude3(normals[0]);
-    smallest = SMALLER(largest_magnitude3(normals[1]), smallest);
-    smallest = SMALLER(largest_magnitude3(normals[2]), smallest);
-    mask given = smallest > R(0.0);
+    const mask given = normals_given(normals);
     mask valid;
     real3 n = normalized(interpolate(normals, hit->b1, hit->b2), &valid);
     mask against = dot3(n, s->geometric_normal) < R(0.0);
@@ -238,8 +246,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     surface s;
     const real3 *vertices = t->vertices;
     mask valid;
-    s.geometric_normal = normalized(
-        cross3(subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0])), &valid);
+    s.geometric_normal = normalized(normal_of(vertices), &valid);
     // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
     s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
 #if GLINT_INTERREFLECTION

@@ -130,8 +130,8 @@ static inline real place_y(const glint_frame_record *frame, lanes_int rows, scal
     return R(0.5) * (scalar)frame->height - to_real(rows) - down;
 }
 
-// Nothing is met yet. Pixels outside the image hide everything, so that nothing is visited for
-// them.
+// Nothing is met yet. Pixels outside the image hide everything, even what has no depth: nothing is
+// visited for them, and they meet nothing, which is what counting rests on.
 static inline void clear_tile(const image_space *s, const glint_frame_record *frame, int column,
                               int row, tile *t)
 {
@@ -145,7 +145,7 @@ static inline void clear_tile(const image_space *s, const glint_frame_record *fr
                      row + TILE_ROWS * PACKET_HEIGHT > frame->height;
     for (int g = 0; g < TILE_GROUPS && cut; g++) {
         mask inside = group_in_image(frame, column, row, g);
-        t->key[g] = SELECT(inside, real_of(nothing), real_of(HUGE));
+        t->key[g] = SELECT(inside, real_of(nothing), real_of((scalar)INFINITY));
         ((scalar *)&t->farthest)[g] = smallest_lane(t->key[g]);
     }
     t->least = nothing;

@@ -122,11 +122,34 @@ static void every_width_and_tile_find_the_same_hits(void **state)
     }
 }
 
+static void hits_are_the_same_whatever_else_is_asked_for(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    test_scene_load("materials", &scene);
+    glint_environment environment;
+    bridge_direction_environment(16, &environment);
+    glint_settings settings = hits_settings(0);
+    test_frame plain, other;
+    test_render(&scene, &environment, NULL, &settings, &plain);
+    for (int k = 0; k < 2; k++) {
+        settings.transparent = k == 0;
+        settings.all_features = k == 1;
+        test_render(&scene, &environment, NULL, &settings, &other);
+        assert_int_equal(test_count_different(&plain.image, &other.image), 0);
+        test_frame_free(&other);
+    }
+    test_frame_free(&plain);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(primary_rays_meet_what_the_oracle_says),
         cmocka_unit_test(every_width_and_tile_find_the_same_hits),
+        cmocka_unit_test(hits_are_the_same_whatever_else_is_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

@@ -407,17 +407,17 @@ static void choose_media(const glint_scene *scene, glint_plan *plan)
     plan->media_capacity = nested ? 30 / bits : 1;
 }
 
-// To show that unneeded features change nothing. A feature that contradicts the settings (a
-// transparent background) would change the picture and stays as it is, and so do normals that the
-// scene does not have.
+// To show that unneeded features change nothing. Those that contradict the settings (a transparent
+// background) would change the picture and stay as they are; so do normals that the scene does not
+// have, whose buffer is a stand-in.
 static void compile_everything(glint_plan *plan)
 {
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
-        bool changes_picture = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
-                               i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
-                               i == GLINT_FEATURE_SMOOTH_NORMALS ||
-                               (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
-        if (changes_picture || plan->features[i].compiled ||
+        bool stays = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
+                     i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
+                     i == GLINT_FEATURE_SMOOTH_NORMALS ||
+                     (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
+        if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {
             continue;
         }

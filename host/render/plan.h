@@ -73,7 +73,8 @@ typedef struct glint_settings {
     glint_filter filter;
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
-    bool all_features; // compile everything, needed or not (to test that it changes nothing)
+    bool all_features; // compile everything, needed or not (to test that it changes nothing but
+                       // the rounding of mirrors at depth 1, which take a shorter way without)
     // 0, or a number that the kernels get and do not read: a build with a new one is in no driver's
     // cache yet (to time it).
     uint32_t build_tag;
