@@ -27,7 +27,8 @@ static inline glint_vec3 bench_random_direction(bench_random *random)
     double y = 2 * bench_random_number(random) - 1;
     double azimuth = 2 * GLINT_PI * bench_random_number(random);
     double ring = sqrt(1 - y * y);
-    return (glint_vec3){ring * cos(azimuth), y, ring * sin(azimuth)};
+    const glint_vec3 direction = {ring * cos(azimuth), y, ring * sin(azimuth)};
+    return direction;
 }
 
 #endif
