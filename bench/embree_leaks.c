@@ -1,7 +1,7 @@
 // Rays aimed at what triangles share: how many pass between them. See embree_reference.h.
 #include "embree_tile.h"
 
-#include "random.h"
+#include "base/random.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -25,9 +25,9 @@ typedef struct aimed_ray {
 } aimed_ray;
 
 // One of the two neighbours of x, or x.
-static float nudge(float x, bench_random *random)
+static float nudge(float x, glint_random *random)
 {
-    double which = bench_random_number(random);
+    double which = glint_random_number(random);
     return which < 1.0 / 3   ? nextafterf(x, -INFINITY)
            : which < 2.0 / 3 ? nextafterf(x, INFINITY)
                              : x;
@@ -45,15 +45,15 @@ static float cosine_at(const float *normal, const float *direction)
 
 // A ray at a random triangle's first vertex, or at a point of its first edge, from a random origin
 // that sees it; the direction is right within a unit in the last place of each component.
-static aimed_ray aim_ray(const bench_scene *scene, bool at_edge, bench_random *random)
+static aimed_ray aim_ray(const bench_scene *scene, bool at_edge, glint_random *random)
 {
     for (;;) {
-        const uint32_t *triangle = scene->triangles + 3 * (size_t)(bench_random_number(random) *
+        const uint32_t *triangle = scene->triangles + 3 * (size_t)(glint_random_number(random) *
                                                                    (double)scene->triangle_count);
         const float *a = scene->positions + 3 * (size_t)triangle[0];
         const float *b = scene->positions + 3 * (size_t)triangle[at_edge ? 1 : 0];
-        double share = bench_random_number(random), distance = 1 + bench_random_number(random);
-        glint_vec3 from = glint_vec3_scale(bench_random_direction(random), distance);
+        double share = glint_random_number(random), distance = 1 + glint_random_number(random);
+        glint_vec3 from = glint_vec3_scale(glint_random_direction(random), distance);
         const double away[3] = {from.x, from.y, from.z};
         aimed_ray ray;
         for (int k = 0; k < 3; k++) {
@@ -87,7 +87,7 @@ static void search_item(void *context, size_t item, int thread)
     (void)thread;
     leak_search *search = context;
     const embree_program *program = search->program;
-    bench_random random = {item + 1};
+    glint_random random = {item + 1};
     const embree_query packets = {EMBREE_INTERSECT_16, false};
     uint64_t first = item * RAYS_PER_ITEM;
     uint64_t left = search->count - first < RAYS_PER_ITEM ? search->count - first : RAYS_PER_ITEM;

@@ -2,7 +2,7 @@
 #include "mesh.h"
 
 #include "base/memory.h"
-#include "random.h"
+#include "base/random.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -305,13 +305,13 @@ glint_status bench_mesh_add_sheet(bench_mesh *mesh, const bench_sheet *sheet, gl
     return GLINT_OK;
 }
 
-static void add_needle(bench_mesh *mesh, const bench_needles *shape, bench_random *random,
+static void add_needle(bench_mesh *mesh, const bench_needles *shape, glint_random *random,
                        uint32_t at, uint32_t *triangle)
 {
-    glint_vec3 root = bench_random_direction(random);
-    glint_vec3 lean = glint_vec3_scale(bench_random_direction(random), 0.8);
+    glint_vec3 root = glint_random_direction(random);
+    glint_vec3 lean = glint_vec3_scale(glint_random_direction(random), 0.8);
     glint_vec3 along = glint_vec3_normalize(glint_vec3_add(root, lean));
-    glint_vec3 side = glint_vec3_normalize(glint_vec3_cross(along, bench_random_direction(random)));
+    glint_vec3 side = glint_vec3_normalize(glint_vec3_cross(along, glint_random_direction(random)));
     glint_vec3 normal = glint_vec3_cross(side, along);
     glint_vec3 base = glint_vec3_scale(root, shape->radius);
     glint_vec3 half = glint_vec3_scale(side, shape->width / 2);
@@ -337,7 +337,7 @@ glint_status bench_mesh_add_needles(bench_mesh *mesh, const bench_needles *needl
         status = glint_fail_memory(error, "a mesh");
     }
     mesh->normals = normals;
-    bench_random random = {1};
+    glint_random random = {1};
     for (uint32_t i = 0; status == GLINT_OK && i < needles->count; i++) {
         add_needle(mesh, needles, &random, first + 3 * i, mesh->triangles[next + i]);
     }

@@ -1,6 +1,6 @@
 // Mirrors that see the environment alone take a shorter way through the kernel (mirrors.cl):
 // against the oracle, against the kernel that has everything, and at every width and size of tiles.
-#include "bench/random.h"
+#include "base/random.h"
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -49,10 +49,10 @@ static void turn_some_normals(glint_scene *scene)
 // normal is shorter than 0.6.
 static void roughen(glint_scene *scene)
 {
-    bench_random random = {1};
+    glint_random random = {1};
     for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
         float *n = scene->normals + 3 * i;
-        const glint_vec3 a = bench_random_direction(&random);
+        const glint_vec3 a = glint_random_direction(&random);
         const double x = n[0] + 0.8 * a.x, y = n[1] + 0.8 * a.y, z = n[2] + 0.8 * a.z;
         const double length = sqrt(x * x + y * y + z * z);
         n[0] = (float)(x / length);

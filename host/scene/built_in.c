@@ -1,12 +1,13 @@
 // Built-in scenes: displaced spheres of one material each, some of them over a floor. See
 // built_in.h.
 //
-// A sphere is an icosahedron whose triangles are quartered `level` times. Its vertex along the unit
-// vector u lies at (1 + f(u)) u, with f of displacement() below: smooth, closed, everywhere curved
-// both ways, so that mirrored and refracted rays go in all directions.
+// A sphere is an icosphere (icosphere.h). Its vertex along the unit vector u lies at (1 + f(u)) u,
+// with f of displacement() below: smooth, closed, everywhere curved both ways, so that mirrored and
+// refracted rays go in all directions.
 #include "scene/built_in.h"
 
 #include "base/memory.h"
+#include "scene/icosphere.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -163,53 +164,19 @@ static void put_vertex(const glint_scene *scene, const sphere *ball, glint_vec3 
     put(scene->normals + 3 * vertex, glint_vec3_normalize(normal));
 }
 
-static void put_triangle(glint_scene *scene, const sphere *ball, const glint_vec3 corners[3])
+typedef struct ball_to_put {
+    glint_scene *scene;
+    const sphere *ball;
+} ball_to_put;
+
+static void put_triangle(void *context, const glint_vec3 corners[3])
 {
+    const ball_to_put *put = context;
+    glint_scene *scene = put->scene;
     for (size_t k = 0; k < 3; k++) {
-        put_vertex(scene, ball, corners[k], 3 * scene->triangle_count + k);
+        put_vertex(scene, put->ball, corners[k], 3 * scene->triangle_count + k);
     }
-    scene->material_of[scene->triangle_count++] = ball->material;
-}
-
-// The middle of an edge is the same from both its sides: a + b = b + a, bit for bit.
-static glint_vec3 middle(glint_vec3 a, glint_vec3 b)
-{
-    return glint_vec3_normalize(glint_vec3_add(a, b));
-}
-
-static void put_quartered(glint_scene *scene, const sphere *ball, const glint_vec3 corners[3],
-                          int level)
-{
-    if (level == 0) {
-        put_triangle(scene, ball, corners);
-        return;
-    }
-    const glint_vec3 a = corners[0], b = corners[1], c = corners[2];
-    const glint_vec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    const glint_vec3 parts[4][3] = {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}};
-    for (int i = 0; i < 4; i++) {
-        put_quartered(scene, ball, parts[i], level - 1);
-    }
-}
-
-static void put_sphere(glint_scene *scene, const sphere *ball, int level)
-{
-    static const signed char faces[20][3] = {
-        {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-    // The corners of three golden rectangles in the planes of the axes.
-    const double g = (1 + sqrt(5)) / 2;
-    const glint_vec3 corners[12] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
-                                    {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                                    {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    for (int face = 0; face < 20; face++) {
-        glint_vec3 triangle[3];
-        for (int k = 0; k < 3; k++) {
-            triangle[k] = glint_vec3_normalize(corners[faces[face][k]]);
-        }
-        put_quartered(scene, ball, triangle, level);
-    }
+    scene->material_of[scene->triangle_count++] = put->ball->material;
 }
 
 static void put_floor(glint_scene *scene, const recipe *made)
@@ -237,18 +204,6 @@ static void end_instance(glint_scene *scene, size_t first)
         .material = scene->material_of[first],
     };
     scene->instance_count++;
-}
-
-static void find_bounds(glint_scene *scene)
-{
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < 9 * scene->triangle_count; i++) {
-        double value = (double)scene->positions[i] * scene->unit;
-        low[i % 3] = fmin(low[i % 3], value);
-        high[i % 3] = fmax(high[i % 3], value);
-    }
-    scene->low = (glint_vec3){low[0], low[1], low[2]};
-    scene->high = (glint_vec3){high[0], high[1], high[2]};
 }
 
 static void look(const recipe *made, glint_camera *camera)
@@ -319,7 +274,8 @@ glint_status glint_built_in_scene(const char *name, glint_scene *scene, glint_er
     }
     for (size_t i = 0; i < made->sphere_count; i++) {
         size_t first = scene->triangle_count;
-        put_sphere(scene, &made->spheres[i], made->level);
+        ball_to_put put = {scene, &made->spheres[i]};
+        glint_icosphere(made->level, put_triangle, &put);
         end_instance(scene, first);
     }
     if (made->has_floor) {
@@ -327,7 +283,7 @@ glint_status glint_built_in_scene(const char *name, glint_scene *scene, glint_er
         put_floor(scene, made);
         end_instance(scene, first);
     }
-    find_bounds(scene);
+    glint_scene_find_bounds(scene);
     look(made, &scene->cameras[scene->camera_count++]);
     return GLINT_OK;
 }

@@ -3,6 +3,7 @@
 
 #include "scene/gltf.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,19 @@ void glint_scene_free(glint_scene *scene)
     free(scene->instances);
     free(scene->cameras);
     *scene = (glint_scene){0};
+}
+
+void glint_scene_find_bounds(glint_scene *scene)
+{
+    const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < 9 * scene->triangle_count; i++) {
+        double value = origin[i % 3] + (double)scene->positions[i] * scene->unit;
+        low[i % 3] = fmin(low[i % 3], value);
+        high[i % 3] = fmax(high[i % 3], value);
+    }
+    scene->low = (glint_vec3){low[0], low[1], low[2]};
+    scene->high = (glint_vec3){high[0], high[1], high[2]};
 }
 
 glint_status glint_scene_load(const char *path, const glint_scene_options *options,

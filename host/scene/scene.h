@@ -81,6 +81,9 @@ glint_status glint_scene_load(const char *path, const glint_scene_options *optio
                               glint_scene *scene, glint_warnings *warnings, glint_error *error);
 void glint_scene_free(glint_scene *scene);
 
+// Sets the bounds from the triangles.
+void glint_scene_find_bounds(glint_scene *scene);
+
 // The camera by name or by index ("0"); NULL: the first one, else one that frames the bounds. The
 // names there are stand in the error. The camera's strings stay the scene's.
 glint_status glint_scene_camera(const glint_scene *scene, const char *name, glint_camera *camera,

@@ -4,8 +4,8 @@
 #define GLINT_TESTS_ORACLE_CHECK_H
 
 #include "meshes.h"
-#include "oracle.h"
-#include "vector.h"
+#include "oracle/oracle.h"
+#include "oracle/vector.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

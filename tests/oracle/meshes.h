@@ -2,7 +2,7 @@
 #ifndef GLINT_TESTS_ORACLE_MESHES_H
 #define GLINT_TESTS_ORACLE_MESHES_H
 
-#include "oracle.h"
+#include "oracle/oracle.h"
 
 // Grows as triangles are added; aborts the test program if memory runs out. Starts as {0}.
 typedef struct mesh {

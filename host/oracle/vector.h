@@ -1,6 +1,6 @@
 // The oracle's own vectors: three doubles by value, for directions, points and colours.
-#ifndef GLINT_TESTS_ORACLE_VECTOR_H
-#define GLINT_TESTS_ORACLE_VECTOR_H
+#ifndef GLINT_ORACLE_VECTOR_H
+#define GLINT_ORACLE_VECTOR_H
 
 #include <math.h>
 

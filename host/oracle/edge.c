@@ -1,6 +1,6 @@
 // How nearly a ray passes an edge: what tells a pixel that another precision may rightly see
 // differently from one that is wrong.
-#include "hit.h"
+#include "oracle/hit.h"
 
 typedef struct measure {
     double least;     // so far

@@ -1,6 +1,6 @@
 // Where the oracle's rays meet triangles: by trying all of them, or by a binary tree that is there
 // for speed alone and must find the same.
-#include "hit.h"
+#include "oracle/hit.h"
 
 #include <float.h>
 #include <limits.h>

@@ -1,6 +1,6 @@
 // The oracle's optics: reflection, refraction, Fresnel, absorption.
-#include "oracle.h"
-#include "vector.h"
+#include "oracle/oracle.h"
+#include "oracle/vector.h"
 
 void oracle_reflect(const double normal[3], const double viewer[3], double reflected[3])
 {

@@ -1,9 +1,9 @@
 // Between the oracle's own files: going through the triangles near a ray.
-#ifndef GLINT_TESTS_ORACLE_HIT_H
-#define GLINT_TESTS_ORACLE_HIT_H
+#ifndef GLINT_ORACLE_HIT_H
+#define GLINT_ORACLE_HIT_H
 
-#include "oracle.h"
-#include "vector.h"
+#include "oracle/oracle.h"
+#include "oracle/vector.h"
 
 typedef struct query {
     vector origin, direction;

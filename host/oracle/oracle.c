@@ -1,7 +1,7 @@
 // The oracle's camera and its walk along the tree of paths, rule by rule as DESIGN.md counts them.
-#include "oracle.h"
-#include "hit.h"
-#include "vector.h"
+#include "oracle/oracle.h"
+#include "oracle/hit.h"
+#include "oracle/vector.h"
 
 #include <string.h>
 

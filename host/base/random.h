@@ -1,19 +1,19 @@
 // Numbers that look random and are the same everywhere (Steele, Lea and Flood, Fast splittable
 // pseudorandom number generators, 2014).
-#ifndef GLINT_BENCH_RANDOM_H
-#define GLINT_BENCH_RANDOM_H
+#ifndef GLINT_BASE_RANDOM_H
+#define GLINT_BASE_RANDOM_H
 
 #include "base/vector.h"
 
 #include <math.h>
 #include <stdint.h>
 
-typedef struct bench_random {
+typedef struct glint_random {
     uint64_t state; // any value
-} bench_random;
+} glint_random;
 
 // In [0, 1).
-static inline double bench_random_number(bench_random *random)
+static inline double glint_random_number(glint_random *random)
 {
     uint64_t z = random->state += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -22,10 +22,10 @@ static inline double bench_random_number(bench_random *random)
 }
 
 // Evenly over the unit sphere.
-static inline glint_vec3 bench_random_direction(bench_random *random)
+static inline glint_vec3 glint_random_direction(glint_random *random)
 {
-    double y = 2 * bench_random_number(random) - 1;
-    double azimuth = 2 * GLINT_PI * bench_random_number(random);
+    double y = 2 * glint_random_number(random) - 1;
+    double azimuth = 2 * GLINT_PI * glint_random_number(random);
     double ring = sqrt(1 - y * y);
     const glint_vec3 direction = {ring * cos(azimuth), y, ring * sin(azimuth)};
     return direction;

@@ -1,11 +1,12 @@
 // The oracle: a tracer in double precision that judges the renderer. It is written from the light
-// transport rules of DESIGN.md and from nothing else, and shares no code with host/ or kernels/.
+// transport rules of ARCHITECTURE.md and from nothing else, and shares no code with the kernels or
+// the rest of host/.
 //
 // Limits: plain C, one thread; the Fresnel tree is followed by recursion. No allocation, except
 // in oracle_tree_create. Everything is in world space: right-handed, +Y up, metres; colours are
 // linear RGB.
-#ifndef GLINT_TESTS_ORACLE_H
-#define GLINT_TESTS_ORACLE_H
+#ifndef GLINT_ORACLE_ORACLE_H
+#define GLINT_ORACLE_ORACLE_H
 
 #include <stdbool.h>
 
