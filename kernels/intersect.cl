@@ -9,6 +9,11 @@
 // alone, as for a triangle seen edge-on from afar, the ray must also pass within its corners'
 // bounds.
 
+//
+// The barycentric weights of a triangle that was hit are taken from the same products again, this
+// time without cancellation: those of a sliver would else have no digit right, and with them the
+// place where it was hit.
+
 // What the tests need of the rays.
 typedef struct packet {
     real origin[3];
@@ -109,6 +114,41 @@ static inline mask has_lower_number(global const int *numbers, int place, lanes_
     return lower != (lane_int)0;
 }
 
+// A triangle this much smaller than the box around it has its weights refined: those of others have
+// lost four digits at most.
+#define SLIVER R(0.0625)
+
+// The weights of corners at (x, y), where a triangle that holds (0, 0) has all at 0 or above or all
+// at 0 or below: for slivers again, as precise as the corners allow. Those of a sliver that only
+// rounding put (0, 0) into come to a little beyond [0, 1], which names the point of its plane that
+// the ray passes through; to cut them off would move it along the sliver. Nothing is gained where
+// they go far beyond.
+static inline void refine_weights(const real x[3], const real y[3], mask wanted, real weights[3])
+{
+    const real before = weights[0] + weights[1] + weights[2];
+    const real width = LARGEST3(fabs(x[0]), fabs(x[1]), fabs(x[2]));
+    const real height = LARGEST3(fabs(y[0]), fabs(y[1]), fabs(y[2]));
+    const mask slivers = wanted & (fabs(before) < SLIVER * (width * height));
+    if (!any_lane(slivers)) {
+        return;
+    }
+    real refined[3];
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        refined[k] = DIFFERENCE_OF_PRODUCTS(x[i], y[j], y[i], x[j]);
+    }
+    const real sum = refined[0] + refined[1] + refined[2];
+    const real least = SELECT(sum > R(0.0), SMALLEST3(refined[0], refined[1], refined[2]),
+                              -LARGEST3(refined[0], refined[1], refined[2]));
+    const mask better =
+        slivers & (least >= R(-0.125) * fabs(sum)) & ((sum > R(0.0)) == (before > R(0.0)));
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        weights[k] = SELECT(better, refined[k], weights[k]);
+    }
+}
+
 // Tests one triangle against the rays in `active` and keeps the nearer hit.
 static inline bool intersect_triangle(const packet *p, int axes, const float vertices[9], int place,
                                       global const int *numbers, mask active, closest *hit)
@@ -144,8 +184,13 @@ static inline bool intersect_triangle(const packet *p, int axes, const float ver
             inside = inside & (SMALLEST3(ax, bx, cx) <= R(0.0)) & (LARGEST3(ax, bx, cx) >= R(0.0)) &
                      (SMALLEST3(ay, by, cy) <= R(0.0)) & (LARGEST3(ay, by, cy) >= R(0.0));
         }
+        const real across[3] = {ax, bx, cx}, up[3] = {ay, by, cy};
+        real weights[3] = {u, v, w};
+        refine_weights(up, across, inside, weights);
+        determinant = weights[0] + weights[1] + weights[2];
         real inverse = R(1.0) / SELECT(inside, determinant, real_of(1));
-        real t = fused(u, az, fused(v, bz, w * cz)) * p->shear_z * inverse;
+        real t =
+            fused(weights[0], az, fused(weights[1], bz, weights[2] * cz)) * p->shear_z * inverse;
         inside = inside & (t > R(0.0));
         mask taken = inside & (t < hit->t), tied = inside & (t == hit->t);
         if (any_lane(tied)) {
@@ -153,8 +198,8 @@ static inline bool intersect_triangle(const packet *p, int axes, const float ver
         }
         found = found || any_lane(taken);
         hit->t = SELECT(taken, t, hit->t);
-        hit->b1 = SELECT(taken, v * inverse, hit->b1);
-        hit->b2 = SELECT(taken, w * inverse, hit->b2);
+        hit->b1 = SELECT(taken, weights[1] * inverse, hit->b1);
+        hit->b2 = SELECT(taken, weights[2] * inverse, hit->b2);
         hit->place = SELECT(taken, int_of(place), hit->place);
     }
     return found;
@@ -237,20 +282,25 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
     const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
     const scalar *o = ray->origin;
     const scalar az = at[z] - o[z], bz = at[3 + z] - o[z], cz = at[6 + z] - o[z];
-    if (test->on_edge & (1u << i)) {
-        const scalar ax = fused(-ray->shear_x, az, at[x] - o[x]),
-                     ay = fused(-ray->shear_y, az, at[y] - o[y]),
-                     bx = fused(-ray->shear_x, bz, at[3 + x] - o[x]),
-                     by = fused(-ray->shear_y, bz, at[3 + y] - o[y]),
-                     cx = fused(-ray->shear_x, cz, at[6 + x] - o[x]),
-                     cy = fused(-ray->shear_y, cz, at[6 + y] - o[y]);
-        if (!(SMALLEST3(ax, bx, cx) <= R(0.0) && LARGEST3(ax, bx, cx) >= R(0.0) &&
-              SMALLEST3(ay, by, cy) <= R(0.0) && LARGEST3(ay, by, cy) >= R(0.0))) {
-            return false;
-        }
+    const scalar ax = fused(-ray->shear_x, az, at[x] - o[x]),
+                 ay = fused(-ray->shear_y, az, at[y] - o[y]),
+                 bx = fused(-ray->shear_x, bz, at[3 + x] - o[x]),
+                 by = fused(-ray->shear_y, bz, at[3 + y] - o[y]),
+                 cx = fused(-ray->shear_x, cz, at[6 + x] - o[x]),
+                 cy = fused(-ray->shear_y, cz, at[6 + y] - o[y]);
+    if ((test->on_edge & (1u << i)) &&
+        !(SMALLEST3(ax, bx, cx) <= R(0.0) && LARGEST3(ax, bx, cx) >= R(0.0) &&
+          SMALLEST3(ay, by, cy) <= R(0.0) && LARGEST3(ay, by, cy) >= R(0.0))) {
+        return false;
     }
-    const scalar u = ((const scalar *)&test->u)[i], v = ((const scalar *)&test->v)[i],
-                 w = ((const scalar *)&test->w)[i];
+    // One ray's, in all lanes: the same operations as a packet's.
+    const real across[3] = {real_of(ax), real_of(bx), real_of(cx)};
+    const real up[3] = {real_of(ay), real_of(by), real_of(cy)};
+    real weights[3] = {real_of(((const scalar *)&test->u)[i]),
+                       real_of(((const scalar *)&test->v)[i]),
+                       real_of(((const scalar *)&test->w)[i])};
+    refine_weights(up, across, mask_all(), weights);
+    const scalar u = LANE(weights[0], 0), v = LANE(weights[1], 0), w = LANE(weights[2], 0);
     const scalar inverse = R(1.0) / (u + v + w);
     const scalar t = fused(u, az, fused(v, bz, w * cz)) * ray->shear_z * inverse;
     const scalar before = LANE(hit->t, lane);

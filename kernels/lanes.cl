@@ -108,6 +108,11 @@ typedef LANES(int) mask;
 #define fused(a, b, c) ((a) * (b) + (c))
 #endif
 
+// a b − c d within 1.5 units in the last place (Kahan; Jeannerod, Louvet and Muller, Further
+// analysis of Kahan's algorithm, 2013), where the difference of rounded products may have no digit
+// right.
+#define DIFFERENCE_OF_PRODUCTS(a, b, c, d) (fma(a, b, -((c) * (d))) + fma(-(c), d, (c) * (d)))
+
 // clang's reductions become one or two instructions; without them halves are folded. Interpreters
 // such as Oclgrind accept them and cannot run them: -DGLINT_NO_REDUCTIONS takes the portable form.
 #if defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)

@@ -23,7 +23,7 @@ static inline real3 mirror_normals(const image_space *image, const triangle *t, 
 #if GLINT_SMOOTH_NORMALS
     const image_corners corners = corners_in_image(image, t->vertices);
     real weights[3];
-    image_weights(&corners, first->x, first->y, weights);
+    image_weights(&corners, first->x, first->y, met, weights);
     const real3 *n = t->normals;
     mask valid;
     real3 smooth = moderate(

@@ -121,7 +121,7 @@ static inline block rounding_bound(const tile *t, block corners[3][4], block *la
 }
 
 // The groups that the bounds of triangles reach, as bits. A triangle that a pixel sees has corners,
-// as they are stored, on both sides of it or on it (image_weights): beyond their quotients'
+// as they are stored, on both sides of it or on it (covers_exactly): beyond their quotients'
 // rounding nothing is lost. One with a corner that is not in front of the eye may reach all.
 static inline block_mask groups_in_bounds(const tile *t, const block places[2], block in_front,
                                           const uchar16 corners[3])
@@ -248,27 +248,33 @@ typedef struct image_corners {
     real at[3][4];
 } image_corners;
 
-// The signs of u, v and w say whether the pixels at (x, y) see the triangle; divided by their sum
-// they are the barycentric weights. Not fused: see intersect.cl.
-static inline mask image_weights(const image_corners *c, real x, real y, real weights[3])
+// The corners as the pixels at (x, y) see them: x and y of each, relative to the ray.
+static inline void corners_about_ray(const image_corners *c, real x, real y, real across[3],
+                                     real up[3])
 {
-    real cx[3], cy[3];
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        cx[k] = fused(-x, c->at[k][3], c->at[k][0]);
-        cy[k] = fused(-y, c->at[k][3], c->at[k][1]);
+        across[k] = fused(-x, c->at[k][3], c->at[k][0]);
+        up[k] = fused(-y, c->at[k][3], c->at[k][1]);
     }
-    real u = cx[1] * cy[2] - cy[1] * cx[2];
-    real v = cx[2] * cy[0] - cy[2] * cx[0];
-    real w = cx[0] * cy[1] - cy[0] * cx[1];
-    weights[0] = u;
-    weights[1] = v;
-    weights[2] = w;
-    mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
-                  ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
-    return inside & (u + v + w != R(0.0)) & (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) &
-           (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) & (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) &
-           (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
+}
+
+// The signs say whether the ray passes through the triangle; divided by their sum the weights are
+// the barycentric ones. Not fused: see intersect.cl.
+static inline void weigh_corners(const real x[3], const real y[3], real weights[3])
+{
+    weights[0] = x[1] * y[2] - y[1] * x[2];
+    weights[1] = x[2] * y[0] - y[2] * x[0];
+    weights[2] = x[0] * y[1] - y[0] * x[1];
+}
+
+// The weights of the corners of triangles that are seen.
+static inline void image_weights(const image_corners *c, real x, real y, mask seen, real weights[3])
+{
+    real across[3], up[3];
+    corners_about_ray(c, x, y, across, up);
+    weigh_corners(across, up, weights);
+    refine_weights(across, up, seen, weights);
 }
 
 // The slow way, for pixels where an edge's function is too close to 0.
@@ -285,8 +291,15 @@ static inline mask covers_exactly(const block vertices[4], global const float *c
             c.at[k][r] = real_of(((const scalar *)&vertices[r])[lane]);
         }
     }
-    real weights[3];
-    return image_weights(&c, x, y, weights);
+    real cx[3], cy[3], weights[3];
+    corners_about_ray(&c, x, y, cx, cy);
+    weigh_corners(cx, cy, weights);
+    const real u = weights[0], v = weights[1], w = weights[2];
+    mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
+                  ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
+    return inside & (u + v + w != R(0.0)) & (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) &
+           (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) & (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) &
+           (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
 }
 
 // Tests triangle i of a cluster against the pixels of one group; true if any sees it.
@@ -430,7 +443,7 @@ static inline void measure_hits(const image_space *s, const real3 vertices[3], r
 {
     const image_corners c = corners_in_image(s, vertices);
     real weights[3];
-    image_weights(&c, x, y, weights);
+    image_weights(&c, x, y, met, weights);
     real inverse = R(1.0) / SELECT(met, weights[0] + weights[1] + weights[2], real_of(1));
     real z = fused(weights[0], c.at[0][2], fused(weights[1], c.at[1][2], weights[2] * c.at[2][2])) *
              inverse;
