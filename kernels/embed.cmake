@@ -1,11 +1,11 @@
 # Flattens a kernel file and all that it includes into one C string, with #line directives, so that
 # a build log names the real file.
-#   cmake -DSOURCE=kernels/render.cl -DOUTPUT=kernel_sources.c -P embed.cmake
+#   cmake -DSOURCE=kernels/render.cl -DNAME=glint_kernel_source -DOUTPUT=kernel_source.c -P embed.cmake
 cmake_policy(SET CMP0053 NEW)
 get_filename_component(FOLDER "${SOURCE}" DIRECTORY)
-get_filename_component(NAME "${SOURCE}" NAME)
+get_filename_component(FILE "${SOURCE}" NAME)
 file(READ "${SOURCE}" TEXT)
-set(FLAT "#line 1 \"kernels/${NAME}\"\n")
+set(FLAT "#line 1 \"kernels/${FILE}\"\n")
 while(TEXT MATCHES "#include \"([a-z_.]+)\"\n")
   set(INCLUDED "${CMAKE_MATCH_1}")
   set(DIRECTIVE "${CMAKE_MATCH_0}")
@@ -20,14 +20,14 @@ while(TEXT MATCHES "#include \"([a-z_.]+)\"\n")
   math(EXPR NEXT "${LINE} + 1")
   file(READ "${FOLDER}/${INCLUDED}" CONTENT)
   if(CONTENT MATCHES "\n#include \"")
-    message(FATAL_ERROR "${INCLUDED}: only ${NAME} includes other kernel files")
+    message(FATAL_ERROR "${INCLUDED}: only ${FILE} includes other kernel files")
   endif()
   string(APPEND FLAT "${BEFORE}#line 1 \"kernels/${INCLUDED}\"\n${CONTENT}"
-                     "#line ${NEXT} \"kernels/${NAME}\"\n")
+                     "#line ${NEXT} \"kernels/${FILE}\"\n")
 endwhile()
 string(APPEND FLAT "${TEXT}")
 string(REPLACE "\\" "\\\\" FLAT "${FLAT}")
 string(REPLACE "\"" "\\\"" FLAT "${FLAT}")
 string(REPLACE "\n" "\\n\"\n\"" FLAT "${FLAT}")
 file(WRITE "${OUTPUT}" "// Made by kernels/embed.cmake.\n#include \"device/kernel_sources.h\"\n
-const char glint_kernel_source[] =\n\"${FLAT}\";\n")
+const char ${NAME}[] =\n\"${FLAT}\";\n")

@@ -158,4 +158,11 @@ enum glint_counter {
     GLINT_COUNTERS = 16 // room for more, and a round size
 };
 
+// ---- Probes ------------------------------------------------------------------------------------
+// Numbers of an element of the arrays that kernels/probes.cl reads and writes.
+#define GLINT_PROBE_RAY 8
+#define GLINT_PROBE_HIT 4
+#define GLINT_PROBE_BOUNCE 32
+#define GLINT_PROBE_VALUES 4
+
 #endif

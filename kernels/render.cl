@@ -192,6 +192,12 @@ static inline void add_gathered(const gathered *sum, int group, scalar *sums)
 #endif
 }
 
+// Where a pixel's values begin in the frame: more than 2^31 of them are no mistake.
+static inline size_t pixel_place(const glint_frame_record *frame, int column, int row)
+{
+    return 4 * ((size_t)row * (size_t)frame->width + (size_t)column);
+}
+
 // Writes a group's pixels that lie inside the image: the sums of samples of which each has `share`.
 static inline void store_group(global scalar *pixels, const glint_frame_record *frame, int x0,
                                int y0, const scalar *sums, scalar share)
@@ -200,7 +206,7 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
     for (int j = 0; j < PACKET_HEIGHT && y0 + j < frame->height; j++) {
         pixel_row means = load_pixel_row(j, sums) * (pixel_row)share;
         means = GATHERS || GLINT_HITS ? means : opaque(means);
-        global scalar *row = pixels + 4 * ((size_t)(y0 + j) * (size_t)frame->width + (size_t)x0);
+        global scalar *row = pixels + pixel_place(frame, x0, y0 + j);
         if (x0 + PACKET_WIDTH <= frame->width) {
             if (aligned) {
                 stream_pixel_row(means, row);
@@ -275,8 +281,18 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     }
 }
 
-// Work-item (i, j) of the global range renders tile i of band first_band + j of the frame. (An
-// offset of the range itself would make PoCL compile the kernel once more.)
+// The first pixel of the tile that work-item (across, down) of the global range renders: tile
+// `across` of band first_band + down. (An offset of the range itself would make PoCL compile the
+// kernel once more.)
+static inline void find_tile(const glint_frame_record *frame, int across, int down, int *column,
+                             int *row)
+{
+    const int band = frame->band;
+    *column = across / band * PACKET_WIDTH * TILE_COLUMNS;
+    *row = ((down + frame->first_band) * band + across % band) * PACKET_HEIGHT * TILE_ROWS;
+}
+
+// Renders one tile a work-item.
 //  pixels: [height][width][4] (R, G, B premultiplied, alpha). counters: see layout.h. The
 // other buffers are described in layout.h too; those that no compiled feature needs may be of any
 // size.
@@ -295,10 +311,8 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                                  media,
                                  {environment, frame.environment_edge, GLINT_HALF_TEXELS},
                                  {irradiance, frame.irradiance_edge, false}};
-    const int across = (int)get_global_id(0), down = (int)get_global_id(1);
-    const int band = frame.band;
-    const int column = across / band * PACKET_WIDTH * TILE_COLUMNS;
-    const int row = ((down + frame.first_band) * band + across % band) * PACKET_HEIGHT * TILE_ROWS;
+    int column, row;
+    find_tile(&frame, (int)get_global_id(0), (int)get_global_id(1), &column, &row);
     if (column >= frame.width || row >= frame.height) {
         return;
     }

@@ -2,6 +2,7 @@
 #include "device/device.h"
 
 #include "device/opencl.h"
+#include "device/program.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -322,6 +323,7 @@ void glint_device_close(glint_device *device)
     if (device == NULL) {
         return;
     }
+    glint_programs_forget(device);
     if (device->queue != NULL) {
         clReleaseCommandQueue(device->queue);
     }

@@ -3,5 +3,6 @@
 #define GLINT_DEVICE_KERNEL_SOURCES_H
 
 extern const char glint_kernel_source[]; // kernels/render.cl with all its includes, #line kept
+extern const char glint_probe_source[];  // kernels/probes.cl, which goes behind it
 
 #endif

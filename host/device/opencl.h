@@ -7,11 +7,15 @@
 
 #include <CL/cl.h>
 
+// Programs that have been built, the latest first (program.c).
+struct glint_built_program;
+
 struct glint_device {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue; // in order
     glint_capabilities capabilities;
+    struct glint_built_program *programs; // owned
 };
 
 // "CL_OUT_OF_RESOURCES"; "unknown OpenCL error" for a code without a name here. Static text.

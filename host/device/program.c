@@ -5,6 +5,7 @@
 #include "device/kernel_sources.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,12 +26,19 @@ static char *build_log(const struct glint_device *device, cl_program program)
     return log;
 }
 
-// With a folder, the source is one #include and the folder is the compiler's include path.
-static glint_status source_of(const char *kernel_dir, const char **source, char *include_option,
-                              size_t capacity, glint_error *error)
+// The program's text, and what its options need for that.
+typedef struct source {
+    const char *parts[2];
+    cl_uint count;
+    char include_option[4200];
+} source;
+
+// With a folder, the parts are an #include each and the folder is the compiler's include path.
+static glint_status find_source(const glint_program_request *request, source *found,
+                                glint_error *error)
 {
-    *source = glint_kernel_source;
-    include_option[0] = '\0';
+    const char *kernel_dir = request->kernel_dir;
+    *found = (source){{glint_kernel_source, glint_probe_source}, request->with_probes ? 2 : 1, ""};
     if (kernel_dir == NULL) {
         return GLINT_OK;
     }
@@ -47,45 +55,118 @@ static glint_status source_of(const char *kernel_dir, const char **source, char 
                           "kernels)",
                           kernel_dir);
     }
-    *source = "#include \"render.cl\"\n";
-    snprintf(include_option, capacity, " -I %s", kernel_dir);
+    found->parts[0] = "#include \"render.cl\"\n";
+    found->parts[1] = "#include \"probes.cl\"\n";
+    snprintf(found->include_option, sizeof found->include_option, " -I %s", kernel_dir);
     return GLINT_OK;
 }
 
-glint_status glint_kernel_build(const struct glint_device *device, const char *kernel_dir,
-                                const char *options, const char *name, cl_kernel *kernel,
-                                glint_error *error)
+struct glint_built_program {
+    char *key; // of the request; owned
+    cl_program program;
+    struct glint_built_program *next;
+};
+
+// All that a program depends on. Truncated where it is too long to be built anyway.
+static void write_key(const glint_program_request *request, char *key, size_t capacity)
 {
-    *kernel = NULL;
-    const char *source;
-    char all_options[8192], include_option[4200];
-    glint_status status =
-        source_of(kernel_dir, &source, include_option, sizeof include_option, error);
-    if (status != GLINT_OK) {
-        return status;
+    snprintf(key, capacity, "%s %s", request->options,
+             request->kernel_dir != NULL ? request->kernel_dir : "");
+}
+
+static cl_program find_built(const struct glint_device *device, const char *key)
+{
+    for (const struct glint_built_program *p = device->programs; p != NULL; p = p->next) {
+        if (strcmp(p->key, key) == 0) {
+            clRetainProgram(p->program);
+            return p->program;
+        }
     }
-    int length = snprintf(all_options, sizeof all_options, "%s%s", options, include_option);
-    if (length < 0 || (size_t)length >= sizeof all_options) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: the folder's name is too long", kernel_dir);
+    return NULL;
+}
+
+// Without memory for it the program is only built again another time.
+static void keep_built(struct glint_device *device, const char *key, cl_program program)
+{
+    struct glint_built_program *kept = calloc(1, sizeof *kept);
+    char *own_key = strdup(key);
+    if (kept == NULL || own_key == NULL) {
+        free(kept);
+        free(own_key);
+        return;
     }
+    clRetainProgram(program);
+    *kept = (struct glint_built_program){own_key, program, device->programs};
+    device->programs = kept;
+}
+
+void glint_programs_forget(struct glint_device *device)
+{
+    while (device->programs != NULL) {
+        struct glint_built_program *first = device->programs;
+        device->programs = first->next;
+        clReleaseProgram(first->program);
+        free(first->key);
+        free(first);
+    }
+}
+
+static glint_status compile(const struct glint_device *device, const source *found,
+                            const char *options, cl_program *program, glint_error *error)
+{
     cl_int code;
-    cl_program program = clCreateProgramWithSource(device->context, 1, &source, NULL, &code);
+    cl_program made = clCreateProgramWithSource(
+        device->context, found->count, (const char **)(uintptr_t)found->parts, NULL, &code);
     if (code != CL_SUCCESS) {
         return glint_fail_opencl(error, device, "creating the kernels' program", code);
     }
-    code = clBuildProgram(program, 1, &device->id, all_options, NULL, NULL);
+    code = clBuildProgram(made, 1, &device->id, options, NULL, NULL);
     if (code != CL_SUCCESS) {
-        status = glint_fail_opencl(error, device, "compiling the kernels (the log follows)", code);
+        glint_status status =
+            glint_fail_opencl(error, device, "compiling the kernels (the log follows)", code);
         if (error != NULL) {
-            error->details = build_log(device, program);
+            error->details = build_log(device, made);
         }
-        goto cleanup;
+        clReleaseProgram(made);
+        return status;
     }
-    *kernel = clCreateKernel(program, name, &code);
-    if (code != CL_SUCCESS) {
-        status = glint_fail_opencl(error, device, "taking the kernel from its program", code);
+    *program = made;
+    return GLINT_OK;
+}
+
+glint_status glint_program_build(struct glint_device *device, const glint_program_request *request,
+                                 cl_program *program, glint_error *error)
+{
+    *program = NULL;
+    source found;
+    char options[8192], key[16384];
+    glint_status status = find_source(request, &found, error);
+    if (status != GLINT_OK) {
+        return status;
     }
-cleanup:
-    clReleaseProgram(program);
+    int length = snprintf(options, sizeof options, "%s%s", request->options, found.include_option);
+    if (length < 0 || (size_t)length >= sizeof options) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: the folder's name is too long",
+                          request->kernel_dir);
+    }
+    write_key(request, key, sizeof key);
+    *program = request->with_probes ? find_built(device, key) : NULL;
+    if (*program != NULL) {
+        return GLINT_OK;
+    }
+    status = compile(device, &found, options, program, error);
+    if (status == GLINT_OK && request->with_probes) {
+        keep_built(device, key, *program);
+    }
     return status;
+}
+
+glint_status glint_program_kernel(const struct glint_device *device, cl_program program,
+                                  const char *name, cl_kernel *kernel, glint_error *error)
+{
+    cl_int code;
+    *kernel = clCreateKernel(program, name, &code);
+    return code == CL_SUCCESS
+               ? GLINT_OK
+               : glint_fail_opencl(error, device, "taking a kernel from its program", code);
 }

@@ -5,13 +5,29 @@
 #include "base/status.h"
 #include "device/opencl.h"
 
-// Compiles kernels/render.cl with `options` and takes `name` from it. `kernel_dir` NULL: the
-// embedded source; else the folder that holds render.cl, read now, so that kernels can be edited
-// without building the program again. On a compile error `error->details` holds the build log,
-// which names the kernel files and lines. Errors: GLINT_BAD_INPUT for a folder without render.cl,
+#include <stdbool.h>
+
+// What to compile, and how.
+typedef struct glint_program_request {
+    const char *kernel_dir; // NULL: the embedded source; else the folder that holds render.cl, so
+                            // that kernels can be edited without building glint again
+    const char *options;    // of the build
+    bool with_probes;       // kernels/probes.cl too
+} glint_program_request;
+
+// Compiles kernels/render.cl. Programs with probes are kept, and given again for the same request:
+// self-tests ask for one many times, and even from a driver's cache it takes a second. The caller
+// releases the program. On a compile error `error->details` holds the build log, which names
+// the kernel files and lines. Errors: GLINT_BAD_INPUT for a folder without render.cl,
 // GLINT_DEVICE_FAILED.
-glint_status glint_kernel_build(const struct glint_device *device, const char *kernel_dir,
-                                const char *options, const char *name, cl_kernel *kernel,
-                                glint_error *error);
+glint_status glint_program_build(struct glint_device *device, const glint_program_request *request,
+                                 cl_program *program, glint_error *error);
+
+// Takes the kernel of that name. Errors: GLINT_DEVICE_FAILED.
+glint_status glint_program_kernel(const struct glint_device *device, cl_program program,
+                                  const char *name, cl_kernel *kernel, glint_error *error);
+
+// Releases what the device keeps for the next request.
+void glint_programs_forget(struct glint_device *device);
 
 #endif

@@ -5,9 +5,7 @@
 #include "device/program.h"
 #include "environment/irradiance.h"
 #include "kernels/layout.h"
-#include "render/pixels.h"
-#include "render/upload.h"
-#include "render/view.h"
+#include "render/renderer.h"
 #include "scene/topology.h"
 
 #include <math.h>
@@ -28,22 +26,6 @@
 // still in the caches. One where so many rows would be a long launch by themselves.
 #define BAND_ROWS 4
 #define BAND_SAMPLES 2e6
-
-struct glint_renderer {
-    glint_device *device;
-    glint_settings settings;
-    glint_plan plan;
-    glint_bvh_report bvh;
-    glint_phases phases;
-    glint_stored_space space;
-    glint_scene_memory memory;
-    int environment_edge, irradiance_edge;
-    cl_kernel kernel;
-    glint_pixels pixels;
-    cl_mem counters;
-    size_t pixel_count;
-    double bands_per_ms; // of tiles, in the last frame; 0 before the first
-};
 
 static double now_ms(void)
 {
@@ -179,8 +161,13 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
 {
     char options[4096];
     glint_plan_build_options(&r->plan, options, sizeof options);
-    glint_status status =
-        glint_kernel_build(r->device, in->kernel_dir, options, "render_tiles", &r->kernel, error);
+    const glint_program_request request = {.kernel_dir = in->kernel_dir, .options = options};
+    cl_program program;
+    glint_status status = glint_program_build(r->device, &request, &program, error);
+    if (status == GLINT_OK) {
+        status = glint_program_kernel(r->device, program, "render_tiles", &r->kernel, error);
+        clReleaseProgram(program);
+    }
     if (status == GLINT_OK) {
         status = set_buffers(r, error);
     }
@@ -237,7 +224,7 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
         r->plan.traversal_stack = traversal_stack(bvh.report.stack_need);
         r->phases.bvh = lap(&clock);
     }
-    if (status == GLINT_OK && needs_irradiance(&r->plan)) {
+    if (status == GLINT_OK && needs_irradiance(&r->plan) && !in->without_frames) {
         status =
             glint_irradiance_map(&in->environment->radiance, IRRADIANCE_EDGE, &irradiance, error);
         r->phases.irradiance = lap(&clock);
@@ -259,7 +246,7 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
         status = create_outputs(r, error);
         r->phases.upload = lap(&clock);
     }
-    if (status == GLINT_OK) {
+    if (status == GLINT_OK && !in->without_frames) {
         status = build_kernel(in, r, error);
         r->phases.kernel_build = lap(&clock);
     }

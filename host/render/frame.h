@@ -69,6 +69,7 @@ typedef struct glint_renderer_inputs {
     const glint_environment *environment; // borrowed during creation only
     const glint_settings *settings;       // borrowed during creation only
     const char *kernel_dir;               // NULL: the embedded kernels
+    bool without_frames;                  // no frame will be asked for (see probe.h)
 } glint_renderer_inputs;
 
 // Analyses, plans, builds the tree and the kernels, uploads. Errors: GLINT_USAGE, GLINT_BAD_INPUT,

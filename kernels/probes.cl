@@ -1,0 +1,284 @@
+// Kernels that take rays and numbers of the host's own through single parts of the renderer, for
+// host/render/probe.h: compiled behind render.cl, with the features of the scene at hand.
+//
+// Element i of an array goes to lane i % GLINT_WIDTH of packet i / GLINT_WIDTH; a work-item takes
+// PATH_GROUPS packets, and the host fills arrays up to a whole number of work-items. A kernel's
+// arguments are those of render_tiles with two arrays in place of pixels and counters.
+
+#define PROBE_ARGUMENTS                                                                            \
+    global const float *nodes, global const float *clusters, global const float *normals,          \
+        global const int *numbers, global const glint_material_record *materials,                  \
+        global const glint_medium_record *media, global const void *environment,                   \
+        global const float *irradiance, global const scalar *in, global scalar *out,               \
+        const glint_frame_record frame
+#define PROBE_SCENE                                                                                \
+    {nodes, clusters, normals, numbers, materials, media,                                          \
+     {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
+     {irradiance, frame.irradiance_edge, false}}
+
+// Value `which` of the elements of a packet, of `values` each.
+static inline real probe_load(global const scalar *in, size_t packet, int values, int which)
+{
+    real value;
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        LANE(value, lane) = in[values * (packet * GLINT_WIDTH + lane) + which];
+    }
+    return value;
+}
+
+static inline real3 probe_load3(global const scalar *in, size_t packet, int values, int which)
+{
+    return real3_of(probe_load(in, packet, values, which),
+                    probe_load(in, packet, values, which + 1),
+                    probe_load(in, packet, values, which + 2));
+}
+
+static inline void probe_store(global scalar *out, size_t packet, int values, int which, real value)
+{
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        out[values * (packet * GLINT_WIDTH + lane) + which] = LANE(value, lane);
+    }
+}
+
+static inline void probe_store3(global scalar *out, size_t packet, int values, int which, real3 v)
+{
+    probe_store(out, packet, values, which, v.x);
+    probe_store(out, packet, values, which + 1, v.y);
+    probe_store(out, packet, values, which + 2, v.z);
+}
+
+static inline real probe_flag(mask yes) { return SELECT(yes, real_of(1), real_of(0)); }
+
+// ---- Rays --------------------------------------------------------------------------------------
+
+// A ray is GLINT_PROBE_RAY numbers: origin, unit direction, the place of the triangle that it
+// starts on (−1: none), the stack of media that it is inside.
+static inline void probe_rays(global const scalar *in, size_t first, path *rays, mask *active)
+{
+    for (int g = 0; g < PATH_GROUPS; g++) {
+        path *ray = &rays[SLOT(g)];
+        const size_t packet = first + g;
+        ray->origin = probe_load3(in, packet, GLINT_PROBE_RAY, 0);
+        ray->direction = probe_load3(in, packet, GLINT_PROBE_RAY, 3);
+        ray->from = to_int_truncated(probe_load(in, packet, GLINT_PROBE_RAY, 6));
+        ray->media = to_int_truncated(probe_load(in, packet, GLINT_PROBE_RAY, 7));
+        ray->weight = real3_of(real_of(1), real_of(1), real_of(1));
+        ray->met = int_of(0);
+        ray->looked_up = int_of(0);
+#if GLINT_ABSORPTION
+        ray->travelled = real_of(0);
+#endif
+#if GLINT_MIP_LEVELS
+        ray->cone.width = ray->cone.spread = real_of(0);
+#endif
+        active[SLOT(g)] = mask_all();
+    }
+}
+
+static inline real probe_numbers(global const int *numbers, lanes_int places)
+{
+    real found = real_of(-1);
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        const int place = (int)LANE_INT(places, lane);
+        if (place >= 0) {
+            LANE(found, lane) = (scalar)numbers[place];
+        }
+    }
+    return found;
+}
+
+// Distance, barycentric weights of the second and third vertex, the triangle's number (−1: none).
+static inline void probe_store_hit(global scalar *out, size_t packet, int values,
+                                   global const int *numbers, const closest *hit)
+{
+    probe_store3(out, packet, values, 0, real3_of(hit->t, hit->b1, hit->b2));
+    probe_store(out, packet, values, 3, probe_numbers(numbers, hit->place));
+}
+
+// Closest hits as secondary rays find them.
+kernel void probe_trace(PROBE_ARGUMENTS)
+{
+    const scene_buffers scene = PROBE_SCENE;
+    const size_t first = get_global_id(0) * PATH_GROUPS;
+    path rays[PATH_GROUPS];
+    mask active[PATH_GROUPS];
+    closest hits[PATH_GROUPS];
+    probe_rays(in, first, rays, active);
+    trace_groups(&scene, rays, active, hits);
+    for (int g = 0; g < PATH_GROUPS; g++) {
+        probe_store_hit(out, first + g, GLINT_PROBE_HIT, numbers, &hits[SLOT(g)]);
+    }
+}
+
+// What becomes of rays at the next surface: see glint_probe_bounce for the GLINT_PROBE_BOUNCE
+// numbers.
+#if GLINT_GEOMETRY
+static inline void probe_surface(const scene_buffers *scene, const path *ray, const closest *hit,
+                                 global scalar *out, size_t packet)
+{
+    const int values = GLINT_PROBE_BOUNCE;
+    const mask met = hit->place >= (lane_int)0;
+    const triangle triangles = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
+    const surface s = find_surface(scene, ray, hit, &triangles);
+    const real3 dark = real3_of(real_of(0), real_of(0), real_of(0));
+    mask lost;
+    lanes_int inside = ray->media;
+    const scattering light = scatter(scene, &s, negate(ray->direction), &inside, dark, &lost);
+    probe_store3(out, packet, values, 4, s.geometric_normal);
+    probe_store(out, packet, values, 7, probe_flag(s.outside));
+    probe_store3(out, packet, values, 8, s.normal);
+    probe_store(out, packet, values, 11, s.cosine);
+    const path reflected = make_branch(ray, &s, hit, light.reflected, R(1.0));
+    probe_store3(out, packet, values, 12, reflected.direction);
+    probe_store(out, packet, values, 15, largest3(light.reflected_weight));
+    probe_store3(out, packet, values, 16, reflected.origin);
+    probe_store(out, packet, values, 19, to_real(hit->place));
+    probe_store(out, packet, values, 20, to_real(light.media_reflected));
+#if GLINT_GLASS
+    const path transmitted = make_branch(ray, &s, hit, light.transmitted, R(-1.0));
+    probe_store3(out, packet, values, 21, transmitted.direction);
+    probe_store(out, packet, values, 24, largest3(light.transmitted_weight));
+    probe_store3(out, packet, values, 25, transmitted.origin);
+    probe_store(out, packet, values, 28, to_real(light.media_transmitted));
+    probe_store(out, packet, values, 29, probe_flag(light.total_reflection));
+#endif
+}
+
+kernel void probe_bounce(PROBE_ARGUMENTS)
+{
+    const scene_buffers scene = PROBE_SCENE;
+    const size_t first = get_global_id(0) * PATH_GROUPS;
+    path rays[PATH_GROUPS];
+    mask active[PATH_GROUPS];
+    closest hits[PATH_GROUPS];
+    probe_rays(in, first, rays, active);
+    trace_groups(&scene, rays, active, hits);
+    for (int g = 0; g < PATH_GROUPS; g++) {
+        probe_store_hit(out, first + g, GLINT_PROBE_BOUNCE, numbers, &hits[SLOT(g)]);
+        if (any_lane(hits[SLOT(g)].place >= (lane_int)0)) {
+            probe_surface(&scene, &rays[SLOT(g)], &hits[SLOT(g)], out, first + g);
+        }
+    }
+}
+#endif
+
+// ---- Single functions: GLINT_PROBE_VALUES numbers in, as many out ------------------------------
+
+static inline void probe_store4(global scalar *out, size_t packet, real3 v, real fourth)
+{
+    probe_store3(out, packet, GLINT_PROBE_VALUES, 0, v);
+    probe_store(out, packet, GLINT_PROBE_VALUES, 3, fourth);
+}
+
+#define PROBE_IN(which) probe_load(in, packet, GLINT_PROBE_VALUES, which)
+#define PROBE_PACKETS                                                                              \
+    size_t packet = get_global_id(0) * PATH_GROUPS;                                                \
+    packet < (get_global_id(0) + 1) * PATH_GROUPS;                                                 \
+    packet++
+
+// In: cos θi, η. Out: cos² θt, the reflectance (where there is no total reflection), and with 1/η as
+// an index of refraction the reflectance of its surface.
+kernel void probe_fresnel(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        const real cosine = PROBE_IN(0), eta = PROBE_IN(1);
+        const real squared = transmitted_cosine_squared(cosine, eta);
+        const real cosine_t = sqrt(LARGER(squared, real_of(0)));
+        const real reflectance = dielectric_reflectance(cosine, cosine_t, eta);
+        probe_store4(out, packet,
+                     real3_of(squared, reflectance, surface_reflectance(cosine, R(1.0) / eta)),
+                     real_of(0));
+    }
+}
+
+// In: cos θi of a viewer in the xz plane, the normal +Z; η. Out: x and z of the refracted
+// direction, and of the reflected one.
+kernel void probe_directions(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        const real cosine = PROBE_IN(0), eta = PROBE_IN(1), zero = real_of(0);
+        const real sine = sqrt((R(1.0) - cosine) * (R(1.0) + cosine));
+        const real3 v = real3_of(sine, zero, cosine), n = real3_of(zero, zero, real_of(1));
+        const real cosine_t = sqrt(LARGER(transmitted_cosine_squared(cosine, eta), zero));
+        const real3 t = refract_direction(v, n, cosine, eta, cosine_t);
+        const real3 r = reflect_direction(v, n, cosine);
+        probe_store4(out, packet, real3_of(t.x, t.z, r.x), r.z);
+    }
+}
+
+// In: cos θ, F0. Out: Schlick's reflectance.
+kernel void probe_metal(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        const real f0 = PROBE_IN(1);
+        probe_store4(out, packet, metal_reflectance(real3_of(f0, f0, f0), PROBE_IN(0)), real_of(0));
+    }
+}
+
+// In: a vector. Out: the unit vector along it (0 where there is none), and whether there is one.
+kernel void probe_normalized(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        mask valid;
+        const real3 v = real3_of(PROBE_IN(0), PROBE_IN(1), PROBE_IN(2));
+        const real3 n = normalized(v, &valid);
+        const real zero = real_of(0);
+        probe_store4(out, packet, select3(valid, n, real3_of(zero, zero, zero)), probe_flag(valid));
+    }
+}
+
+// In: a direction of any length. Out: the environment along it.
+kernel void probe_environment(PROBE_ARGUMENTS)
+{
+    const scene_buffers scene = PROBE_SCENE;
+    for (PROBE_PACKETS) {
+        const real3 d = real3_of(PROBE_IN(0), PROBE_IN(1), PROBE_IN(2));
+        probe_store4(out, packet, sample_cube(&scene.environment, d, mask_all()), real_of(0));
+    }
+}
+
+// In: a direction of any length. Out: the face of the cube that it falls on, and the column and row
+// there, in texels of the face with its border.
+kernel void probe_face(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        const real3 d = real3_of(PROBE_IN(0), PROBE_IN(1), PROBE_IN(2));
+        const cube_point point = find_on_cube(d, int_of(frame.environment_edge), int_of(0));
+        const lane_int pitch = frame.environment_edge + 2 * GLINT_CUBE_BORDER;
+        const lanes_int face = point.first / (pitch * pitch);
+        const real row = to_real(point.first / pitch % pitch) + point.down;
+        const real column = to_real(point.first % pitch) + point.right;
+        probe_store4(out, packet, real3_of(to_real(face), column, row), real_of(0));
+    }
+}
+
+// In: a column and a row. Out: the unit direction of the primary ray through that pixel's middle.
+kernel void probe_primary(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        primary first;
+        first.x = place_x(&frame, to_int_truncated(PROBE_IN(0)), R(0.5));
+        first.y = place_y(&frame, to_int_truncated(PROBE_IN(1)), R(0.5));
+        const path ray = primary_rays(&frame, &first);
+        probe_store4(out, packet, ray.direction, first.length);
+    }
+}
+
+// In: a work-item's place in the global range. Out: column and row of the tile that it renders, and
+// where the tile's first pixel stands, in units of 2^24 values and the rest.
+kernel void probe_tile_place(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+            global const scalar *id = in + GLINT_PROBE_VALUES * (packet * GLINT_WIDTH + lane);
+            global scalar *place = out + GLINT_PROBE_VALUES * (packet * GLINT_WIDTH + lane);
+            int column, row;
+            find_tile(&frame, (int)id[0], (int)id[1], &column, &row);
+            const size_t first = pixel_place(&frame, column, row);
+            place[0] = (scalar)column;
+            place[1] = (scalar)row;
+            place[2] = (scalar)(first >> 24);
+            place[3] = (scalar)(first & 0xffffff);
+        }
+    }
+}
