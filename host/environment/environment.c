@@ -119,32 +119,37 @@ static glint_status make_cube(const glint_image *image, const glint_recognised *
     return glint_cube_from_faces(views, what->on_edges, cube, error);
 }
 
+static glint_status take_image(const char *name, glint_image *image, const glint_image_facts *facts,
+                               glint_environment *environment, glint_warnings *warnings,
+                               glint_error *error)
+{
+    glint_recognised what = {.layout = environment->layout};
+    glint_status status = glint_layout_recognise(name, image, facts, &what, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    if (what.layout == GLINT_LAYOUT_LATLONG && image->width != 2 * image->height &&
+        facts->envmap != GLINT_ENVMAP_LATLONG) {
+        glint_warn(warnings, "%s: %d × %d pixels are not 2:1: stretched over the whole sphere",
+                   name, image->width, image->height);
+    }
+    environment->layout = what.layout;
+    environment->reason = what.reason;
+    environment->source_width = image->width;
+    environment->source_height = image->height;
+    environment->mended_texels = mend(name, image, 1, warnings);
+    return make_cube(image, &what, &environment->radiance, error);
+}
+
 static glint_status load_file(const char *path, glint_environment *environment,
                               glint_warnings *warnings, glint_error *error)
 {
     glint_image image = {0};
     glint_image_facts facts = {0};
-    glint_recognised what = {.layout = environment->layout};
     glint_status status = glint_image_read(path, &image, &facts, error);
     if (status == GLINT_OK) {
-        status = glint_layout_recognise(path, &image, &facts, &what, error);
+        status = take_image(path, &image, &facts, environment, warnings, error);
     }
-    if (status != GLINT_OK) {
-        goto cleanup;
-    }
-    if (what.layout == GLINT_LAYOUT_LATLONG && image.width != 2 * image.height &&
-        facts.envmap != GLINT_ENVMAP_LATLONG) {
-        glint_warn(warnings, "%s: %d × %d pixels are not 2:1: stretched over the whole sphere",
-                   path, image.width, image.height);
-    }
-    environment->layout = what.layout;
-    environment->reason = what.reason;
-    environment->source_width = image.width;
-    environment->source_height = image.height;
-    environment->mended_texels = mend(path, &image, 1, warnings);
-    status = make_cube(&image, &what, &environment->radiance, error);
-
-cleanup:
     glint_image_free(&image);
     return status;
 }
@@ -221,6 +226,21 @@ cleanup:
 
 // ---- Either -------------------------------------------------------------------------------------
 
+// Gives what was loaded its name, or frees it where that failed.
+static glint_status finish(const char *name, glint_status status, glint_environment *environment,
+                           glint_error *error)
+{
+    if (status == GLINT_OK) {
+        environment->name = strdup(name);
+        status = environment->name != NULL ? GLINT_OK
+                                           : glint_fail_memory(error, "an environment's name");
+    }
+    if (status != GLINT_OK) {
+        glint_environment_free(environment);
+    }
+    return status;
+}
+
 glint_status glint_environment_load(const char *path, glint_layout layout,
                                     glint_environment *environment, glint_warnings *warnings,
                                     glint_error *error)
@@ -239,16 +259,17 @@ glint_status glint_environment_load(const char *path, glint_layout layout,
     } else {
         status = load_file(path, environment, warnings, error);
     }
-    if (status == GLINT_OK) {
-        environment->name = strdup(path);
-        if (environment->name == NULL) {
-            status = glint_fail_memory(error, "an environment's name");
-        }
-    }
-    if (status != GLINT_OK) {
-        glint_environment_free(environment);
-    }
-    return status;
+    return finish(path, status, environment, error);
+}
+
+glint_status glint_environment_from_image(const char *name, glint_image *image, glint_layout layout,
+                                          glint_environment *environment, glint_warnings *warnings,
+                                          glint_error *error)
+{
+    static const glint_image_facts nothing_more = {0};
+    *environment = (glint_environment){.layout = layout};
+    glint_status status = take_image(name, image, &nothing_more, environment, warnings, error);
+    return finish(name, status, environment, error);
 }
 
 void glint_environment_free(glint_environment *environment)

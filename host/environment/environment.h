@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 #include "base/vector.h"
+#include "image/image.h"
 
 #include <stddef.h>
 
@@ -68,6 +69,12 @@ typedef struct glint_environment {
 glint_status glint_environment_load(const char *path, glint_layout layout,
                                     glint_environment *environment, glint_warnings *warnings,
                                     glint_error *error);
+
+// The same from an image in memory, called `name` in messages: a single file's content. Values that
+// are no radiance are mended in it. Errors: GLINT_BAD_INPUT.
+glint_status glint_environment_from_image(const char *name, glint_image *image, glint_layout layout,
+                                          glint_environment *environment, glint_warnings *warnings,
+                                          glint_error *error);
 
 // The built-in studio: a soft box overhead, two strips at the sides, a floor and a horizon, so that
 // mirrors and glass have something to show.
