@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -30,6 +31,11 @@ void glint_image_free(glint_image *image);
 static inline float *glint_image_pixel(const glint_image *image, int x, int y)
 {
     return image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
+}
+
+static inline bool glint_image_has_alpha(const glint_image *image)
+{
+    return image->channels == 2 || image->channels == 4;
 }
 
 #ifdef __cplusplus

@@ -83,20 +83,6 @@ static json_t *memory_object(const glint_bench_result *result)
     return object;
 }
 
-static json_t *error_object(const glint_metrics *error)
-{
-    json_t *object = json_object();
-    glint_json_put_real(object, "relative_rmse", error->relative_rmse);
-    glint_json_put_real(object, "rmse", error->rmse);
-    glint_json_put_real(object, "p99", error->p99);
-    glint_json_put_real(object, "largest", error->largest);
-    glint_json_put_count(object, "compared_pixels", error->compared);
-    glint_json_put_count(object, "differing_pixels", error->differing);
-    glint_json_put_count(object, "nonfinite_pixels", error->nonfinite);
-    glint_json_put_real(object, "reference_mean", error->mean);
-    return object;
-}
-
 static json_t *check_object(const glint_bench_check *check)
 {
     static const char *const outcomes[] = {
@@ -111,9 +97,9 @@ static json_t *check_object(const glint_bench_check *check)
     glint_json_put_count(object, "nonfinite_pixels", check->nonfinite_pixels);
     glint_json_put_count(object, "unsteady_frames", check->unsteady_frames);
     if (check->has_reference) {
-        glint_json_put(object, "error", error_object(&check->error));
+        glint_json_put(object, "error", glint_json_metrics(&check->error));
         glint_json_put_real(object, "ill_conditioned", check->ill_conditioned);
-        glint_json_put(object, "well_conditioned_error", error_object(&check->judged));
+        glint_json_put(object, "well_conditioned_error", glint_json_metrics(&check->judged));
         glint_json_put_real(object, "differing_allowed", check->most_differing);
     }
     return object;

@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "render/frame.h"
+#include "report/metrics.h"
 #include "report/subject.h"
 
 #include <jansson.h>
@@ -29,6 +30,8 @@ json_t *glint_json_settings(const glint_settings *settings);
 json_t *glint_json_warnings(const glint_warnings *warnings);
 json_t *glint_json_rays(const glint_ray_counts *rays);
 json_t *glint_json_truncation(const glint_truncation *truncation);
+// Where no pixel was compared, the figures are null.
+json_t *glint_json_metrics(const glint_metrics *metrics);
 // Counts and bounds; with `everything` also the materials, the instances and the cameras.
 // `topology` may be NULL.
 json_t *glint_json_scene(const glint_scene *scene, const glint_topology *topology, bool everything);
