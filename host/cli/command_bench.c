@@ -9,6 +9,7 @@
 #include "cli/bench_table.h"
 #include "cli/file_names.h"
 #include "cli/inputs.h"
+#include "cli/json_output.h"
 #include "image/output_file.h"
 #include "report/baseline.h"
 #include "report/bench_json.h"
@@ -201,7 +202,7 @@ static glint_status measure_scene(bench_work *work, const char *name, json_t **e
 
 static bool prints_table(const bench_request *request)
 {
-    return request->json == NULL || strcmp(request->json, "-") != 0;
+    return !glint_is_stdout(request->json);
 }
 
 static glint_status compare_scene(bench_work *work, const json_t *entry, glint_error *error)
@@ -290,24 +291,6 @@ static void add_comparisons(bench_work *work)
     }
 }
 
-static glint_status write_report(const bench_work *work, glint_error *error)
-{
-    const char *path = work->request->json;
-    if (path == NULL) {
-        return GLINT_OK;
-    }
-    if (strcmp(path, "-") != 0) {
-        return glint_json_write(path, json_incref(work->document), error);
-    }
-    char *text = NULL;
-    glint_status status = glint_json_print(json_incref(work->document), &text, error);
-    if (status == GLINT_OK) {
-        fputs(text, stdout);
-    }
-    free(text);
-    return status;
-}
-
 static glint_status give_verdict(const bench_work *work, size_t count, glint_error *error)
 {
     const bench_request *request = work->request;
@@ -349,7 +332,9 @@ static glint_status bench(bench_work *work, const char *const *names, size_t cou
     if (work->baseline != NULL) {
         add_comparisons(work);
     }
-    status = write_report(work, error);
+    if (request->json != NULL) {
+        status = glint_write_json(request->json, json_incref(work->document), error);
+    }
     return status == GLINT_OK ? give_verdict(work, count, error) : status;
 }
 
@@ -405,7 +390,7 @@ static glint_status check_request(bench_request *request, const char *const *nam
             }
         }
     }
-    bool writes_file = request->json != NULL && strcmp(request->json, "-") != 0;
+    bool writes_file = request->json != NULL && !glint_is_stdout(request->json);
     return status == GLINT_OK && writes_file ? check_report(request, names, count, error) : status;
 }
 

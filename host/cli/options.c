@@ -256,19 +256,23 @@ static glint_status parse_one(const glint_command *command, const getopt_tables 
 static glint_status check_positionals(const glint_command *command,
                                       const glint_arguments *arguments, glint_error *error)
 {
+    const char *second = command->second_positional;
     int count = arguments->positional_count;
-    int most = command->positional == NULL ? 0 : command->takes_any_number ? count : 1;
+    int named = (command->positional != NULL) + (second != NULL);
+    int most = command->takes_any_number ? count : named;
     if (count > most) {
         return glint_fail(error, GLINT_USAGE, "unexpected argument '%s' (usage: glint %s %s)",
                           arguments->positionals[most], command->name, command->synopsis);
     }
-    bool is_missing = count == 0 && most == 1;
-    for (int i = 0; i < count; i++) {
-        is_missing = is_missing || arguments->positionals[i][0] == '\0';
+    // The first that is not there, or is empty.
+    int at = 0;
+    while (at < count && arguments->positionals[at][0] != '\0') {
+        at++;
     }
-    if (is_missing) {
-        return glint_fail(error, GLINT_USAGE, "%s is missing (usage: glint %s %s)",
-                          command->positional, command->name, command->synopsis);
+    if (at < most) {
+        const char *missing = at > 0 && second != NULL ? second : command->positional;
+        return glint_fail(error, GLINT_USAGE, "%s is missing (usage: glint %s %s)", missing,
+                          command->name, command->synopsis);
     }
     return GLINT_OK;
 }

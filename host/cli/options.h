@@ -62,8 +62,9 @@ typedef struct glint_command {
     const char *examples;              // lines, printed as they are; NULL: none
     const glint_option *const *groups; // tables, NULL at the end
     const char *positional; // what a positional argument is called: "SCENE"; NULL: none is taken
-    bool takes_any_number;  // of them, none too; else exactly one
-    size_t request_size;    // of the struct that the tables' offsets count in
+    const char *second_positional; // what a second one is called, if two are taken; else NULL
+    bool takes_any_number;         // of `positional`, none too; else exactly those that are named
+    size_t request_size;           // of the struct that the tables' offsets count in
     void (*set_defaults)(void *request); // on a zeroed request; NULL: zero is the default
     glint_status (*run)(void *request, const glint_arguments *arguments, glint_error *error);
 } glint_command;
