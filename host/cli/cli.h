@@ -11,6 +11,7 @@ extern const glint_command glint_command_render;
 extern const glint_command glint_command_info;
 extern const glint_command glint_command_devices;
 extern const glint_command glint_command_bench;
+extern const glint_command glint_command_compare;
 
 // One line on stderr, "glint: …".
 void glint_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
