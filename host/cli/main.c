@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 static const glint_command *const commands[] = {&glint_command_render, &glint_command_compare,
-                                                &glint_command_bench, &glint_command_info,
-                                                &glint_command_devices};
+                                                &glint_command_bench, &glint_command_selftest,
+                                                &glint_command_info, &glint_command_devices};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 void glint_say(const char *format, ...)
@@ -60,7 +60,8 @@ static void print_overview(void)
            "\n"
            "Exit status\n"
            "  0 done, 2 usage, 3 bad input, 4 no device or it failed, 5 output could not be\n"
-           "  written, 7 a comparison found an error, 130 or 143 stopped by a signal\n"
+           "  written, 7 a comparison or a self-test found an error, 130 or 143 stopped by a\n"
+           "  signal\n"
            "\n"
            "Examples\n"
            "  glint render scenes/gallery.gltf -o gallery.png\n"

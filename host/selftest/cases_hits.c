@@ -1,0 +1,493 @@
+// Hard cases of what rays hit: edges, vertices, slivers, degenerate and coincident triangles,
+// places where naive slab tests give NaN, scenes far from the origin.
+#include "base/memory.h"
+#include "selftest/judge.h"
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BATCH ((size_t)65536) // of rays
+
+// ---- Closed meshes -----------------------------------------------------------------------------
+
+static double spiky(const double u[3])
+{
+    return 0.35 + 0.6 * fabs(sin(9 * u[0] + 1) * sin(8 * u[1] + 2) * sin(11 * u[2]));
+}
+
+static double bumpy(const double u[3])
+{
+    return 0.8 + 0.1 * sin(5 * u[0]) * sin(4 * u[1] + 1) * sin(6 * u[2] + 2);
+}
+
+// Bodies that are star-shaped about the origin, so that every ray from there must hit.
+static glint_status closed_scene(trial *t, int which, glint_scene *scene)
+{
+    static const double origin[3] = {0, 0, 0}, low[3] = {-0.75, -0.5, -0.875},
+                        high[3] = {0.625, 0.75, 0.5};
+    shape s = shape_begin();
+    switch (which) {
+    case 0:
+        shape_add_ball(&s, origin, 1, 5, spiky, true, MATERIAL_TINTED);
+        break;
+    case 1:
+        shape_add_ball(&s, origin, 1, 6, bumpy, true, MATERIAL_TINTED);
+        break;
+    case 2:
+        shape_add_box(&s, low, high, 24, false, MATERIAL_TINTED);
+        break;
+    default:
+        shape_add_ball(&s, origin, 0x1p-10, 4, NULL, true, MATERIAL_TINTED);
+        break;
+    }
+    return shape_end(&s, scene, t->error);
+}
+#define CLOSED_SCENES 4
+
+static void unit_from_to(const trial *t, const double from[3], const double to[3], double d[3])
+{
+    double length = 0;
+    for (int k = 0; k < 3; k++) {
+        d[k] = to[k] - from[k];
+        length += d[k] * d[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        d[k] = trial_rounded(t, d[k] / sqrt(length));
+    }
+}
+
+// A point on a random triangle's first edge, or its first vertex, and the triangle's number.
+static size_t random_target(trial *t, const glint_scene *scene, bool at_vertex, double target[3])
+{
+    const size_t number = (size_t)(glint_random_number(&t->random) * (double)scene->triangle_count);
+    const float *p = scene->positions + 9 * number;
+    const double share = at_vertex ? 0 : glint_random_number(&t->random);
+    for (int k = 0; k < 3; k++) {
+        target[k] = trial_rounded(t, (double)p[k] + share * ((double)p[3 + k] - (double)p[k]));
+    }
+    return number;
+}
+
+// From somewhere near the middle, inside.
+static glint_probe_ray ray_from_inside(trial *t, const glint_scene *scene, const double target[3])
+{
+    glint_probe_ray ray = {.from = -1};
+    const double size = fabs(scene->high.x) * 0.1;
+    for (int k = 0; k < 3; k++) {
+        ray.origin[k] = trial_rounded(t, trial_random(t, -size, size));
+    }
+    unit_from_to(t, ray.origin, target, ray.direction);
+    return ray;
+}
+
+static glint_status count_leaks(trial *t, const glint_scene *scene, bool at_vertex, uint64_t rays,
+                                glint_measure *leaks)
+{
+    glint_probe *probe = NULL;
+    glint_probe_ray *in = glint_allocate(BATCH, sizeof *in);
+    glint_probe_hit *out = glint_allocate(BATCH, sizeof *out);
+    glint_status status = in != NULL && out != NULL ? trial_probe(t, scene, &probe)
+                                                    : glint_fail_memory(t->error, "a self-test");
+    for (uint64_t done = 0; status == GLINT_OK && done < rays; done += BATCH) {
+        for (size_t i = 0; i < BATCH; i++) {
+            double target[3];
+            random_target(t, scene, at_vertex, target);
+            in[i] = ray_from_inside(t, scene, target);
+        }
+        status = trial_trace(t, probe, in, out, BATCH);
+        for (size_t i = 0; status == GLINT_OK && i < BATCH; i++) {
+            const double *o = in[i].origin, *d = in[i].direction;
+            measure_event(leaks, !(out[i].triangle >= 0),
+                          "the ray from (%.9g, %.9g, %.9g) along (%.9g, %.9g, %.9g) hits nothing",
+                          o[0], o[1], o[2], d[0], d[1], d[2]);
+        }
+    }
+    glint_probe_free(probe);
+    free(in);
+    free(out);
+    return status;
+}
+
+static glint_status leaks_of_closed_meshes(trial *t, bool at_vertex)
+{
+    glint_measure *leaks = trial_events(t, "rays that pass between triangles", 0);
+    glint_status status = GLINT_OK;
+    for (int which = 0; status == GLINT_OK && which < CLOSED_SCENES; which++) {
+        glint_scene scene;
+        status = closed_scene(t, which, &scene);
+        if (status == GLINT_OK) {
+            status = count_leaks(t, &scene, at_vertex, t->options->rays / CLOSED_SCENES, leaks);
+        }
+        glint_scene_free(&scene);
+    }
+    return status;
+}
+
+static glint_status rays_at_shared_edges(trial *t)
+{
+    return leaks_of_closed_meshes(t, false);
+}
+
+static glint_status rays_at_vertices(trial *t)
+{
+    return leaks_of_closed_meshes(t, true);
+}
+
+// ---- Against the oracle ------------------------------------------------------------------------
+
+// What the probe and the oracle say of the rays, into arrays of `count`.
+static glint_status trace_both(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
+                               glint_probe_hit *found, oracle_hit *wanted, size_t count)
+{
+    glint_probe *probe = NULL;
+    oracle_scene judge = {0};
+    glint_status status = judge_begin(scene, &judge, t->error);
+    if (status == GLINT_OK) {
+        status = trial_probe(t, scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, found, count);
+    }
+    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
+        wanted[i] = judge_ray(&judge, &rays[i]);
+    }
+    judge_end(&judge);
+    glint_probe_free(probe);
+    return status;
+}
+
+// ---- Primary rays ------------------------------------------------------------------------------
+
+#define SHEET 128 // pixels across and down
+#define SHEET_YFOV (0.5 * GLINT_PI)
+
+// A sheet whose vertices stand on the rays through pixels' middles, to the last place: on those of
+// every pixel or, with a step of 2, of every other one, so that the rest look at edges.
+static glint_status sheet_scene(trial *t, int step, bool orthographic, glint_scene *scene)
+{
+    enum { COUNT = SHEET + 5 };
+    static double at[COUNT][COUNT][3];
+    const double pixel = 2 * tan(SHEET_YFOV / 2) / SHEET;
+    for (int j = 0; j < COUNT; j++) {
+        for (int i = 0; i < COUNT; i++) {
+            const double depth = orthographic ? 1 : trial_random(t, 0.25, 0.5);
+            at[j][i][0] = (step * (i - 2) + 0.5 - SHEET / 2.0) * pixel * depth;
+            at[j][i][1] = (SHEET / 2.0 - step * (j - 2) - 0.5) * pixel * depth;
+            at[j][i][2] = orthographic ? -trial_random(t, 0.25, 0.5) : -depth;
+        }
+    }
+    const int needed = SHEET / step + 4;
+    shape s = shape_begin();
+    for (int j = 0; j < needed; j++) {
+        for (int i = 0; i < needed; i++) {
+            double quad[4][3];
+            memcpy(quad[0], at[j + 1][i], sizeof quad[0]);
+            memcpy(quad[1], at[j + 1][i + 1], sizeof quad[1]);
+            memcpy(quad[2], at[j][i + 1], sizeof quad[2]);
+            memcpy(quad[3], at[j][i], sizeof quad[3]);
+            shape_add_quad(&s, (const double(*)[3])quad, MATERIAL_TINTED);
+        }
+    }
+    return shape_end_with_unit(&s, orthographic ? 2 : 1, scene, t->error);
+}
+
+// Frames of the sheet, each seen with an angle that is another by an ulp or a few.
+static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthographic,
+                                uint64_t rays, glint_measure *leaks)
+{
+    static const double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1};
+    glint_environment environment;
+    glint_settings settings = trial_settings(t);
+    settings.width = settings.height = SHEET;
+    settings.output = GLINT_OUTPUT_HITS;
+    glint_renderer *renderer = NULL;
+    glint_image image = {0};
+    glint_status status = trial_uniform_environment(1, &environment, t->error);
+    const glint_renderer_inputs inputs = {.device = t->options->device,
+                                          .scene = scene,
+                                          .environment = &environment,
+                                          .settings = &settings,
+                                          .kernel_dir = t->options->kernel_dir};
+    if (status == GLINT_OK) {
+        status = glint_renderer_create(&inputs, &renderer, t->error);
+    }
+    for (uint64_t done = 0; status == GLINT_OK && done < rays; done += SHEET * SHEET) {
+        const double nudge = 1 + t->u * (double)((int)(done / (SHEET * SHEET) % 17) - 8);
+        const glint_camera camera = shape_camera(eye, target, orthographic ? 0 : SHEET_YFOV * nudge,
+                                                 2 * nudge * tan(SHEET_YFOV / 2));
+        status = glint_renderer_frame(renderer, &camera, NULL, &image, NULL, t->error);
+        for (int i = 0; status == GLINT_OK && i < SHEET * SHEET; i++) {
+            measure_event(leaks, !(image.pixels[4 * i + 3] >= 0),
+                          "pixel (%d, %d) looks through the sheet", i % SHEET, i / SHEET);
+        }
+    }
+    if (renderer != NULL) {
+        t->result->width = glint_renderer_plan(renderer)->kernel_width;
+    }
+    glint_image_free(&image);
+    glint_renderer_free(renderer);
+    glint_environment_free(&environment);
+    return status;
+}
+
+static glint_status primary_rays_at_edges(trial *t)
+{
+    glint_measure *vertices = trial_events(t, "primary rays at vertices that pass", 0);
+    glint_measure *edges = trial_events(t, "primary rays at edges that pass", 0);
+    glint_status status = GLINT_OK;
+    for (int kind = 0; status == GLINT_OK && kind < 4; kind++) {
+        const bool orthographic = kind % 2 == 1;
+        glint_scene scene;
+        status = sheet_scene(t, 1 + kind / 2, orthographic, &scene);
+        if (status == GLINT_OK) {
+            status = watch_sheet(t, &scene, orthographic, t->options->rays / 4,
+                                 kind / 2 == 0 ? vertices : edges);
+        }
+        glint_scene_free(&scene);
+    }
+    return status;
+}
+
+// ---- Zeros and NaN -----------------------------------------------------------------------------
+
+#define GRID 16 // origins' coordinates are multiples of 1/GRID, as the boxes' corners are
+
+// Along an axis, from a point on the grid; the other components are 0 or −0.
+static glint_probe_ray axis_ray(int number)
+{
+    const int axis = number % 3, sign = number / 3 % 2;
+    const int a = number / 6 % (GRID - 3), b = number / 6 / (GRID - 3) % (GRID - 3);
+    glint_probe_ray ray = {.from = -1};
+    ray.origin[axis] = 0;
+    ray.origin[(axis + 1) % 3] = (double)(a + 2) / GRID - 0.5;
+    ray.origin[(axis + 2) % 3] = (double)(b + 2) / GRID - 0.5;
+    ray.direction[axis] = sign ? -1 : 1;
+    ray.direction[(axis + 1) % 3] = number % 2 ? 0.0 : -0.0;
+    ray.direction[(axis + 2) % 3] = number % 5 ? -0.0 : 0.0;
+    return ray;
+}
+
+// Boxes inside each other: walls all along the grid's planes, on which rays run and begin.
+static glint_status nested_boxes(trial *t, glint_scene *scene)
+{
+    shape s = shape_begin();
+    for (int i = 1; i <= GRID / 2; i++) {
+        const double h = (double)i / GRID;
+        const double low[3] = {-h, -h, -h}, high[3] = {h, h, h};
+        shape_add_box(&s, low, high, 2 * i, i % 2 == 0, MATERIAL_TINTED);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+static glint_status directions_with_zeros(trial *t)
+{
+    enum { COUNT = 6 * (GRID - 3) * (GRID - 3) };
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_hit found[COUNT];
+    static oracle_hit wanted[COUNT];
+    glint_measure *others = trial_events(t, "rays that meet another triangle", 0);
+    glint_measure *distances = trial_error(t, "error of the distance", "u", 0);
+    for (int i = 0; i < COUNT; i++) {
+        rays[i] = axis_ray(i);
+    }
+    glint_scene scene;
+    glint_status status = nested_boxes(t, &scene);
+    if (status == GLINT_OK) {
+        status = trace_both(t, &scene, rays, found, wanted, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double *o = rays[i].origin;
+        measure_event(others, found[i].triangle != (double)wanted[i].triangle,
+                      "from (%g, %g, %g) along axis %d: triangle %d expected, %g found", o[0], o[1],
+                      o[2], i % 3, wanted[i].triangle, found[i].triangle);
+        if (wanted[i].triangle >= 0) {
+            measure_value(distances, t, found[i].distance, wanted[i].distance, t->u,
+                          "from (%g, %g, %g) along axis %d", o[0], o[1], o[2], i % 3);
+        }
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+// A bumpy ball; with `spoilt`, a triangle without area follows each of its own.
+static glint_status ball_scene(trial *t, bool spoilt, glint_scene *scene)
+{
+    static const double centre[3] = {0, 0, 0};
+    glint_scene clean;
+    shape plain = shape_begin();
+    shape_add_ball(&plain, centre, 1, 3, bumpy, false, MATERIAL_TINTED);
+    glint_status status = shape_end(&plain, &clean, t->error);
+    if (status != GLINT_OK || !spoilt) {
+        *scene = clean;
+        return status;
+    }
+    shape s = shape_begin();
+    for (size_t i = 0; i < clean.triangle_count; i++) {
+        double own[3][3], empty[3][3];
+        for (size_t k = 0; k < 9; k++) {
+            own[k / 3][k % 3] = (double)clean.positions[9 * i + k];
+        }
+        // A point; an edge there and back; three points of an edge along an axis.
+        for (size_t k = 0; k < 9; k++) {
+            const size_t corner = i % 3 == 0 ? 0 : k / 3 == 2 ? 0 : k / 3;
+            empty[k / 3][k % 3] = own[corner][k % 3];
+        }
+        if (i % 3 == 2) {
+            memcpy(empty[1], empty[0], sizeof empty[1]);
+            empty[1][0] += 0.0625;
+            empty[2][0] += 0.03125;
+        }
+        shape_add(&s, (const double(*)[3])own, NULL, MATERIAL_TINTED);
+        shape_add(&s, (const double(*)[3])empty, NULL, MATERIAL_TINTED);
+    }
+    glint_scene_free(&clean);
+    return shape_end(&s, scene, t->error);
+}
+
+static void aim_at_mesh(trial *t, const glint_scene *scene, glint_probe_ray *rays, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        double target[3];
+        random_target(t, scene, i % 2 == 0, target);
+        rays[i] = ray_from_inside(t, scene, target);
+    }
+}
+
+static glint_status trace_scene(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
+                                glint_probe_hit *hits, size_t count)
+{
+    glint_probe *probe = NULL;
+    glint_status status = trial_probe(t, scene, &probe);
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, hits, count);
+    }
+    glint_probe_free(probe);
+    return status;
+}
+
+static glint_status triangles_without_area(trial *t)
+{
+    enum { COUNT = 8192 };
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_hit clean[COUNT], found[COUNT];
+    glint_measure *empty = trial_events(t, "rays that hit a triangle without area", 0);
+    glint_measure *changed = trial_events(t, "hits of its neighbours that changed", 0);
+    for (int spoilt = 0; spoilt < 2; spoilt++) {
+        glint_scene scene;
+        glint_status status = ball_scene(t, spoilt == 1, &scene);
+        if (status == GLINT_OK && spoilt == 0) {
+            aim_at_mesh(t, &scene, rays, COUNT);
+        }
+        if (status == GLINT_OK) {
+            status = trace_scene(t, &scene, rays, spoilt ? found : clean, COUNT);
+        }
+        glint_scene_free(&scene);
+        if (status != GLINT_OK) {
+            return status;
+        }
+    }
+    for (int i = 0; i < COUNT; i++) {
+        const double number = found[i].triangle;
+        measure_event(empty, fmod(number, 2) != 0, "ray %d hits triangle %g", i, number);
+        measure_event(changed,
+                      number != 2 * clean[i].triangle || found[i].distance != clean[i].distance,
+                      "ray %d: triangle %g at %.9g expected, %g at %.9g found", i,
+                      2 * clean[i].triangle, clean[i].distance, number, found[i].distance);
+    }
+    return GLINT_OK;
+}
+
+// ---- Slivers -----------------------------------------------------------------------------------
+
+#define STRIPS 256
+#define STRIP_WIDTH 1e-6
+
+// A closed column along y, a side of which is divided into strips a millionth as wide as long; the
+// caps are fans.
+static glint_status sliver_scene(trial *t, glint_scene *scene)
+{
+    static double profile[STRIPS + 4][2]; // x, z, counter-clockwise from above
+    const double square[3][2] = {{0.5, -0.5}, {-0.5, -0.5}, {-0.5, 0.5}};
+    memcpy(profile, square, sizeof square);
+    for (int i = 0; i <= STRIPS; i++) {
+        profile[3 + i][0] = (double)(float)(0.1 + STRIP_WIDTH * i);
+        profile[3 + i][1] = 0.5;
+    }
+    shape s = shape_begin();
+    for (int i = 0; i < STRIPS + 4; i++) {
+        const double *a = profile[i], *b = profile[(i + 1) % (STRIPS + 4)];
+        const double side[4][3] = {
+            {a[0], -0.5, a[1]}, {b[0], -0.5, b[1]}, {b[0], 0.5, b[1]}, {a[0], 0.5, a[1]}};
+        shape_add_quad(&s, side, MATERIAL_TINTED);
+        const double top[3][3] = {{a[0], 0.5, a[1]}, {b[0], 0.5, b[1]}, {0, 0.5, 0}};
+        const double bottom[3][3] = {{b[0], -0.5, b[1]}, {a[0], -0.5, a[1]}, {0, -0.5, 0}};
+        shape_add(&s, top, NULL, MATERIAL_TINTED);
+        shape_add(&s, bottom, NULL, MATERIAL_TINTED);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+// How far the ray passes from the point of the triangle that the weights name.
+static double distance_to_point(const glint_scene *scene, const glint_probe_ray *ray,
+                                const glint_probe_hit *hit)
+{
+    const float *p = scene->positions + 9 * (size_t)hit->triangle;
+    const double b1 = hit->barycentric[0], b2 = hit->barycentric[1], b0 = 1 - b1 - b2;
+    double away[3], along = 0, squares = 0;
+    for (int k = 0; k < 3; k++) {
+        away[k] =
+            b0 * (double)p[k] + b1 * (double)p[3 + k] + b2 * (double)p[6 + k] - ray->origin[k];
+        along += away[k] * ray->direction[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const double across = away[k] - along * ray->direction[k];
+        squares += across * across;
+    }
+    return sqrt(squares);
+}
+
+static glint_status slivers(trial *t)
+{
+    enum { COUNT = 65536 };
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_hit found[COUNT];
+    glint_measure *leaks = trial_events(t, "rays that pass between slivers", 0);
+    // The hit's corners are known to about 4u after the shear, and the ray's own direction is a
+    // unit vector to 2u.
+    glint_measure *distances = trial_error(t, "from the ray to the point that was hit", "u", 16);
+    glint_scene scene;
+    glint_status status = sliver_scene(t, &scene);
+    if (status == GLINT_OK) {
+        aim_at_mesh(t, &scene, rays, COUNT);
+        status = trace_scene(t, &scene, rays, found, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const bool missed = !(found[i].triangle >= 0);
+        measure_event(leaks, missed, "ray %d from (%.9g, %.9g, %.9g)", i, rays[i].origin[0],
+                      rays[i].origin[1], rays[i].origin[2]);
+        if (!missed) {
+            measure_error(distances, distance_to_point(&scene, &rays[i], &found[i]) / t->u,
+                          "ray %d, triangle %g", i, found[i].triangle);
+        }
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+const trial_case hit_cases[] = {
+    {"rays_at_shared_edges", "rays aimed at edges of closed meshes: none passes",
+     rays_at_shared_edges},
+    {"primary_rays_at_edges", "pixels whose middles lie on edges and vertices: none sees through",
+     primary_rays_at_edges},
+    {"rays_at_vertices", "rays aimed at vertices of closed meshes: none passes", rays_at_vertices},
+    {"directions_with_zeros", "rays along axes, from planes of boxes: what the oracle hits",
+     directions_with_zeros},
+    {"triangles_without_area", "points and lines among triangles: not hit, neighbours unaffected",
+     triangles_without_area},
+    {"slivers", "triangles a million times as long as wide: watertight, hit where the ray is",
+     slivers},
+    {0},
+};

@@ -1,0 +1,203 @@
+// Hard cases of cameras and sizes: parallel rays, angles of 0.01° and 179°, pictures of one pixel
+// and of one row, numbers beyond 2^31.
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double eye[3] = {0.25, 0.125, 0.75}, target[3] = {-0.1, 0.05, -0.5};
+
+// ---- Ray set-up --------------------------------------------------------------------------------
+
+static double component(glint_vec3 v, int k)
+{
+    return k == 0 ? v.x : k == 1 ? v.y : v.z;
+}
+
+// The unit direction through a pixel's middle, in long double.
+static void direction_of(const glint_camera *camera, const int size[2], double column, double row,
+                         double d[3])
+{
+    const long double half = camera->orthographic ? 0 : tanl((long double)camera->yfov / 2);
+    const long double x = half * (2 * (column + 0.5L) - size[0]) / size[1];
+    const long double y = half * (size[1] - 2 * (row + 0.5L)) / size[1];
+    long double v[3], squares = 0;
+    for (int k = 0; k < 3; k++) {
+        v[k] = x * component(camera->right, k) + y * component(camera->up, k) -
+               component(camera->back, k);
+        squares += v[k] * v[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        d[k] = (double)(v[k] / sqrtl(squares));
+    }
+}
+
+// A probe of the frame that the camera would see, and what it would be rendered with.
+static glint_status view_probe(trial *t, const glint_camera *camera, const int size[2],
+                               glint_probe **probe, glint_frame_record *frame)
+{
+    glint_status status = trial_functions(t, probe);
+    if (status == GLINT_OK) {
+        glint_settings settings = trial_settings(t);
+        settings.width = size[0];
+        settings.height = size[1];
+        glint_probe_view(*probe, camera, &settings, frame);
+    }
+    return status;
+}
+
+// What rounding leaves of a direction, which is forward + X right + Y up, each rounded, then made a
+// unit vector. In double precision the three come as sums of two floats, good to 2^-49, 16u.
+static double direction_bound(const trial *t)
+{
+    return t->options->precision == GLINT_PRECISION_DOUBLE ? 16 : 4;
+}
+
+// Corners, edges' middles, the middle, and anywhere.
+static glint_status measure_directions(trial *t, const glint_camera *camera, const int size[2],
+                                       glint_measure *errors, const char *what)
+{
+    enum { COUNT = 512 };
+    static double in[COUNT][4], out[COUNT][4];
+    glint_probe *probe;
+    glint_frame_record frame;
+    glint_status status = view_probe(t, camera, size, &probe, &frame);
+    for (int i = 0; i < COUNT; i++) {
+        const int columns[3] = {0, size[0] / 2, size[0] - 1},
+                  rows[3] = {0, size[1] / 2, size[1] - 1};
+        in[i][0] = i < 9 ? columns[i % 3] : floor(trial_random(t, 0, size[0]));
+        in[i][1] = i < 9 ? rows[i / 3] : floor(trial_random(t, 0, size[1]));
+    }
+    if (status == GLINT_OK) {
+        status =
+            glint_probe_call(probe, GLINT_PROBE_PRIMARY, &frame, in[0], out[0], COUNT, t->error);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        double expected[3];
+        direction_of(camera, size, in[i][0], in[i][1], expected);
+        measure_vector(errors, t, out[i], expected, t->u, "%s, pixel (%g, %g)", what, in[i][0],
+                       in[i][1]);
+    }
+    glint_probe_free(probe);
+    return status;
+}
+
+static glint_status extreme_cameras(trial *t)
+{
+    static const struct {
+        const char *what;
+        double degrees;
+    } cameras[] = {
+        {"parallel rays", 0}, {"0.01°", 0.01}, {"45°", 45}, {"179°", 179}, {"179.99°", 179.99}};
+    static const int size[2] = {1920, 1080};
+    glint_measure *errors = trial_error(t, "directions of primary rays", "u", direction_bound(t));
+    glint_status status = GLINT_OK;
+    for (size_t i = 0; status == GLINT_OK && i < sizeof cameras / sizeof *cameras; i++) {
+        const glint_camera camera =
+            shape_camera(eye, target, cameras[i].degrees * GLINT_PI / 180, 0.5);
+        status = measure_directions(t, &camera, size, errors, cameras[i].what);
+    }
+    return status;
+}
+
+// ---- Odd sizes ---------------------------------------------------------------------------------
+
+static glint_status odd_sizes(trial *t)
+{
+    static const int sizes[][2] = {{1, 1},     {1, 7},   {7, 1},        {1, 4097},
+                                   {65536, 1}, {17, 33}, {65536, 65536}};
+    glint_measure *errors = trial_error(t, "directions of primary rays", "u", direction_bound(t));
+    glint_measure *pixels = trial_error(t, "colours of the empty scene", "2/edge² + u", 1);
+    const glint_camera camera = shape_camera(eye, target, 0.7, 0);
+    glint_environment environment = {0};
+    glint_status status = trial_linear_environment(16, &environment, t->error);
+    for (size_t i = 0; status == GLINT_OK && i < sizeof sizes / sizeof *sizes; i++) {
+        char what[32];
+        snprintf(what, sizeof what, "%d×%d", sizes[i][0], sizes[i][1]);
+        status = measure_directions(t, &camera, sizes[i], errors, what);
+        glint_settings settings = trial_settings(t);
+        settings.width = sizes[i][0];
+        settings.height = sizes[i][1];
+        const glint_scene empty = {.unit = 1, .low = {1, 1, 1}, .high = {-1, -1, -1}};
+        trial_picture picture = {0};
+        const bool small = (double)settings.width * settings.height < 1e6;
+        if (status == GLINT_OK && small) {
+            status = trial_frame(t, &empty, &environment, &camera, &settings, &picture);
+        }
+        for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
+            double d[3];
+            direction_of(&camera, sizes[i], p % picture.width, p / picture.width, d);
+            for (int k = 0; k < 3; k++) {
+                measure_value(pixels, t, picture.values[4 * p + k], 0.5 + 0.5 * d[k],
+                              2.0 / 256 + 16 * t->u, "%s, pixel %d", what, p);
+            }
+        }
+        trial_picture_free(&picture);
+    }
+    glint_environment_free(&environment);
+    return status;
+}
+
+// ---- Numbers beyond 2^31 -----------------------------------------------------------------------
+
+static glint_status large_numbers(trial *t)
+{
+    static const int edges[] = {23170, 23171, 46340, 46341, 65536};
+    glint_measure *wrong = trial_events(t, "tiles that would be written elsewhere", 0);
+    glint_status status = GLINT_OK;
+    for (size_t i = 0; status == GLINT_OK && i < sizeof edges / sizeof *edges; i++) {
+        const int edge = edges[i], size[2] = {edge, edge};
+        glint_probe *probe;
+        glint_frame_record frame;
+        status = view_probe(t, NULL, size, &probe, &frame);
+        if (status != GLINT_OK) {
+            return status;
+        }
+        const glint_plan *plan = glint_probe_plan(probe);
+        const int lanes = plan->kernel_width, side = GLINT_TILE_SIDE(plan->tiles);
+        const int width = GLINT_PACKET_COLUMNS(lanes) * side,
+                  height = GLINT_PACKET_ROWS(lanes) * side;
+        frame.width = frame.height = edge;
+        frame.band = 4;
+        frame.first_band = 3;
+        // The last tile, the first, and some about the places where an int would overflow.
+        enum { COUNT = 64 };
+        static double in[COUNT][4], out[COUNT][4];
+        for (int p = 0; p < COUNT; p++) {
+            const int column = p % 8 * ((edge - 1) / width) / 7;
+            const int row = p / 8 * ((edge - 1) / height) / 7 - frame.first_band * frame.band;
+            const int above = row > 0 ? row : 0;
+            in[p][0] = column * frame.band + above % frame.band;
+            in[p][1] = above / frame.band;
+        }
+        status =
+            glint_probe_call(probe, GLINT_PROBE_TILE_PLACE, &frame, in[0], out[0], COUNT, t->error);
+        for (int p = 0; status == GLINT_OK && p < COUNT; p++) {
+            const int64_t across = (int64_t)in[p][0], down = (int64_t)in[p][1];
+            const int64_t column = across / frame.band * width;
+            const int64_t row =
+                ((down + frame.first_band) * frame.band + across % frame.band) * height;
+            const int64_t place = 4 * (row * edge + column);
+            const double got = out[p][2] * 0x1p24 + out[p][3];
+            measure_event(
+                wrong, out[p][0] != column || out[p][1] != row || got != (double)place,
+                "%d×%d pixels, tile at (%lld, %lld): (%g, %g), value %.17g instead of %lld", edge,
+                edge, (long long)column, (long long)row, out[p][0], out[p][1], got,
+                (long long)place);
+        }
+        glint_probe_free(probe);
+    }
+    return status;
+}
+
+const trial_case image_cases[] = {
+    {"extreme_cameras", "parallel rays, 0.01°, 179° and more: directions in closed form",
+     extreme_cameras},
+    {"odd_sizes", "pictures of 1×1, 1×N, 65536×1 pixels and more: directions and colours",
+     odd_sizes},
+    {"large_numbers", "places in pictures of more than 2^31 values", large_numbers},
+    {0},
+};

@@ -1,0 +1,243 @@
+// Hard cases of shading normals: such as send light under the surface, have no direction or an odd
+// length; and what a thousand bounces leave of a unit vector.
+#include "selftest/judge.h"
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <string.h>
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// A square in the plane z = 0 whose vertices all have this normal.
+static void add_square(shape *s, const double normal[3])
+{
+    static const double corners[2][3][3] = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}},
+                                            {{-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
+    double normals[3][3];
+    for (int k = 0; k < 3; k++) {
+        memcpy(normals[k], normal, sizeof normals[k]);
+    }
+    for (int i = 0; i < 2; i++) {
+        shape_add(s, corners[i], (const double(*)[3])normals, MATERIAL_TINTED);
+    }
+}
+
+// What becomes of rays at such a square.
+static glint_status bounce_off(trial *t, const double normal[3], const glint_probe_ray *rays,
+                               glint_probe_bounce *bounces, size_t count)
+{
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    add_square(&s, normal);
+    glint_status status = shape_end(&s, &scene, t->error);
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_bounce(t, probe, rays, bounces, count);
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// Towards the middle of the square, from the side of +Z, `angle` from the axis.
+static glint_probe_ray from_above(const trial *t, double angle, double azimuth)
+{
+    glint_probe_ray ray = {.from = -1};
+    const double direction[3] = {sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), -cos(angle)};
+    for (int k = 0; k < 3; k++) {
+        ray.direction[k] = trial_rounded(t, direction[k]);
+        ray.origin[k] = trial_rounded(t, -0.5 * direction[k]);
+    }
+    return ray;
+}
+
+// ---- Normals that lean -------------------------------------------------------------------------
+
+#define STEPS 2048
+
+// From one edge of the sky to the other: reflections stay above the surface, and follow without a
+// jump. A reflection is an isometry in the viewer's direction and folding too, so that directions
+// that differ by δ give such that differ by δ, and rounding.
+static glint_status leaning_normals(trial *t)
+{
+    static glint_probe_ray rays[STEPS];
+    static glint_probe_bounce bounces[STEPS];
+    glint_measure *under = trial_error(t, "how far reflections go under the surface", "u", 2);
+    glint_measure *jumps = trial_error(t, "jump between neighbouring rays", "u", 16);
+    glint_status status = GLINT_OK;
+    for (int lean = 0; status == GLINT_OK && lean < 8; lean++) {
+        const double tilt = (lean < 7 ? 12.5 * lean : 89.9) * GLINT_PI / 180;
+        const double azimuth = trial_random(t, 0, 2 * GLINT_PI);
+        const double normal[3] = {sin(tilt), 0, cos(tilt)};
+        for (int i = 0; i < STEPS; i++) {
+            rays[i] = from_above(t, (2.0 * (i + 0.5) / STEPS - 1) * 89.9 * GLINT_PI / 180, azimuth);
+        }
+        status = bounce_off(t, normal, rays, bounces, STEPS);
+        for (int i = 0; status == GLINT_OK && i < STEPS; i++) {
+            const glint_probe_bounce *b = &bounces[i];
+            const double along = dot(b->reflected, b->geometric_normal);
+            measure_error(under, fmax(0, -along) / t->u,
+                          "normal leans by %.4g°, ray %d: r·n = %.3g", tilt * 180 / GLINT_PI, i,
+                          along);
+            double step = 0, turn = 0;
+            for (int k = 0; i > 0 && k < 3; k++) {
+                step += pow(rays[i].direction[k] - rays[i - 1].direction[k], 2);
+                turn += pow(b->reflected[k] - bounces[i - 1].reflected[k], 2);
+            }
+            measure_error(jumps, fmax(0, sqrt(turn) - sqrt(step)) / t->u,
+                          "normal leans by %.4g°, between rays %d and %d: %.3g, where they differ "
+                          "by %.3g",
+                          tilt * 180 / GLINT_PI, i - 1, i, sqrt(turn), sqrt(step));
+        }
+    }
+    return status;
+}
+
+// ---- Lengths -----------------------------------------------------------------------------------
+
+// The vector functions by themselves, over all exponents.
+static glint_status measure_lengths(trial *t, glint_measure *lengths, glint_measure *hopeless)
+{
+    enum { COUNT = 4096 };
+    static const double odd[][3] = {{0, 0, 0},     {-0.0, 0, -0.0},      {NAN, 1, 0},
+                                    {0, NAN, 1},   {1, 0, INFINITY},     {-INFINITY, 0, 0},
+                                    {NAN, 0, NAN}, {INFINITY, NAN, 1e30}};
+    const int odd_count = sizeof odd / sizeof *odd;
+    static double in[COUNT][4], out[COUNT][4];
+    const bool is_double = t->options->precision == GLINT_PRECISION_DOUBLE;
+    const double reach = is_double ? 300 : 37;
+    for (int i = 0; i < COUNT; i++) {
+        const glint_vec3 d = glint_random_direction(&t->random);
+        const double length = pow(10, trial_random(t, -reach, reach));
+        const double v[3] = {d.x * length, d.y * length, d.z * length};
+        memcpy(in[i], i < odd_count ? odd[i] : v, sizeof v);
+    }
+    glint_probe *probe;
+    glint_status status = trial_functions(t, &probe);
+    if (status == GLINT_OK) {
+        status = trial_call(t, probe, GLINT_PROBE_NORMALIZED, in, out, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double *v = out[i];
+        if (i < odd_count) {
+            measure_event(hopeless, v[3] != 0, "(%g, %g, %g) is said to have a direction", in[i][0],
+                          in[i][1], in[i][2]);
+            continue;
+        }
+        measure_event(hopeless, v[3] != 1, "(%g, %g, %g) is said to have no direction", in[i][0],
+                      in[i][1], in[i][2]);
+        measure_value(lengths, t, sqrt(dot(v, v)), 1, t->u, "along (%g, %g, %g)", in[i][0],
+                      in[i][1], in[i][2]);
+    }
+    glint_probe_free(probe);
+    return status;
+}
+
+static glint_status odd_normals(trial *t)
+{
+    enum { COUNT = 256 };
+    static const double normals[][3] = {
+        {0, 0, 0},   {0, 0, 1e20},     {0, 0, 1e-20}, {0.6e20, 0, 0.8e20}, {0.6e-20, 0, 0.8e-20},
+        {NAN, 0, 1}, {0, 0, INFINITY}, {0, 0, -1},    {0, 0, 1 + 1e-6},    {1e-30, 0, 1e-38},
+        {1, 0, 0}};
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    glint_measure *lengths = trial_error(t, "|r| beside 1", "u", 4);
+    glint_measure *plain = trial_events(t, "normals that should fall back and do not", 0);
+    glint_measure *hopeless = trial_events(t, "vectors misjudged", 0);
+    glint_status status = measure_lengths(t, lengths, hopeless);
+    for (size_t n = 0; status == GLINT_OK && n < sizeof normals / sizeof *normals; n++) {
+        const double *normal = normals[n];
+        for (int i = 0; i < COUNT; i++) {
+            rays[i] = from_above(t, trial_random(t, 0, 1.5), trial_random(t, 0, 2 * GLINT_PI));
+        }
+        status = bounce_off(t, normal, rays, bounces, COUNT);
+        const bool usable =
+            isfinite(dot(normal, normal)) ? dot(normal, normal) > 0 : normal[2] == 1e20;
+        for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+            const glint_probe_bounce *b = &bounces[i];
+            measure_value(lengths, t, sqrt(dot(b->reflected, b->reflected)), 1, t->u,
+                          "normal (%g, %g, %g), ray %d", normal[0], normal[1], normal[2], i);
+            measure_event(plain,
+                          !usable && memcmp(b->normal, b->geometric_normal, sizeof b->normal) != 0,
+                          "normal (%g, %g, %g): (%g, %g, %g) is taken", normal[0], normal[1],
+                          normal[2], b->normal[0], b->normal[1], b->normal[2]);
+        }
+    }
+    return status;
+}
+
+// ---- Drift -------------------------------------------------------------------------------------
+
+// A mirrored cube whose normals are all a little too long.
+static glint_status mirrored_room(trial *t, double length, glint_scene *scene)
+{
+    static const double low[3] = {-0.75, -0.75, -0.75}, high[3] = {0.75, 0.75, 0.75};
+    shape s = shape_begin();
+    shape_add_box(&s, low, high, 1, true, MATERIAL_TINTED);
+    glint_status status = shape_end(&s, scene, t->error);
+    for (size_t i = 0; status == GLINT_OK && i < scene->triangle_count; i++) {
+        const float *p = scene->positions + 9 * i;
+        for (size_t k = 0; k < 3; k++) {
+            // The axis along which all three corners agree, inwards.
+            const bool flat = p[k] == p[3 + k] && p[k] == p[6 + k];
+            for (size_t v = 0; flat && v < 3; v++) {
+                scene->normals[9 * i + 3 * v + k] = (float)(p[k] > 0 ? -length : length);
+            }
+        }
+    }
+    return status;
+}
+
+static glint_status drift(trial *t)
+{
+    enum { COUNT = 256, BOUNCES = 1000 };
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    glint_measure *lost = trial_events(t, "rays that leave the closed room", 0);
+    glint_measure *lengths = trial_error(t, "|r| − 1 after 1000 bounces", "", 1e-6);
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    glint_status status = mirrored_room(t, 1 + 1e-6, &scene);
+    for (int i = 0; i < COUNT; i++) {
+        const glint_vec3 d = glint_random_direction(&t->random);
+        rays[i] = (glint_probe_ray){
+            .direction = {trial_rounded(t, d.x), trial_rounded(t, d.y), trial_rounded(t, d.z)},
+            .from = -1};
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    for (int n = 0; status == GLINT_OK && n < BOUNCES; n++) {
+        status = trial_bounce(t, probe, rays, bounces, COUNT);
+        for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+            measure_event(lost, !(bounces[i].hit.triangle >= 0), "ray %d at bounce %d", i, n);
+            memcpy(rays[i].origin, bounces[i].reflected_origin, sizeof rays[i].origin);
+            memcpy(rays[i].direction, bounces[i].reflected, sizeof rays[i].direction);
+            rays[i].from = bounces[i].place;
+        }
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        measure_value(lengths, t, sqrt(dot(rays[i].direction, rays[i].direction)), 1, 1, "ray %d",
+                      i);
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+const trial_case normal_cases[] = {
+    {"leaning_normals",
+     "normals up to 89.9° off the surface's: reflections above it, without jumps", leaning_normals},
+    {"odd_normals", "normals 0, NaN, infinite, 10^±20 long: unit reflections, or the surface's own",
+     odd_normals},
+    {"drift", "1000 bounces off normals 10^−6 too long: directions keep their length", drift},
+    {0},
+};

@@ -1,0 +1,336 @@
+// Hard cases of whole paths: a hundred bounces, rooms without a way out, a furnace without loss,
+// coincident surfaces, scenes of nothing and of one triangle.
+#include "base/memory.h"
+#include "selftest/judge.h"
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double middle[3] = {0, 0, 0};
+
+// Renders under E = 1.
+static glint_status render_in_white(trial *t, const glint_scene *scene, const glint_camera *camera,
+                                    const glint_settings *settings, trial_picture *picture)
+{
+    glint_environment environment;
+    *picture = (trial_picture){0};
+    glint_status status = trial_uniform_environment(1, &environment, t->error);
+    if (status == GLINT_OK) {
+        status = trial_frame(t, scene, &environment, camera, settings, picture);
+    }
+    glint_environment_free(&environment);
+    return status;
+}
+
+// ---- Parallel mirrors --------------------------------------------------------------------------
+
+// An eye between two tinted mirrors looks straight at one of them, along parallel rays.
+static glint_status parallel_mirrors(trial *t)
+{
+    static const int depths[] = {1, 2, 3, 10, 100};
+    static const double tint[3] = {0.5, 0.75, 1};
+    static const double mirrors[2][4][3] = {
+        {{-0.75, -0.75, -0.5}, {0.75, -0.75, -0.5}, {0.75, 0.75, -0.5}, {-0.75, 0.75, -0.5}},
+        {{0.75, -0.75, 0.5}, {-0.75, -0.75, 0.5}, {-0.75, 0.75, 0.5}, {0.75, 0.75, 0.5}}};
+    static const double ahead[3] = {0, 0, -1};
+    glint_measure *errors = trial_error(t, "tint^N beside what is seen, N up to 100", "N·u", 2);
+    glint_scene scene;
+    shape s = shape_begin();
+    shape_add_quad(&s, mirrors[0], MATERIAL_TINTED);
+    shape_add_quad(&s, mirrors[1], MATERIAL_TINTED);
+    glint_status status = shape_end(&s, &scene, t->error);
+    const glint_camera camera = shape_camera(middle, ahead, 0, 0.25);
+    for (size_t i = 0; status == GLINT_OK && i < sizeof depths / sizeof *depths; i++) {
+        const int n = depths[i];
+        glint_settings settings = trial_settings(t);
+        settings.depth = n;
+        trial_picture picture;
+        status = render_in_white(t, &scene, &camera, &settings, &picture);
+        for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
+            for (int k = 0; k < 3; k++) {
+                const double expected = pow(tint[k], n);
+                measure_value(errors, t, picture.values[4 * p + k], expected, n * t->u * expected,
+                              "%d mirrors of %g, pixel %d", n, tint[k], p);
+            }
+        }
+        trial_picture_free(&picture);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+// ---- Closed rooms ------------------------------------------------------------------------------
+
+static glint_status closed_room(trial *t)
+{
+    static const int depths[] = {1, 2, 7, 64, 1000};
+    static const double low[3] = {-0.75, -0.5, -0.625}, high[3] = {0.625, 0.75, 0.5};
+    static const double ahead[3] = {0.3, 0.2, -1};
+    glint_measure *wrong = trial_events(t, "frames whose paths do not meet just N mirrors", 0);
+    glint_measure *shares = trial_error(t, "share of light said to be cut off, beside 1", "", 1e-6);
+    glint_measure *colors = trial_events(t, "pixels that are not 1", 0);
+    glint_scene scene;
+    shape s = shape_begin();
+    shape_add_box(&s, low, high, 3, true, MATERIAL_MIRROR);
+    glint_status status = shape_end(&s, &scene, t->error);
+    const glint_camera camera = shape_camera(middle, ahead, 1.5, 0);
+    for (size_t i = 0; status == GLINT_OK && i < sizeof depths / sizeof *depths; i++) {
+        glint_settings settings = trial_settings(t);
+        settings.depth = depths[i];
+        trial_picture picture;
+        status = render_in_white(t, &scene, &camera, &settings, &picture);
+        if (status == GLINT_OK) {
+            const glint_frame_report *r = &picture.report;
+            const uint64_t rays = r->rays.primary * (uint64_t)depths[i];
+            measure_event(wrong, r->deepest != (uint32_t)depths[i] || r->rays.reflected != rays,
+                          "depth %d: %u deep, %llu reflections instead of %llu", depths[i],
+                          r->deepest, (unsigned long long)r->rays.reflected,
+                          (unsigned long long)rays);
+            measure_value(shares, t, r->truncation.by_depth, 1, 1, "depth %d", depths[i]);
+        }
+        for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
+            const double *rgb = picture.values + 4 * p;
+            measure_event(colors, rgb[0] != 1 || rgb[1] != 1 || rgb[2] != 1,
+                          "depth %d, pixel %d: (%.9g, %.9g, %.9g)", depths[i], p, rgb[0], rgb[1],
+                          rgb[2]);
+        }
+        trial_picture_free(&picture);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+// ---- The white furnace -------------------------------------------------------------------------
+
+// Glass, glass in glass and mirrors in a mirrored room with a hole in it, all without loss, or in
+// the open.
+static glint_status furnace_scene(trial *t, bool closed, glint_scene *scene)
+{
+    static const double left[3] = {-0.3, 0, 0}, right[3] = {0.3, 0, 0.1};
+    static const double low[3] = {-0.15, -0.4, -0.3}, high[3] = {0.2, -0.28, 0.3};
+    static const double wall_low[3] = {-0.9, -0.9, -0.9}, wall_high[3] = {0.9, 0.9, 0.9};
+    shape s = shape_begin();
+    shape_add_ball(&s, left, 0.25, 3, NULL, true, MATERIAL_GLASS);
+    shape_add_ball(&s, left, 0.125, 3, NULL, false, MATERIAL_CORE);
+    shape_add_ball(&s, right, 0.25, 2, NULL, true, MATERIAL_MIRROR);
+    shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
+    if (closed) {
+        shape_add_box(&s, wall_low, wall_high, 1, true, MATERIAL_MIRROR);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+// At each surface what arrives is divided into F and 1 − F, which rounding makes not quite 1: by u,
+// and by another when each is multiplied with the weight. Adding up the ends errs by less than u
+// for each of those on the way of the largest.
+static glint_status white_furnace(trial *t)
+{
+    static const double eye[3] = {0.1, 0.25, 0.8};
+    glint_measure *errors = trial_error(t, "pixels beside 1", "u × surfaces", 4);
+    glint_measure *lost = trial_events(t, "pixels that are not finite", 0);
+    glint_status status = GLINT_OK;
+    for (int i = 0; status == GLINT_OK && i < 4; i++) {
+        const bool closed = i % 2 == 1;
+        glint_scene scene;
+        trial_picture picture = {0};
+        status = furnace_scene(t, closed, &scene);
+        const glint_camera camera = shape_camera(eye, middle, 1, 0);
+        glint_settings settings = trial_settings(t);
+        settings.depth = i / 2 ? 12 : 0;
+        settings.min_weight = i / 2 ? 1.0 / 64 : 1.0 / 1024;
+        if (status == GLINT_OK) {
+            status = render_in_white(t, &scene, &camera, &settings, &picture);
+        }
+        for (int p = 0; status == GLINT_OK && p < 3 * picture.width * picture.height; p++) {
+            const double value = picture.values[p / 3 * 4 + p % 3];
+            measure_event(lost, !isfinite(value), "pixel %d", p / 3);
+            measure_value(errors, t, value, 1, t->u * fmax(1, picture.report.deepest),
+                          "%s, depth %s, pixel (%d, %d)", closed ? "in a room" : "in the open",
+                          i / 2 ? "12" : "auto", p / 3 % picture.width, p / 3 / picture.width);
+        }
+        trial_picture_free(&picture);
+        glint_scene_free(&scene);
+    }
+    return status;
+}
+
+// ---- Coincident surfaces -----------------------------------------------------------------------
+
+#define COPIES 3
+
+// A ball COPIES times in the same place, its triangles in another order each time. `first` is the
+// lowest number of each triangle.
+static glint_status coincident_balls(trial *t, glint_scene *scene, double **first)
+{
+    glint_scene one;
+    shape plain = shape_begin();
+    shape_add_ball(&plain, middle, 0.75, 3, NULL, true, MATERIAL_TINTED);
+    glint_status status = shape_end(&plain, &one, t->error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    const size_t count = one.triangle_count;
+    *first = glint_allocate(COPIES * count, sizeof **first);
+    shape s = shape_begin();
+    // Strides that have no divisor in common with 20 × 4³ visit all.
+    static const size_t strides[COPIES] = {7, 1, 319 + 2};
+    for (size_t i = 0; *first != NULL && i < COPIES * count; i++) {
+        const size_t copy = i / count, which = i * strides[copy] % count;
+        double corners[3][3], normals[3][3];
+        for (size_t k = 0; k < 9; k++) {
+            corners[k / 3][k % 3] = (double)one.positions[9 * which + k];
+            normals[k / 3][k % 3] = (double)one.normals[9 * which + k];
+        }
+        shape_add(&s, (const double(*)[3])corners, (const double(*)[3])normals, MATERIAL_TINTED);
+        (*first)[i] = copy == 0 ? (double)i : NAN;
+    }
+    glint_scene_free(&one);
+    status = shape_end(&s, scene, t->error);
+    return status == GLINT_OK && *first == NULL ? glint_fail_memory(t->error, "a self-test")
+                                                : status;
+}
+
+static glint_status coincident_faces(trial *t)
+{
+    static const double eye[3] = {0.3, 0.5, 2};
+    glint_measure *higher = trial_events(t, "pixels that show a triangle of a higher number", 0);
+    glint_measure *secondary = trial_events(t, "rays that hit a triangle of a higher number", 0);
+    enum { COUNT = 8192 };
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_hit hits[COUNT];
+    double *first = NULL;
+    glint_scene scene = {0};
+    glint_probe *probe = NULL;
+    trial_picture picture = {0};
+    glint_status status = coincident_balls(t, &scene, &first);
+    const double lowest = (double)(scene.triangle_count / COPIES);
+    const glint_camera camera = shape_camera(eye, middle, 0.8, 0);
+    glint_settings settings = trial_settings(t);
+    settings.output = GLINT_OUTPUT_HITS;
+    if (status == GLINT_OK) {
+        status = render_in_white(t, &scene, &camera, &settings, &picture);
+    }
+    for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
+        measure_event(higher, picture.values[4 * p + 3] >= lowest, "pixel %d shows triangle %g", p,
+                      picture.values[4 * p + 3]);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        const glint_vec3 d = glint_random_direction(&t->random);
+        rays[i] = (glint_probe_ray){
+            .direction = {trial_rounded(t, d.x), trial_rounded(t, d.y), trial_rounded(t, d.z)},
+            .from = -1};
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, hits, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        measure_event(secondary, !(hits[i].triangle >= 0 && hits[i].triangle < lowest),
+                      "ray %d hits triangle %g", i, hits[i].triangle);
+    }
+    trial_picture_free(&picture);
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    free(first);
+    return status;
+}
+
+// ---- Next to nothing ---------------------------------------------------------------------------
+
+static glint_status small_scene(trial *t, int triangles, bool behind, glint_scene *scene)
+{
+    shape s = shape_begin();
+    for (int i = 0; i < triangles; i++) {
+        const double x = -0.7 + 0.09 * i, z = behind ? 0.9 : -0.25;
+        const double corners[3][3] = {{x, -0.3, z}, {x + 0.08, -0.3, z}, {x, 0.4, z}};
+        shape_add(&s, corners, NULL, MATERIAL_MIRROR);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+static glint_status tiny_picture(trial *t, int triangles, bool behind,
+                                 const glint_settings *settings, trial_picture *picture)
+{
+    static const double eye[3] = {0, 0, 0.6};
+    glint_scene scene;
+    glint_environment environment = {0};
+    *picture = (trial_picture){0};
+    glint_status status = small_scene(t, triangles, behind, &scene);
+    if (status == GLINT_OK) {
+        status = trial_linear_environment(16, &environment, t->error);
+    }
+    const glint_camera camera = shape_camera(eye, middle, 1.2, 0);
+    if (status == GLINT_OK) {
+        status = trial_frame(t, &scene, &environment, &camera, settings, picture);
+    }
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// No triangle, and one behind the eye: the same bits. One triangle, and as many as a leaf holds:
+// the triangles that the oracle sees.
+static glint_status next_to_nothing(trial *t)
+{
+    static const int counts[] = {1, 16, 17};
+    static const double eye[3] = {0, 0, 0.6};
+    glint_measure *empty = trial_events(t, "pixels of the empty scene that are not the sky's", 0);
+    glint_measure *others = trial_events(t, "pixels that show another triangle", 0);
+    glint_settings settings = trial_settings(t);
+    settings.depth = 1;
+    trial_picture none, hidden;
+    glint_status status = tiny_picture(t, 0, false, &settings, &none);
+    if (status == GLINT_OK) {
+        status = tiny_picture(t, 1, true, &settings, &hidden);
+        for (int p = 0; status == GLINT_OK && p < 4 * none.width * none.height; p++) {
+            measure_event(empty, none.values[p] != hidden.values[p], "value %d: %.9g and %.9g", p,
+                          none.values[p], hidden.values[p]);
+        }
+        trial_picture_free(&hidden);
+    }
+    trial_picture_free(&none);
+    settings.output = GLINT_OUTPUT_HITS;
+    const glint_camera camera = shape_camera(eye, middle, 1.2, 0);
+    const oracle_view view = judge_view(&camera, &settings);
+    for (size_t i = 0; status == GLINT_OK && i < sizeof counts / sizeof *counts; i++) {
+        trial_picture picture;
+        glint_scene scene;
+        oracle_scene judge = {0};
+        status = tiny_picture(t, counts[i], false, &settings, &picture);
+        if (status == GLINT_OK) {
+            status = small_scene(t, counts[i], false, &scene);
+        }
+        if (status == GLINT_OK) {
+            status = judge_begin(&scene, &judge, t->error);
+            glint_scene_free(&scene);
+        }
+        for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
+            const double at[2] = {p % picture.width + 0.5, p / picture.width + 0.5};
+            const oracle_ray ray = oracle_primary_ray(&view, at);
+            const int wanted = oracle_closest_hit(&judge, &ray, -1).triangle;
+            measure_event(others, picture.values[4 * p + 3] != wanted,
+                          "%d triangles, pixel %d: %d expected, %g seen", counts[i], p, wanted,
+                          picture.values[4 * p + 3]);
+        }
+        judge_end(&judge);
+        trial_picture_free(&picture);
+    }
+    return status;
+}
+
+const trial_case path_cases[] = {
+    {"parallel_mirrors", "between two mirrors, N bounces: tint^N", parallel_mirrors},
+    {"closed_room", "a mirrored room without a way out: exactly the depth asked, and said so",
+     closed_room},
+    {"white_furnace", "mirrors and glass without loss under E = 1: 1 everywhere", white_furnace},
+    {"coincident_faces", "a ball three times in one place: the lowest number wins",
+     coincident_faces},
+    {"next_to_nothing", "no triangle, one, a leaf full and one more: what is there",
+     next_to_nothing},
+    {0},
+};

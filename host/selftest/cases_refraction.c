@@ -1,0 +1,217 @@
+// Hard cases of refraction at one interface: the critical angle, indices next to each other and far
+// apart, Fresnel's term at its ends.
+#include "selftest/trial.h"
+
+#include <math.h>
+
+static const double indices[] = {1.1, 1.33, 1.5, 2.42, 10};
+#define INDEX_COUNT (sizeof indices / sizeof *indices)
+
+// 1 − η²(1 − c²) of the numbers as the device got them.
+static double transmitted_squared(double cosine, double eta)
+{
+    const long double c = cosine, e = eta;
+    return (double)(1 - e * e * (1 - c) * (1 + c));
+}
+
+// The unpolarised reflectance by Fresnel's equations, beyond the critical angle 1.
+static double reflectance(double cosine, double eta)
+{
+    const double squared = transmitted_squared(cosine, eta);
+    if (!(squared >= 0)) {
+        return 1;
+    }
+    const long double c = cosine, ct = sqrtl((long double)squared), e = eta;
+    const long double s = (e * c - ct) / (e * c + ct), p = (c - e * ct) / (c + e * ct);
+    return (double)((s * s + p * p) / 2);
+}
+
+static glint_status call_functions(trial *t, glint_probe_part part, double (*in)[4],
+                                   double (*out)[4], size_t count)
+{
+    for (size_t i = 0; i < 4 * count; i++) {
+        in[i / 4][i % 4] = trial_rounded(t, in[i / 4][i % 4]);
+    }
+    glint_probe *probe;
+    glint_status status = trial_functions(t, &probe);
+    if (status == GLINT_OK) {
+        status = trial_call(t, probe, part, (const double(*)[4])in, out, count);
+    }
+    glint_probe_free(probe);
+    return status;
+}
+
+// ---- The critical angle ------------------------------------------------------------------------
+
+// Nearer to it than the rounding of the cosine itself, nobody knows the side; that is 10⁻⁶ for
+// float, of angles near which a unit in the last place of the cosine is a turn of u/sin θ.
+static glint_status critical_angle(trial *t)
+{
+    enum { PER_INDEX = 1024, COUNT = INDEX_COUNT * PER_INDEX };
+    static double in[COUNT][4], out[COUNT][4];
+    const double exempt = 1e-6 * t->u / 0x1p-24;
+    glint_measure *wrong = trial_events(t, "rays on the wrong side beyond the exempt band", 0);
+    // cos² θt, which is about twice the distance, is known to 4u or so; its root to that over twice
+    // the root.
+    glint_measure *errors = trial_error(t, "error of the reflectance", "u/√distance", 16);
+    for (int i = 0; i < COUNT; i++) {
+        const double eta = trial_rounded(t, indices[i / PER_INDEX]), critical = asin(1 / eta);
+        const double distance = pow(10, trial_random(t, -16, -0.5)) * (i % 2 ? 1 : -1);
+        in[i][0] = cos(fmin(fmax(critical + distance, 0), GLINT_PI / 2));
+        in[i][1] = eta;
+    }
+    glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double cosine = in[i][0], eta = in[i][1];
+        const double distance = fabs(acos(cosine) - asin(1 / eta));
+        const double squared = transmitted_squared(cosine, eta);
+        if (distance <= exempt) {
+            continue;
+        }
+        measure_event(wrong, (out[i][0] >= 0) != (squared >= 0),
+                      "cos θ %.9g, η %.9g: cos² θt expected %.3g, got %.3g", cosine, eta, squared,
+                      out[i][0]);
+        // What scatter() makes of it: all is reflected where the square is below 0.
+        const double got = out[i][0] >= 0 ? out[i][1] : 1;
+        measure_value(errors, t, got, reflectance(cosine, eta), t->u * eta * eta / sqrt(distance),
+                      "cos θ %.9g, η %.9g", cosine, eta);
+    }
+    return status;
+}
+
+// ---- Indices next to each other ----------------------------------------------------------------
+
+static glint_status equal_indices(trial *t)
+{
+    enum { COUNT = 3 * 512 };
+    static double in[COUNT][4], out[COUNT][4];
+    glint_measure *reflected = trial_error(t, "reflectance at right angles", "", 1e-13);
+    glint_measure *slanting = trial_error(t, "reflectance where η is 1", "", 1e-13);
+    glint_measure *bends = trial_error(t, "bend", "rad", 1e-6);
+    for (int i = 0; i < COUNT; i++) {
+        in[i][0] = i % 512 == 0 ? 1 : trial_random(t, 0.1, 1);
+        in[i][1] = 1 + (i / 512 - 1) * 1e-7;
+    }
+    glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        if (in[i][0] == 1) {
+            measure_error(reflected, out[i][1], "η %.9g: %.3g", in[i][1], out[i][1]);
+        }
+        if (in[i][1] == 1) {
+            measure_error(slanting, out[i][1], "cos θ %.9g: %.3g", in[i][0], out[i][1]);
+        }
+    }
+    if (status == GLINT_OK) {
+        status = call_functions(t, GLINT_PROBE_DIRECTIONS, in, out, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double sine = sqrt((1 - in[i][0]) * (1 + in[i][0]));
+        const double bend = hypot(out[i][0] + sine, out[i][1] + in[i][0]);
+        // Snell's law bends by Δη tan θ.
+        measure_error(bends, bend / fmax(1, sine / in[i][0]), "cos θ %.9g, η %.9g: %.3g", in[i][0],
+                      in[i][1], bend);
+    }
+    return status;
+}
+
+// ---- Indices far apart -------------------------------------------------------------------------
+
+static glint_status extreme_indices(trial *t)
+{
+    enum { COUNT = 4096 };
+    static double in[COUNT][4], out[COUNT][4];
+    glint_measure *snell = trial_error(t, "η sin θi − sin θt", "u·max(1, η)", 4);
+    glint_measure *lengths = trial_error(t, "|t| beside 1", "u·max(1, η²)/cos θt", 8);
+    glint_measure *sides = trial_events(t, "rays on the wrong side of 5.739° from 10 to 1", 0);
+    for (int i = 0; i < COUNT; i++) {
+        in[i][1] = i % 2 ? 10 : 0.1;
+        // From the index 10 most is reflected: of the rest.
+        in[i][0] = i % 2 ? cos(trial_random(t, 0, 0.0995)) : trial_random(t, 0, 1);
+    }
+    glint_status status = call_functions(t, GLINT_PROBE_DIRECTIONS, in, out, COUNT);
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double cosine = in[i][0], eta = in[i][1], scale = fmax(1, eta);
+        const double sine = sqrt((1 - cosine) * (1 + cosine));
+        measure_value(snell, t, -out[i][0], eta * sine, t->u * scale, "cos θ %.9g, η %g", cosine,
+                      eta);
+        const double root = sqrt(fmax(0, transmitted_squared(cosine, eta)));
+        measure_value(lengths, t, hypot(out[i][0], out[i][1]), 1, t->u * fmax(1, eta * eta) / root,
+                      "cos θ %.9g, η %g", cosine, eta);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        in[i][1] = 10;
+        in[i][0] = cos((5.739170 + (i % 2 ? 1e-4 : -1e-4)) * GLINT_PI / 180);
+    }
+    if (status == GLINT_OK) {
+        status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < 2; i++) {
+        measure_event(sides, (out[i][0] >= 0) != (i == 0), "cos θ %.9g: cos² θt %.3g", in[i][0],
+                      out[i][0]);
+    }
+    return status;
+}
+
+// ---- Fresnel's term ----------------------------------------------------------------------------
+
+static glint_status fresnel_at_its_ends(trial *t)
+{
+    enum { COUNT = 8 * INDEX_COUNT };
+    static double in[COUNT][4], out[COUNT][4];
+    glint_measure *head_on = trial_error(t, "((n − 1)/(n + 1))² at 0°", "", 1e-6);
+    glint_measure *grazing = trial_error(t, "1 at 90°", "", 1e-6);
+    glint_measure *brewster = trial_error(t, "R_p = 0 at Brewster's angle", "", 1e-6);
+    glint_measure *between = trial_error(t, "in between", "u", 64);
+    for (size_t i = 0; i < COUNT; i++) {
+        const double n = indices[i / 8];
+        const double angles[] = {0, GLINT_PI / 2, atan(n), 0.2, 0.6, 1, 1.3, 1.5};
+        in[i][0] = i % 8 == 1 ? 0 : cos(angles[i % 8]);
+        in[i][1] = 1 / n;
+    }
+    glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
+    for (size_t i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double n = indices[i / 8], got = out[i][1];
+        if (i % 8 == 0) {
+            measure_value(head_on, t, got, pow((n - 1) / (n + 1), 2), 1, "n %g", n);
+        } else if (i % 8 == 1) {
+            measure_value(grazing, t, got, 1, 1, "n %g", n);
+        } else if (i % 8 == 2) {
+            // sin(θi − θt), where θi + θt is a right angle: −cos 2θi; half of its square is left.
+            measure_value(brewster, t, got, 0.5 * pow((n * n - 1) / (n * n + 1), 2), 1, "n %g", n);
+        } else {
+            measure_value(between, t, got, reflectance(in[i][0], in[i][1]), t->u,
+                          "n %g, cos θ %.9g", n, in[i][0]);
+        }
+    }
+    return status;
+}
+
+static glint_status metal_at_its_ends(trial *t)
+{
+    enum { COUNT = 1024 };
+    static double in[COUNT][4], out[COUNT][4];
+    glint_measure *errors = trial_error(t, "F0 + (1 − F0)(1 − cos θ)⁵", "u", 8);
+    for (int i = 0; i < COUNT; i++) {
+        in[i][0] = i % 4 == 0 ? 0 : i % 4 == 1 ? 1 : trial_random(t, 0, 1);
+        in[i][1] = i % 5 == 0 ? 0 : i % 5 == 1 ? 1 : trial_random(t, 0, 1);
+    }
+    glint_status status = call_functions(t, GLINT_PROBE_METAL, in, out, COUNT);
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double expected = in[i][1] + (1 - in[i][1]) * pow(1 - in[i][0], 5);
+        measure_value(errors, t, out[i][0], expected, t->u, "F0 %.9g, cos θ %.9g", in[i][1],
+                      in[i][0]);
+    }
+    return status;
+}
+
+const trial_case refraction_cases[] = {
+    {"critical_angle", "rays to both sides of total reflection: the right side, the reflectance",
+     critical_angle},
+    {"equal_indices", "η of 1 and 1 ± 10^−7: next to nothing reflected or bent", equal_indices},
+    {"extreme_indices", "η of 0.1 and 10: Snell's law, and total reflection from 5.739° on",
+     extreme_indices},
+    {"fresnel_at_its_ends", "Fresnel's term at 0°, at 90°, at Brewster's angle, in between",
+     fresnel_at_its_ends},
+    {"metal_at_its_ends", "Schlick's term for metal, against the formula", metal_at_its_ends},
+    {0},
+};

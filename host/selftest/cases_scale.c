@@ -1,0 +1,153 @@
+// Hard cases of size and place: far from the origin, tiny beside huge, all of it scaled.
+#include "selftest/judge.h"
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double middle[3] = {0, 0, 0};
+
+// The share of pixels that show another triangle than the oracle's. Triangles from `last` on count
+// as one.
+static glint_status compare_hits(trial *t, const glint_scene *scene, const glint_camera *camera,
+                                 const int size[2], double last, glint_measure *others)
+{
+    glint_environment environment;
+    oracle_scene judge = {0};
+    trial_picture picture = {0};
+    glint_settings settings = trial_settings(t);
+    settings.width = size[0];
+    settings.height = size[1];
+    settings.output = GLINT_OUTPUT_HITS;
+    glint_status status = trial_uniform_environment(1, &environment, t->error);
+    if (status == GLINT_OK) {
+        status = judge_begin(scene, &judge, t->error);
+    }
+    if (status == GLINT_OK) {
+        status = trial_frame(t, scene, &environment, camera, &settings, &picture);
+    }
+    const oracle_view view = judge_view(camera, &settings);
+    for (int i = 0; status == GLINT_OK && i < size[0] * size[1]; i++) {
+        const double at[2] = {i % size[0] + 0.5, i / size[0] + 0.5};
+        const oracle_ray ray = oracle_primary_ray(&view, at);
+        const oracle_hit wanted = oracle_closest_hit(&judge, &ray, -1);
+        const double found = fmin(picture.values[4 * i + 3], last);
+        measure_event(others, found != fmin(wanted.triangle, last),
+                      "pixel (%d, %d): triangle %d expected, %g found", i % size[0], i / size[0],
+                      wanted.triangle, found);
+    }
+    trial_picture_free(&picture);
+    judge_end(&judge);
+    glint_environment_free(&environment);
+    return status;
+}
+
+// A ball a million metres from the origin, where a float steps by 1/16 of a metre: all that single
+// precision leaves of it is what its vertices were rounded to.
+static glint_status far_from_origin(trial *t)
+{
+    enum { UNIT = 8 };
+    static const double far[3] = {1e6, -1e6, 1e6};
+    static const int size[2] = {200, 150};
+    glint_measure *others = trial_share(t, "pixels that show another triangle", 1e-4);
+    glint_scene scene;
+    shape s = shape_begin();
+    shape_add_ball(&s, middle, 1, 3, NULL, true, MATERIAL_MIRROR);
+    glint_status status = shape_end_with_unit(&s, UNIT, &scene, t->error);
+    for (size_t i = 0; status == GLINT_OK && i < 9 * scene.triangle_count; i++) {
+        const float world = (float)(far[i % 3] + 7 * (double)scene.positions[i]);
+        scene.positions[i] = (float)(((double)world - far[i % 3]) / UNIT);
+    }
+    if (status == GLINT_OK) {
+        scene.origin = (glint_vec3){far[0], far[1], far[2]};
+        glint_scene_find_bounds(&scene);
+        const double eye[3] = {far[0] + 10, far[1] + 5, far[2] + 14};
+        const glint_camera camera = shape_camera(eye, far, 0.9, 0);
+        status = compare_hits(t, &scene, &camera, size, INFINITY, others);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+// A ball of a millimetre on a plane of twenty kilometres. The plane's halves count as one: where
+// the line between them runs is known, seen from so near, to a rounding error of its far ends.
+static glint_status tiny_on_huge(trial *t)
+{
+    static const double unit = 0x1p14, radius = 5e-4, half = 1e4;
+    static const int size[2] = {400, 300};
+    glint_measure *others = trial_share(t, "pixels that show another triangle", 1e-5);
+    glint_scene scene;
+    shape s = shape_begin();
+    const double h = half / unit, centre[3] = {0, radius / unit, 0};
+    const double plane[4][3] = {{-h, 0, h}, {h, 0, h}, {h, 0, -h}, {-h, 0, -h}};
+    shape_add_ball(&s, centre, radius / unit, 4, NULL, true, MATERIAL_MIRROR);
+    shape_add_quad(&s, plane, MATERIAL_MIRROR);
+    glint_status status = shape_end_with_unit(&s, unit, &scene, t->error);
+    if (status == GLINT_OK) {
+        const double halves = (double)scene.triangle_count - 2;
+        const double eye[3] = {6e-4, 1.2e-3, 2e-3}, target[3] = {0, radius, 0};
+        const glint_camera camera = shape_camera(eye, target, 0.9, 0);
+        status = compare_hits(t, &scene, &camera, size, halves, others);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+// A glass ball before a mirror, in a world 2^k times as large.
+static glint_status scaled_picture(trial *t, const glint_environment *environment, int k,
+                                   trial_picture *picture)
+{
+    static const double ball[3] = {0.1, 0, 0.2};
+    static const double wall[4][3] = {
+        {-0.9, -0.8, -0.5}, {0.9, -0.8, -0.5}, {0.9, 0.8, -0.5}, {-0.9, 0.8, -0.5}};
+    const double scale = ldexp(1, k), eye[3] = {0.3 * scale, 0.4 * scale, 2 * scale};
+    glint_scene scene;
+    shape s = shape_begin();
+    shape_add_ball(&s, ball, 0.4, 3, NULL, true, MATERIAL_GLASS);
+    shape_add_quad(&s, wall, MATERIAL_MIRROR);
+    glint_status status = shape_end_with_unit(&s, scale, &scene, t->error);
+    const glint_camera camera = shape_camera(eye, middle, 0.8, 0);
+    glint_settings settings = trial_settings(t);
+    settings.depth = 8;
+    settings.min_weight = 1.0 / 256;
+    if (status == GLINT_OK) {
+        status = trial_frame(t, &scene, environment, &camera, &settings, picture);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+static glint_status powers_of_two(trial *t)
+{
+    static const int exponents[] = {-20, 20, -60, 60};
+    glint_measure *errors = trial_error(t, "colours of the scaled scene", "ulp", 4);
+    glint_environment environment;
+    trial_picture plain = {0};
+    glint_status status = trial_linear_environment(16, &environment, t->error);
+    if (status == GLINT_OK) {
+        status = scaled_picture(t, &environment, 0, &plain);
+    }
+    for (size_t i = 0; status == GLINT_OK && i < sizeof exponents / sizeof *exponents; i++) {
+        trial_picture scaled;
+        status = scaled_picture(t, &environment, exponents[i], &scaled);
+        for (int p = 0; status == GLINT_OK && p < 4 * plain.width * plain.height; p++) {
+            measure_value(errors, t, trial_ulps(t, scaled.values[p], plain.values[p]), 0, 1,
+                          "2^%d, value %d: %.9g unscaled, %.9g scaled; in ulp", exponents[i], p,
+                          plain.values[p], scaled.values[p]);
+        }
+        trial_picture_free(&scaled);
+    }
+    trial_picture_free(&plain);
+    glint_environment_free(&environment);
+    return status;
+}
+
+const trial_case scale_cases[] = {
+    {"far_from_origin", "a mesh at 10⁶ m, where floats step by 1/16: what the oracle sees",
+     far_from_origin},
+    {"powers_of_two", "a scene of glass and mirrors, times 2^±20 and 2^±60: the same picture",
+     powers_of_two},
+    {"tiny_on_huge", "a ball of 1 mm on a plane of 20 km: what the oracle sees", tiny_on_huge},
+    {0},
+};

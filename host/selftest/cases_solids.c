@@ -1,0 +1,425 @@
+// Hard cases of solids, in closed form: slabs, prisms, balls, a ball in a ball, and the corner of
+// three mirrors.
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <string.h>
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double product[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        product[k] = a[i] * b[j] - a[j] * b[i];
+    }
+}
+
+static double angle_between(const double a[3], const double b[3])
+{
+    double product[3];
+    cross(a, b, product);
+    return atan2(sqrt(dot(product, product)), dot(a, b));
+}
+
+// How far a point lies from the line through the origin along d, a unit vector.
+static double distance_from_line(const double point[3], const double d[3])
+{
+    double product[3];
+    cross(point, d, product);
+    return sqrt(dot(product, product));
+}
+
+static void unit_vector(double v[3])
+{
+    const double length = sqrt(dot(v, v));
+    for (int k = 0; k < 3; k++) {
+        v[k] /= length;
+    }
+}
+
+// Two unit vectors at right angles to each other, anyhow.
+static void random_frame(trial *t, double along[3], double across[3])
+{
+    const glint_vec3 a = glint_random_direction(&t->random), b = glint_random_direction(&t->random);
+    const double first[3] = {a.x, a.y, a.z}, second[3] = {b.x, b.y, b.z};
+    for (int k = 0; k < 3; k++) {
+        along[k] = first[k];
+        across[k] = second[k] - dot(first, second) * first[k];
+    }
+    unit_vector(across);
+}
+
+// Sends `count` rays through `surfaces` surfaces one after the other: transmitted at all but the
+// reflected ones (bits). In the end *rays is what leaves the last of them.
+static glint_status follow(trial *t, glint_probe *probe, int surfaces, unsigned reflected,
+                           glint_probe_ray *rays, glint_probe_bounce *bounces, size_t count)
+{
+    glint_status status = GLINT_OK;
+    for (int n = 0; status == GLINT_OK && n < surfaces; n++) {
+        const bool back = (reflected >> n & 1) != 0;
+        status = trial_bounce(t, probe, rays, bounces, count);
+        for (size_t i = 0; status == GLINT_OK && i < count; i++) {
+            const glint_probe_bounce *b = &bounces[i];
+            const bool met = b->hit.triangle >= 0;
+            for (int k = 0; k < 3; k++) {
+                rays[i].origin[k] = back ? b->reflected_origin[k] : b->transmitted_origin[k];
+                // A ray that met nothing has no direction any more: NaN fails every measure.
+                rays[i].direction[k] = !met ? NAN : back ? b->reflected[k] : b->transmitted[k];
+            }
+            rays[i].from = b->place;
+            rays[i].media = back ? b->reflected_media : b->transmitted_media;
+        }
+    }
+    return status;
+}
+
+// ---- Slabs and prisms --------------------------------------------------------------------------
+
+static glint_status slab(trial *t)
+{
+    enum { COUNT = 2048 };
+    static const double low[3] = {-1, -1, 0}, high[3] = {1, 1, 0.25};
+    static glint_probe_ray rays[COUNT], begun[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    // The exit's cosine is the root of 1 − n²(1 − c²), which makes n²c/cos θ of an error of c.
+    glint_measure *directions = trial_error(t, "exit beside entry direction", "n²u/cos θ", 4);
+    glint_measure *shifts = trial_error(t, "sideways shift", "u/cos θ", 8);
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
+    glint_status status = shape_end(&s, &scene, t->error);
+    for (int i = 0; i < COUNT; i++) {
+        const double angle = trial_random(t, 0, 1.4), azimuth = trial_random(t, 0, 2 * GLINT_PI);
+        const double d[3] = {sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), -cos(angle)};
+        rays[i] = (glint_probe_ray){.from = -1};
+        for (int k = 0; k < 3; k++) {
+            rays[i].direction[k] = trial_rounded(t, d[k]);
+            rays[i].origin[k] = trial_rounded(t, (k == 2 ? 0.25 : 0) - 0.125 * d[k]);
+        }
+    }
+    memcpy(begun, rays, sizeof rays);
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = follow(t, probe, 2, 0, rays, bounces, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double *d = begun[i].direction, n = SHAPE_GLASS_IOR;
+        const double sine = hypot(d[0], d[1]), cosine = -d[2];
+        const double degrees = atan2(sine, cosine) * 180 / GLINT_PI;
+        measure_vector(directions, t, rays[i].direction, d, n * n * t->u / cosine,
+                       "%.4g° off the normal", degrees);
+        double away[3];
+        for (int k = 0; k < 3; k++) {
+            away[k] = rays[i].origin[k] - begun[i].origin[k];
+        }
+        const double expected = 0.25 * sine * (1 - cosine / sqrt(n * n - sine * sine));
+        measure_value(shifts, t, distance_from_line(away, d), expected, t->u / cosine,
+                      "%.4g° off the normal", degrees);
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// A prism of 60° with its edge along z, upwards.
+static glint_status prism_scene(trial *t, glint_scene *scene)
+{
+    const double h = 0.75, w = h * tan(GLINT_PI / 6);
+    const double front[3][3] = {{-w, 0, 0.75}, {w, 0, 0.75}, {0, h, 0.75}};
+    double back[3][3];
+    for (int k = 0; k < 3; k++) {
+        memcpy(back[k], front[2 - k], sizeof back[k]);
+        back[k][2] = -0.75;
+    }
+    shape s = shape_begin();
+    shape_add(&s, front, NULL, MATERIAL_GLASS);
+    shape_add(&s, (const double(*)[3])back, NULL, MATERIAL_GLASS);
+    for (int k = 0; k < 3; k++) {
+        const double *a = front[k], *b = front[(k + 1) % 3];
+        const double side[4][3] = {
+            {a[0], a[1], -0.75}, {b[0], b[1], -0.75}, {b[0], b[1], 0.75}, {a[0], a[1], 0.75}};
+        shape_add_quad(&s, side, MATERIAL_GLASS);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+static glint_status prism(trial *t)
+{
+    enum { COUNT = 4001 };
+    static glint_probe_ray rays[COUNT], begun[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    const double degrees = GLINT_PI / 180, n = SHAPE_GLASS_IOR;
+    const double least = 2 * asin(n * sin(30 * degrees)) - 60 * degrees;
+    glint_measure *minimum = trial_error(t, "least deviation beside 37.181°", "°", 1e-4);
+    glint_measure *deviations = trial_error(t, "deviations at all angles", "°", 1e-4);
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    glint_status status = prism_scene(t, &scene);
+    for (int i = 0; i < COUNT; i++) {
+        // Onto the left face, whose normal is 150° from +x, from below its normal.
+        const double incidence = (30.0 + 50.0 * i / (COUNT - 1)) * degrees;
+        const double heading = -30 * degrees + incidence;
+        const double d[3] = {cos(heading), sin(heading), 0};
+        const double at[3] = {-0.375 * tan(30 * degrees), 0.375, 0.0625};
+        rays[i] = (glint_probe_ray){.from = -1};
+        for (int k = 0; k < 3; k++) {
+            rays[i].direction[k] = trial_rounded(t, d[k]);
+            rays[i].origin[k] = trial_rounded(t, at[k] - 0.25 * d[k]);
+        }
+    }
+    memcpy(begun, rays, sizeof rays);
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = follow(t, probe, 2, 0, rays, bounces, COUNT);
+    }
+    double smallest = INFINITY;
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double got = angle_between(begun[i].direction, rays[i].direction);
+        const double incidence = atan2(begun[i].direction[1], begun[i].direction[0]) + 30 * degrees;
+        const double inside = 60 * degrees - asin(sin(incidence) / n);
+        const double expected = incidence + asin(n * sin(inside)) - 60 * degrees;
+        smallest = fmin(smallest, got);
+        measure_value(deviations, t, got / degrees, expected / degrees, 1, "incidence %.6g°",
+                      incidence / degrees);
+    }
+    if (status == GLINT_OK) {
+        measure_value(minimum, t, smallest / degrees, least / degrees, 1, "in degrees");
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// ---- Balls -------------------------------------------------------------------------------------
+
+#define BALL_RAYS 4096
+#define BALL_RADIUS 0.5
+#define CORE_RADIUS 0.25
+
+// Rays past the balls' middle at a distance of up to `most` radii of the outer one.
+static void aim_at_ball(trial *t, double most, glint_probe_ray *rays, double *impacts)
+{
+    for (int i = 0; i < BALL_RAYS; i++) {
+        double along[3], across[3], away[3];
+        random_frame(t, along, across);
+        const double impact = BALL_RADIUS * trial_random(t, 0, most);
+        rays[i] = (glint_probe_ray){.from = -1};
+        for (int k = 0; k < 3; k++) {
+            rays[i].direction[k] = trial_rounded(t, along[k]);
+            rays[i].origin[k] = trial_rounded(t, impact * across[k] - 0.75 * along[k]);
+        }
+        const double back = dot(rays[i].origin, rays[i].direction);
+        for (int k = 0; k < 3; k++) {
+            away[k] = rays[i].origin[k] - back * rays[i].direction[k];
+        }
+        impacts[i] = sqrt(dot(away, away));
+    }
+}
+
+// The mean of the errors of the deviations, in radians. `internal` reflections happen inside;
+// `core` adds the inner ball, whose index is lower.
+static glint_status ball_error(trial *t, int level, bool smooth, int internal, bool core,
+                               double *mean)
+{
+    static const double centre[3] = {0, 0, 0};
+    static glint_probe_ray rays[BALL_RAYS], begun[BALL_RAYS];
+    static glint_probe_bounce bounces[BALL_RAYS];
+    static double impacts[BALL_RAYS];
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    shape_add_ball(&s, centre, BALL_RADIUS, level, NULL, smooth, MATERIAL_GLASS);
+    if (core) {
+        shape_add_ball(&s, centre, CORE_RADIUS, level, NULL, smooth, MATERIAL_CORE);
+    }
+    glint_status status = shape_end(&s, &scene, t->error);
+    aim_at_ball(t, core ? 0.55 : 0.85, rays, impacts);
+    memcpy(begun, rays, sizeof rays);
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        // Reflected at the surfaces after the first, before the last.
+        const unsigned reflected = ((1u << internal) - 1) << 1;
+        status = follow(t, probe, (core ? 4 : 2) + internal, reflected, rays, bounces, BALL_RAYS);
+    }
+    double sum = 0;
+    for (int i = 0; status == GLINT_OK && i < BALL_RAYS; i++) {
+        const double b = impacts[i], n = SHAPE_GLASS_IOR, m = SHAPE_CORE_IOR;
+        double turned = 2 * (asin(b / BALL_RADIUS) - asin(b / (n * BALL_RADIUS)));
+        turned += internal * (GLINT_PI - 2 * asin(b / (n * BALL_RADIUS)));
+        turned += core ? 2 * (asin(b / (n * CORE_RADIUS)) - asin(b / (m * CORE_RADIUS))) : 0;
+        // Of the whole turn, what an angle between two directions shows.
+        const double expected = acos(cos(turned));
+        sum += fabs(angle_between(begun[i].direction, rays[i].direction) - expected);
+    }
+    *mean = sum / BALL_RAYS;
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// How the mean error falls from one level to the next, where edges are half as long: as h^order.
+static glint_status measure_order(trial *t, bool smooth, int internal, bool core, double order,
+                                  glint_measure *orders, double *last)
+{
+    double coarse = 0;
+    glint_status status = GLINT_OK;
+    for (int level = 3; status == GLINT_OK && level <= 5; level++) {
+        status = ball_error(t, level, smooth, internal, core, last);
+        if (status == GLINT_OK && level > 3) {
+            const double got = log2(coarse / *last);
+            measure_error(orders, order - got,
+                          "%s, %d reflections inside, level %d: %.3g rad, before %.3g: order %.3g",
+                          smooth ? "smooth" : "flat", internal, level, *last, coarse, got);
+        }
+        coarse = *last;
+    }
+    return status;
+}
+
+static glint_status ball(trial *t)
+{
+    glint_measure *flat =
+        trial_error(t, "flat: order 1 of the error less the order found", "", 0.2);
+    glint_measure *smooth =
+        trial_error(t, "smooth: order 2 of the error less the order found", "", 0.2);
+    glint_measure *last = trial_error(t, "mean error of 20,480 smooth triangles", "rad", 1e-3);
+    glint_status status = GLINT_OK;
+    for (int internal = 0; status == GLINT_OK && internal < 3; internal++) {
+        double mean;
+        status = measure_order(t, false, internal, false, 1, flat, &mean);
+        if (status == GLINT_OK) {
+            status = measure_order(t, true, internal, false, 2, smooth, &mean);
+        }
+        measure_error(last, mean / (1 + internal), "%d reflections inside: %.3g", internal, mean);
+    }
+    return status;
+}
+
+static glint_status ball_in_ball(trial *t)
+{
+    glint_measure *order = trial_error(t, "order 2 of the error less the order found", "", 0.2);
+    glint_measure *last = trial_error(t, "mean error of 40,960 smooth triangles", "rad", 1e-3);
+    double mean = NAN;
+    glint_status status = measure_order(t, true, 0, true, 2, order, &mean);
+    measure_error(last, mean, "%.3g", mean);
+    return status;
+}
+
+// ---- A corner of mirrors -----------------------------------------------------------------------
+
+// Reflects d by the plane of a triangle as it is stored.
+static void reflect_by_plane(const glint_scene *scene, double triangle, double d[3])
+{
+    const float *p = scene->positions + 9 * (size_t)triangle;
+    double a[3], b[3], n[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)p[3 + k] - (double)p[k];
+        b[k] = (double)p[6 + k] - (double)p[k];
+    }
+    cross(a, b, n);
+    unit_vector(n);
+    const double along = 2 * dot(d, n);
+    for (int k = 0; k < 3; k++) {
+        d[k] -= along * n[k];
+    }
+}
+
+// Three mirrors at right angles, turned anyhow; the corner is the origin.
+static glint_status corner_scene(trial *t, double axes[3][3], glint_scene *scene)
+{
+    random_frame(t, axes[0], axes[1]);
+    cross(axes[0], axes[1], axes[2]);
+    shape s = shape_begin();
+    for (int m = 0; m < 3; m++) {
+        const double *a = axes[(m + 1) % 3], *b = axes[(m + 2) % 3];
+        double quad[4][3];
+        for (int k = 0; k < 3; k++) {
+            quad[0][k] = 0;
+            quad[1][k] = 0.5 * a[k];
+            quad[2][k] = 0.5 * (a[k] + b[k]);
+            quad[3][k] = 0.5 * b[k];
+        }
+        shape_add_quad(&s, (const double(*)[3])quad, MATERIAL_TINTED);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+static glint_status corner_of_mirrors(trial *t)
+{
+    enum { COUNT = 1024 };
+    static glint_probe_ray rays[COUNT], begun[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    static double judged[COUNT][3]; // directions, reflected by the oracle
+    // Corners of mirrors are floats, which puts them out of square by about 2⁻²³ themselves.
+    glint_measure *back = trial_error(t, "exit beside −entry", "2⁻²⁴", 16);
+    glint_measure *planes = trial_error(t, "exit beside what the stored planes give", "u", 16);
+    double axes[3][3];
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    glint_status status = corner_scene(t, axes, &scene);
+    for (int i = 0; i < COUNT; i++) {
+        // From a place in front of all three mirrors, to one near the corner beyond the first.
+        double d[3] = {0, 0, 0};
+        const double from[3] = {0.06, 0.12, 0.2},
+                     steps[3] = {-1, trial_random(t, -1.2, -0.8), trial_random(t, -1.2, -0.8)};
+        rays[i] = (glint_probe_ray){.from = -1};
+        for (int k = 0; k < 3; k++) {
+            double at = 0;
+            for (int m = 0; m < 3; m++) {
+                at += axes[m][k] * from[m];
+                d[k] += axes[m][k] * steps[m];
+            }
+            rays[i].origin[k] = trial_rounded(t, at);
+        }
+        unit_vector(d);
+        for (int k = 0; k < 3; k++) {
+            judged[i][k] = rays[i].direction[k] = trial_rounded(t, d[k]);
+        }
+    }
+    memcpy(begun, rays, sizeof rays);
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    for (int n = 0; status == GLINT_OK && n < 3; n++) {
+        status = follow(t, probe, 1, 1, rays, bounces, COUNT);
+        for (int i = 0; i < COUNT && bounces[i].hit.triangle >= 0; i++) {
+            reflect_by_plane(&scene, bounces[i].hit.triangle, judged[i]);
+        }
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        double reversed[3];
+        for (int k = 0; k < 3; k++) {
+            reversed[k] = -begun[i].direction[k];
+        }
+        measure_vector(back, t, rays[i].direction, reversed, 0x1p-24, "ray %d", i);
+        measure_vector(planes, t, rays[i].direction, judged[i], t->u, "ray %d", i);
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+const trial_case solid_cases[] = {
+    {"slab", "a glass slab at up to 80°: the exit parallel to the entry, the shift in closed form",
+     slab},
+    {"ball", "a glass ball: deviations in closed form, errors that fall as h flat and h² smooth",
+     ball},
+    {"prism", "a prism of 60°: the least deviation, 37.181°, and all others", prism},
+    {"ball_in_ball", "a glass ball in another: deviations in closed form, errors that fall as h²",
+     ball_in_ball},
+    {"corner_of_mirrors", "three mirrors at right angles: rays return as they came",
+     corner_of_mirrors},
+    {0},
+};

@@ -1,0 +1,442 @@
+// Hard cases of rays that leave surfaces: self-hits, gaps and slabs next to nothing, grazing rays,
+// eyes inside glass and on a surface.
+#include "base/memory.h"
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void copy3(double to[3], const double from[3])
+{
+    memcpy(to, from, 3 * sizeof *to);
+}
+
+// The reflected branch of a bounce as a ray, or the transmitted one.
+static glint_probe_ray branch_of(const glint_probe_bounce *b, bool transmitted)
+{
+    glint_probe_ray ray = {.from = b->place,
+                           .media = transmitted ? b->transmitted_media : b->reflected_media};
+    copy3(ray.origin, transmitted ? b->transmitted_origin : b->reflected_origin);
+    copy3(ray.direction, transmitted ? b->transmitted : b->reflected);
+    return ray;
+}
+
+static glint_probe_ray aimed(trial *t, const double from[3], const double to[3])
+{
+    glint_probe_ray ray = {.from = -1};
+    double squares = 0;
+    for (int k = 0; k < 3; k++) {
+        ray.origin[k] = trial_rounded(t, from[k]);
+        ray.direction[k] = to[k] - ray.origin[k];
+        squares += ray.direction[k] * ray.direction[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        ray.direction[k] = trial_rounded(t, ray.direction[k] / sqrt(squares));
+    }
+    return ray;
+}
+
+// ---- Self-hits ---------------------------------------------------------------------------------
+
+#define QUADS 300 // and as many triangles
+
+// Squares of two triangles, at right angles to an axis, so that both lie in one plane whatever
+// rounding does; then triangles that lie anyhow. From a millionth to all of the scene's size, of
+// glass and of mirrors in turn.
+static glint_status random_quads(trial *t, glint_scene *scene)
+{
+    static const int around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    shape s = shape_begin();
+    for (int i = 0; i < 2 * QUADS; i++) {
+        const shape_material material = i % 2 ? MATERIAL_GLASS : MATERIAL_TINTED;
+        const double size = ldexp(1, -(int)trial_random(t, 1, 20));
+        const int axis = i % 3;
+        double corner[4][3];
+        for (int k = 0; k < 3; k++) {
+            corner[0][k] = trial_random(t, -0.5, 0.5);
+        }
+        for (int k = 1; k < 4; k++) {
+            corner[k][axis] = corner[0][axis];
+            corner[k][(axis + 1) % 3] = corner[0][(axis + 1) % 3] + size * around[k][0];
+            corner[k][(axis + 2) % 3] = corner[0][(axis + 2) % 3] + size * around[k][1];
+        }
+        if (i < QUADS) {
+            shape_add_quad(&s, (const double(*)[3])corner, material);
+            continue;
+        }
+        for (int k = 0; k < 9; k++) {
+            corner[k / 3][k % 3] += trial_random(t, -size, size);
+        }
+        shape_add(&s, (const double(*)[3])corner, NULL, material);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+static bool in_one_plane(double a, double b)
+{
+    return a == b ||
+           (a >= 0 && b >= 0 && a < 2 * QUADS && b < 2 * QUADS && floor(a / 2) == floor(b / 2));
+}
+
+static void aim_at_quads(trial *t, const glint_scene *scene, glint_probe_ray *rays, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const float *p = scene->positions + 9 * (i % scene->triangle_count);
+        const glint_vec3 away = glint_random_direction(&t->random);
+        const double b1 = trial_random(t, 0, 1), b2 = trial_random(t, 0, 1 - b1);
+        // From a distance like the triangle's size, so that most rays get to it.
+        const double size = fabs((double)p[3] - (double)p[0]) + 1e-6;
+        const double offsets[3] = {away.x, away.y, away.z};
+        double target[3], from[3];
+        for (int k = 0; k < 3; k++) {
+            target[k] = (double)p[k] + b1 * ((double)p[3 + k] - (double)p[k]) +
+                        b2 * ((double)p[6 + k] - (double)p[k]);
+            from[k] = target[k] + size * offsets[k];
+        }
+        rays[i] = aimed(t, from, target);
+    }
+}
+
+static glint_status judge_departures(trial *t, glint_probe *probe,
+                                     const glint_probe_bounce *bounces, size_t count,
+                                     glint_measure *again)
+{
+    glint_probe_ray *rays = glint_allocate(2 * count, sizeof *rays);
+    glint_probe_hit *hits = glint_allocate(2 * count, sizeof *hits);
+    glint_status status = GLINT_OK;
+    if (rays == NULL || hits == NULL) {
+        status = glint_fail_memory(t->error, "a self-test");
+        goto cleanup;
+    }
+    for (size_t i = 0; i < 2 * count; i++) {
+        const glint_probe_bounce *b = &bounces[i / 2];
+        rays[i] = branch_of(b, i % 2 == 1 && b->transmitted_weight > 0);
+    }
+    status = trial_trace(t, probe, rays, hits, 2 * count);
+    for (size_t i = 0; status == GLINT_OK && i < 2 * count; i++) {
+        const glint_probe_bounce *b = &bounces[i / 2];
+        if (b->hit.triangle >= 0) {
+            measure_event(again, in_one_plane(hits[i].triangle, b->hit.triangle),
+                          "ray %zu leaves triangle %g and hits triangle %g, which lies in its "
+                          "plane, after %.3g",
+                          i / 2, b->hit.triangle, hits[i].triangle, hits[i].distance);
+        }
+    }
+cleanup:
+    free(rays);
+    free(hits);
+    return status;
+}
+
+static glint_status no_second_hit(trial *t)
+{
+    enum { BATCH = 16384 };
+    glint_measure *again = trial_events(t, "rays that hit the plane they leave", 0);
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    glint_probe_ray *rays = glint_allocate(BATCH, sizeof *rays);
+    glint_probe_bounce *bounces = glint_allocate(BATCH, sizeof *bounces);
+    glint_status status = random_quads(t, &scene);
+    if (status == GLINT_OK && (rays == NULL || bounces == NULL)) {
+        status = glint_fail_memory(t->error, "a self-test");
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    for (uint64_t done = 0; status == GLINT_OK && done < t->options->rays; done += BATCH) {
+        aim_at_quads(t, &scene, rays, BATCH);
+        status = trial_bounce(t, probe, rays, bounces, BATCH);
+        if (status == GLINT_OK) {
+            status = judge_departures(t, probe, bounces, BATCH, again);
+        }
+    }
+    glint_probe_free(probe);
+    free(rays);
+    free(bounces);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// ---- Gaps --------------------------------------------------------------------------------------
+
+// Two mirrors that face each other along an axis, the lower one at `height`.
+static glint_status facing_mirrors(trial *t, int axis, double size, double height, double gap,
+                                   glint_scene *scene)
+{
+    static const int around[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    shape s = shape_begin();
+    for (int upper = 0; upper < 2; upper++) {
+        double corner[4][3];
+        for (int k = 0; k < 4; k++) {
+            const int *at = around[upper ? 3 - k : k];
+            corner[k][axis] = height + upper * gap;
+            corner[k][(axis + 1) % 3] = at[0] * size;
+            corner[k][(axis + 2) % 3] = at[1] * size;
+        }
+        shape_add_quad(&s, (const double(*)[3])corner, MATERIAL_TINTED);
+    }
+    return shape_end(&s, scene, t->error);
+}
+
+#define GAP_RAYS 256
+
+// Whether all rays that start in the gap meet the lower mirror and then the upper one.
+static glint_status gap_is_seen(trial *t, int axis, double size, double height, double gap,
+                                bool *seen)
+{
+    static glint_probe_ray rays[GAP_RAYS];
+    static glint_probe_bounce bounces[GAP_RAYS];
+    static glint_probe_hit hits[GAP_RAYS];
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    glint_status status = facing_mirrors(t, axis, size, height, gap, &scene);
+    for (int i = 0; i < GAP_RAYS; i++) {
+        double from[3], to[3];
+        for (int k = 0; k < 3; k++) {
+            from[k] = trial_random(t, -size, size) / 2;
+            to[k] = from[k] + trial_random(t, -size, size) / 4;
+        }
+        from[axis] = height + gap / 2;
+        to[axis] = height - size / 8;
+        rays[i] = aimed(t, from, to);
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_bounce(t, probe, rays, bounces, GAP_RAYS);
+    }
+    for (int i = 0; status == GLINT_OK && i < GAP_RAYS; i++) {
+        rays[i] = branch_of(&bounces[i], false);
+    }
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, hits, GAP_RAYS);
+    }
+    *seen = true;
+    for (int i = 0; status == GLINT_OK && i < GAP_RAYS; i++) {
+        *seen =
+            *seen && floor(bounces[i].hit.triangle / 2) == 0 && floor(hits[i].triangle / 2) == 1;
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// A ray starts off its surface by 8 rounding errors of its coordinates (place_on_triangle), at a
+// place that is known to about 3: with 16 between the mirrors no start may lie beyond the other.
+static glint_status smallest_gap(trial *t)
+{
+    static const double sizes[] = {1, 0x1p-10, 0x1p-20};
+    glint_measure *smallest = trial_error(t, "smallest gap that is seen", "2⁻²⁴ × height", 16);
+    glint_status status = GLINT_OK;
+    for (int i = 0; status == GLINT_OK && i < 9; i++) {
+        const double size = sizes[i / 3], height = 0.75 * size;
+        bool seen = true;
+        int k = 12;
+        for (; status == GLINT_OK && seen && k >= 0; k--) {
+            status = gap_is_seen(t, i % 3, size, height, ldexp(height, k - 24), &seen);
+        }
+        // The last one tried is the first that is not seen, if any.
+        const int last = seen ? 0 : k + 2;
+        measure_error(smallest, ldexp(1, last), "along axis %d, mirrors of %g: 2^%d", i % 3, size,
+                      last);
+    }
+    return status;
+}
+
+// ---- Grazing rays ------------------------------------------------------------------------------
+
+static glint_status grazing_rays(trial *t)
+{
+    enum { PER_ANGLE = 512, COUNT = 6 * PER_ANGLE };
+    static const double floor_[4][3] = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_hit hits[COUNT];
+    glint_measure *errors = trial_error(t, "error of the distance", "u·t/cos θ", 8);
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    shape_add_quad(&s, floor_, MATERIAL_TINTED);
+    glint_status status = shape_end(&s, &scene, t->error);
+    for (int i = 0; i < COUNT; i++) {
+        const double elevation = pow(10, -1 - i / PER_ANGLE) * GLINT_PI / 180;
+        const double azimuth = trial_random(t, 0, 2 * GLINT_PI);
+        const double direction[3] = {cos(elevation) * cos(azimuth), -sin(elevation),
+                                     cos(elevation) * sin(azimuth)};
+        rays[i] = (glint_probe_ray){.from = -1};
+        for (int k = 0; k < 3; k++) {
+            rays[i].direction[k] = trial_rounded(t, direction[k]);
+            rays[i].origin[k] =
+                trial_rounded(t, k == 1 ? 0.4 * sin(elevation) : -0.3 * direction[k]);
+        }
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, hits, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double cosine = -rays[i].direction[1], wanted = rays[i].origin[1] / cosine;
+        measure_value(errors, t, hits[i].distance, wanted, t->u * wanted / cosine,
+                      "10^%d° above the plane, ray %d", -1 - i / PER_ANGLE, i);
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// ---- Thin slabs --------------------------------------------------------------------------------
+
+static glint_status pass_slab(trial *t, double thickness, glint_measure *others)
+{
+    enum { COUNT = 1024 };
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_bounce first[COUNT], second[COUNT];
+    static glint_probe_hit hits[COUNT];
+    const double low[3] = {-0.5, -0.5, 0.7}, high[3] = {0.5, 0.5, 0.7 + thickness};
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
+    glint_status status = shape_end(&s, &scene, t->error);
+    for (int i = 0; i < COUNT; i++) {
+        const double from[3] = {trial_random(t, -0.9, 0.9), trial_random(t, -0.9, 0.9), 0.9};
+        const double to[3] = {trial_random(t, -0.4, 0.4), trial_random(t, -0.4, 0.4), 0.7};
+        rays[i] = aimed(t, from, to);
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_bounce(t, probe, rays, first, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        rays[i] = branch_of(&first[i], true);
+    }
+    if (status == GLINT_OK) {
+        status = trial_bounce(t, probe, rays, second, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        rays[i] = branch_of(&second[i], true);
+    }
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, hits, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const bool right = first[i].outside == 1 && second[i].hit.triangle >= 0 &&
+                           second[i].outside == 0 && hits[i].triangle < 0;
+        measure_event(others, !right,
+                      "%g thick, ray %d: triangle %g (from outside: %g), %g (%g), then %g",
+                      thickness, i, first[i].hit.triangle, first[i].outside, second[i].hit.triangle,
+                      second[i].outside, hits[i].triangle);
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+static glint_status thin_slabs(trial *t)
+{
+    glint_measure *others = trial_events(t, "rays that do not cross two interfaces", 0);
+    glint_status status = GLINT_OK;
+    for (int k = -6; status == GLINT_OK && k <= -3; k++) {
+        status = pass_slab(t, pow(10, k), others);
+    }
+    return status;
+}
+
+// ---- Eyes in odd places ------------------------------------------------------------------------
+
+// In a smooth ball's centre every ray runs along its normal, and is not bent.
+static glint_status eye_inside_glass(trial *t)
+{
+    enum { COUNT = 4096 };
+    static const double centre[3] = {0, 0, 0};
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    glint_measure *media = trial_events(t, "rays that do not leave the glass for empty space", 0);
+    glint_measure *bends = trial_error(t, "bend of the ray", "2⁻²⁴", 8); // normals are floats
+    glint_measure *weights = trial_error(t, "weight beside 1 − F0", "2⁻²⁴", 8);
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    shape_add_ball(&s, centre, 0.75, 3, NULL, true, MATERIAL_GLASS);
+    glint_status status = shape_end(&s, &scene, t->error);
+    for (int i = 0; i < COUNT; i++) {
+        const glint_vec3 d = glint_random_direction(&t->random);
+        const double to[3] = {d.x, d.y, d.z};
+        rays[i] = aimed(t, centre, to);
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_bounce(t, probe, rays, bounces, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const glint_probe_bounce *b = &bounces[i];
+        measure_event(media,
+                      !(b->outside == 0 && b->transmitted_media == 0 && b->reflected_media != 0),
+                      "ray %d: outside %g, media %g and %g", i, b->outside, b->reflected_media,
+                      b->transmitted_media);
+        measure_vector(bends, t, b->transmitted, rays[i].direction, 0x1p-24, "ray %d", i);
+        measure_value(weights, t, b->transmitted_weight, 0.96, 0x1p-24, "ray %d", i);
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// Eyes on a face, on an edge and on a corner of a box, of glass or of mirrors: what lies at no
+// distance is not seen.
+static glint_status eye_on_surface(trial *t)
+{
+    static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
+    static const double eyes[][3] = {{0.5, 0.125, 0.25}, {0.5, 0.5, 0.25}, {0.5, 0.5, 0.5}};
+    static const double targets[][3] = {{0, 0, 0}, {1, 0.5, 0.5}, {0.5, 0.25, -0.5}};
+    glint_measure *bad = trial_events(t, "pixels that are not finite or not in [0, 1]", 0);
+    glint_environment environment;
+    glint_status status = trial_linear_environment(16, &environment, t->error);
+    for (int i = 0; status == GLINT_OK && i < 18; i++) {
+        glint_scene scene;
+        shape s = shape_begin();
+        shape_add_box(&s, low, high, 1, false, i / 9 ? MATERIAL_GLASS : MATERIAL_MIRROR);
+        status = shape_end(&s, &scene, t->error);
+        const glint_camera camera = shape_camera(eyes[i % 3], targets[i / 3 % 3], 1.2, 0);
+        glint_settings settings = trial_settings(t);
+        settings.depth = 6;
+        settings.min_weight = 1.0 / 64;
+        trial_picture picture = {0};
+        if (status == GLINT_OK) {
+            status = trial_frame(t, &scene, &environment, &camera, &settings, &picture);
+        }
+        for (int p = 0; status == GLINT_OK && p < 4 * picture.width * picture.height; p++) {
+            const double value = picture.values[p];
+            measure_event(bad, !(value >= 0 && value <= 1 + 64 * t->u),
+                          "eye (%g, %g, %g) that looks at (%g, %g, %g): pixel %d has %g",
+                          eyes[i % 3][0], eyes[i % 3][1], eyes[i % 3][2], targets[i / 3 % 3][0],
+                          targets[i / 3 % 3][1], targets[i / 3 % 3][2], p / 4, value);
+        }
+        trial_picture_free(&picture);
+        glint_scene_free(&scene);
+    }
+    glint_environment_free(&environment);
+    return status;
+}
+
+const trial_case spawn_cases[] = {
+    {"no_second_hit", "rays that leave triangles of any size: they do not hit its plane again",
+     no_second_hit},
+    {"smallest_gap", "mirrors 2^k of their height apart: how near each other they are seen",
+     smallest_gap},
+    {"grazing_rays", "rays 10^−1 to 10^−6 degrees above a plane: the distance, in closed form",
+     grazing_rays},
+    {"thin_slabs", "glass of 10^−6 to 10^−3 at a distance of 0.7: exactly two interfaces",
+     thin_slabs},
+    {"eye_inside_glass", "an eye in the middle of a glass ball: nothing is bent", eye_inside_glass},
+    {"eye_on_surface", "eyes on faces, edges and corners: finite colours", eye_on_surface},
+    {0},
+};

@@ -1,0 +1,121 @@
+// Running the cases. See selftest.h.
+#include "selftest/selftest.h"
+
+#include "selftest/trial.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+static const trial_case *const groups[] = {hit_cases,         scale_cases,      spawn_cases,
+                                           normal_cases,      refraction_cases, solid_cases,
+                                           environment_cases, path_cases,       image_cases};
+
+static const trial_case *case_at(size_t index)
+{
+    for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
+        for (const trial_case *c = groups[g]; c->name != NULL; c++) {
+            if (index-- == 0) {
+                return c;
+            }
+        }
+    }
+    return NULL;
+}
+
+const char *glint_selftest_name(size_t index)
+{
+    const trial_case *c = case_at(index);
+    return c != NULL ? c->name : NULL;
+}
+
+const char *glint_selftest_summary(size_t index)
+{
+    const trial_case *c = case_at(index);
+    return c != NULL ? c->summary : NULL;
+}
+
+bool glint_measure_holds(const glint_measure *measure)
+{
+    return measure->judged > 0 && measure->measured <= measure->bound;
+}
+
+const glint_measure *glint_selftest_worst(const glint_selftest_result *result)
+{
+    const glint_measure *worst = NULL;
+    double most = 0;
+    for (int i = 0; i < result->measure_count; i++) {
+        const glint_measure *m = &result->measures[i];
+        // Written so that NaN, and anything over a bound of 0, is the worst.
+        const double excess = m->measured / m->bound;
+        if (!glint_measure_holds(m) && (worst == NULL || !(excess <= most))) {
+            worst = m;
+            most = excess;
+        }
+    }
+    return worst;
+}
+
+const char *glint_verdict_name(glint_verdict verdict)
+{
+    static const char *const names[] = {"passed", "failed", "skipped", "broken"};
+    return names[verdict];
+}
+
+// A seed of the case's own, so that it draws the same numbers whichever cases ran before.
+static uint64_t seed_of(const char *name)
+{
+    uint64_t hash = 14695981039346656037u; // FNV-1a
+    for (; *name != '\0'; name++) {
+        hash = (hash ^ (uint64_t)(unsigned char)*name) * 1099511628211u;
+    }
+    return hash;
+}
+
+static glint_verdict verdict_of(glint_selftest_result *result)
+{
+    glint_verdict verdict = result->measure_count > 0 ? GLINT_PASSED : GLINT_FAILED;
+    for (int i = 0; i < result->measure_count; i++) {
+        glint_measure *m = &result->measures[i];
+        if (m->is_share && m->judged > 0) {
+            m->measured /= (double)m->judged;
+        }
+        verdict = glint_measure_holds(m) ? verdict : GLINT_FAILED;
+    }
+    return verdict;
+}
+
+glint_status glint_selftest_run(size_t index, const glint_selftest_options *options,
+                                glint_selftest_result *result, glint_error *error)
+{
+    const trial_case *c = case_at(index);
+    *result = (glint_selftest_result){
+        .name = c->name, .width = options->width, .precision = options->precision};
+    const bool is_double = options->precision == GLINT_PRECISION_DOUBLE;
+    const glint_capabilities *device = glint_device_capabilities(options->device);
+    if (is_double && !device->has_double) {
+        result->verdict = GLINT_SKIPPED;
+        snprintf(result->reason, sizeof result->reason, "the device has no double precision");
+        return GLINT_OK;
+    }
+    glint_selftest_options complete = *options;
+    complete.rays = options->rays > 0 ? options->rays : GLINT_SELFTEST_RAYS;
+    trial t = {.options = &complete,
+               .u = is_double ? 0x1p-53 : 0x1p-24,
+               .random = {seed_of(c->name)},
+               .result = result,
+               .error = error};
+    struct timespec begin, end;
+    clock_gettime(CLOCK_MONOTONIC, &begin);
+    glint_status status = c->run(&t);
+    clock_gettime(CLOCK_MONOTONIC, &end);
+    result->ms =
+        (double)(end.tv_sec - begin.tv_sec) * 1e3 + (double)(end.tv_nsec - begin.tv_nsec) * 1e-6;
+    result->verdict = verdict_of(result);
+    if (status == GLINT_DEVICE_FAILED) {
+        result->verdict = GLINT_BROKEN;
+        snprintf(result->reason, sizeof result->reason, "%s", error->message);
+        status = GLINT_OK;
+    }
+    return status;
+}

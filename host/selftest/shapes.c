@@ -1,0 +1,205 @@
+// Scenes by formula. See shapes.h.
+#include "selftest/shapes.h"
+
+#include "base/memory.h"
+#include "scene/icosphere.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_CAPACITY ((size_t)256)
+
+shape shape_begin(void)
+{
+    return (shape){.scene = {.unit = 1}};
+}
+
+static bool make_room(shape *s)
+{
+    glint_scene *scene = &s->scene;
+    if (s->failed || scene->triangle_count < s->capacity) {
+        return !s->failed;
+    }
+    const size_t capacity = s->capacity > 0 ? 2 * s->capacity : FIRST_CAPACITY;
+    float *positions = realloc(scene->positions, capacity * 9 * sizeof(float));
+    scene->positions = positions != NULL ? positions : scene->positions;
+    float *normals = realloc(scene->normals, capacity * 9 * sizeof(float));
+    scene->normals = normals != NULL ? normals : scene->normals;
+    uint32_t *material_of = realloc(scene->material_of, capacity * sizeof *material_of);
+    scene->material_of = material_of != NULL ? material_of : scene->material_of;
+    s->failed = positions == NULL || normals == NULL || material_of == NULL;
+    s->capacity = capacity;
+    return !s->failed;
+}
+
+// The instance that the next triangle belongs to: a new one where the material changes.
+static bool choose_instance(shape *s, shape_material material)
+{
+    glint_scene *scene = &s->scene;
+    const size_t count = scene->instance_count;
+    if (count > 0 && scene->instances[count - 1].material == (uint32_t)material) {
+        return true;
+    }
+    glint_instance *instances = realloc(scene->instances, (count + 1) * sizeof *instances);
+    s->failed = instances == NULL;
+    if (!s->failed) {
+        scene->instances = instances;
+        scene->instances[scene->instance_count++] = (glint_instance){
+            .first_triangle = scene->triangle_count, .material = (uint32_t)material};
+    }
+    return !s->failed;
+}
+
+void shape_add(shape *s, const double corners[3][3], const double normals[3][3],
+               shape_material material)
+{
+    if (!make_room(s) || !choose_instance(s, material)) {
+        return;
+    }
+    glint_scene *scene = &s->scene;
+    for (size_t i = 0; i < 9; i++) {
+        scene->positions[9 * scene->triangle_count + i] = (float)corners[i / 3][i % 3];
+        scene->normals[9 * scene->triangle_count + i] =
+            normals != NULL ? (float)normals[i / 3][i % 3] : 0;
+    }
+    scene->material_of[scene->triangle_count++] = (uint32_t)material;
+    scene->instances[scene->instance_count - 1].triangle_count++;
+}
+
+void shape_add_quad(shape *s, const double corners[4][3], shape_material material)
+{
+    static const int order[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    for (int t = 0; t < 2; t++) {
+        double triangle[3][3];
+        for (int k = 0; k < 3; k++) {
+            memcpy(triangle[k], corners[order[t][k]], sizeof triangle[k]);
+        }
+        shape_add(s, (const double(*)[3])triangle, NULL, material);
+    }
+}
+
+// One corner of a part of a box's face: `across` and `up` in [0, parts].
+static void face_corner(const double low[3], const double high[3], int face, double across,
+                        double up, double corner[3])
+{
+    const int axis = face / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
+    corner[axis] = face % 2 == 0 ? high[axis] : low[axis];
+    corner[first] = low[first] + across * (high[first] - low[first]);
+    corner[second] = low[second] + up * (high[second] - low[second]);
+}
+
+void shape_add_box(shape *s, const double low[3], const double high[3], int parts, bool inward,
+                   shape_material material)
+{
+    static const int around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int part = 0; part < 6 * parts * parts; part++) {
+        const int face = part / (parts * parts), i = part / parts % parts, j = part % parts;
+        // first × second points along +axis.
+        const bool reversed = (face % 2 == 1) != inward;
+        double corners[4][3];
+        for (int k = 0; k < 4; k++) {
+            const int *at = around[reversed ? 3 - k : k];
+            face_corner(low, high, face, (double)(i + at[0]) / parts, (double)(j + at[1]) / parts,
+                        corners[k]);
+        }
+        shape_add_quad(s, (const double(*)[3])corners, material);
+    }
+}
+
+typedef struct ball {
+    shape *s;
+    const double *centre;
+    double size;
+    shape_radius *radius;
+    bool smooth;
+    shape_material material;
+} ball;
+
+static void add_ball_triangle(void *context, const glint_vec3 corners[3])
+{
+    const ball *b = context;
+    double positions[3][3], normals[3][3];
+    for (int k = 0; k < 3; k++) {
+        const double u[3] = {corners[k].x, corners[k].y, corners[k].z};
+        const double r = b->size * (b->radius != NULL ? b->radius(u) : 1);
+        for (int axis = 0; axis < 3; axis++) {
+            positions[k][axis] = b->centre[axis] + r * u[axis];
+            normals[k][axis] = u[axis];
+        }
+    }
+    shape_add(b->s, (const double(*)[3])positions, b->smooth ? (const double(*)[3])normals : NULL,
+              b->material);
+}
+
+void shape_add_ball(shape *s, const double centre[3], double size, int level, shape_radius *radius,
+                    bool smooth, shape_material material)
+{
+    ball b = {s, centre, size, radius, smooth, material};
+    glint_icosphere(level, add_ball_triangle, &b);
+}
+
+static bool add_materials(shape *s)
+{
+    static const glint_material clear = {.base_color = {1, 1, 1},
+                                         .ior = (float)SHAPE_GLASS_IOR,
+                                         .attenuation_distance = INFINITY,
+                                         .attenuation_color = {1, 1, 1},
+                                         .mirror = -1};
+    glint_scene *scene = &s->scene;
+    scene->materials = calloc(MATERIAL_COUNT, sizeof *scene->materials);
+    if (scene->materials == NULL) {
+        return false;
+    }
+    scene->material_count = MATERIAL_COUNT;
+    for (int i = 0; i < MATERIAL_COUNT; i++) {
+        scene->materials[i] = clear;
+    }
+    scene->materials[MATERIAL_MIRROR].metallic = 1;
+    scene->materials[MATERIAL_TINTED].metallic = 1;
+    scene->materials[MATERIAL_TINTED].base_color[0] = 0.5F;
+    scene->materials[MATERIAL_TINTED].base_color[1] = 0.75F;
+    for (int i = MATERIAL_GLASS; i <= MATERIAL_CORE; i++) {
+        scene->materials[i].transmission = 1;
+        scene->materials[i].thickness = 1;
+    }
+    scene->materials[MATERIAL_CORE].ior = (float)SHAPE_CORE_IOR;
+    return true;
+}
+
+glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glint_error *error)
+{
+    s->scene.unit = unit;
+    const bool complete = !s->failed && add_materials(s);
+    glint_scene_find_bounds(&s->scene);
+    *scene = s->scene;
+    if (!complete) {
+        glint_scene_free(scene);
+        return glint_fail_memory(error, "a scene");
+    }
+    return GLINT_OK;
+}
+
+glint_status shape_end(shape *s, glint_scene *scene, glint_error *error)
+{
+    return shape_end_with_unit(s, 1, scene, error);
+}
+
+glint_camera shape_camera(const double eye[3], const double target[3], double yfov, double ymag)
+{
+    const glint_vec3 at = {eye[0], eye[1], eye[2]};
+    const glint_vec3 back = {eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]};
+    // A camera that looks straight up or down has −Z or +Z above it.
+    const bool upright = back.x != 0 || back.z != 0;
+    const glint_vec3 up = upright ? (glint_vec3){0, 1, 0} : (glint_vec3){0, 0, -1};
+    const glint_mat4 to_world = {
+        {{0, up.x, back.x, at.x}, {0, up.y, back.y, at.y}, {0, up.z, back.z, at.z}, {0, 0, 0, 1}}};
+    glint_mat4 complete = to_world;
+    const glint_vec3 right = glint_vec3_cross(up, back);
+    complete.m[0][0] = right.x;
+    complete.m[1][0] = right.y;
+    complete.m[2][0] = right.z;
+    glint_camera camera = {.orthographic = yfov == 0, .yfov = yfov, .ymag = ymag};
+    (void)glint_camera_from_matrix(&complete, &camera);
+    return camera;
+}

@@ -1,0 +1,63 @@
+// Scenes by formula for the self-test. All have shading normals and the same list of materials, so
+// that one set of compiled kernels serves them all.
+#ifndef GLINT_SELFTEST_SHAPES_H
+#define GLINT_SELFTEST_SHAPES_H
+
+#include "base/random.h"
+#include "base/status.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// What surfaces are made of. Two lossless solids, so that one can be inside the other.
+typedef enum shape_material {
+    MATERIAL_MIRROR, // white metal
+    MATERIAL_GLASS,  // clear, of index 1.5
+    MATERIAL_CORE,   // clear, of index 1.25
+    MATERIAL_TINTED, // metal of base colour (½, ¾, 1)
+    MATERIAL_COUNT,
+} shape_material;
+
+#define SHAPE_GLASS_IOR 1.5
+#define SHAPE_CORE_IOR 1.25
+
+// A scene on its way. Where memory ran out shape_end says so, and nobody else need.
+typedef struct shape {
+    glint_scene scene;
+    size_t capacity;
+    bool failed;
+} shape;
+
+shape shape_begin(void);
+
+// Adds a triangle, counter-clockwise seen from outside; positions round to float. `normals` NULL,
+// or a vertex's (0, 0, 0): the geometric normal serves.
+void shape_add(shape *s, const double corners[3][3], const double normals[3][3],
+               shape_material material);
+
+// Corners in their order around, counter-clockwise seen from outside.
+void shape_add_quad(shape *s, const double corners[4][3], shape_material material);
+
+// The box [low, high]; `inward` for a room, whose walls face its inside. Each face is divided into
+// `parts` × `parts` quads.
+void shape_add_box(shape *s, const double low[3], const double high[3], int parts, bool inward,
+                   shape_material material);
+
+// An icosahedron whose triangles are quartered `level` times, its vertices at the radius that
+// `radius` says for their direction, or NULL: 1; times `size`, about `centre`. Smooth: with the
+// vertices' directions as normals.
+typedef double shape_radius(const double direction[3]);
+void shape_add_ball(shape *s, const double centre[3], double size, int level, shape_radius *radius,
+                    bool smooth, shape_material material);
+
+// Ends the scene: with unit 1, so that stored coordinates are those that were given (all within
+// [−1, 1]); or with another power of two, by which stored ones are multiplied.
+glint_status shape_end(shape *s, glint_scene *scene, glint_error *error);
+glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glint_error *error);
+
+// A camera at `eye` that looks at `target`; yfov in radians, or 0: orthographic with `ymag`, half
+// the height of what it sees, in metres.
+glint_camera shape_camera(const double eye[3], const double target[3], double yfov, double ymag);
+
+#endif

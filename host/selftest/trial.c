@@ -1,0 +1,320 @@
+// What the cases of the self-test share. See trial.h.
+#include "selftest/trial.h"
+
+#include "base/memory.h"
+#include "selftest/shapes.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- Measures ----------------------------------------------------------------------------------
+
+static glint_measure *add_measure(trial *t, const char *what, const char *unit, double bound)
+{
+    glint_measure *m = &t->result->measures[t->result->measure_count++];
+    *m = (glint_measure){.what = what, .unit = unit, .bound = bound};
+    return m;
+}
+
+glint_measure *trial_error(trial *t, const char *what, const char *unit, double bound)
+{
+    return add_measure(t, what, unit, bound);
+}
+
+glint_measure *trial_events(trial *t, const char *what, double bound)
+{
+    return add_measure(t, what, "", bound);
+}
+
+glint_measure *trial_share(trial *t, const char *what, double bound)
+{
+    glint_measure *m = add_measure(t, what, "", bound);
+    m->is_share = true;
+    return m;
+}
+
+// The units in the last place of `precision` between two values.
+double trial_ulps(const trial *t, double got, double expected)
+{
+    int exponent;
+    frexp(fmax(fabs(expected), DBL_MIN), &exponent);
+    const bool is_double = t->options->precision == GLINT_PRECISION_DOUBLE;
+    const int least = is_double ? -1074 : -149;
+    const int unit = exponent - (is_double ? 53 : 24);
+    return (got - expected) / ldexp(1, unit > least ? unit : least);
+}
+
+// True where `error` is the worst so far.
+static bool takes_lead(glint_measure *m, double error)
+{
+    m->judged++;
+    // Written so that NaN leads, once.
+    if (isnan(m->measured) || error <= m->measured) {
+        return false;
+    }
+    m->measured = error;
+    return true;
+}
+
+void measure_error(glint_measure *m, double error, const char *format, ...)
+{
+    if (takes_lead(m, error)) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(m->worst, sizeof m->worst, format, arguments);
+        va_end(arguments);
+    }
+}
+
+static void append(glint_measure *m, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void append(glint_measure *m, const char *format, ...)
+{
+    const size_t used = strlen(m->worst);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(m->worst + used, sizeof m->worst - used, format, arguments);
+    va_end(arguments);
+}
+
+void measure_value(glint_measure *m, const trial *t, double got, double expected, double scale,
+                   const char *format, ...)
+{
+    if (takes_lead(m, got == expected ? 0 : fabs(got - expected) / scale)) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(m->worst, sizeof m->worst, format, arguments);
+        va_end(arguments);
+        append(m, ": expected %.9g, got %.9g (%+.3g ulp)", expected, got,
+               trial_ulps(t, got, expected));
+    }
+}
+
+void measure_vector(glint_measure *m, const trial *t, const double got[3], const double expected[3],
+                    double scale, const char *format, ...)
+{
+    double squares = 0;
+    int largest = 0;
+    for (int k = 0; k < 3; k++) {
+        squares += (got[k] - expected[k]) * (got[k] - expected[k]);
+        largest = fabs(got[k] - expected[k]) > fabs(got[largest] - expected[largest]) ? k : largest;
+    }
+    if (takes_lead(m, sqrt(squares) / scale)) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(m->worst, sizeof m->worst, format, arguments);
+        va_end(arguments);
+        append(m, ": expected (%.9g, %.9g, %.9g), got (%.9g, %.9g, %.9g) (%c by %+.3g ulp)",
+               expected[0], expected[1], expected[2], got[0], got[1], got[2], "xyz"[largest],
+               trial_ulps(t, got[largest], expected[largest]));
+    }
+}
+
+void measure_event(glint_measure *m, bool happened, const char *format, ...)
+{
+    m->judged++;
+    if (happened && m->measured++ == 0) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(m->worst, sizeof m->worst, format, arguments);
+        va_end(arguments);
+    }
+}
+
+// ---- Numbers -----------------------------------------------------------------------------------
+
+double trial_random(trial *t, double low, double high)
+{
+    return low + (high - low) * glint_random_number(&t->random);
+}
+
+double trial_rounded(const trial *t, double value)
+{
+    return t->options->precision == GLINT_PRECISION_DOUBLE ? value : (double)(float)value;
+}
+
+// ---- Environments ------------------------------------------------------------------------------
+
+glint_status trial_linear_environment(int edge, glint_environment *environment, glint_error *error)
+{
+    *environment = (glint_environment){0};
+    glint_cube *cube = &environment->radiance;
+    glint_status status = glint_cube_create(edge, cube, error);
+    for (int texel = 0; status == GLINT_OK && texel < GLINT_CUBE_FACES * edge * edge; texel++) {
+        const int face = texel / (edge * edge), j = texel / edge % edge, i = texel % edge;
+        const glint_vec3 d = glint_vec3_normalize(
+            glint_cube_direction(face, (2.0 * i + 1) / edge - 1, (2.0 * j + 1) / edge - 1));
+        float *rgb = glint_cube_texel(cube, face, i, j);
+        rgb[0] = (float)(0.5 + 0.5 * d.x);
+        rgb[1] = (float)(0.5 + 0.5 * d.y);
+        rgb[2] = (float)(0.5 + 0.5 * d.z);
+    }
+    if (status == GLINT_OK) {
+        glint_cube_fill_border(cube);
+    }
+    return status;
+}
+
+glint_status trial_uniform_environment(float radiance, glint_environment *environment,
+                                       glint_error *error)
+{
+    *environment = (glint_environment){0};
+    glint_cube *cube = &environment->radiance;
+    glint_status status = glint_cube_create(4, cube, error);
+    for (size_t i = 0; status == GLINT_OK && i < glint_cube_size(cube); i++) {
+        cube->texels[i] = radiance;
+    }
+    return status;
+}
+
+// ---- Probes ------------------------------------------------------------------------------------
+
+static glint_status make_probe(const trial *t, const glint_scene *scene,
+                               const glint_environment *environment, glint_probe **probe)
+{
+    glint_settings settings = trial_settings(t);
+    settings.all_features = true;
+    settings.texels = GLINT_TEXELS_FLOAT;
+    const glint_renderer_inputs inputs = {
+        .device = t->options->device,
+        .scene = scene,
+        .environment = environment,
+        .settings = &settings,
+        .kernel_dir = t->options->kernel_dir,
+    };
+    glint_status status = glint_probe_create(&inputs, probe, t->error);
+    if (status == GLINT_OK) {
+        t->result->width = glint_probe_plan(*probe)->kernel_width;
+    }
+    return status;
+}
+
+glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe **probe)
+{
+    glint_environment environment;
+    *probe = NULL;
+    glint_status status = trial_linear_environment(16, &environment, t->error);
+    if (status == GLINT_OK) {
+        status = make_probe(t, scene, &environment, probe);
+    }
+    glint_environment_free(&environment);
+    return status;
+}
+
+glint_status trial_probe_environment(const trial *t, const glint_environment *environment,
+                                     glint_probe **probe)
+{
+    static const double corners[3][3] = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}};
+    glint_scene scene;
+    *probe = NULL;
+    shape s = shape_begin();
+    shape_add(&s, corners, NULL, MATERIAL_TINTED);
+    glint_status status = shape_end(&s, &scene, t->error);
+    if (status == GLINT_OK) {
+        status = make_probe(t, &scene, environment, probe);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+glint_status trial_functions(const trial *t, glint_probe **probe)
+{
+    glint_environment environment;
+    *probe = NULL;
+    glint_status status = trial_linear_environment(16, &environment, t->error);
+    if (status == GLINT_OK) {
+        status = trial_probe_environment(t, &environment, probe);
+    }
+    glint_environment_free(&environment);
+    return status;
+}
+
+glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part, const double (*in)[4],
+                        double (*out)[4], size_t count)
+{
+    return glint_probe_call(probe, part, NULL, &in[0][0], &out[0][0], count, t->error);
+}
+
+glint_status trial_trace(trial *t, glint_probe *probe, const glint_probe_ray *rays,
+                         glint_probe_hit *hits, size_t count)
+{
+    return glint_probe_call(probe, GLINT_PROBE_TRACE, NULL, rays->origin, &hits->distance, count,
+                            t->error);
+}
+
+glint_status trial_bounce(trial *t, glint_probe *probe, const glint_probe_ray *rays,
+                          glint_probe_bounce *bounces, size_t count)
+{
+    return glint_probe_call(probe, GLINT_PROBE_BOUNCE_RAYS, NULL, rays->origin,
+                            &bounces->hit.distance, count, t->error);
+}
+
+// ---- Frames ------------------------------------------------------------------------------------
+
+glint_settings trial_settings(const trial *t)
+{
+    glint_settings settings = glint_settings_default;
+    settings.width = 64;
+    settings.height = 48;
+    settings.min_weight = 0;
+    settings.precision = t->options->precision;
+    settings.kernel_width = t->options->width;
+    return settings;
+}
+
+static glint_status read_picture(glint_renderer *renderer, const glint_image *image,
+                                 trial_picture *picture, glint_error *error)
+{
+    picture->width = image->width;
+    picture->height = image->height;
+    picture->plan = *glint_renderer_plan(renderer);
+    if (picture->plan.precision == GLINT_PRECISION_DOUBLE) {
+        return glint_renderer_exact_pixels(renderer, &picture->values, error);
+    }
+    const size_t count = (size_t)image->width * (size_t)image->height * 4;
+    picture->values = glint_allocate_unset(count, sizeof *picture->values);
+    if (picture->values == NULL) {
+        return glint_fail_memory(error, "a picture");
+    }
+    for (size_t i = 0; i < count; i++) {
+        picture->values[i] = (double)image->pixels[i];
+    }
+    return GLINT_OK;
+}
+
+glint_status trial_frame(trial *t, const glint_scene *scene, const glint_environment *environment,
+                         const glint_camera *camera, const glint_settings *settings,
+                         trial_picture *picture)
+{
+    *picture = (trial_picture){0};
+    const glint_renderer_inputs inputs = {
+        .device = t->options->device,
+        .scene = scene,
+        .environment = environment,
+        .settings = settings,
+        .kernel_dir = t->options->kernel_dir,
+    };
+    glint_renderer *renderer = NULL;
+    glint_image image = {0};
+    glint_status status = glint_renderer_create(&inputs, &renderer, t->error);
+    if (status == GLINT_OK) {
+        status = glint_renderer_frame(renderer, camera, NULL, &image, &picture->report, t->error);
+    }
+    if (status == GLINT_OK) {
+        status = read_picture(renderer, &image, picture, t->error);
+        t->result->width = picture->plan.kernel_width;
+    }
+    glint_image_free(&image);
+    glint_renderer_free(renderer);
+    return status;
+}
+
+void trial_picture_free(trial_picture *picture)
+{
+    free(picture->values);
+    *picture = (trial_picture){0};
+}

@@ -1,0 +1,107 @@
+// A case of the self-test as it runs at one width and precision: what its code needs.
+#ifndef GLINT_SELFTEST_TRIAL_H
+#define GLINT_SELFTEST_TRIAL_H
+
+#include "base/random.h"
+#include "image/image.h"
+#include "render/frame.h"
+#include "render/probe.h"
+#include "selftest/selftest.h"
+
+typedef struct trial {
+    const glint_selftest_options *options;
+    double u;            // the largest relative rounding error: 2⁻²⁴ or 2⁻⁵³
+    glint_random random; // begins with a seed of the case's own
+    glint_selftest_result *result;
+    glint_error *error;
+} trial;
+
+typedef glint_status trial_body(trial *t);
+
+typedef struct trial_case {
+    const char *name, *summary;
+    trial_body *run;
+} trial_case;
+
+// The cases of each file, ended by a name that is NULL.
+extern const trial_case hit_cases[], scale_cases[], spawn_cases[], normal_cases[],
+    refraction_cases[], solid_cases[], environment_cases[], path_cases[], image_cases[];
+
+// ---- Measures ----------------------------------------------------------------------------------
+// A new measure of the trial's result. Texts are static.
+
+// The largest error, in `unit`.
+glint_measure *trial_error(trial *t, const char *what, const char *unit, double bound);
+// How many events there were.
+glint_measure *trial_events(trial *t, const char *what, double bound);
+// Which share of what was judged they are.
+glint_measure *trial_share(trial *t, const char *what, double bound);
+
+// An error; NaN is the largest of all. The text says which value it is, if it is the worst so far.
+void measure_error(glint_measure *m, double error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// |got − expected|/scale, with both values and their distance in units in the last place.
+void measure_value(glint_measure *m, const trial *t, double got, double expected, double scale,
+                   const char *format, ...) __attribute__((format(printf, 6, 7)));
+
+// The same of a vector: the length of the difference.
+void measure_vector(glint_measure *m, const trial *t, const double got[3], const double expected[3],
+                    double scale, const char *format, ...) __attribute__((format(printf, 6, 7)));
+
+// Judges one thing: whether it is the event that should not be. The first one is described.
+void measure_event(glint_measure *m, bool happened, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// Units in the last place between two values, in the trial's precision.
+double trial_ulps(const trial *t, double got, double expected);
+
+// ---- Numbers -----------------------------------------------------------------------------------
+
+double trial_random(trial *t, double low, double high);
+// As the device gets it: rounded to float in single precision.
+double trial_rounded(const trial *t, double value);
+
+// ---- The renderer ------------------------------------------------------------------------------
+
+// Probes of a scene, compiled with all features, so that most cases share their kernels, with
+// depth auto and under E(d) = ½ + ½d. (Fresnel's term is there if the scene has need of it, so that
+// a scene of white mirrors alone would be compiled once more.)
+glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe **probe);
+// Of a scene that no one looks at, under another environment.
+glint_status trial_probe_environment(const trial *t, const glint_environment *environment,
+                                     glint_probe **probe);
+// The same of a scene that no one looks at, to call functions of numbers alone.
+glint_status trial_functions(const trial *t, glint_probe **probe);
+
+// Calls a part on `count` elements of four numbers in and out, of double[count][4].
+glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part, const double (*in)[4],
+                        double (*out)[4], size_t count);
+glint_status trial_trace(trial *t, glint_probe *probe, const glint_probe_ray *rays,
+                         glint_probe_hit *hits, size_t count);
+glint_status trial_bounce(trial *t, glint_probe *probe, const glint_probe_ray *rays,
+                          glint_probe_bounce *bounces, size_t count);
+
+// Colours for tests: E(d) = ½ + ½d, which bilinear look-ups give back within 2/edge²; or the same
+// everywhere.
+glint_status trial_linear_environment(int edge, glint_environment *environment, glint_error *error);
+glint_status trial_uniform_environment(float radiance, glint_environment *environment,
+                                       glint_error *error);
+
+// A frame as the device computed it.
+typedef struct trial_picture {
+    int width, height;
+    double *values; // [height][width][4], owned
+    glint_frame_report report;
+    glint_plan plan;
+} trial_picture;
+
+// Settings of frames at the trial's width and precision: 64 × 48 pixels, min_weight 0.
+glint_settings trial_settings(const trial *t);
+
+glint_status trial_frame(trial *t, const glint_scene *scene, const glint_environment *environment,
+                         const glint_camera *camera, const glint_settings *settings,
+                         trial_picture *picture);
+void trial_picture_free(trial_picture *picture);
+
+#endif
