@@ -150,6 +150,78 @@ static void float_exr_is_exact_and_every_compression_reads_back(void **state)
     glint_image_free(&wrote);
 }
 
+// Two layers for a ramp: values that half has not, and others.
+static void make_layers(float values[2][64 * 16], glint_channel channels[2])
+{
+    static const char *const names[] = {"triangle.index", "depth.surfaces"};
+    for (int c = 0; c < 2; c++) {
+        channels[c] = (glint_channel){names[c], values[c]};
+        for (int p = 0; p < 64 * 16; p++) {
+            values[c][p] = c == 0 ? (float)((1 << 24) - p) : (float)(p % 7) - 1.0f;
+        }
+    }
+}
+
+// An EXR without compression ends with its rows, each of two whole numbers and its channels in the
+// order of their names' bytes, one after the other.
+static const unsigned char *find_exr_row(const unsigned char *bytes, size_t length, int row,
+                                         size_t row_bytes)
+{
+    return bytes + length - (size_t)(16 - row) * (8 + row_bytes) + 8;
+}
+
+static void further_channels_are_floats_behind_a_picture_of_half(void **state)
+{
+    (void)state;
+    static float values[2][64 * 16];
+    glint_channel channels[2];
+    make_layers(values, channels);
+    glint_image wrote = make_ramp(4);
+    const glint_write_options options = {
+        .compression = "none", .channels = channels, .channel_count = 2};
+    assert_int_equal(glint_image_write(scratch_path("a.exr"), &wrote, &options, NULL), GLINT_OK);
+    size_t length;
+    unsigned char *bytes = scratch_read("a.exr", &length);
+    assert_non_null(bytes);
+    for (int row = 0; row < 16; row++) {
+        // A, B, G and R of half, then depth and triangle.
+        const unsigned char *begin = find_exr_row(bytes, length, row, 64 * (4 * 2 + 2 * 4));
+        assert_memory_equal(begin + 64 * 8, values[1] + 64 * row, 64 * 4);
+        assert_memory_equal(begin + 64 * 12, values[0] + 64 * row, 64 * 4);
+    }
+    free(bytes);
+    glint_image_free(&wrote);
+}
+
+static void a_reader_of_the_picture_does_not_see_further_channels(void **state)
+{
+    (void)state;
+    // Not DWA, whose loss depends on what else there is.
+    static const char *const compressions[] = {"rle", "zip", "piz", "pxr24", "b44"};
+    static float values[2][64 * 16];
+    glint_channel channels[2];
+    make_layers(values, channels);
+    for (int k = 0; k < 5; k++) {
+        for (int in_image = 1; in_image <= 4; in_image++) {
+            glint_image wrote = make_ramp(in_image);
+            glint_write_options options = {.exr_float = k % 2 == 0, .compression = compressions[k]};
+            assert_int_equal(glint_image_write(scratch_path("a.exr"), &wrote, &options, NULL),
+                             GLINT_OK);
+            options.channels = channels;
+            options.channel_count = 2;
+            assert_int_equal(glint_image_write(scratch_path("b.exr"), &wrote, &options, NULL),
+                             GLINT_OK);
+            glint_image plain = read_image("a.exr", NULL), layered = read_image("b.exr", NULL);
+            assert_int_equal(layered.channels, in_image);
+            assert_memory_equal(plain.pixels, layered.pixels,
+                                64 * 16 * (size_t)in_image * sizeof(float));
+            glint_image_free(&wrote);
+            glint_image_free(&plain);
+            glint_image_free(&layered);
+        }
+    }
+}
+
 static void jpeg_is_close_and_over_black(void **state)
 {
     (void)state;
@@ -445,6 +517,8 @@ int main(void)
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, scratch_setup, scratch_teardown)
         IN_FOLDER(what_is_written_is_read_again),
         IN_FOLDER(float_exr_is_exact_and_every_compression_reads_back),
+        IN_FOLDER(further_channels_are_floats_behind_a_picture_of_half),
+        IN_FOLDER(a_reader_of_the_picture_does_not_see_further_channels),
         IN_FOLDER(jpeg_is_close_and_over_black),
         IN_FOLDER(jpeg_orientation_is_applied),
         IN_FOLDER(values_that_half_cannot_hold_are_clamped),

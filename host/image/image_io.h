@@ -6,6 +6,7 @@
 #include "image/image.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -49,6 +50,13 @@ typedef struct glint_metadata {
     float matrix[16];
 } glint_metadata;
 
+// A further channel of an EXR, of 32-bit floats whatever the picture's are. (Not UINT: readers
+// disagree on it. OpenEXR turns 5 into 5.0, OpenImageIO into 5/(2³² − 1).)
+typedef struct glint_channel {
+    const char *name;    // "depth.surfaces"; none of the picture's R, G, B, A and Y
+    const float *values; // [height][width], borrowed
+} glint_channel;
+
 // All-zero means the defaults.
 typedef struct glint_write_options {
     bool exr_float;          // EXR: 32-bit float channels instead of half
@@ -58,7 +66,9 @@ typedef struct glint_write_options {
     float exposure;          // stops, applied to PNG, JPEG and TIFF only; EXR and HDR stay linear
     const glint_metadata *metadata; // EXR: typed; PNG, JPEG and TIFF: as text, without matrices
     size_t metadata_count;
-    glint_envmap envmap; // EXR: written as the standard attribute
+    glint_envmap envmap;           // EXR: written as the standard attribute
+    const glint_channel *channels; // EXR: written after the picture's; other formats leave them out
+    size_t channel_count;
 } glint_write_options;
 
 // True if the path's extension is one that can be written: exr hdr png jpg jpeg tif tiff.

@@ -321,8 +321,33 @@ void describe_codes(ImageSpec &spec, Format format, const glint_write_options &o
 
 struct Encoded {
     ImageSpec spec;
-    std::vector<unsigned char> bytes; // as the file's type
+    std::vector<unsigned char> bytes; // as the file's type, or channel by channel as theirs
 };
+
+// Puts the further channels behind the picture's, pixel by pixel.
+void add_channels(const glint_write_options &options, Encoded &made)
+{
+    ImageSpec &spec = made.spec;
+    const std::size_t picture_bytes = spec.pixel_bytes();
+    spec.channelformats.assign(std::size_t(spec.nchannels), spec.format);
+    for (std::size_t i = 0; i < options.channel_count; i++) {
+        spec.channelnames.emplace_back(options.channels[i].name);
+        spec.channelformats.emplace_back(TypeDesc::FLOAT);
+    }
+    spec.nchannels += int(options.channel_count);
+    const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
+    std::vector<unsigned char> all(pixels * spec.pixel_bytes(true));
+    unsigned char *to = all.data();
+    for (std::size_t p = 0; p < pixels; p++) {
+        std::memcpy(to, made.bytes.data() + p * picture_bytes, picture_bytes);
+        to += picture_bytes;
+        for (std::size_t i = 0; i < options.channel_count; i++) {
+            std::memcpy(to, options.channels[i].values + p, sizeof(float));
+            to += sizeof(float);
+        }
+    }
+    made.bytes.swap(all);
+}
 
 Encoded prepare(const glint_image &image, Format format, const glint_write_options &options)
 {
@@ -344,6 +369,9 @@ Encoded prepare(const glint_image &image, Format format, const glint_write_optio
             std::memcpy(made.bytes.data(), image.pixels, values * sizeof(float));
         } else {
             to_halves(image.pixels, reinterpret_cast<half *>(made.bytes.data()), values);
+        }
+        if (options.channel_count > 0) {
+            add_channels(options, made);
         }
     } else if (format == Format::Hdr) {
         fill_rgbe(image, made.bytes);
@@ -372,8 +400,11 @@ glint_status encode(const char *path, const char *plugin, const Encoded &made,
         return glint_fail(error, GLINT_OUTPUT_FAILED,
                           "%s: OpenImageIO was built without this format (choose another)", path);
     }
+    // An unknown type says that each channel comes as its own.
+    const TypeDesc type =
+        made.spec.channelformats.empty() ? made.spec.format : TypeDesc(TypeDesc::UNKNOWN);
     if (!output->set_ioproxy(&file) || !output->open(path, made.spec) ||
-        !output->write_image(made.spec.format, made.bytes.data()) || !output->close()) {
+        !output->write_image(type, made.bytes.data()) || !output->close()) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded: %s (try .exr)",
                           path, cause_of(*output).c_str());
     }
