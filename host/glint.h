@@ -21,6 +21,7 @@
 #include "image/image.h"
 #include "image/image_io.h"
 #include "render/frame.h"
+#include "render/layers.h"
 #include "render/plan.h"
 #include "scene/camera.h"
 #include "scene/scene.h"

@@ -23,7 +23,6 @@ typedef int pixels;
 
 #if GLINT_SPLIT
 
-#define TILE_PIXELS (TILE_GROUPS * GLINT_WIDTH)
 // Kinds of branches: six for the ways they run, and those that are looked up without being traced.
 #define BRANCH_KINDS 7
 #define LOOKED_UP 6

@@ -138,6 +138,19 @@ typedef struct glint_frame_record {
     int unused;
 } glint_frame_record;
 
+// ---- Layers ------------------------------------------------------------------------------------
+// With GLINT_DIAGNOSTICS: what became of a pixel's paths, [height][width]. The first three are of
+// all its samples, the others of the one in the middle: of k × k, that in column and row k/2,
+// rounded down: the nearest to the pixel's centre, for even k one of four.
+typedef struct glint_layers_record {
+    int surfaces;          // that the longest path met
+    int total_reflections; // their sum
+    float truncated;       // sum of the weights that took the environment without being traced
+    int triangle;          // number in the scene of what the primary ray met, −1: nothing
+    int material;          // that triangle's, −1: none
+    int face;              // of the cube map, in which the heaviest look-up fell, −1: none
+} glint_layers_record;
+
 // ---- Counters ----------------------------------------------------------------------------------
 // Each counter is 64 bits in two 32-bit words (low, high). To keep work-items from waiting for each
 // other there are GLINT_COUNTER_SLOTS sets; the host adds them up. Whole numbers, so that the sum

@@ -87,16 +87,23 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
 {
     real3 d = primary_directions(frame, first->x, first->y);
     bool shows_mirrors = false;
+    real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
+#if GLINT_DIAGNOSTICS
+    const pixels pixels = pixels_of_group(group);
+#endif
 #if GLINT_GEOMETRY
     mask met = first->places >= (lane_int)0; // pixels outside the image meet nothing: clear_tile
     shows_mirrors = any_lane(met);
-    real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
     if (shows_mirrors) {
         const triangle t = load_triangles(scene, first->places, met);
         real cosine;
         d = select3(met, mirrored(image, &t, first, d, met, &cosine), d);
         weights = mirror_weights(scene, frame, &t, cosine, met, tally);
         tally->deepest = SELECT(met, int_of(1), tally->deepest);
+#if GLINT_DIAGNOSTICS
+        note_surfaces(tally->layers, &pixels, met, int_of(1));
+        note_truncation(tally->layers, &pixels, met, weights);
+#endif
     }
 #if GLINT_TINT
     to_pixels(weights.x, weights.y, weights.z, real_of(0), all->weights + group * PIXEL_VALUES);
@@ -105,6 +112,9 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
     const cube_map *map = &scene->environment;
     cube_point *point = &all->points[group];
     *point = find_on_cube(turn_into_environment(frame, d), int_of(map->edge), int_of(0));
+#if GLINT_DIAGNOSTICS
+    note_faces(tally->layers, &pixels, mask_all(), weights, face_of(map, point));
+#endif
     // Pixels that show nothing else share the environment's texels with their neighbours.
     for (int lane = 0; lane < GLINT_WIDTH && shows_mirrors; lane++) {
         prefetch_texels(map, map->edge, (size_t)LANE_INT(point->first, lane));

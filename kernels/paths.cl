@@ -1,10 +1,13 @@
 // Paths through the scene, from the primary ray to the environment.
 
-// What one work-item counts; added to the counters at its end.
+// What one work-item counts, which is added to the counters at its end, and what it notes.
 typedef struct tally {
     ulong counts[GLINT_COUNTERS];
     lanes_int deepest; // surfaces that a path has met
     real weight_by_depth, weight_by_min_weight, weight_by_stack;
+#if GLINT_DIAGNOSTICS
+    layers *layers; // of the tile's pixels
+#endif
 } tally;
 
 static inline tally no_tally(void)
@@ -269,6 +272,9 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     count_transmissions(&s, transmits, tally);
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);
+#if GLINT_DIAGNOSTICS
+    note_total_reflections(tally->layers, &all->pixels[slot], reflects & out.total_reflection);
+#endif
 #if GLINT_SPLIT
     split_path(all, slot, &reflected, &transmitted, reflects, transmits, tally);
     return mask_none();
@@ -295,6 +301,19 @@ static inline void begin_paths(const glint_frame_record *frame, primary *first, 
 #endif
 }
 
+#if GLINT_DIAGNOSTICS
+// Notes what look-ups of the rays in `escaped` tell of their pixels.
+static inline void note_look_ups(const glint_frame_record *frame, const cube_map *map,
+                                 const path *ray, mask escaped, const pixels *pixels,
+                                 layers *layers)
+{
+    const real3 direction = turn_into_environment(frame, ray->direction);
+    const cube_point point = find_on_cube(direction, int_of(map->edge), int_of(0));
+    note_faces(layers, pixels, escaped, ray->weight, face_of(map, &point));
+    note_truncation(layers, pixels, escaped & (ray->looked_up != (lane_int)0), ray->weight);
+}
+#endif
+
 // Takes the paths in a slot on from what they have met: those that escaped are looked up, the
 // others go on from their surfaces. `first` says what primary rays are, and is NULL for others.
 static inline void advance_paths(const scene_buffers *scene, const glint_frame_record *frame,
@@ -308,6 +327,9 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
         const path *ray = &all->ray[slot];
         look_up_later(later, &scene->environment, ray, turn_into_environment(frame, ray->direction),
                       escaped, &all->pixels[slot]);
+#if GLINT_DIAGNOSTICS
+        note_look_ups(frame, &scene->environment, ray, escaped, &all->pixels[slot], tally->layers);
+#endif
     }
     active = mask_none();
 #if GLINT_GEOMETRY
@@ -318,6 +340,9 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
         }
         lanes_int depth = all->ray[slot].met + (lane_int)1;
         tally->deepest = SELECT(met & (depth > tally->deepest), depth, tally->deepest);
+#if GLINT_DIAGNOSTICS
+        note_surfaces(tally->layers, &all->pixels[slot], met, depth);
+#endif
         active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);
     }
 #endif

@@ -23,6 +23,7 @@
 #error "HITS needs GEOMETRY"
 #endif
 
+
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
 // Paths gather more than what the environment's look-ups bring.
 #define GATHERS                                                                                    \
@@ -48,6 +49,7 @@
 #include "lookups.cl"
 #include "stream.cl"
 #include "traverse_together.cl"
+#include "layers.cl"
 #include "paths.cl"
 #include "mirrors.cl"
 
@@ -249,6 +251,10 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #if GLINT_GEOMETRY
         trace_tile(&image, &t, scene);
 #endif
+#if GLINT_DIAGNOSTICS
+        tally->layers->is_middle = sample == k / 2 * (k + 1);
+        note_triangles(tally->layers, scene, &t);
+#endif
 #if GLINT_HITS
         describe_hits(scene, frame, &image, &t, sums);
 #elif ONE_LOOKUP
@@ -262,21 +268,36 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #endif
 }
 
+// What is written, see render_tiles.
+typedef struct outputs {
+    global scalar *pixels;
+    global uint *counters;
+    global glint_layers_record *layers;
+} outputs;
+
 // Renders the tile whose first pixel is in the given column and row.
 static inline void render_tile(const scene_buffers *scene, const glint_frame_record *frame,
-                               int column, int row, global scalar *pixels, global uint *counters)
+                               int column, int row, const outputs *out)
 {
     tally tally = no_tally();
+#if GLINT_DIAGNOSTICS
+    layers layers;
+    begin_layers(&layers);
+    tally.layers = &layers;
+#endif
     gathered sum;
     scalar sums[TILE_GROUPS * PIXEL_VALUES];
     sample_tile(scene, frame, column, row, sums, &sum, &tally);
     // Before the pixels are stored: an atomic operation waits for all stores before it.
-    report(&tally, counters);
+    report(&tally, out->counters);
+#if GLINT_DIAGNOSTICS
+    store_layers(&layers, frame, column, row, out->layers);
+#endif
     const int k = SAMPLES_PER_AXIS(frame);
     scalar share = R(1.0) / (scalar)(k * k);
     for (int g = 0; g < TILE_GROUPS; g++) {
         add_gathered(&sum, g, sums + PIXEL_VALUES * g);
-        store_group(pixels, frame, column + g % TILE_COLUMNS * PACKET_WIDTH,
+        store_group(out->pixels, frame, column + g % TILE_COLUMNS * PACKET_WIDTH,
                     row + g / TILE_COLUMNS * PACKET_HEIGHT, sums + PIXEL_VALUES * g, share);
     }
 }
@@ -293,15 +314,16 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
 }
 
 // Renders one tile a work-item.
-//  pixels: [height][width][4] (R, G, B premultiplied, alpha). counters: see layout.h. The
-// other buffers are described in layout.h too; those that no compiled feature needs may be of any
-// size.
+//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width].
+// counters: see layout.h. The other buffers are described in layout.h too; those that no compiled
+// feature needs may be of any size.
 kernel void render_tiles(global const float *nodes, global const float *clusters,
                          global const float *normals, global const int *numbers,
                          global const glint_material_record *materials,
                          global const glint_medium_record *media, global const void *environment,
                          global const float *irradiance, global scalar *pixels,
-                         global uint *counters, const glint_frame_record frame)
+                         global uint *counters, global glint_layers_record *layers,
+                         const glint_frame_record frame)
 {
     const scene_buffers scene = {nodes,
                                  clusters,
@@ -316,5 +338,6 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
     if (column >= frame.width || row >= frame.height) {
         return;
     }
-    render_tile(&scene, &frame, column, row, pixels, counters);
+    const outputs out = {pixels, counters, layers};
+    render_tile(&scene, &frame, column, row, &out);
 }

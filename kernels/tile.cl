@@ -10,6 +10,7 @@
 #define TILE_COLUMNS GLINT_TILE_SIDE(GLINT_TILES)
 #define TILE_ROWS GLINT_TILE_SIDE(GLINT_TILES)
 #define TILE_GROUPS (TILE_COLUMNS * TILE_ROWS)
+#define TILE_PIXELS (TILE_GROUPS * GLINT_WIDTH)
 
 // The primary rays of a frame in image coordinates.
 typedef struct image_space {

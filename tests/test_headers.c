@@ -27,6 +27,8 @@ static void zeroed_objects_can_be_freed(void **state)
         glint_scene_free(&scene);
         glint_topology topology = {0};
         glint_topology_free(&topology);
+        glint_layers layers = {0};
+        glint_layers_free(&layers);
         glint_bvh bvh = {0};
         glint_bvh_free(&bvh);
     }

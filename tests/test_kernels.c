@@ -134,13 +134,15 @@ static void at_every_width_and_precision(void (*check)(probe *p))
 static void check_layout(probe *p)
 {
     run(p, "probe_layout", NULL);
-    const size_t expected[2][4] = {
+    const size_t expected[3][4] = {
         {sizeof(glint_material_record), offsetof(glint_material_record, medium),
          sizeof(glint_medium_record), offsetof(glint_medium_record, ior)},
         {sizeof(glint_split_vector), sizeof(glint_frame_record),
          offsetof(glint_frame_record, min_weight), offsetof(glint_frame_record, first_band)},
+        {sizeof(glint_layers_record), offsetof(glint_layers_record, truncated),
+         offsetof(glint_layers_record, triangle), offsetof(glint_layers_record, face)},
     };
-    for (size_t row = 0; row < 2; row++) {
+    for (size_t row = 0; row < 3; row++) {
         for (size_t k = 0; k < 4; k++) {
             assert_true(p->out[row][k] == (double)expected[row][k]);
         }

@@ -301,8 +301,8 @@ static void settings_out_of_range_are_usage_errors(void **state)
     (void)state;
     test_scene s;
     make_scene(&s, &white_paint, 1);
-    glint_settings bad[8];
-    for (int i = 0; i < 8; i++) {
+    glint_settings bad[9];
+    for (int i = 0; i < 9; i++) {
         bad[i] = glint_settings_default;
     }
     bad[0].width = 0;
@@ -313,12 +313,30 @@ static void settings_out_of_range_are_usage_errors(void **state)
     bad[5].min_weight = 1.5;
     bad[6].env_rotate = INFINITY;
     bad[7].kernel_width = 4;
-    for (int i = 0; i < 8; i++) {
+    bad[8].aovs = GLINT_AOV_ALL + 1;
+    for (int i = 0; i < 9; i++) {
         glint_plan plan;
         glint_error error = {0};
         assert_int_equal(plan_for(&s, &wide_cpu, &bad[i], &plan, &error), GLINT_USAGE);
         assert_true(strncmp(error.message, "--", 2) == 0);
     }
+}
+
+static void layers_are_compiled_where_they_are_asked_for(void **state)
+{
+    (void)state;
+    test_scene s;
+    make_scene(&s, &white_paint, 1);
+    glint_settings settings = glint_settings_default;
+    glint_plan plan;
+    settings.all_features = true; // this one stays: without layers there is no room for them
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_false(plan.features[GLINT_FEATURE_DIAGNOSTICS].compiled);
+    settings.aovs = GLINT_AOV_BIT(GLINT_AOV_TIR);
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_true(plan.features[GLINT_FEATURE_DIAGNOSTICS].compiled);
+    settings.output = GLINT_OUTPUT_HITS; // has no paths that they could tell of
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_USAGE);
 }
 
 static void every_feature_is_passed_to_the_compiler_as_0_or_1(void **state)
@@ -351,6 +369,7 @@ int main(void)
         cmocka_unit_test(texels_are_half_where_that_does_no_harm),
         cmocka_unit_test(texels_are_what_is_asked_for_or_refused),
         cmocka_unit_test(settings_out_of_range_are_usage_errors),
+        cmocka_unit_test(layers_are_compiled_where_they_are_asked_for),
         cmocka_unit_test(every_feature_is_passed_to_the_compiler_as_0_or_1),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

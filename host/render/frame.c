@@ -47,6 +47,11 @@ static size_t scalar_bytes(const glint_renderer *r)
     return r->plan.precision == GLINT_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
 }
 
+static size_t layers_bytes(const glint_renderer *r)
+{
+    return r->settings.aovs != 0 ? r->pixel_count * sizeof(glint_layers_record) : 0;
+}
+
 // ---- Creation ----------------------------------------------------------------------------------
 
 static bool has_solids(const glint_scene *scene)
@@ -96,10 +101,17 @@ static glint_status set_argument(const glint_renderer *r, cl_uint index, size_t 
 
 static glint_status set_buffers(const glint_renderer *r, glint_error *error)
 {
-    const cl_mem buffers[] = {
-        r->memory.nodes,     r->memory.clusters, r->memory.normals,     r->memory.numbers,
-        r->memory.materials, r->memory.media,    r->memory.environment, r->memory.irradiance,
-        r->pixels.own,       r->counters};
+    const cl_mem buffers[] = {r->memory.nodes,
+                              r->memory.clusters,
+                              r->memory.normals,
+                              r->memory.numbers,
+                              r->memory.materials,
+                              r->memory.media,
+                              r->memory.environment,
+                              r->memory.irradiance,
+                              r->pixels.own,
+                              r->counters,
+                              r->layers};
     glint_status status = GLINT_OK;
     for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
         status = set_argument(r, i, sizeof buffers[i], &buffers[i], error);
@@ -108,7 +120,7 @@ static glint_status set_buffers(const glint_renderer *r, glint_error *error)
 }
 
 #define PIXELS_ARGUMENT 8 // see set_buffers
-#define FRAME_ARGUMENT 10
+#define FRAME_ARGUMENT 11
 
 // Where a packet is one ray, the rays of 8 × 8 pixels share a work-group; a wider packet is a
 // work-group's worth by itself.
@@ -188,6 +200,10 @@ static glint_status create_outputs(glint_renderer *r, glint_error *error)
         status =
             glint_buffer_create(r->device, "the counters", counters, NULL, &r->counters, error);
     }
+    if (status == GLINT_OK) {
+        status =
+            glint_buffer_create(r->device, "the layers", layers_bytes(r), NULL, &r->layers, error);
+    }
     return status;
 }
 
@@ -206,16 +222,17 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
     double clock = now_ms();
     glint_bvh bvh = {0};
     glint_cube irradiance = {0};
-    size_t frame_bytes = 0;
+    glint_upload_sizes sizes = {0};
     glint_status status = analyse(in, r, error);
     if (status == GLINT_OK) {
         status = glint_pixels_size(r->settings.width, r->settings.height, scalar_bytes(r),
-                                   &frame_bytes, error);
-        r->pixel_count = frame_bytes / (4 * scalar_bytes(r));
+                                   &sizes.frame, error);
+        r->pixel_count = sizes.frame / (4 * scalar_bytes(r));
+        sizes.layers = layers_bytes(r);
+        sizes.environment = r->plan.environment_bytes;
     }
     if (status == GLINT_OK) {
-        status = glint_upload_check(in->device, in->scene, r->plan.environment_bytes, frame_bytes,
-                                    error);
+        status = glint_upload_check(in->device, in->scene, &sizes, error);
     }
     r->phases.analysis = lap(&clock);
     if (status == GLINT_OK) {
@@ -300,7 +317,7 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
         .tree = glint_buffer_bytes(memory->nodes),
         .environment =
             glint_buffer_bytes(memory->environment) + glint_buffer_bytes(memory->irradiance),
-        .frame = glint_pixels_bytes(&renderer->pixels),
+        .frame = glint_pixels_bytes(&renderer->pixels) + layers_bytes(renderer),
     };
 }
 
@@ -312,6 +329,7 @@ void glint_renderer_free(glint_renderer *renderer)
     glint_scene_memory_free(&renderer->memory);
     glint_pixels_free(&renderer->pixels);
     glint_buffer_release(renderer->counters);
+    glint_buffer_release(renderer->layers);
     if (renderer->kernel != NULL) {
         clReleaseKernel(renderer->kernel);
     }
@@ -479,5 +497,29 @@ glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixe
         free(*pixels);
         *pixels = NULL;
     }
+    return status;
+}
+
+glint_status glint_renderer_layers(glint_renderer *renderer, glint_layers *layers,
+                                   glint_error *error)
+{
+    *layers = (glint_layers){0};
+    const glint_settings *settings = &renderer->settings;
+    if (settings->aovs == 0) {
+        return glint_fail(error, GLINT_USAGE, "no layers were asked for");
+    }
+    glint_layers_record *records = malloc(layers_bytes(renderer));
+    if (records == NULL) {
+        return glint_fail_memory(error, "the layers");
+    }
+    cl_int code = clEnqueueReadBuffer(renderer->device->queue, renderer->layers, CL_TRUE, 0,
+                                      layers_bytes(renderer), records, 0, NULL, NULL);
+    glint_status status =
+        code == CL_SUCCESS
+            ? glint_layers_make(records, renderer->pixel_count,
+                                settings->samples_per_axis * settings->samples_per_axis,
+                                settings->aovs, layers, error)
+            : glint_fail_opencl(error, renderer->device, "reading the layers", code);
+    free(records);
     return status;
 }

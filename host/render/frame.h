@@ -86,7 +86,7 @@ typedef struct glint_device_bytes {
     size_t scene;       // clusters of triangles, normals, materials
     size_t tree;        // nodes
     size_t environment; // with the irradiance map
-    size_t frame;       // pixels
+    size_t frame;       // pixels, and their layers
 } glint_device_bytes;
 
 glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
@@ -103,6 +103,12 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
 // precisions.
 glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixels,
                                          glint_error *error);
+
+// The layers of the last frame: those that the settings ask for. *layers need not be set; the
+// caller frees it. Errors: GLINT_USAGE where the settings ask for none, GLINT_DEVICE_FAILED;
+// *layers is then empty.
+glint_status glint_renderer_layers(glint_renderer *renderer, glint_layers *layers,
+                                   glint_error *error);
 
 // NULL is allowed.
 void glint_renderer_free(glint_renderer *renderer);

@@ -194,6 +194,8 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
     decide(plan, GLINT_FEATURE_HITS, hits, "%s", hits ? "hits were asked for" : "colour is wanted");
     bool mip = settings->filter == GLINT_FILTER_MIP && !hits;
     decide(plan, GLINT_FEATURE_MIP_LEVELS, mip, "filter %s", mip ? "mip" : "bilinear");
+    decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
+           settings->aovs != 0 ? "layers were asked for" : "no layers were asked for");
     bool turned = fmod(settings->env_rotate, 360) != 0;
     decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
 }
@@ -216,6 +218,9 @@ static glint_status check_settings(const glint_plan_inputs *in, glint_error *err
         return glint_fail(error, GLINT_USAGE,
                           "hits can be had for one sample a pixel and %u triangles at most",
                           HITS_TRIANGLES_MAX);
+    }
+    if (s->aovs > GLINT_AOV_ALL || (s->aovs != 0 && s->output == GLINT_OUTPUT_HITS)) {
+        return glint_fail(error, GLINT_USAGE, "--aov: layers that there are, and beside colours");
     }
     if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
         return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
@@ -409,13 +414,13 @@ static void choose_media(const glint_scene *scene, glint_plan *plan)
 
 // To show that unneeded features change nothing. Those that contradict the settings (a transparent
 // background) would change the picture and stay as they are; so do normals that the scene does not
-// have, whose buffer is a stand-in.
+// have and layers that were not asked for, whose buffers are stand-ins.
 static void compile_everything(glint_plan *plan)
 {
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         bool stays = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
                      i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
-                     i == GLINT_FEATURE_SMOOTH_NORMALS ||
+                     i == GLINT_FEATURE_SMOOTH_NORMALS || i == GLINT_FEATURE_DIAGNOSTICS ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

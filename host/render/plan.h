@@ -7,6 +7,7 @@
 #include "device/capabilities.h"
 #include "environment/environment.h"
 #include "kernels/features.h"
+#include "render/layers.h"
 #include "scene/scene.h"
 #include "scene/topology.h"
 
@@ -71,6 +72,7 @@ typedef struct glint_settings {
     glint_output output;
     glint_texels texels;
     glint_filter filter;
+    uint32_t aovs;     // the set of diagnostic layers wanted, see layers.h; only beside colours
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
     bool all_features; // compile everything, needed or not (to test that it changes nothing but

@@ -18,7 +18,7 @@ struct glint_renderer {
     int environment_edge, irradiance_edge;
     cl_kernel kernel; // NULL without frames
     glint_pixels pixels;
-    cl_mem counters;
+    cl_mem counters, layers;
     size_t pixel_count;
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };

@@ -14,6 +14,7 @@
 _Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
+_Static_assert(sizeof(glint_layers_record) == 24, "glint_layers_record has gaps");
 _Static_assert(sizeof(glint_frame_record) == 9 * 32 + 20 * 4, "glint_frame_record has gaps");
 
 #define MEBIBYTE 1048576.0
@@ -33,7 +34,7 @@ static glint_status check_size(const struct glint_device *device, const char *wh
 }
 
 glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
-                                size_t environment_bytes, size_t frame_bytes, glint_error *error)
+                                const glint_upload_sizes *sizes, glint_error *error)
 {
     // As many as would do if all clusters could be full.
     const size_t clusters = (scene->triangle_count + GLINT_CLUSTER_LANES - 1) / GLINT_CLUSTER_LANES;
@@ -45,8 +46,9 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
         {"the triangles", clusters * sizeof(glint_cluster)},
         {"the normals", normals * sizeof(float)},
         {"the triangles' numbers", clusters * GLINT_CLUSTER_LANES * sizeof(cl_int)},
-        {"the environment", environment_bytes},
-        {"the frame", frame_bytes},
+        {"the environment", sizes->environment},
+        {"the frame", sizes->frame},
+        {"the layers", sizes->layers},
     };
     double total = 0;
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) {

@@ -32,11 +32,16 @@ typedef struct glint_upload_inputs {
     const glint_cube *irradiance;
 } glint_upload_inputs;
 
-// Fails with GLINT_DEVICE_FAILED if one of the scene's buffers, the environment's or the frame's is
-// larger than the device allows, or all of them together than its memory: asked before the long
-// work begins. The tree is not built yet, so the least that its triangles can take is counted.
+// What takes memory beside the scene.
+typedef struct glint_upload_sizes {
+    size_t environment, frame, layers; // bytes
+} glint_upload_sizes;
+
+// Fails with GLINT_DEVICE_FAILED if one of the scene's buffers or of the others is larger than the
+// device allows, or all of them together than its memory: asked before the long work begins. The
+// tree is not built yet, so the least that its triangles can take is counted.
 glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
-                                size_t environment_bytes, size_t frame_bytes, glint_error *error);
+                                const glint_upload_sizes *sizes, glint_error *error);
 
 // Errors: GLINT_DEVICE_FAILED.
 glint_status glint_scene_upload(const glint_upload_inputs *inputs, glint_scene_memory *memory,

@@ -40,6 +40,7 @@ kernel void probe_layout(global const scalar *in, global scalar *out, global con
     glint_material_record m;
     glint_medium_record d;
     glint_frame_record f;
+    glint_layers_record l;
     if (get_global_id(0) == 0) {
         out[0] = sizeof(glint_material_record);
         out[1] = (scalar)((private char *)&m.medium - (private char *)&m);
@@ -49,6 +50,10 @@ kernel void probe_layout(global const scalar *in, global scalar *out, global con
         out[5] = sizeof(glint_frame_record);
         out[6] = (scalar)((private char *)&f.min_weight - (private char *)&f);
         out[7] = (scalar)((private char *)&f.first_band - (private char *)&f);
+        out[8] = sizeof(glint_layers_record);
+        out[9] = (scalar)((private char *)&l.truncated - (private char *)&l);
+        out[10] = (scalar)((private char *)&l.triangle - (private char *)&l);
+        out[11] = (scalar)((private char *)&l.face - (private char *)&l);
     }
 }
 

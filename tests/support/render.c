@@ -81,12 +81,16 @@ void test_render(const glint_scene *scene, const glint_environment *environment,
     } else {
         frame->exact = exact_values(&frame->image);
     }
+    if (settings->aovs != 0) {
+        require(glint_renderer_layers(renderer, &frame->layers, &error), &error);
+    }
     glint_renderer_free(renderer);
 }
 
 void test_frame_free(test_frame *frame)
 {
     glint_image_free(&frame->image);
+    glint_layers_free(&frame->layers);
     free(frame->exact);
     *frame = (test_frame){0};
 }

@@ -19,7 +19,8 @@ typedef struct test_frame {
     glint_image image;
     glint_frame_report report;
     glint_plan plan;
-    double *exact; // as the device computed it, [height][width][4]
+    double *exact;       // as the device computed it, [height][width][4]
+    glint_layers layers; // those that the settings ask for
 } test_frame;
 
 // Renders with the scene's camera of that name (NULL: the first). Fails the test on any error.

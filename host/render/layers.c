@@ -1,0 +1,74 @@
+// Diagnostic layers of a frame. See layers.h.
+#include "render/layers.h"
+
+#include "base/memory.h"
+#include "kernels/layout.h"
+
+#include <stdlib.h>
+
+// A channel's part before the dot is the layer's name, as programs show it. The part behind must
+// not be one of those that DWA takes for colour, and compresses with loss: R, G, B, Y, RY, BY.
+static const struct {
+    const char *name, *channel;
+} known[GLINT_AOV_COUNT] = {
+    [GLINT_AOV_DEPTH] = {"depth", "depth.surfaces"},
+    [GLINT_AOV_TIR] = {"tir", "tir.count"},
+    [GLINT_AOV_TRUNCATED] = {"truncated", "truncated.weight"},
+    [GLINT_AOV_TRIANGLE] = {"triangle", "triangle.index"},
+    [GLINT_AOV_MATERIAL] = {"material", "material.index"},
+    [GLINT_AOV_FACE] = {"face", "face.index"},
+};
+
+const char *glint_aov_name(glint_aov aov)
+{
+    return known[aov].name;
+}
+
+void glint_layers_free(glint_layers *layers)
+{
+    free(layers->values);
+    *layers = (glint_layers){0};
+}
+
+static float value_of(const glint_layers_record *record, glint_aov aov, int samples)
+{
+    switch (aov) {
+    case GLINT_AOV_DEPTH:
+        return (float)record->surfaces;
+    case GLINT_AOV_TIR:
+        return (float)((double)record->total_reflections / samples);
+    case GLINT_AOV_TRUNCATED:
+        return (float)((double)record->truncated / samples);
+    case GLINT_AOV_TRIANGLE:
+        return (float)record->triangle;
+    case GLINT_AOV_MATERIAL:
+        return (float)record->material;
+    case GLINT_AOV_FACE:
+        return (float)record->face;
+    case GLINT_AOV_COUNT:
+        break;
+    }
+    return 0;
+}
+
+glint_status glint_layers_make(const glint_layers_record *records, size_t pixel_count, int samples,
+                               uint32_t aovs, glint_layers *layers, glint_error *error)
+{
+    *layers = (glint_layers){0};
+    float *values = glint_allocate_unset(pixel_count, GLINT_AOV_COUNT * sizeof *values);
+    if (values == NULL) {
+        return glint_fail_memory(error, "the layers");
+    }
+    layers->values = values;
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        if ((aovs & GLINT_AOV_BIT(i)) == 0) {
+            continue;
+        }
+        for (size_t p = 0; p < pixel_count; p++) {
+            values[p] = value_of(&records[p], (glint_aov)i, samples);
+        }
+        layers->channels[layers->count++] = (glint_channel){known[i].channel, values};
+        values += pixel_count;
+    }
+    return GLINT_OK;
+}

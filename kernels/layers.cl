@@ -1,0 +1,96 @@
+// Diagnostic layers: what the paths of each of a tile's pixels do on their way (glint_layers_record
+// in layout.h). A pixel's paths note things in an order of their own, so that the layers, as the
+// picture, are the same at every width and size of tiles.
+#if GLINT_DIAGNOSTICS
+
+typedef struct layers {
+    glint_layers_record of_pixel[TILE_PIXELS];
+    scalar heaviest[TILE_PIXELS]; // weight of the look-up whose face is noted, 0: none yet
+    bool is_middle;               // the sample at hand is the one that triangle and face are of
+} layers;
+
+static inline void begin_layers(layers *l)
+{
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        glint_layers_record *record = &l->of_pixel[i];
+        record->surfaces = record->total_reflections = 0;
+        record->truncated = 0;
+        record->triangle = record->material = record->face = -1;
+        l->heaviest[i] = 0;
+    }
+}
+
+// What the primary rays of the middle samples meet.
+static inline void note_triangles(layers *l, const scene_buffers *scene, const tile *t)
+{
+    for (int i = 0; i < TILE_PIXELS && l->is_middle; i++) {
+        const lane_int place = LANE_INT(t->place[i / GLINT_WIDTH], i % GLINT_WIDTH);
+        if (place < 0) {
+            continue;
+        }
+        const size_t cluster = (size_t)place / GLINT_CLUSTER_LANES;
+        global const int *values =
+            (global const int *)(scene->clusters + cluster * GLINT_CLUSTER_VALUES);
+        l->of_pixel[i].triangle = scene->numbers[place];
+        l->of_pixel[i].material = values[GLINT_CLUSTER_MATERIAL];
+    }
+}
+
+// The rays in `met` have met a surface, each the given one of its path's.
+static inline void note_surfaces(layers *l, const pixels *pixels, mask met, lanes_int surface)
+{
+    for (uint left = mask_bits(met); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        glint_layers_record *record = &l->of_pixel[pixel_of(*pixels, lane)];
+        record->surfaces = max(record->surfaces, (int)LANE_INT(surface, lane));
+    }
+}
+
+static inline void note_total_reflections(layers *l, const pixels *pixels, mask reflected)
+{
+    for (uint left = mask_bits(reflected); left != 0; left &= left - 1) {
+        l->of_pixel[pixel_of(*pixels, lowest_bit(left))].total_reflections++;
+    }
+}
+
+// The rays in `truncated` take the environment without being traced.
+static inline void note_truncation(layers *l, const pixels *pixels, mask truncated, real3 weight)
+{
+    const real largest = largest3(weight);
+    for (uint left = mask_bits(truncated); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        l->of_pixel[pixel_of(*pixels, lane)].truncated += (float)LANE(largest, lane);
+    }
+}
+
+// The rays in `wanted` are looked up at these points of the environment. Of look-ups that weigh the
+// same the first is kept; one without weight shows nothing.
+static inline void note_faces(layers *l, const pixels *pixels, mask wanted, real3 weight,
+                              lanes_int face)
+{
+    const real largest = largest3(weight);
+    for (uint left = l->is_middle ? mask_bits(wanted) : 0; left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left), pixel = pixel_of(*pixels, lane);
+        if (LANE(largest, lane) > l->heaviest[pixel]) {
+            l->heaviest[pixel] = LANE(largest, lane);
+            l->of_pixel[pixel].face = (int)LANE_INT(face, lane);
+        }
+    }
+}
+
+// Writes those of the tile's pixels that lie inside the image.
+static inline void store_layers(const layers *l, const glint_frame_record *frame, int column,
+                                int row, global glint_layers_record *stored)
+{
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        const lanes_int columns = group_columns(column, g), rows = group_rows(row, g);
+        uint left = mask_bits(group_in_image(frame, column, row, g));
+        for (; left != 0; left &= left - 1) {
+            const int lane = lowest_bit(left);
+            const size_t before = (size_t)LANE_INT(rows, lane) * (size_t)frame->width;
+            stored[before + (size_t)LANE_INT(columns, lane)] = l->of_pixel[g * GLINT_WIDTH + lane];
+        }
+    }
+}
+
+#endif

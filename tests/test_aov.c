@@ -1,0 +1,427 @@
+// Diagnostic layers: against the oracle and against the frame's own counters, alike at every width
+// and size of tiles, and without a trace in the picture.
+#include "support/bridge.h"
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static glint_settings small_frame(int depth)
+{
+    glint_settings settings = glint_settings_default;
+    // Not multiples of the packet, so that packets hang over both edges.
+    settings.width = 61;
+    settings.height = 43;
+    settings.depth = depth;
+    settings.aovs = GLINT_AOV_ALL;
+    return settings;
+}
+
+static size_t pixel_count(const glint_settings *settings)
+{
+    return (size_t)settings->width * (size_t)settings->height;
+}
+
+static const float *layer(const test_frame *frame, glint_aov aov)
+{
+    assert_int_equal(frame->layers.count, GLINT_AOV_COUNT);
+    return frame->layers.channels[aov].values;
+}
+
+static void render_named(const char *name, const glint_settings *settings, test_frame *frame)
+{
+    glint_scene scene = {0};
+    test_scene_load(name, &scene);
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    test_render(&scene, &environment, NULL, settings, frame);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
+static void assert_same_layers(const test_frame *a, const test_frame *b, size_t pixels)
+{
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        assert_memory_equal(layer(a, (glint_aov)i), layer(b, (glint_aov)i), pixels * sizeof(float));
+    }
+}
+
+// ---- Against the oracle -------------------------------------------------------------------------
+
+// As in test_agreement.c: within this of a decision single precision may decide otherwise.
+#define FLOAT_MARGIN 1e-4
+
+typedef struct comparison {
+    const bridge *bridge;
+    const oracle_view *view;
+    const test_frame *frame;
+    size_t different, unexplained;
+} comparison;
+
+// Whether a pixel's layers are what the oracle says. Weights err as the paths do, by some hundreds
+// of roundings.
+static bool layers_agree(const comparison *c, const int pixel[2], const oracle_report *report)
+{
+    const size_t at = (size_t)pixel[1] * (size_t)c->view->width + (size_t)pixel[0];
+    const int k = c->view->samples, middle = k / 2;
+    const double position[2] = {pixel[0] + (middle + 0.5) / k, pixel[1] + (middle + 0.5) / k};
+    const oracle_ray ray = oracle_primary_ray(c->view, position);
+    const oracle_scene *scene = bridge_scene(c->bridge);
+    const oracle_hit hit = oracle_closest_hit(scene, &ray, -1);
+    const int material = hit.triangle >= 0 ? scene->triangles[hit.triangle].material : -1;
+    const double truncated = report->truncated_by_depth + report->truncated_by_weight;
+    const test_frame *f = c->frame;
+    return layer(f, GLINT_AOV_DEPTH)[at] == (float)report->deepest &&
+           layer(f, GLINT_AOV_TIR)[at] == (float)((double)report->total_reflections / (k * k)) &&
+           fabs((double)layer(f, GLINT_AOV_TRUNCATED)[at] - truncated) <= 1e-4 &&
+           layer(f, GLINT_AOV_TRIANGLE)[at] == (float)hit.triangle &&
+           layer(f, GLINT_AOV_MATERIAL)[at] == (float)material;
+}
+
+static void compare_pixel(comparison *c, const int pixel[2])
+{
+    double rgba[4];
+    oracle_report report;
+    oracle_pixel(bridge_scene(c->bridge), c->view, pixel, rgba, &report);
+    if (!layers_agree(c, pixel, &report)) {
+        c->different++;
+        c->unexplained += report.edge >= FLOAT_MARGIN && report.critical >= FLOAT_MARGIN &&
+                          report.threshold >= FLOAT_MARGIN;
+    }
+}
+
+static void compare_scene(const char *name, const glint_settings *settings)
+{
+    glint_scene scene = {0};
+    test_scene_load(name, &scene);
+    glint_environment environment;
+    bridge_direction_environment(16, &environment);
+    test_frame frame;
+    test_render(&scene, &environment, NULL, settings, &frame);
+    bridge *b = bridge_create(&scene, &environment);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    const oracle_view view = bridge_view(&camera, settings);
+    comparison c = {.bridge = b, .view = &view, .frame = &frame};
+    for (int i = 0; i < settings->width * settings->height; i++) {
+        compare_pixel(&c, (const int[]){i % settings->width, i / settings->width});
+    }
+    print_message("%-20s %zu of %zu pixels have other layers than the oracle's\n", name,
+                  c.different, pixel_count(settings));
+    assert_int_equal(c.unexplained, 0);
+    assert_true(c.different <= pixel_count(settings) / 50);
+    bridge_free(b);
+    test_frame_free(&frame);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
+static void layers_agree_with_the_oracle(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"nested_glass", "gallery", "facing_mirrors", "glass_sphere",
+                                        "prism"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        glint_settings settings = small_frame(8);
+        settings.samples_per_axis = i == 4 ? 2 : 1;
+        compare_scene(names[i], &settings);
+    }
+}
+
+// ---- Faces --------------------------------------------------------------------------------------
+
+// Faces first, first + 1 and first + 2 are red, green and blue, the others black.
+static void face_environment(int first, glint_environment *environment)
+{
+    const int edge = 64;
+    *environment = (glint_environment){0};
+    assert_int_equal(glint_cube_create(edge, &environment->radiance, NULL), GLINT_OK);
+    for (int i = 0; i < 3 * edge * edge; i++) {
+        const int channel = i / edge / edge;
+        float *texel =
+            glint_cube_texel(&environment->radiance, first + channel, i % edge, i / edge % edge);
+        texel[channel] = 1;
+    }
+    glint_cube_fill_border(&environment->radiance);
+}
+
+// The share of a pixel's light that each face sends.
+static int brightest_face(const double first[4], const double last[4], double *lead)
+{
+    const double shares[] = {first[0], first[1], first[2], last[0], last[1], last[2]};
+    int best = 0;
+    double second = 0;
+    for (int face = 1; face < 6; face++) {
+        second = fmax(second, fmin(shares[face], shares[best]));
+        best = shares[face] > shares[best] ? face : best;
+    }
+    *lead = shares[best] - second;
+    return best;
+}
+
+// Of two look-ups of together no more weight than 1 the heavier one's face sends most of the light,
+// where one does: at a seam another has as large a part in it, and the lighter look-up, of ½ at
+// most, may add to that.
+static void check_faces(const char *name, const glint_settings *settings, bool seen[6])
+{
+    glint_scene scene = {0};
+    test_scene_load(name, &scene);
+    test_frame frames[2];
+    for (int i = 0; i < 2; i++) {
+        glint_environment environment;
+        face_environment(3 * i, &environment);
+        test_render(&scene, &environment, NULL, settings, &frames[i]);
+        glint_environment_free(&environment);
+    }
+    size_t judged = 0;
+    for (size_t p = 0; p < pixel_count(settings); p++) {
+        const int face = (int)layer(&frames[0], GLINT_AOV_FACE)[p];
+        assert_true(layer(&frames[1], GLINT_AOV_FACE)[p] == (float)face);
+        if (settings->transparent && layer(&frames[0], GLINT_AOV_TRIANGLE)[p] < 0) {
+            assert_int_equal(face, -1);
+            continue;
+        }
+        assert_in_range(face, 0, 5);
+        seen[face] = true;
+        double lead;
+        const int wanted = brightest_face(frames[0].exact + 4 * p, frames[1].exact + 4 * p, &lead);
+        if (lead > 0.5) {
+            judged++;
+            assert_int_equal(face, wanted);
+        }
+    }
+    assert_true(judged > pixel_count(settings) / 4);
+    test_frame_free(&frames[0]);
+    test_frame_free(&frames[1]);
+    glint_scene_free(&scene);
+}
+
+static void the_face_is_that_of_the_heaviest_look_up(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(1);
+    bool seen[6] = {false};
+    check_faces("mirror_sphere", &settings, seen);
+    for (int face = 0; face < 6; face++) {
+        assert_true(seen[face]);
+    }
+    check_faces("glass_sphere", &settings, seen);
+    settings.env_rotate = 30;
+    settings.transparent = true;
+    check_faces("glass_sphere", &settings, seen);
+}
+
+// ---- Against the frame itself -------------------------------------------------------------------
+
+// Sums of up to a few hundred rounded weights a pixel.
+static void layers_add_up_to_what_the_frame_reports(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"nested_glass", "facing_mirrors", "prism"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        glint_settings settings = small_frame(i == 1 ? 2 : 0);
+        settings.samples_per_axis = i == 2 ? 1 : 3;
+        settings.min_weight = 0.01;
+        settings.precision = i == 2 ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
+        test_frame frame;
+        render_named(names[i], &settings, &frame);
+        double truncated = 0, total_reflections = 0, deepest = 0;
+        const int samples = settings.samples_per_axis * settings.samples_per_axis;
+        for (size_t p = 0; p < pixel_count(&settings); p++) {
+            truncated += (double)layer(&frame, GLINT_AOV_TRUNCATED)[p];
+            total_reflections += round((double)layer(&frame, GLINT_AOV_TIR)[p] * (double)samples);
+            deepest = fmax(deepest, (double)layer(&frame, GLINT_AOV_DEPTH)[p]);
+        }
+        const glint_truncation *t = &frame.report.truncation;
+        const double reported = t->by_depth + t->by_min_weight + t->by_stack;
+        assert_true(reported > 0);
+        assert_true(fabs(truncated / (double)pixel_count(&settings) - reported) <= 1e-5 * reported);
+        assert_true((uint64_t)total_reflections == frame.report.rays.total_reflections);
+        assert_true((uint32_t)deepest == frame.report.deepest);
+        test_frame_free(&frame);
+    }
+}
+
+// Paths that split, paths that gather, and the short way of mirrors.
+static void every_width_and_tile_write_the_same_layers_and_leave_the_picture_alone(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        int depth;
+    } frames[] = {{"nested_glass", 0}, {"lecture_example_2", 3}, {"mirror_sphere", 1}};
+    static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}, {1, 16}};
+    for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+        glint_settings settings = small_frame(frames[i].depth);
+        settings.samples_per_axis = 2;
+        settings.kernel_width = settings.tile_packets = 1;
+        settings.aovs = 0;
+        test_frame plain, one, more;
+        render_named(frames[i].name, &settings, &plain);
+        assert_int_equal(plain.layers.count, 0);
+        settings.aovs = GLINT_AOV_ALL;
+        render_named(frames[i].name, &settings, &one);
+        assert_int_equal(test_count_different(&plain.image, &one.image), 0);
+        assert_memory_equal(&plain.report.rays, &one.report.rays, sizeof one.report.rays);
+        for (size_t w = 0; w < (i == 0 ? 4 : 2); w++) {
+            settings.kernel_width = forms[w][0];
+            settings.tile_packets = forms[w][1];
+            render_named(frames[i].name, &settings, &more);
+            assert_int_equal(test_count_different(&plain.image, &more.image), 0);
+            assert_same_layers(&one, &more, pixel_count(&settings));
+            test_frame_free(&more);
+        }
+        test_frame_free(&plain);
+        test_frame_free(&one);
+    }
+}
+
+// With everything compiled mirrors at depth 1 take the general way. Only look-ups within rounding
+// of a seam may fall on another face, and weights are rounded otherwise.
+static void the_short_way_of_mirrors_writes_the_same_layers(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(1);
+    settings.env_rotate = 30; // else the sphere's diagonals are seams, where rounding decides
+    test_frame mirrors, paths;
+    render_named("mirror_sphere", &settings, &mirrors);
+    settings.all_features = true;
+    render_named("mirror_sphere", &settings, &paths);
+    size_t other_faces = 0;
+    for (size_t p = 0; p < pixel_count(&settings); p++) {
+        for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+            const double difference = fabs((double)layer(&mirrors, (glint_aov)i)[p] -
+                                           (double)layer(&paths, (glint_aov)i)[p]);
+            other_faces += i == GLINT_AOV_FACE && difference > 0;
+            assert_true(i == GLINT_AOV_FACE || difference <= 1e-6);
+        }
+    }
+    assert_true(other_faces <= 2);
+    test_frame_free(&mirrors);
+    test_frame_free(&paths);
+}
+
+// Of 3 × 3 samples the middle one goes through the pixel's centre, as a single one does.
+static void what_a_pixel_shows_is_its_middle_samples(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(4);
+    test_frame one, nine;
+    render_named("nested_glass", &settings, &one);
+    settings.samples_per_axis = 3;
+    render_named("nested_glass", &settings, &nine);
+    for (int i = GLINT_AOV_TRIANGLE; i < GLINT_AOV_COUNT; i++) {
+        assert_memory_equal(layer(&one, (glint_aov)i), layer(&nine, (glint_aov)i),
+                            pixel_count(&settings) * sizeof(float));
+    }
+    for (size_t p = 0; p < pixel_count(&settings); p++) {
+        assert_true(layer(&nine, GLINT_AOV_DEPTH)[p] >= layer(&one, GLINT_AOV_DEPTH)[p]);
+    }
+    test_frame_free(&one);
+    test_frame_free(&nine);
+}
+
+// Cones blur what look-ups find over seams, and leave the paths and where they look up alone.
+static void layers_do_not_depend_on_the_filter(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(4);
+    test_frame bilinear, cones;
+    render_named("glass_sphere", &settings, &bilinear);
+    settings.filter = GLINT_FILTER_MIP;
+    render_named("glass_sphere", &settings, &cones);
+    assert_true(test_count_different(&bilinear.image, &cones.image) > 0);
+    assert_same_layers(&bilinear, &cones, pixel_count(&settings));
+    test_frame_free(&bilinear);
+    test_frame_free(&cones);
+}
+
+// A frame without geometry shows the background alone.
+static void an_empty_scene_has_faces_and_nothing_else(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    glint_environment environment;
+    bridge_direction_environment(16, &environment);
+    const glint_settings settings = small_frame(0);
+    test_frame frame;
+    test_render(&scene, &environment, NULL, &settings, &frame);
+    for (size_t p = 0; p < pixel_count(&settings); p++) {
+        assert_true(layer(&frame, GLINT_AOV_DEPTH)[p] == 0);
+        assert_true(layer(&frame, GLINT_AOV_TIR)[p] == 0);
+        assert_true(layer(&frame, GLINT_AOV_TRUNCATED)[p] == 0);
+        assert_true(layer(&frame, GLINT_AOV_TRIANGLE)[p] == -1);
+        assert_true(layer(&frame, GLINT_AOV_MATERIAL)[p] == -1);
+        assert_true(layer(&frame, GLINT_AOV_FACE)[p] == 5); // the default camera looks along −Z
+    }
+    test_frame_free(&frame);
+    glint_environment_free(&environment);
+}
+
+// ---- What is asked for --------------------------------------------------------------------------
+
+static void only_layers_that_are_asked_for_are_made(void **state)
+{
+    (void)state;
+    glint_settings settings = small_frame(1);
+    settings.aovs = GLINT_AOV_BIT(GLINT_AOV_FACE) | GLINT_AOV_BIT(GLINT_AOV_TIR);
+    test_frame some, all;
+    render_named("glass_slab", &settings, &some);
+    assert_int_equal(some.layers.count, 2);
+    assert_string_equal(some.layers.channels[0].name, "tir.count");
+    assert_string_equal(some.layers.channels[1].name, "face.index");
+    settings.aovs = GLINT_AOV_ALL;
+    render_named("glass_slab", &settings, &all);
+    const size_t bytes = pixel_count(&settings) * sizeof(float);
+    assert_memory_equal(some.layers.channels[0].values, layer(&all, GLINT_AOV_TIR), bytes);
+    assert_memory_equal(some.layers.channels[1].values, layer(&all, GLINT_AOV_FACE), bytes);
+    test_frame_free(&some);
+    test_frame_free(&all);
+}
+
+static void a_renderer_without_layers_gives_none(void **state)
+{
+    (void)state;
+    glint_scene scene = {0};
+    glint_environment environment;
+    bridge_direction_environment(16, &environment);
+    glint_settings settings = small_frame(1);
+    settings.aovs = 0;
+    const glint_renderer_inputs inputs = {.device = test_device(),
+                                          .scene = &scene,
+                                          .environment = &environment,
+                                          .settings = &settings};
+    glint_renderer *renderer;
+    assert_int_equal(glint_renderer_create(&inputs, &renderer, NULL), GLINT_OK);
+    glint_layers layers;
+    assert_int_equal(glint_renderer_layers(renderer, &layers, NULL), GLINT_USAGE);
+    assert_int_equal(layers.count, 0);
+    assert_null(layers.values);
+    glint_renderer_free(renderer);
+    glint_environment_free(&environment);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(layers_agree_with_the_oracle),
+        cmocka_unit_test(the_face_is_that_of_the_heaviest_look_up),
+        cmocka_unit_test(layers_add_up_to_what_the_frame_reports),
+        cmocka_unit_test(every_width_and_tile_write_the_same_layers_and_leave_the_picture_alone),
+        cmocka_unit_test(the_short_way_of_mirrors_writes_the_same_layers),
+        cmocka_unit_test(what_a_pixel_shows_is_its_middle_samples),
+        cmocka_unit_test(layers_do_not_depend_on_the_filter),
+        cmocka_unit_test(an_empty_scene_has_faces_and_nothing_else),
+        cmocka_unit_test(only_layers_that_are_asked_for_are_made),
+        cmocka_unit_test(a_renderer_without_layers_gives_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
