@@ -12,6 +12,7 @@
 #include "report/stats.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #define TRUNCATION_WORTH_SAYING 5e-3 // share of all weight
 
@@ -26,6 +27,61 @@ typedef struct render_request {
 } render_request;
 
 #define EXR_TYPES "half|float"
+
+static uint32_t aov_by_name(const char *name)
+{
+    if (strcmp(name, "all") == 0) {
+        return GLINT_AOV_ALL;
+    }
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        if (strcmp(name, glint_aov_name((glint_aov)i)) == 0) {
+            return GLINT_AOV_BIT(i);
+        }
+    }
+    return 0;
+}
+
+static glint_status fail_unknown_layer(const glint_option *option, const char *name,
+                                       glint_error *error)
+{
+    const char *words[GLINT_AOV_COUNT + 2] = {"all"};
+    char list[128] = "all";
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        words[i + 1] = glint_aov_name((glint_aov)i);
+        size_t length = strlen(list);
+        snprintf(list + length, sizeof list - length, ", %s", words[i + 1]);
+    }
+    const char *nearest = glint_nearest_word(name, words);
+    return nearest != NULL
+               ? glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (did you mean %s?)",
+                            option->name, name, nearest)
+               : glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (there are %s)",
+                            option->name, name, list);
+}
+
+// Names of layers between commas.
+static glint_status parse_aovs(const glint_option *option, const char *text, void *destination,
+                               glint_error *error)
+{
+    uint32_t aovs = 0;
+    while (true) {
+        const size_t length = strcspn(text, ",");
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name),
+                 text);
+        const uint32_t found = aov_by_name(name);
+        if (found == 0) {
+            return fail_unknown_layer(option, name, error);
+        }
+        aovs |= found;
+        if (text[length] == '\0') {
+            break;
+        }
+        text += length + 1;
+    }
+    *(uint32_t *)destination = aovs;
+    return GLINT_OK;
+}
 
 static const glint_option output_options[] = {
     {GLINT_OPTION_HEADING, .help = "Output"},
@@ -42,8 +98,16 @@ static const glint_option output_options[] = {
              "packbits. PNG: a level from 0 to 9. JPEG: a quality from 1 to 100.",
      .fallback = "the format's", .offset = offsetof(render_request, compression)},
     {GLINT_OPTION_CHOICE, .name = "exr-type", .argument = "TYPE",
-     .help = "The channels of an EXR: half or float.", .fallback = "half",
+     .help = "The picture's channels in an EXR: half or float.", .fallback = "half",
      .offset = offsetof(render_request, exr_type), .choices = EXR_TYPES},
+    {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
+     .help = "Layers that tell what became of each pixel's paths, as further channels of the EXR: "
+             "depth (surfaces that the longest met), tir (total reflections), truncated (weight "
+             "that was not traced to its end), triangle and material (what the primary ray met), "
+             "face (of the environment, where the heaviest look-up fell); with commas between "
+             "them, or all. With several samples depth is the maximum, tir and truncated are "
+             "means, the others numbers from 0, −1 for none, of the sample in the middle.",
+     .offset = offsetof(render_request, inputs.settings.aovs), .parse = parse_aovs},
     {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE.json",
      .help = "Write what the frame took and counted: phases in milliseconds, rays by kind, "
              "truncated light, the plan and the device.",
@@ -68,6 +132,7 @@ typedef struct render_work {
     glint_device *device;
     glint_renderer *renderer;
     glint_image image;
+    glint_layers layers;
     glint_frame_report report;
     double encode_ms;
 } render_work;
@@ -113,6 +178,10 @@ static glint_status check_request(render_request *request, glint_error *error)
     if (status == GLINT_OK && request->exr_type != 0 && !is_exr) {
         status = glint_fail(error, GLINT_USAGE, "--exr-type: %s is no EXR", request->output);
     }
+    if (status == GLINT_OK && request->inputs.settings.aovs != 0 && !is_exr) {
+        status = glint_fail(error, GLINT_USAGE, "--aov: %s is no EXR, which alone holds layers",
+                            request->output);
+    }
     if (status == GLINT_OK) {
         status = check_distinct(request, error);
     }
@@ -137,6 +206,16 @@ static void warn_of_format(const render_request *request, glint_warnings *warnin
     if (request->inputs.settings.transparent && (is_hdr || is_jpeg)) {
         glint_warn(warnings, "%s: this format keeps no alpha, the background becomes black",
                    output);
+    }
+}
+
+static void warn_of_layers(const render_request *request, const glint_scene *scene,
+                           glint_warnings *warnings)
+{
+    if ((request->inputs.settings.aovs & GLINT_AOV_BIT(GLINT_AOV_TRIANGLE)) != 0 &&
+        scene->triangle_count > GLINT_AOV_TRIANGLES_EXACT) {
+        glint_warn(warnings, "%s: the layer 'triangle' rounds numbers above %u, by 4 at most",
+                   request->output, GLINT_AOV_TRIANGLES_EXACT);
     }
 }
 
@@ -184,6 +263,9 @@ static glint_status render_frame(const render_request *request, render_work *wor
     if (status == GLINT_OK && glint_stop_requested()) {
         status = glint_fail(error, GLINT_INTERRUPTED, "stopped");
     }
+    if (status == GLINT_OK && settings->aovs != 0) {
+        status = glint_renderer_layers(work->renderer, &work->layers, error);
+    }
     glint_progress_clear(&work->display);
     return status;
 }
@@ -214,6 +296,8 @@ static glint_status write_image(const render_request *request, render_work *work
     glint_write_options options = write_options(request);
     options.metadata = metadata.entries;
     options.metadata_count = metadata.count;
+    options.channels = work->layers.channels;
+    options.channel_count = work->layers.count;
     glint_status status = glint_image_write(request->output, &work->image, &options, error);
     work->encode_ms = glint_progress_elapsed(&work->display) - begun;
     return status;
@@ -291,6 +375,7 @@ static glint_status render(const render_request *request, render_work *work, gli
         return status;
     }
     warn_of_format(request, &work->inputs.warnings);
+    warn_of_layers(request, &work->inputs.scene, &work->inputs.warnings);
     glint_say_warnings(&work->inputs.warnings, 0);
     size_t said = work->inputs.warnings.count;
 
@@ -334,6 +419,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     status = render(request, &work, error);
     glint_progress_clear(&work.display);
     glint_image_free(&work.image);
+    glint_layers_free(&work.layers);
     glint_renderer_free(work.renderer);
     glint_device_close(work.device);
     glint_inputs_free(&work.inputs);

@@ -59,7 +59,7 @@ mkdir in/folder.gltf in/empty
 
 # ---- help ---------------------------------------------------------------------------------------
 
-render_options='output exposure compression exr-type stats progress env env-layout env-rotate camera
+render_options='output exposure compression exr-type aov stats progress env env-layout env-rotate camera
     scene size samples depth min-weight background precision fresnel texels filter device
     kernel-width kernel-tile kernel-dir help'
 info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
@@ -105,7 +105,7 @@ refuses 2 '--json takes no value' info in/mirror.gltf --json=yes
 refuses 2 '--output' render in/mirror.gltf -o
 refuses 2 '--output' render in/mirror.gltf -o ''
 for option in env env-layout env-rotate camera scene size samples depth min-weight background \
-    precision texels device kernel-width exposure compression exr-type stats progress kernel-dir; do
+    precision texels device kernel-width exposure compression exr-type aov stats progress kernel-dir; do
     refuses 2 "--$option" render "${ok[@]}" "--$option"
 done
 for size in 0x10 10x0 -4x4 10 x10 10x 10x10x10 1.5x2 axb 100000x10 99999999999999999999x1 '10 x10'; do
@@ -130,6 +130,12 @@ refuses 2 '--background plate.png' render "${ok[@]}" --background plate.png
 refuses 2 '--progress loud' render "${ok[@]}" --progress loud
 refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
 refuses 2 '--exr-type' render "${ok[@]}" --exr-type float
+refuses 2 'did you mean depth?' render in/mirror.gltf -o out/x.exr --aov tir,depht
+refuses 2 "no layer 'frobnicate' (there are all, depth" render in/mirror.gltf -o out/x.exr --aov frobnicate
+for list in '' ',' 'tir,' ',tir' 'tir,,face' 'tir face' none; do
+    refuses 2 '--aov: there is no layer' render in/mirror.gltf -o out/x.exr --aov "$list"
+done
+refuses 2 '--aov: out/x.png is no EXR' render "${ok[@]}" --aov tir
 refuses 2 '--kernel-width 4' render "${ok[@]}" --kernel-width 4
 refuses 2 '--kernel-tile 4' render "${ok[@]}" --kernel-tile 4
 refuses 2 '--fresnel schlick' render "${ok[@]}" --fresnel schlick
@@ -303,6 +309,29 @@ check 'an alpha that is not kept is said' grep -q 'warning: .*alpha' stderr
 clean
 (exec 2>&- && "$glint" render in/mirror.gltf --size 8x8 -o out/x.png)
 check 'stderr closed: the image is whole' begins_with out/x.png 89504e470d0a1a0a
+clean
+
+# ---- layers -------------------------------------------------------------------------------------
+
+# has_channels NAME…: the EXR's header names these layers, and no other.
+has_channels() {
+    local name
+    for name in "$@"; do grep -qaF "$name" out/x.exr || return 1; done
+    [ "$(head -c 400 out/x.exr | grep -oaE '[a-z]+\.(surfaces|count|weight|index)' | wc -l)" -eq $# ]
+}
+renders '--aov all' out/x.exr --aov all --compression none
+check '--aov all: every layer' has_channels depth.surfaces tir.count truncated.weight \
+    triangle.index material.index face.index
+clean
+renders '--aov tir,depth,tir' out/x.exr --aov tir,depth,tir --exr-type float
+check '--aov tir,depth,tir: two layers' has_channels tir.count depth.surfaces
+clean
+run render in/mirror.gltf --size 8x8 -o out/x.exr --aov all --aov face --stats out/stats.json
+check 'the last list counts' has_channels face.index
+check '--aov: the feature is compiled' stat_is true plan features DIAGNOSTICS compiled
+clean
+renders 'a frame without layers' out/x.exr
+check 'has none' has_channels
 clean
 
 # ---- progress -----------------------------------------------------------------------------------
