@@ -23,7 +23,6 @@
 #error "HITS needs GEOMETRY"
 #endif
 
-
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
 // Paths gather more than what the environment's look-ups bring.
 #define GATHERS                                                                                    \

@@ -45,9 +45,11 @@ typedef struct glint_layers {
 
 void glint_layers_free(glint_layers *layers);
 
-// Makes the layers of the set `aovs` from what the kernels noted of each of `pixel_count` pixels
-// (kernels/layout.h) of `samples` samples. Errors: GLINT_DEVICE_FAILED where memory is short.
-struct glint_layers_record;
+struct glint_layers_record; // kernels/layout.h
+
+// Makes the layers of the set `aovs` from what the kernels noted of each of `pixel_count` pixels of
+// `samples` samples. The caller frees them. Errors: GLINT_DEVICE_FAILED where memory is short;
+// *layers is then empty.
 glint_status glint_layers_make(const struct glint_layers_record *records, size_t pixel_count,
                                int samples, uint32_t aovs, glint_layers *layers,
                                glint_error *error);

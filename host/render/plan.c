@@ -220,7 +220,8 @@ static glint_status check_settings(const glint_plan_inputs *in, glint_error *err
                           HITS_TRIANGLES_MAX);
     }
     if (s->aovs > GLINT_AOV_ALL || (s->aovs != 0 && s->output == GLINT_OUTPUT_HITS)) {
-        return glint_fail(error, GLINT_USAGE, "--aov: layers that there are, and beside colours");
+        return glint_fail(error, GLINT_USAGE,
+                          "--aov: only layers that there are, and none with hits");
     }
     if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
         return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
