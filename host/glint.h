@@ -26,5 +26,6 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "scene/topology.h"
+#include "selftest/selftest.h"
 
 #endif

@@ -1,13 +1,11 @@
-// Properties of single kernel functions, run on the device at every width and precision, judged by
-// the oracle's formulas and by closed forms. u is the largest relative rounding error, 2⁻²⁴ or
-// 2⁻⁵³.
+// Properties of single kernel functions that the self-test does not look at, run on the device at
+// every width and precision, judged by closed forms. u is the largest relative rounding error, 2⁻²⁴
+// or 2⁻⁵³.
 #include "base/half.h"
 #include "device/opencl.h"
 #include "environment/half_texels.h"
 #include "kernels/layout.h"
-#include "oracle/oracle.h"
 #include "render/upload.h"
-#include "support/bridge.h"
 #include "support/render.h"
 
 #include <math.h>
@@ -155,69 +153,6 @@ static void host_and_device_lay_the_shared_structs_out_alike(void **state)
     at_every_width_and_precision(check_layout);
 }
 
-// cos θi in (0, 1] and η from 0.4 to 2.5, the ends and 1 among them.
-static void fill_angles(probe *p)
-{
-    for (size_t i = 0; i < ELEMENTS; i++) {
-        size_t row = i / 64, column = i % 64;
-        p->in[i][0] = (double)(column + 1) / 64;
-        p->in[i][1] = row == 0 ? 1 : 0.4 * pow(2.5 / 0.4, (double)row / 63);
-    }
-}
-
-static void check_fresnel(probe *p)
-{
-    fill_angles(p);
-    run(p, "probe_fresnel", NULL);
-    for (size_t i = 0; i < ELEMENTS; i++) {
-        double cosine = p->in[i][0], eta = p->in[i][1];
-        double squared = 1 - eta * eta * (1 - cosine * cosine);
-        assert_true(fabs(p->out[i][0] - squared) <= 8 * p->u * fmax(1, eta * eta));
-        // Near the critical angle the reflectance changes as the root of the distance to it.
-        if (squared > 1e-3) {
-            assert_true(fabs(p->out[i][1] - oracle_fresnel(cosine, eta, 1)) <= 200 * p->u);
-        }
-        if (eta >= 1) {
-            assert_true(fabs(p->out[i][2] - oracle_fresnel(cosine, 1, eta)) <= 200 * p->u);
-        }
-        if (eta == 1) {
-            assert_true(p->out[i][1] == 0); // no interface, no reflection
-        }
-    }
-}
-
-static void fresnel_agrees_with_the_oracle(void **state)
-{
-    (void)state;
-    at_every_width_and_precision(check_fresnel);
-}
-
-static void check_directions(probe *p)
-{
-    fill_angles(p);
-    run(p, "probe_directions", NULL);
-    for (size_t i = 0; i < ELEMENTS; i++) {
-        double cosine = p->in[i][0], eta = p->in[i][1];
-        double viewer[3] = {sqrt(1 - cosine * cosine), 0, cosine}, n[3] = {0, 0, 1};
-        double r[3], t[3];
-        oracle_reflect(n, viewer, r);
-        assert_true(fabs(p->out[i][2] - r[0]) <= 8 * p->u);
-        assert_true(fabs(p->out[i][3] - r[2]) <= 8 * p->u);
-        double squared = 1 - eta * eta * (1 - cosine * cosine);
-        if (squared > 1e-3 && oracle_refract(n, viewer, eta, t)) {
-            assert_true(fabs(p->out[i][0] - t[0]) <= 8 * p->u * fmax(1, eta));
-            // The error of the root is that of its argument over twice the root.
-            assert_true(fabs(p->out[i][1] - t[2]) <= 8 * p->u * fmax(1, eta * eta) / sqrt(squared));
-        }
-    }
-}
-
-static void directions_agree_with_the_oracle(void **state)
-{
-    (void)state;
-    at_every_width_and_precision(check_directions);
-}
-
 static void check_exponential(probe *p)
 {
     const double least = p->is_double ? -708 : -87;
@@ -242,92 +177,6 @@ static void the_exponential_is_within_four_rounding_errors(void **state)
 {
     (void)state;
     at_every_width_and_precision(check_exponential);
-}
-
-static void check_normalized(probe *p)
-{
-    static const double hopeless[][3] = {{0, 0, 0},   {-0.0, 0, -0.0},  {NAN, 1, 0},
-                                         {0, NAN, 1}, {1, 0, INFINITY}, {-INFINITY, 0, 0}};
-    const size_t hopeless_count = sizeof hopeless / sizeof *hopeless;
-    for (size_t i = 0; i < ELEMENTS; i++) {
-        double size = pow(10, -20 + 40 * (double)(i % 64) / 63);
-        p->in[i][0] = size * cos((double)i);
-        p->in[i][1] = size * sin((double)i) * 1e-3;
-        p->in[i][2] = size * sin((double)i * 3);
-    }
-    for (size_t i = 0; i < hopeless_count; i++) {
-        memcpy(p->in[i], hopeless[i], sizeof hopeless[i]);
-    }
-    run(p, "probe_normalized", NULL);
-    for (size_t i = 0; i < ELEMENTS; i++) {
-        const double *v = p->in[i], *n = p->out[i];
-        assert_true(n[3] == (i < hopeless_count ? 0 : 1));
-        if (i >= hopeless_count) {
-            double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-            for (size_t k = 0; k < 3; k++) {
-                assert_true(fabs(n[k] - v[k] / length) <= 4 * p->u);
-            }
-        }
-    }
-}
-
-static void vectors_of_any_length_are_normalized_and_hopeless_ones_are_told(void **state)
-{
-    (void)state;
-    at_every_width_and_precision(check_normalized);
-}
-
-static void check_cube(probe *p)
-{
-    glint_environment environment;
-    bridge_direction_environment(16, &environment);
-    const glint_cube *cube = &environment.radiance;
-    static float expected[6 * 16 * 16][3];
-    size_t count = 0;
-    for (int face = 0; face < 6; face++) {
-        for (int texel = 0; texel < 256; texel++, count++) {
-            int i = texel % 16, j = texel / 16;
-            glint_vec3 d =
-                glint_cube_direction(face, (2.0 * i + 1) / 16 - 1, (2.0 * j + 1) / 16 - 1);
-            const double values[3] = {d.x, d.y, d.z};
-            memcpy(p->in[count], values, sizeof values);
-            memcpy(expected[count], glint_cube_texel(cube, face, i, j), 3 * sizeof(float));
-        }
-    }
-    // Ties of two and of three components, and what is no direction at all: finite, in range.
-    size_t ties = count;
-    for (int code = 0; code < 27; code++, count++) {
-        const int axes[3] = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
-        const double d[3] = {axes[0], axes[1], axes[2]};
-        memcpy(p->in[count], d, sizeof d);
-    }
-    size_t odd = count;
-    for (; count < ELEMENTS; count++) {
-        const double d[3] = {NAN, count % 2 ? INFINITY : NAN, -1};
-        memcpy(p->in[count], d, sizeof d);
-    }
-    run(p, "probe_cube", cube);
-    for (size_t i = 0; i < ELEMENTS; i++) {
-        for (size_t k = 0; k < 3; k++) {
-            double got = p->out[i][k];
-            if (i < ties) {
-                assert_true(fabs(got - (double)expected[i][k]) <= 16 * 16 * p->u);
-            } else if (i < odd && i != ties + 13) {
-                const double *d = p->in[i];
-                double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-                assert_true(fabs(got - (0.5 + 0.5 * d[k] / length)) <= 2.0 / (16 * 16));
-            } else {
-                assert_true(got >= 0 && got <= 1);
-            }
-        }
-    }
-    glint_environment_free(&environment);
-}
-
-static void the_cube_is_exact_at_texel_centres_and_seamless_on_ties(void **state)
-{
-    (void)state;
-    at_every_width_and_precision(check_cube);
 }
 
 // A beam of this width and spread, bent by `turn` for each unit of its width, comes to a point at
@@ -486,13 +335,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(host_and_device_lay_the_shared_structs_out_alike),
-        cmocka_unit_test(fresnel_agrees_with_the_oracle),
-        cmocka_unit_test(directions_agree_with_the_oracle),
         cmocka_unit_test(the_exponential_is_within_four_rounding_errors),
-        cmocka_unit_test(vectors_of_any_length_are_normalized_and_hopeless_ones_are_told),
         cmocka_unit_test(cones_are_focused_where_mirrors_and_lenses_focus),
         cmocka_unit_test(levels_are_as_coarse_as_the_cone_is_wide),
-        cmocka_unit_test(the_cube_is_exact_at_texel_centres_and_seamless_on_ties),
         cmocka_unit_test(the_cube_is_interpolated_alike_at_every_width),
         cmocka_unit_test(half_texels_are_read_exactly_denormal_ones_too),
     };

@@ -20,6 +20,7 @@ typedef struct selftest_request {
     bool list;
     bool chosen[CASES_MAX]; // by --case
     bool chooses;
+    bool fail_fast;
     const char *device;
     const char *kernel_dir;
     int width;     // see widths
@@ -103,6 +104,8 @@ static const glint_option selftest_options[] = {
     {GLINT_OPTION_REAL, .name = "rays", .argument = "N",
      .help = "Rays of each case that counts leaks.", .fallback = "262144",
      .offset = offsetof(selftest_request, rays), .minimum = 1, .maximum = GLINT_SELFTEST_RAYS_MAX},
+    {GLINT_OPTION_FLAG, .name = "fail-fast", .help = "Stop after the first case that fails.",
+     .offset = offsetof(selftest_request, fail_fast)},
     {GLINT_OPTION_HEADING, .help = "Device"},
     {GLINT_OPTION_TEXT, .name = "device", .argument = "DEVICE",
      .help = "Its number or a part of its name (glint devices), cpu or gpu.",
@@ -167,6 +170,12 @@ static bool prints_table(const selftest_work *work)
     return !glint_is_stdout(work->request->json);
 }
 
+// A case failed, and the rest is not wanted any more.
+static bool has_enough(const selftest_work *work)
+{
+    return work->request->fail_fast && work->troubled > 0;
+}
+
 static glint_status run_case(selftest_work *work, size_t index,
                              const glint_selftest_options *options, bool is_first,
                              glint_error *error)
@@ -181,6 +190,9 @@ static glint_status run_case(selftest_work *work, size_t index,
     }
     work->troubled += result->verdict == GLINT_FAILED || result->verdict == GLINT_BROKEN;
     if (prints_table(work)) {
+        if (work->count == 1) {
+            glint_selftest_print_device(glint_device_capabilities(work->device), stdout);
+        }
         if (is_first) {
             glint_selftest_print_head(result, stdout);
         }
@@ -208,7 +220,7 @@ static glint_status run_cases(selftest_work *work, int width, glint_precision pr
     glint_status status = GLINT_OK;
     bool is_first = true;
     for (size_t i = 0; status == GLINT_OK && glint_selftest_name(i) != NULL; i++) {
-        if (!request->chooses || request->chosen[i]) {
+        if ((!request->chooses || request->chosen[i]) && !has_enough(work)) {
             status = run_case(work, i, &options, is_first, error);
             is_first = false;
         }
@@ -300,9 +312,6 @@ static glint_status selftest(const selftest_request *request, glint_error *error
                               ? glint_device_open(request->device, &work.device, error)
                               : glint_fail_memory(error, "the results");
     if (status == GLINT_OK) {
-        if (prints_table(&work)) {
-            glint_selftest_print_device(glint_device_capabilities(work.device), stdout);
-        }
         status = run_all(&work, error);
     }
     if (status == GLINT_OK) {

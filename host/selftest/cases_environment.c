@@ -46,6 +46,7 @@ static double largest_difference(const double a[3], const double b[3])
 // ---- Ties --------------------------------------------------------------------------------------
 
 #define TIES 288
+#define ODD 8 // directions that are none
 
 // Two of the components alike or all three, of all signs, the third from 0 to as large.
 static void tie(int number, double d[3])
@@ -71,9 +72,21 @@ static int face_of_tie(const double d[3])
 // the place, which the map turns into EDGE times as much.
 static glint_status cube_ties(trial *t)
 {
-    static double in[3 * TIES][4], out[3 * TIES][4], faces[TIES][4];
+    static const double odd[ODD][3] = {{NAN, 0, -1},
+                                       {0, NAN, 1},
+                                       {0, 0, 0},
+                                       {INFINITY, 1, 0},
+                                       {-INFINITY, 1, 1},
+                                       {NAN, NAN, NAN},
+                                       {1, INFINITY, -INFINITY},
+                                       {-0.0, 0, NAN}};
+    static double in[3 * TIES + ODD][4], out[3 * TIES + ODD][4], faces[TIES][4];
     glint_measure *others = trial_events(t, "ties that fall on another face, or beside it", 0);
     glint_measure *jumps = trial_error(t, "jump from one face to the other", "2⁻²⁴ × edge", 4);
+    glint_measure *wild = trial_events(t, "colours along NaN, 0 and ∞ that no texel has", 0);
+    for (int i = 0; i < ODD; i++) {
+        memcpy(in[3 * TIES + i], odd[i], sizeof odd[i]);
+    }
     for (int i = 0; i < TIES; i++) {
         double d[3];
         tie(i, d);
@@ -89,7 +102,13 @@ static glint_status cube_ties(trial *t)
     glint_probe *probe = NULL;
     glint_status status = trial_linear_environment(EDGE, &environment, t->error);
     if (status == GLINT_OK) {
-        status = look_up(t, &environment, in, out, 3 * TIES);
+        status = look_up(t, &environment, in, out, 3 * TIES + ODD);
+    }
+    for (int i = 0; status == GLINT_OK && i < ODD; i++) {
+        const double *v = out[3 * TIES + i];
+        measure_event(wild, !(v[0] >= 0 && v[0] <= 1 && v[1] >= 0 && v[1] <= 1),
+                      "along (%g, %g, %g): (%g, %g, %g)", odd[i][0], odd[i][1], odd[i][2], v[0],
+                      v[1], v[2]);
     }
     if (status == GLINT_OK) {
         status = trial_functions(t, &probe);

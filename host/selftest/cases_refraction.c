@@ -1,5 +1,6 @@
 // Hard cases of refraction at one interface: the critical angle, indices next to each other and far
 // apart, Fresnel's term at its ends.
+#include "selftest/shapes.h"
 #include "selftest/trial.h"
 
 #include <math.h>
@@ -43,14 +44,11 @@ static glint_status call_functions(trial *t, glint_probe_part part, double (*in)
 
 // ---- The critical angle ------------------------------------------------------------------------
 
-// Nearer to it than the rounding of the cosine itself, nobody knows the side; that is 10⁻⁶ for
-// float, of angles near which a unit in the last place of the cosine is a turn of u/sin θ.
-static glint_status critical_angle(trial *t)
+static glint_status critical_formulas(trial *t, double exempt)
 {
     enum { PER_INDEX = 1024, COUNT = INDEX_COUNT * PER_INDEX };
     static double in[COUNT][4], out[COUNT][4];
-    const double exempt = 1e-6 * t->u / 0x1p-24;
-    glint_measure *wrong = trial_events(t, "rays on the wrong side beyond the exempt band", 0);
+    glint_measure *wrong = trial_events(t, "cosines on the wrong side beyond the exempt band", 0);
     // cos² θt, which is about twice the distance, is known to 4u or so; its root to that over twice
     // the root.
     glint_measure *errors = trial_error(t, "error of the reflectance", "u/√distance", 16);
@@ -76,6 +74,55 @@ static glint_status critical_angle(trial *t)
         measure_value(errors, t, got, reflectance(cosine, eta), t->u * eta * eta / sqrt(distance),
                       "cos θ %.9g, η %.9g", cosine, eta);
     }
+    return status;
+}
+
+// Nearer to it than the rounding of the cosine itself, nobody knows the side; that is 10⁻⁶ for
+// float, of angles near which a unit in the last place of the cosine is a turn of u/sin θ.
+static glint_status critical_angle(trial *t)
+{
+    enum { COUNT = 8192 };
+    static const double low[3] = {-0.75, -0.75, -0.75}, high[3] = {0.75, 0.75, 0.75};
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    const double exempt = 1e-6 * t->u / 0x1p-24;
+    glint_status status = critical_formulas(t, exempt);
+    glint_measure *wrong = trial_events(t, "rays on the wrong side beyond the exempt band", 0);
+    glint_scene scene = {0};
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
+    if (status == GLINT_OK) {
+        status = shape_end(&s, &scene, t->error);
+    }
+    // From the middle of a glass box to its upper face.
+    const double critical = asin(1 / SHAPE_GLASS_IOR);
+    for (int i = 0; i < COUNT; i++) {
+        const double distance = pow(10, trial_random(t, -16, -1.2)) * (i % 2 ? 1 : -1);
+        const double angle = critical + distance, turn = trial_random(t, 0, 2 * GLINT_PI);
+        const double d[3] = {sin(angle) * cos(turn), sin(angle) * sin(turn), cos(angle)};
+        rays[i] = (glint_probe_ray){.from = -1};
+        for (int k = 0; k < 3; k++) {
+            rays[i].direction[k] = trial_rounded(t, d[k]);
+        }
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_bounce(t, probe, rays, bounces, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const double *d = rays[i].direction, angle = atan2(hypot(d[0], d[1]), d[2]);
+        if (fabs(angle - critical) > exempt) {
+            measure_event(wrong, bounces[i].total_reflection != (angle > critical),
+                          "%.3g rad %s the critical angle: total reflection %g",
+                          fabs(angle - critical), angle > critical ? "beyond" : "before",
+                          bounces[i].total_reflection);
+        }
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
     return status;
 }
 

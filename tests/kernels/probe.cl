@@ -57,33 +57,11 @@ kernel void probe_layout(global const scalar *in, global scalar *out, global con
     }
 }
 
-// in: cos θi, η. out: cos² θt, reflectance (where there is no total reflection), and for η as an index
-// of refraction the reflectance of its surface.
-kernel void probe_fresnel(global const scalar *in, global scalar *out, global const void *texels,
-                          int edge)
-{
-    real cosine = load(in, 0), eta = load(in, 1);
-    real squared = transmitted_cosine_squared(cosine, eta);
-    real cosine_t = sqrt(LARGER(squared, real_of(0)));
-    store3(out, real3_of(squared, dielectric_reflectance(cosine, cosine_t, eta),
-                         surface_reflectance(cosine, eta)), real_of(0));
-}
-
 // in: x ≤ 0. out: e^x.
 kernel void probe_exponential(global const scalar *in, global scalar *out,
                               global const void *texels, int edge)
 {
     store3(out, real3_of(exp_of_negative(load(in, 0)), real_of(0), real_of(0)), real_of(0));
-}
-
-// in: a vector. out: the unit vector, and 1 where there is one.
-kernel void probe_normalized(global const scalar *in, global scalar *out,
-                             global const void *texels, int edge)
-{
-    mask valid;
-    real3 n = normalized(real3_of(load(in, 0), load(in, 1), load(in, 2)), &valid);
-    real zero = real_of(0);
-    store3(out, select3(valid, n, real3_of(zero, zero, zero)), SELECT(valid, real_of(1), zero));
 }
 
 // in: a direction. out: the map's colour along it.
@@ -93,20 +71,6 @@ kernel void probe_cube(global const scalar *in, global scalar *out, global const
     real3 d = real3_of(load(in, 0), load(in, 1), load(in, 2));
     const cube_map map = {texels, edge, GLINT_HALF_TEXELS};
     store3(out, sample_cube(&map, d, mask_all()), real_of(0));
-}
-
-// in: cos θi (of a viewer in the xz plane, normal +Z), η. out: the refracted direction's x and z, and
-// the reflected one's.
-kernel void probe_directions(global const scalar *in, global scalar *out,
-                             global const void *texels, int edge)
-{
-    real cosine = load(in, 0), eta = load(in, 1), zero = real_of(0);
-    real sine = sqrt((R(1.0) - cosine) * (R(1.0) + cosine));
-    real3 v = real3_of(sine, zero, cosine), n = real3_of(zero, zero, real_of(1));
-    real cosine_t = sqrt(LARGER(transmitted_cosine_squared(cosine, eta), zero));
-    real3 t = refract_direction(v, n, cosine, eta, cosine_t);
-    real3 r = reflect_direction(v, n, cosine);
-    store3(out, real3_of(t.x, t.z, r.x), r.z);
 }
 
 // in: a sphere's radius, a beam's width 3 units before it, η, the beam's spread. out: the curvature of a

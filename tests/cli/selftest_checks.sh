@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Command-line tests of glint selftest. selftest_checks.sh GLINT JSON_GET KERNELS
+kernels=$(readlink -f -- "$3")
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+# Cases that take no time.
+quick=equal_indices,metal_at_its_ends
+
+# ---- help and mistakes --------------------------------------------------------------------------
+
+check 'selftest --help tells every option' help_mentions selftest list case precision kernel-width \
+    rays fail-fast device kernel-dir junit json help
+run --help
+check 'glint --help lists it' grep -q '^  selftest ' stdout
+refuses 2 'unknown case' selftest --case nonsense
+refuses 2 'did you mean slivers?' selftest --case slivres
+refuses 2 'unknown case' selftest --case "$quick,"
+refuses 2 '--kernel-width' selftest --kernel-width 4
+refuses 2 '--precision' selftest --precision half
+refuses 2 '--rays' selftest --rays 0
+refuses 2 '--rays' selftest --rays many
+refuses 2 'unexpected' selftest something
+refuses 2 '--junit writes there' selftest --case $quick --junit out/x --json out/x
+refuses 3 'in/missing' selftest --kernel-dir in/missing
+refuses 3 'no readable render.cl' selftest --case $quick --kernel-dir in
+refuses 4 'nonsense' selftest --device nonsense
+refuses 5 'out/missing' selftest --case $quick --junit out/missing/x.xml
+refuses 5 'out/missing' selftest --case $quick --json out/missing/x.json
+
+# ---- results ------------------------------------------------------------------------------------
+
+run selftest --list
+check '--list: a line each' test "$status" -eq 0 -a "$(wc -l <stdout)" -ge 40
+check '--list runs nothing' test "$(grep -c bound stdout)" -eq 0
+run selftest --case equal_indices --case metal_at_its_ends --precision float
+check 'cases by name: passed' test "$status" -eq 0 -a ! -s stderr
+check 'cases by name: these' grep -q '^2 cases, all of them within their bounds$' stdout
+check 'a measure a line' grep -qE '^metal_at_its_ends .* ok$' stdout
+run selftest --case $quick --precision float --kernel-width all --junit out/x.xml --json out/x.json
+check 'every width' test "$(grep -c '^float, packets of' stdout)" -eq 3
+cp out/x.json out/stats.json
+check 'JSON: the device' "$json_get" out/x.json device name
+check 'JSON: a verdict' stat_is passed results 0 verdict
+check 'JSON: a bound' stat_is 8.0 results 5 measures 0 bound
+check 'JSON: it holds' stat_is true results 5 measures 0 holds
+check 'JSON: widths' stat_is 16 results 5 width
+check 'JUnit: a suite for each width' test "$(grep -c '<testsuite name="glint.selftest.float.width' out/x.xml)" -eq 3
+check 'JUnit: the cases' grep -q '<testsuites name="glint selftest" tests="6" failures="0" errors="0" skipped="0"' out/x.xml
+if command -v xmllint >/dev/null; then
+    check 'JUnit: it is XML' xmllint --noout out/x.xml
+fi
+clean
+run selftest --case equal_indices --precision float --json -
+cp stdout out/stats.json
+check '--json -: JSON alone' stat_is equal_indices results 0 case
+clean
+
+# ---- a mistake in the kernels -------------------------------------------------------------------
+
+mkdir broken
+cp "$kernels"/* broken
+sed -i 's/m2 \* m2 \* m;/m2 * m2;/' broken/optics.cl
+run selftest --case metal_at_its_ends,equal_indices --precision float --kernel-dir broken \
+    --junit out/x.xml
+check 'a wrong formula: exit status 7' test "$status" -eq 7
+check 'a wrong formula: one line, which names the case' \
+    grep -qE '^glint: 1 of 2 cases failed on .*: metal_at_its_ends$' stderr
+check 'a wrong formula: what was expected, and got' \
+    grep -qE '^ +F0 .*: expected .*, got .* ulp\)$' stdout
+check 'JUnit: the failure' grep -q '<failure message="F0 + (1 − F0)(1 − cos θ)⁵: ' out/x.xml
+clean
+run selftest --case metal_at_its_ends,odd_sizes --precision all --kernel-dir broken --fail-fast
+check '--fail-fast: one case' test "$(grep -c FAILED stdout)" -eq 1
+printf 'this is no kernel\n' >>broken/optics.cl
+run selftest --case $quick --precision float --kernel-dir broken --junit out/x.xml
+check 'kernels that do not compile: exit status 7' test "$status" -eq 7
+check 'kernels that do not compile: the log, once' test "$(grep -c 'optics.cl' stderr)" -ge 1
+check 'JUnit: the error' test "$(grep -c '<error message="device ' out/x.xml)" -eq 2
+clean
+
+finish
