@@ -307,10 +307,11 @@ static void print_list(void)
 static glint_status selftest(const selftest_request *request, glint_error *error)
 {
     selftest_work work = {.request = request};
-    work.results = calloc(case_count() * ALL_WIDTHS * ALL_PRECISIONS, sizeof *work.results);
-    glint_status status = work.results != NULL
-                              ? glint_device_open(request->device, &work.device, error)
-                              : glint_fail_memory(error, "the results");
+    work.results = calloc((case_count() + 1) * ALL_WIDTHS * ALL_PRECISIONS, sizeof *work.results);
+    if (work.results == NULL) {
+        return glint_fail_memory(error, "the results");
+    }
+    glint_status status = glint_device_open(request->device, &work.device, error);
     if (status == GLINT_OK) {
         status = run_all(&work, error);
     }

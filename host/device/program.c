@@ -89,14 +89,17 @@ static cl_program find_built(const struct glint_device *device, const char *key)
 static void keep_built(struct glint_device *device, const char *key, cl_program program)
 {
     struct glint_built_program *kept = calloc(1, sizeof *kept);
-    char *own_key = strdup(key);
-    if (kept == NULL || own_key == NULL) {
+    if (kept == NULL) {
+        return;
+    }
+    kept->key = strdup(key);
+    if (kept->key == NULL) {
         free(kept);
-        free(own_key);
         return;
     }
     clRetainProgram(program);
-    *kept = (struct glint_built_program){own_key, program, device->programs};
+    kept->program = program;
+    kept->next = device->programs;
     device->programs = kept;
 }
 

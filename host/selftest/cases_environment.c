@@ -43,6 +43,11 @@ static double largest_difference(const double a[3], const double b[3])
     return largest;
 }
 
+static bool same_color(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 // ---- Ties --------------------------------------------------------------------------------------
 
 #define TIES 288
@@ -226,8 +231,9 @@ static glint_status latlong_environment(trial *t, glint_environment *environment
     glint_image image;
     glint_status status = glint_image_create(2 * ROWS, ROWS, 3, &image, t->error);
     for (int i = 0; status == GLINT_OK && i < 2 * ROWS * ROWS; i++) {
-        const double longitude = GLINT_PI * (1 - (i % (2 * ROWS) + 0.5) / ROWS);
-        const double latitude = GLINT_PI * (0.5 - (i / (2 * ROWS) + 0.5) / ROWS);
+        const int column = i % (2 * ROWS), row = i / (2 * ROWS);
+        const double longitude = GLINT_PI * (1 - (column + 0.5) / ROWS);
+        const double latitude = GLINT_PI * (0.5 - (row + 0.5) / ROWS);
         const double d[3] = {cos(latitude) * sin(longitude), sin(latitude),
                              cos(latitude) * cos(longitude)};
         for (int k = 0; k < 3; k++) {
@@ -378,7 +384,7 @@ static glint_status bad_radiance(trial *t)
             measure_value(values, t, v[0], (double)bad_texels[i].mended, 1, "%g on face %d",
                           (double)bad_texels[i].value, bad_texels[i].face);
         }
-        measure_event(changed, !in_footprint(places[i]) && memcmp(v, clean[i], 3 * sizeof *v) != 0,
+        measure_event(changed, !in_footprint(places[i]) && !same_color(v, clean[i]),
                       "(%.9g, %.9g, %.9g) on face %g at (%.4g, %.4g): %.9g, was %.9g", in[i][0],
                       in[i][1], in[i][2], places[i][0], places[i][1], places[i][2], v[0],
                       clean[i][0]);

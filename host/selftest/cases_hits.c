@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BATCH ((size_t)65536) // of rays
+#define BATCH 32768 // of rays
 
 // ---- Closed meshes -----------------------------------------------------------------------------
 
@@ -83,31 +83,37 @@ static glint_probe_ray ray_from_inside(trial *t, const glint_scene *scene, const
     return ray;
 }
 
+// `in` and `out` hold a batch.
+static glint_status trace_batch(trial *t, glint_probe *probe, const glint_scene *scene,
+                                bool at_vertex, glint_probe_ray *in, glint_probe_hit *out,
+                                glint_measure *leaks)
+{
+    for (size_t i = 0; i < BATCH; i++) {
+        double target[3];
+        random_target(t, scene, at_vertex, target);
+        in[i] = ray_from_inside(t, scene, target);
+    }
+    glint_status status = trial_trace(t, probe, in, out, BATCH);
+    for (size_t i = 0; status == GLINT_OK && i < BATCH; i++) {
+        const double *o = in[i].origin, *d = in[i].direction;
+        measure_event(leaks, !(out[i].triangle >= 0),
+                      "the ray from (%.9g, %.9g, %.9g) along (%.9g, %.9g, %.9g) hits nothing", o[0],
+                      o[1], o[2], d[0], d[1], d[2]);
+    }
+    return status;
+}
+
 static glint_status count_leaks(trial *t, const glint_scene *scene, bool at_vertex, uint64_t rays,
                                 glint_measure *leaks)
 {
-    glint_probe *probe = NULL;
-    glint_probe_ray *in = glint_allocate(BATCH, sizeof *in);
-    glint_probe_hit *out = glint_allocate(BATCH, sizeof *out);
-    glint_status status = in != NULL && out != NULL ? trial_probe(t, scene, &probe)
-                                                    : glint_fail_memory(t->error, "a self-test");
+    static glint_probe_ray in[BATCH];
+    static glint_probe_hit out[BATCH];
+    glint_probe *probe;
+    glint_status status = trial_probe(t, scene, &probe);
     for (uint64_t done = 0; status == GLINT_OK && done < rays; done += BATCH) {
-        for (size_t i = 0; i < BATCH; i++) {
-            double target[3];
-            random_target(t, scene, at_vertex, target);
-            in[i] = ray_from_inside(t, scene, target);
-        }
-        status = trial_trace(t, probe, in, out, BATCH);
-        for (size_t i = 0; status == GLINT_OK && i < BATCH; i++) {
-            const double *o = in[i].origin, *d = in[i].direction;
-            measure_event(leaks, !(out[i].triangle >= 0),
-                          "the ray from (%.9g, %.9g, %.9g) along (%.9g, %.9g, %.9g) hits nothing",
-                          o[0], o[1], o[2], d[0], d[1], d[2]);
-        }
+        status = trace_batch(t, probe, scene, at_vertex, in, out, leaks);
     }
     glint_probe_free(probe);
-    free(in);
-    free(out);
     return status;
 }
 

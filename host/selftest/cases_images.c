@@ -69,7 +69,8 @@ static glint_status measure_directions(trial *t, const glint_camera *camera, con
         const int columns[3] = {0, size[0] / 2, size[0] - 1},
                   rows[3] = {0, size[1] / 2, size[1] - 1};
         in[i][0] = i < 9 ? columns[i % 3] : floor(trial_random(t, 0, size[0]));
-        in[i][1] = i < 9 ? rows[i / 3] : floor(trial_random(t, 0, size[1]));
+        const int which = i / 3 % 3;
+        in[i][1] = i < 9 ? rows[which] : floor(trial_random(t, 0, size[1]));
     }
     if (status == GLINT_OK) {
         status =
@@ -129,7 +130,8 @@ static glint_status odd_sizes(trial *t)
         }
         for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
             double d[3];
-            direction_of(&camera, sizes[i], p % picture.width, p / picture.width, d);
+            const int column = p % picture.width, row = p / picture.width;
+            direction_of(&camera, sizes[i], column, row, d);
             for (int k = 0; k < 3; k++) {
                 measure_value(pixels, t, picture.values[4 * p + k], 0.5 + 0.5 * d[k],
                               2.0 / 256 + 16 * t->u, "%s, pixel %d", what, p);
@@ -170,8 +172,9 @@ static glint_status large_numbers(trial *t)
             const int column = p % 8 * ((edge - 1) / width) / 7;
             const int row = p / 8 * ((edge - 1) / height) / 7 - frame.first_band * frame.band;
             const int above = row > 0 ? row : 0;
-            in[p][0] = column * frame.band + above % frame.band;
-            in[p][1] = above / frame.band;
+            const int in_band = above % frame.band, band = above / frame.band;
+            in[p][0] = column * frame.band + in_band;
+            in[p][1] = band;
         }
         status =
             glint_probe_call(probe, GLINT_PROBE_TILE_PLACE, &frame, in[0], out[0], COUNT, t->error);

@@ -12,6 +12,12 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+static double distance(const double a[3], const double b[3])
+{
+    const double away[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return sqrt(dot(away, away));
+}
+
 // A square in the plane z = 0 whose vertices all have this normal.
 static void add_square(shape *s, const double normal[3])
 {
@@ -165,8 +171,7 @@ static glint_status odd_normals(trial *t)
             const glint_probe_bounce *b = &bounces[i];
             measure_value(lengths, t, sqrt(dot(b->reflected, b->reflected)), 1, t->u,
                           "normal (%g, %g, %g), ray %d", normal[0], normal[1], normal[2], i);
-            measure_event(plain,
-                          !usable && memcmp(b->normal, b->geometric_normal, sizeof b->normal) != 0,
+            measure_event(plain, !usable && distance(b->normal, b->geometric_normal) != 0,
                           "normal (%g, %g, %g): (%g, %g, %g) is taken", normal[0], normal[1],
                           normal[2], b->normal[0], b->normal[1], b->normal[2]);
         }

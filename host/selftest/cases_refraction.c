@@ -53,7 +53,8 @@ static glint_status critical_formulas(trial *t, double exempt)
     // the root.
     glint_measure *errors = trial_error(t, "error of the reflectance", "u/√distance", 16);
     for (int i = 0; i < COUNT; i++) {
-        const double eta = trial_rounded(t, indices[i / PER_INDEX]), critical = asin(1 / eta);
+        const int which = i / PER_INDEX;
+        const double eta = trial_rounded(t, indices[which]), critical = asin(1 / eta);
         const double distance = pow(10, trial_random(t, -16, -0.5)) * (i % 2 ? 1 : -1);
         in[i][0] = cos(fmin(fmax(critical + distance, 0), GLINT_PI / 2));
         in[i][1] = eta;
@@ -137,7 +138,8 @@ static glint_status equal_indices(trial *t)
     glint_measure *bends = trial_error(t, "bend", "rad", 1e-6);
     for (int i = 0; i < COUNT; i++) {
         in[i][0] = i % 512 == 0 ? 1 : trial_random(t, 0.1, 1);
-        in[i][1] = 1 + (i / 512 - 1) * 1e-7;
+        const int step = i / 512 - 1;
+        in[i][1] = 1 + step * 1e-7;
     }
     glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
     for (int i = 0; status == GLINT_OK && i < COUNT; i++) {

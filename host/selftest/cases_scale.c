@@ -29,13 +29,11 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const glint
     }
     const oracle_view view = judge_view(camera, &settings);
     for (int i = 0; status == GLINT_OK && i < size[0] * size[1]; i++) {
-        const double at[2] = {i % size[0] + 0.5, i / size[0] + 0.5};
-        const oracle_ray ray = oracle_primary_ray(&view, at);
-        const oracle_hit wanted = oracle_closest_hit(&judge, &ray, -1);
+        const int column = i % size[0], row = i / size[0];
+        const double wanted = fmin(judge_pixel(&judge, &view, column, row), last);
         const double found = fmin(picture.values[4 * i + 3], last);
-        measure_event(others, found != fmin(wanted.triangle, last),
-                      "pixel (%d, %d): triangle %d expected, %g found", i % size[0], i / size[0],
-                      wanted.triangle, found);
+        measure_event(others, found != wanted, "pixel (%d, %d): triangle %g expected, %g found",
+                      column, row, wanted, found);
     }
     trial_picture_free(&picture);
     judge_end(&judge);

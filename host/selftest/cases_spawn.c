@@ -261,7 +261,8 @@ static glint_status grazing_rays(trial *t)
     shape_add_quad(&s, floor_, MATERIAL_TINTED);
     glint_status status = shape_end(&s, &scene, t->error);
     for (int i = 0; i < COUNT; i++) {
-        const double elevation = pow(10, -1 - i / PER_ANGLE) * GLINT_PI / 180;
+        const int power = -1 - i / PER_ANGLE;
+        const double elevation = pow(10, power) * GLINT_PI / 180;
         const double azimuth = trial_random(t, 0, 2 * GLINT_PI);
         const double direction[3] = {cos(elevation) * cos(azimuth), -sin(elevation),
                                      cos(elevation) * sin(azimuth)};

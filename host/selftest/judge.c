@@ -37,6 +37,13 @@ oracle_hit judge_ray(const oracle_scene *judge, const glint_probe_ray *ray)
     return oracle_closest_hit(judge, &r, -1);
 }
 
+int judge_pixel(const oracle_scene *judge, const oracle_view *view, int column, int row)
+{
+    const double at[2] = {column + 0.5, row + 0.5};
+    const oracle_ray ray = oracle_primary_ray(view, at);
+    return oracle_closest_hit(judge, &ray, -1).triangle;
+}
+
 static void copy_vector(glint_vec3 from, double to[3])
 {
     to[0] = from.x;

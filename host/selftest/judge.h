@@ -14,6 +14,9 @@ void judge_end(oracle_scene *judge); // a zeroed one is allowed
 // The closest hit of a ray in metres.
 oracle_hit judge_ray(const oracle_scene *judge, const glint_probe_ray *ray);
 
+// The triangle that the middle of a pixel shows; −1: none.
+int judge_pixel(const oracle_scene *judge, const oracle_view *view, int column, int row);
+
 oracle_view judge_view(const glint_camera *camera, const glint_settings *settings);
 
 #endif

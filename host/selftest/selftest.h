@@ -41,7 +41,7 @@ typedef struct glint_selftest_result {
     int measure_count;
     glint_verdict verdict;
     char reason[GLINT_MESSAGE_CAPACITY]; // why it was skipped, or what the driver said
-    double ms;        // wall-clock time, kernels' compilation included
+    double ms;                           // wall-clock time, kernels' compilation included
 } glint_selftest_result;
 
 // All-zero but the device means the defaults.

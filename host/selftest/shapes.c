@@ -15,21 +15,27 @@ shape shape_begin(void)
     return (shape){.scene = {.unit = 1}};
 }
 
+// The array with room for so many bytes; as it was where memory is short.
+static void *grow(shape *s, void *array, size_t bytes)
+{
+    void *grown = realloc(array, bytes);
+    if (grown == NULL) {
+        s->failed = true;
+        return array;
+    }
+    return grown;
+}
+
 static bool make_room(shape *s)
 {
     glint_scene *scene = &s->scene;
-    if (s->failed || scene->triangle_count < s->capacity) {
-        return !s->failed;
+    if (!s->failed && scene->triangle_count == s->capacity) {
+        s->capacity = s->capacity > 0 ? 2 * s->capacity : FIRST_CAPACITY;
+        const size_t bytes = s->capacity * 9 * sizeof(float);
+        scene->positions = grow(s, scene->positions, bytes);
+        scene->normals = grow(s, scene->normals, bytes);
+        scene->material_of = grow(s, scene->material_of, s->capacity * sizeof(uint32_t));
     }
-    const size_t capacity = s->capacity > 0 ? 2 * s->capacity : FIRST_CAPACITY;
-    float *positions = realloc(scene->positions, capacity * 9 * sizeof(float));
-    scene->positions = positions != NULL ? positions : scene->positions;
-    float *normals = realloc(scene->normals, capacity * 9 * sizeof(float));
-    scene->normals = normals != NULL ? normals : scene->normals;
-    uint32_t *material_of = realloc(scene->material_of, capacity * sizeof *material_of);
-    scene->material_of = material_of != NULL ? material_of : scene->material_of;
-    s->failed = positions == NULL || normals == NULL || material_of == NULL;
-    s->capacity = capacity;
     return !s->failed;
 }
 
@@ -41,10 +47,8 @@ static bool choose_instance(shape *s, shape_material material)
     if (count > 0 && scene->instances[count - 1].material == (uint32_t)material) {
         return true;
     }
-    glint_instance *instances = realloc(scene->instances, (count + 1) * sizeof *instances);
-    s->failed = instances == NULL;
+    scene->instances = grow(s, scene->instances, (count + 1) * sizeof *scene->instances);
     if (!s->failed) {
-        scene->instances = instances;
         scene->instances[scene->instance_count++] = (glint_instance){
             .first_triangle = scene->triangle_count, .material = (uint32_t)material};
     }
