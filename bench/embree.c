@@ -38,7 +38,8 @@ static const char help[] =
     "  --robust         give Embree's scenes RTC_SCENE_FLAG_ROBUST\n"
     "  --medium         leave Embree's trees of quality HIGH out, which take long to build\n"
     "  --device NAME    glint's OpenCL device, as `glint render` takes it (cpu)\n"
-    "  --leaks N        count the rays that pass between S0's triangles in Embree\n"
+    "  --leaks N        count the rays that pass between S0's triangles, of the same N\n"
+    "                   in Embree and in glint\n"
     "  --json FILE      write everything as JSON\n"
     "  --quick          S0 alone, traverse and reflect, 3 rounds\n"
     "  --list           list the scenes, their sizes and their jobs\n"
@@ -231,10 +232,19 @@ static glint_status run_leaks(const request *r, const bench_arena *arena, bench_
         embree_program *program;
         status = embree_program_create(&inputs, &program, error);
         if (status == GLINT_OK) {
-            embree_report_leaks(report, robust ? "ROBUST" : "default",
+            embree_report_leaks(report, robust ? "Embree, ROBUST" : "Embree, default",
                                 embree_program_leaks(program, r->leaks));
             embree_program_free(program);
         }
+    }
+    leak_count leaks;
+    if (status == GLINT_OK) {
+        status = count_leaks_of_glint(&scene, arena->stage.environment, arena->stage.device,
+                                      r->leaks / AIMED_RAYS_PER_ITEM * AIMED_RAYS_PER_ITEM, &leaks,
+                                      error);
+    }
+    if (status == GLINT_OK) {
+        embree_report_leaks(report, "glint", leaks);
     }
     bench_scene_free(&scene);
     return status;

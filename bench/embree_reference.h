@@ -3,6 +3,7 @@
 #ifndef GLINT_BENCH_EMBREE_REFERENCE_H
 #define GLINT_BENCH_EMBREE_REFERENCE_H
 
+#include "aimed_rays.h"
 #include "base/status.h"
 #include "environment/environment.h"
 #include "pool.h"
@@ -96,14 +97,7 @@ size_t embree_program_shading_bytes(const embree_program *program);
 // "3.13.5"
 void embree_version(char *text, size_t capacity);
 
-// Rays aimed at vertices and edges of the scene from where these are seen: half at either, within a
-// unit in the last place. A leak is a ray that passes through the surface there.
-typedef struct embree_leaks {
-    uint64_t rays;
-    uint64_t at_vertices, at_edges;
-} embree_leaks;
-
-// `count` is rounded down to whole packets. The scene must be closed and smooth.
-embree_leaks embree_program_leaks(embree_program *program, uint64_t count);
+// What Embree lets through of the first `count` aimed rays, rounded down to whole packets.
+leak_count embree_program_leaks(embree_program *program, uint64_t count);
 
 #endif

@@ -118,10 +118,10 @@ void embree_report_build(json_t *scene, const bench_build *build)
     });
 }
 
-void embree_report_leaks(json_t *report, const char *flags, embree_leaks leaks)
+void embree_report_leaks(json_t *report, const char *who, leak_count leaks)
 {
     json_t *object = json_object();
-    glint_json_put_text(object, "flags", flags);
+    glint_json_put_text(object, "of", who);
     glint_json_put_count(object, "rays", leaks.rays);
     glint_json_put_count(object, "at_vertices", leaks.at_vertices);
     glint_json_put_count(object, "at_edges", leaks.at_edges);
@@ -129,7 +129,7 @@ void embree_report_leaks(json_t *report, const char *flags, embree_leaks leaks)
         glint_json_put(report, "leaks", json_array());
     }
     (void)json_array_append_new(json_object_get(report, "leaks"), object);
-    printf("leaks of Embree, %s: %llu of %llu rays at vertices, %llu of %llu at edges\n", flags,
+    printf("leaks of %s: %llu of %llu rays at vertices, %llu of %llu at edges\n", who,
            (unsigned long long)leaks.at_vertices, (unsigned long long)leaks.rays / 2,
            (unsigned long long)leaks.at_edges, (unsigned long long)leaks.rays / 2);
 }

@@ -17,6 +17,6 @@ void embree_report_contest(json_t *scene, const bench_contest *contest);
 void embree_report_build(json_t *scene, const bench_build *build);
 
 // Adds to the report and prints a line.
-void embree_report_leaks(json_t *report, const char *flags, embree_leaks leaks);
+void embree_report_leaks(json_t *report, const char *who, leak_count leaks);
 
 #endif

@@ -24,31 +24,20 @@ bool glint_figure_is_better_high(glint_figure figure)
 
 double glint_figure_value(glint_figure figure, const glint_metrics *metrics)
 {
-    switch (figure) {
-    case GLINT_FIGURE_RMSE:
-        return metrics->rmse;
-    case GLINT_FIGURE_RELATIVE_RMSE:
-        return metrics->relative_rmse;
-    case GLINT_FIGURE_MAE:
-        return metrics->mae;
-    case GLINT_FIGURE_P99:
-        return metrics->p99;
-    case GLINT_FIGURE_MAX:
-        return metrics->largest;
-    case GLINT_FIGURE_PSNR:
-        return metrics->psnr;
-    case GLINT_FIGURE_DIFFERING:
-        return metrics->compared > 0 ? (double)metrics->differing / (double)metrics->compared : 0;
-    case GLINT_FIGURE_NAN:
-        return (double)metrics->in_either.nan;
-    case GLINT_FIGURE_INFINITE:
-        return (double)metrics->in_either.infinite;
-    case GLINT_FIGURE_ALPHA:
-        return metrics->alpha;
-    case GLINT_FIGURE_COUNT:
-        break;
-    }
-    return 0;
+    const double compared = (double)metrics->compared;
+    const double values[GLINT_FIGURE_COUNT] = {
+        [GLINT_FIGURE_RMSE] = metrics->rmse,
+        [GLINT_FIGURE_RELATIVE_RMSE] = metrics->relative_rmse,
+        [GLINT_FIGURE_MAE] = metrics->mae,
+        [GLINT_FIGURE_P99] = metrics->p99,
+        [GLINT_FIGURE_MAX] = metrics->largest,
+        [GLINT_FIGURE_PSNR] = metrics->psnr,
+        [GLINT_FIGURE_DIFFERING] = compared > 0 ? (double)metrics->differing / compared : 0,
+        [GLINT_FIGURE_NAN] = (double)metrics->in_either.nan,
+        [GLINT_FIGURE_INFINITE] = (double)metrics->in_either.infinite,
+        [GLINT_FIGURE_ALPHA] = metrics->alpha,
+    };
+    return values[figure];
 }
 
 bool glint_bounds_any(const glint_bounds *bounds)
