@@ -119,16 +119,15 @@ static inline mask has_lower_number(global const int *numbers, int place, lanes_
 #define SLIVER R(0.0625)
 
 // The weights of corners at (x, y), where a triangle that holds (0, 0) has all at 0 or above or all
-// at 0 or below: for slivers again, as precise as the corners allow. Those of a sliver that only
-// rounding put (0, 0) into come to a little beyond [0, 1], which names the point of its plane that
-// the ray passes through; to cut them off would move it along the sliver. Nothing is gained where
-// they go far beyond.
+// at 0 or below: for slivers again, as precise as the corners allow. Where (0, 0) then turns out to
+// lie beside the triangle, as rounding alone had put it inside, the nearest point of that edge is
+// taken: weights stay within [0, 1], and distances within what the triangle's box was tested for.
 static inline void refine_weights(const real x[3], const real y[3], mask wanted, real weights[3])
 {
-    const real before = weights[0] + weights[1] + weights[2];
     const real width = LARGEST3(fabs(x[0]), fabs(x[1]), fabs(x[2]));
     const real height = LARGEST3(fabs(y[0]), fabs(y[1]), fabs(y[2]));
-    const mask slivers = wanted & (fabs(before) < SLIVER * (width * height));
+    const real area = fabs(weights[0] + weights[1] + weights[2]);
+    const mask slivers = wanted & (area < SLIVER * (width * height));
     if (!any_lane(slivers)) {
         return;
     }
@@ -138,14 +137,28 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         refined[k] = DIFFERENCE_OF_PRODUCTS(x[i], y[j], y[i], x[j]);
     }
-    const real sum = refined[0] + refined[1] + refined[2];
-    const real least = SELECT(sum > R(0.0), SMALLEST3(refined[0], refined[1], refined[2]),
-                              -LARGEST3(refined[0], refined[1], refined[2]));
-    const mask better =
-        slivers & (least >= R(-0.125) * fabs(sum)) & ((sum > R(0.0)) == (before > R(0.0)));
+    const real sum = refined[0] + refined[1] + refined[2], zero = real_of(0), one = real_of(1);
+    const real sign = SELECT(sum > R(0.0), one, -one);
+    const real least = sign * SELECT(sum > R(0.0), SMALLEST3(refined[0], refined[1], refined[2]),
+                                     LARGEST3(refined[0], refined[1], refined[2]));
+    const mask inside = slivers & (sum != R(0.0)) & (least >= R(0.0));
+    const mask beside = slivers & (sum != R(0.0)) & (least < R(0.0));
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        weights[k] = SELECT(better, refined[k], weights[k]);
+        weights[k] = SELECT(inside, refined[k], weights[k]);
+    }
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const real along_x = x[j] - x[i], along_y = y[j] - y[i];
+        const real squared = fused(along_x, along_x, along_y * along_y);
+        const real reach = -fused(x[i], along_x, y[i] * along_y);
+        // An edge without length is its first corner; NaN compares false.
+        const real share = SELECT(reach > R(0.0), SMALLER(reach / squared, one), zero);
+        const mask here = beside & (sign * refined[k] == least);
+        weights[i] = SELECT(here, one - share, weights[i]);
+        weights[j] = SELECT(here, share, weights[j]);
+        weights[k] = SELECT(here, zero, weights[k]);
     }
 }
 

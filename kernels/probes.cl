@@ -154,6 +154,9 @@ kernel void probe_bounce(PROBE_ARGUMENTS)
     probe_rays(in, first, rays, active);
     trace_groups(&scene, rays, active, hits);
     for (int g = 0; g < PATH_GROUPS; g++) {
+        for (int i = 4; i < GLINT_PROBE_BOUNCE; i++) {
+            probe_store(out, first + g, GLINT_PROBE_BOUNCE, i, real_of(0));
+        }
         probe_store_hit(out, first + g, GLINT_PROBE_BOUNCE, numbers, &hits[SLOT(g)]);
         if (any_lane(hits[SLOT(g)].place >= (lane_int)0)) {
             probe_surface(&scene, &rays[SLOT(g)], &hits[SLOT(g)], out, first + g);
@@ -252,15 +255,25 @@ kernel void probe_face(PROBE_ARGUMENTS)
     }
 }
 
-// In: a column and a row. Out: the unit direction of the primary ray through that pixel's middle.
+// In: a column and a row. Out: where the primary ray through that pixel's middle starts.
+kernel void probe_primary_origin(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        primary first;
+        first.x = place_x(&frame, to_int_truncated(PROBE_IN(0)), R(0.5));
+        first.y = place_y(&frame, to_int_truncated(PROBE_IN(1)), R(0.5));
+        probe_store4(out, packet, primary_rays(&frame, &first).origin, real_of(0));
+    }
+}
+
+// The same. Out: its unit direction.
 kernel void probe_primary(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
         primary first;
         first.x = place_x(&frame, to_int_truncated(PROBE_IN(0)), R(0.5));
         first.y = place_y(&frame, to_int_truncated(PROBE_IN(1)), R(0.5));
-        const path ray = primary_rays(&frame, &first);
-        probe_store4(out, packet, ray.direction, first.length);
+        probe_store4(out, packet, primary_rays(&frame, &first).direction, real_of(0));
     }
 }
 

@@ -28,8 +28,11 @@ static const struct {
     [GLINT_PROBE_ENVIRONMENT] = {"probe_environment", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
     [GLINT_PROBE_FACE] = {"probe_face", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
     [GLINT_PROBE_PRIMARY] = {"probe_primary", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
+    [GLINT_PROBE_PRIMARY_ORIGIN] = {"probe_primary_origin", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
     [GLINT_PROBE_TILE_PLACE] = {"probe_tile_place", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
 };
+
+_Static_assert(CHUNK_ELEMENTS % (16 * 16) == 0, "a chunk is no whole number of work-items");
 
 struct glint_probe {
     glint_renderer *renderer; // the scene on the device
@@ -117,11 +120,6 @@ void glint_probe_free(glint_probe *probe)
 const glint_plan *glint_probe_plan(const glint_probe *probe)
 {
     return &probe->renderer->plan;
-}
-
-double glint_probe_rounded(const glint_probe *probe, double value)
-{
-    return is_double(probe) ? value : (double)(float)value;
 }
 
 void glint_probe_view(const glint_probe *probe, const glint_camera *camera,

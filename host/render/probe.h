@@ -20,6 +20,7 @@ typedef enum glint_probe_part {
     GLINT_PROBE_ENVIRONMENT,
     GLINT_PROBE_FACE,
     GLINT_PROBE_PRIMARY,
+    GLINT_PROBE_PRIMARY_ORIGIN,
     GLINT_PROBE_TILE_PLACE,
     GLINT_PROBE_PARTS,
 } glint_probe_part;
@@ -37,7 +38,7 @@ typedef struct glint_probe_hit {
     double triangle;       // its number in the scene; −1: none
 } glint_probe_hit;
 
-// Without a hit, all but `hit` is unset.
+// Without a hit, all but `hit` is 0.
 typedef struct glint_probe_bounce {
     glint_probe_hit hit;
     double geometric_normal[3];            // unit, on the viewer's side
@@ -63,16 +64,13 @@ void glint_probe_free(glint_probe *probe); // NULL is allowed
 
 const glint_plan *glint_probe_plan(const glint_probe *probe);
 
-// `value` as the device gets it: rounded to float in single precision.
-double glint_probe_rounded(const glint_probe *probe, double value);
-
 // The values that a frame of these settings (the size alone counts) seen by `camera` would be
 // rendered with; without a camera no view, all 0 but the edges of the maps.
 void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
                       const glint_settings *settings, glint_frame_record *frame);
 
 // Calls a part on `count` elements; `in` and `out` hold numbers of double whatever the precision,
-// which round as glint_probe_rounded does. `frame`: as from glint_probe_view; NULL: no view.
+// rounded to float in single precision. `frame`: as from glint_probe_view; NULL: no view.
 // Errors: GLINT_DEVICE_FAILED; a kernel that does not compile leaves the build log in
 // error->details.
 glint_status glint_probe_call(glint_probe *probe, glint_probe_part part,

@@ -23,11 +23,11 @@ static double bumpy(const double u[3])
     return 0.8 + 0.1 * sin(5 * u[0]) * sin(4 * u[1] + 1) * sin(6 * u[2] + 2);
 }
 
-// Bodies that are star-shaped about the origin, so that every ray from there must hit.
+// Bodies that are star-shaped about their middle, so that every ray from there must hit.
 static glint_status closed_scene(trial *t, int which, glint_scene *scene)
 {
-    static const double origin[3] = {0, 0, 0}, low[3] = {-0.75, -0.5, -0.875},
-                        high[3] = {0.625, 0.75, 0.5};
+    static const double origin[3] = {0, 0, 0}, aside[3] = {0.6, -0.7, 0.55},
+                        low[3] = {-0.75, -0.5, -0.875}, high[3] = {0.625, 0.75, 0.5};
     shape s = shape_begin();
     switch (which) {
     case 0:
@@ -39,48 +39,38 @@ static glint_status closed_scene(trial *t, int which, glint_scene *scene)
     case 2:
         shape_add_box(&s, low, high, 24, false, MATERIAL_TINTED);
         break;
-    default:
+    case 3:
         shape_add_ball(&s, origin, 0x1p-10, 4, NULL, true, MATERIAL_TINTED);
+        break;
+    default:
+        shape_add_ball(&s, aside, 0.15, 5, bumpy, true, MATERIAL_TINTED);
         break;
     }
     return shape_end(&s, scene, t->error);
 }
-#define CLOSED_SCENES 4
+#define CLOSED_SCENES 5
 
-static void unit_from_to(const trial *t, const double from[3], const double to[3], double d[3])
-{
-    double length = 0;
-    for (int k = 0; k < 3; k++) {
-        d[k] = to[k] - from[k];
-        length += d[k] * d[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        d[k] = trial_rounded(t, d[k] / sqrt(length));
-    }
-}
-
-// A point on a random triangle's first edge, or its first vertex, and the triangle's number.
-static size_t random_target(trial *t, const glint_scene *scene, bool at_vertex, double target[3])
+// A point on an edge of a random triangle, or a vertex.
+static void random_target(trial *t, const glint_scene *scene, bool at_vertex, double target[3])
 {
     const size_t number = (size_t)(glint_random_number(&t->random) * (double)scene->triangle_count);
-    const float *p = scene->positions + 9 * number;
+    const size_t edge = (size_t)(3 * glint_random_number(&t->random));
+    const float *a = scene->positions + 9 * number + 3 * edge;
+    const float *b = scene->positions + 9 * number + 3 * ((edge + 1) % 3);
     const double share = at_vertex ? 0 : glint_random_number(&t->random);
     for (int k = 0; k < 3; k++) {
-        target[k] = trial_rounded(t, (double)p[k] + share * ((double)p[3 + k] - (double)p[k]));
+        target[k] = trial_rounded(t, (double)a[k] + share * ((double)b[k] - (double)a[k]));
     }
-    return number;
 }
 
 // From somewhere near the middle, inside.
 static glint_probe_ray ray_from_inside(trial *t, const glint_scene *scene, const double target[3])
 {
-    glint_probe_ray ray = {.from = -1};
-    const double size = fabs(scene->high.x) * 0.1;
-    for (int k = 0; k < 3; k++) {
-        ray.origin[k] = trial_rounded(t, trial_random(t, -size, size));
-    }
-    unit_from_to(t, ray.origin, target, ray.direction);
-    return ray;
+    const double size = 0.05 * (scene->high.x - scene->low.x);
+    const double from[3] = {(scene->low.x + scene->high.x) / 2 + trial_random(t, -size, size),
+                            (scene->low.y + scene->high.y) / 2 + trial_random(t, -size, size),
+                            (scene->low.z + scene->high.z) / 2 + trial_random(t, -size, size)};
+    return trial_aim(t, from, target);
 }
 
 // `in` and `out` hold a batch.
@@ -125,7 +115,8 @@ static glint_status leaks_of_closed_meshes(trial *t, bool at_vertex)
         glint_scene scene;
         status = closed_scene(t, which, &scene);
         if (status == GLINT_OK) {
-            status = count_leaks(t, &scene, at_vertex, t->options->rays / CLOSED_SCENES, leaks);
+            status = count_leaks(t, &scene, at_vertex, 1 + (t->options->rays - 1) / CLOSED_SCENES,
+                                 leaks);
         }
         glint_scene_free(&scene);
     }
@@ -176,10 +167,10 @@ static glint_status sheet_scene(trial *t, int step, bool orthographic, glint_sce
 {
     enum { COUNT = SHEET + 5 };
     static double at[COUNT][COUNT][3];
-    const double pixel = 2 * tan(SHEET_YFOV / 2) / SHEET;
+    const double pixel = 2.0 / SHEET; // 2 tan(45°): all products here are exact in float
     for (int j = 0; j < COUNT; j++) {
         for (int i = 0; i < COUNT; i++) {
-            const double depth = orthographic ? 1 : trial_random(t, 0.25, 0.5);
+            const double depth = orthographic ? 1 : floor(trial_random(t, 16, 32)) / 64;
             at[j][i][0] = (step * (i - 2) + 0.5 - SHEET / 2.0) * pixel * depth;
             at[j][i][1] = (SHEET / 2.0 - step * (j - 2) - 0.5) * pixel * depth;
             at[j][i][2] = orthographic ? -trial_random(t, 0.25, 0.5) : -depth;
@@ -221,7 +212,9 @@ static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthogr
         status = glint_renderer_create(&inputs, &renderer, t->error);
     }
     for (uint64_t done = 0; status == GLINT_OK && done < rays; done += SHEET * SHEET) {
-        const double nudge = 1 + t->u * (double)((int)(done / (SHEET * SHEET) % 17) - 8);
+        // 0, 1, −1, 2, −2 and so on.
+        const int frame = (int)(done / (SHEET * SHEET) % 17), off = (frame + 1) / 2;
+        const double nudge = 1 + t->u * (frame % 2 == 1 ? off : -off);
         const glint_camera camera = shape_camera(eye, target, orthographic ? 0 : SHEET_YFOV * nudge,
                                                  2 * nudge * tan(SHEET_YFOV / 2));
         status = glint_renderer_frame(renderer, &camera, NULL, &image, NULL, t->error);
@@ -249,7 +242,7 @@ static glint_status primary_rays_at_edges(trial *t)
         glint_scene scene;
         status = sheet_scene(t, 1 + kind / 2, orthographic, &scene);
         if (status == GLINT_OK) {
-            status = watch_sheet(t, &scene, orthographic, t->options->rays / 4,
+            status = watch_sheet(t, &scene, orthographic, 1 + (t->options->rays - 1) / 4,
                                  kind / 2 == 0 ? vertices : edges);
         }
         glint_scene_free(&scene);
@@ -261,18 +254,18 @@ static glint_status primary_rays_at_edges(trial *t)
 
 #define GRID 16 // origins' coordinates are multiples of 1/GRID, as the boxes' corners are
 
-// Along an axis, from a point on the grid; the other components are 0 or −0.
+// Along an axis, from a point on the grid; the other components are 0 or −0, in all ways.
 static glint_probe_ray axis_ray(int number)
 {
-    const int axis = number % 3, sign = number / 3 % 2;
-    const int a = number / 6 % (GRID - 3), b = number / 6 / (GRID - 3) % (GRID - 3);
+    const int axis = number % 3, sign = number / 3 % 2, zeros = number / 6 % 4;
+    const int a = number / 24 % (GRID - 3), b = number / 24 / (GRID - 3) % (GRID - 3);
     glint_probe_ray ray = {.from = -1};
     ray.origin[axis] = 0;
     ray.origin[(axis + 1) % 3] = (double)(a + 2) / GRID - 0.5;
     ray.origin[(axis + 2) % 3] = (double)(b + 2) / GRID - 0.5;
     ray.direction[axis] = sign ? -1 : 1;
-    ray.direction[(axis + 1) % 3] = number % 2 ? 0.0 : -0.0;
-    ray.direction[(axis + 2) % 3] = number % 5 ? -0.0 : 0.0;
+    ray.direction[(axis + 1) % 3] = zeros & 1 ? 0.0 : -0.0;
+    ray.direction[(axis + 2) % 3] = zeros & 2 ? 0.0 : -0.0;
     return ray;
 }
 
@@ -290,12 +283,12 @@ static glint_status nested_boxes(trial *t, glint_scene *scene)
 
 static glint_status directions_with_zeros(trial *t)
 {
-    enum { COUNT = 6 * (GRID - 3) * (GRID - 3) };
+    enum { COUNT = 24 * (GRID - 3) * (GRID - 3) };
     static glint_probe_ray rays[COUNT];
     static glint_probe_hit found[COUNT];
     static oracle_hit wanted[COUNT];
     glint_measure *others = trial_events(t, "rays that meet another triangle", 0);
-    glint_measure *distances = trial_error(t, "error of the distance", "u", 0);
+    glint_measure *distances = trial_error(t, "error of the distance", "u", 4); // of a division
     for (int i = 0; i < COUNT; i++) {
         rays[i] = axis_ray(i);
     }
@@ -464,6 +457,8 @@ static glint_status slivers(trial *t)
     // The hit's corners are known to about 4u after the shear, and the ray's own direction is a
     // unit vector to 2u.
     glint_measure *distances = trial_error(t, "from the ray to the point that was hit", "u", 16);
+    // With that, the point lies in the triangle that is said to be hit.
+    glint_measure *weights = trial_error(t, "barycentric weights outside of [0, 1]", "u", 4);
     glint_scene scene;
     glint_status status = sliver_scene(t, &scene);
     if (status == GLINT_OK) {
@@ -475,6 +470,10 @@ static glint_status slivers(trial *t)
         measure_event(leaks, missed, "ray %d from (%.9g, %.9g, %.9g)", i, rays[i].origin[0],
                       rays[i].origin[1], rays[i].origin[2]);
         if (!missed) {
+            const double b1 = found[i].barycentric[0], b2 = found[i].barycentric[1];
+            const double outside = fmax(0, fmax(fmax(-b1, -b2), b1 + b2 - 1));
+            measure_error(weights, outside / t->u, "ray %d, triangle %g: %.9g, %.9g", i,
+                          found[i].triangle, b1, b2);
             measure_error(distances, distance_to_point(&scene, &rays[i], &found[i]) / t->u,
                           "ray %d, triangle %g", i, found[i].triangle);
         }

@@ -165,7 +165,7 @@ static glint_status large_numbers(trial *t)
         frame.width = frame.height = edge;
         frame.band = 4;
         frame.first_band = 3;
-        // The last tile, the first, and some about the places where an int would overflow.
+        // From the first tile to the last, where an int would overflow.
         enum { COUNT = 64 };
         static double in[COUNT][4], out[COUNT][4];
         for (int p = 0; p < COUNT; p++) {

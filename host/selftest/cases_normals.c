@@ -1,22 +1,11 @@
 // Hard cases of shading normals: such as send light under the surface, have no direction or an odd
 // length; and what a thousand bounces leave of a unit vector.
-#include "selftest/judge.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
+#include "selftest/vectors.h"
 
 #include <math.h>
 #include <string.h>
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double distance(const double a[3], const double b[3])
-{
-    const double away[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    return sqrt(dot(away, away));
-}
 
 // A square in the plane z = 0 whose vertices all have this normal.
 static void add_square(shape *s, const double normal[3])
@@ -139,8 +128,14 @@ static glint_status measure_lengths(trial *t, glint_measure *lengths, glint_meas
         }
         measure_event(hopeless, v[3] != 1, "(%g, %g, %g) is said to have no direction", in[i][0],
                       in[i][1], in[i][2]);
-        measure_value(lengths, t, sqrt(dot(v, v)), 1, t->u, "along (%g, %g, %g)", in[i][0],
-                      in[i][1], in[i][2]);
+        double expected[3] = {in[i][0], in[i][1], in[i][2]};
+        const double largest = fmax(fabs(expected[0]), fmax(fabs(expected[1]), fabs(expected[2])));
+        for (int k = 0; k < 3; k++) {
+            expected[k] /= largest; // so that squares do not overflow
+        }
+        make_unit(expected);
+        measure_vector(lengths, t, v, expected, t->u, "along (%g, %g, %g)", in[i][0], in[i][1],
+                       in[i][2]);
     }
     glint_probe_free(probe);
     return status;
@@ -153,10 +148,12 @@ static glint_status odd_normals(trial *t)
         {0, 0, 0},   {0, 0, 1e20},     {0, 0, 1e-20}, {0.6e20, 0, 0.8e20}, {0.6e-20, 0, 0.8e-20},
         {NAN, 0, 1}, {0, 0, INFINITY}, {0, 0, -1},    {0, 0, 1 + 1e-6},    {1e-30, 0, 1e-38},
         {1, 0, 0}};
+    static const double axis[3] = {0, 0, 1};
     static glint_probe_ray rays[COUNT];
     static glint_probe_bounce bounces[COUNT];
-    glint_measure *lengths = trial_error(t, "|r| beside 1", "u", 4);
-    glint_measure *plain = trial_events(t, "normals that should fall back and do not", 0);
+    glint_measure *lengths = trial_error(t, "unit vectors, and |r| beside 1", "u", 4);
+    // Three products with weights that add up to 1 within 2u, added up, then made a unit vector.
+    glint_measure *taken = trial_error(t, "the normal that is taken", "u", 8);
     glint_measure *hopeless = trial_events(t, "vectors misjudged", 0);
     glint_status status = measure_lengths(t, lengths, hopeless);
     for (size_t n = 0; status == GLINT_OK && n < sizeof normals / sizeof *normals; n++) {
@@ -165,15 +162,24 @@ static glint_status odd_normals(trial *t)
             rays[i] = from_above(t, trial_random(t, 0, 1.5), trial_random(t, 0, 2 * GLINT_PI));
         }
         status = bounce_off(t, normal, rays, bounces, COUNT);
-        const bool usable =
-            isfinite(dot(normal, normal)) ? dot(normal, normal) > 0 : normal[2] == 1e20;
+        // What is wanted: along the vertices' normal as it is stored, towards the viewer, or the
+        // square's own.
+        double wanted[3] = {(double)(float)normal[0], (double)(float)normal[1],
+                            (double)(float)normal[2]};
+        const bool usable = isfinite(dot(wanted, wanted)) && dot(wanted, wanted) > 0;
+        if (!usable) {
+            memcpy(wanted, axis, sizeof wanted);
+        }
+        make_unit(wanted);
         for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
             const glint_probe_bounce *b = &bounces[i];
+            const double above = wanted[2] < 0 ? -1 : 1;
+            const double facing = -above * dot(wanted, rays[i].direction) < 0 ? -above : above;
+            const double towards[3] = {facing * wanted[0], facing * wanted[1], facing * wanted[2]};
+            measure_vector(taken, t, b->normal, towards, t->u, "normal (%g, %g, %g), ray %d",
+                           normal[0], normal[1], normal[2], i);
             measure_value(lengths, t, sqrt(dot(b->reflected, b->reflected)), 1, t->u,
                           "normal (%g, %g, %g), ray %d", normal[0], normal[1], normal[2], i);
-            measure_event(plain, !usable && distance(b->normal, b->geometric_normal) != 0,
-                          "normal (%g, %g, %g): (%g, %g, %g) is taken", normal[0], normal[1],
-                          normal[2], b->normal[0], b->normal[1], b->normal[2]);
         }
     }
     return status;
@@ -207,7 +213,7 @@ static glint_status drift(trial *t)
     static glint_probe_ray rays[COUNT];
     static glint_probe_bounce bounces[COUNT];
     glint_measure *lost = trial_events(t, "rays that leave the closed room", 0);
-    glint_measure *lengths = trial_error(t, "|r| − 1 after 1000 bounces", "", 1e-6);
+    glint_measure *lengths = trial_error(t, "|r| − 1 after 1000 bounces", "u", 1e-6 / 0x1p-24);
     glint_scene scene;
     glint_probe *probe = NULL;
     glint_status status = mirrored_room(t, 1 + 1e-6, &scene);
@@ -230,8 +236,8 @@ static glint_status drift(trial *t)
         }
     }
     for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
-        measure_value(lengths, t, sqrt(dot(rays[i].direction, rays[i].direction)), 1, 1, "ray %d",
-                      i);
+        measure_value(lengths, t, sqrt(dot(rays[i].direction, rays[i].direction)), 1, t->u,
+                      "ray %d", i);
     }
     glint_probe_free(probe);
     glint_scene_free(&scene);

@@ -70,7 +70,8 @@ static glint_status closed_room(trial *t)
     static const double low[3] = {-0.75, -0.5, -0.625}, high[3] = {0.625, 0.75, 0.5};
     static const double ahead[3] = {0.3, 0.2, -1};
     glint_measure *wrong = trial_events(t, "frames whose paths do not meet just N mirrors", 0);
-    glint_measure *shares = trial_error(t, "share of light said to be cut off, beside 1", "", 1e-6);
+    glint_measure *shares =
+        trial_error(t, "share of light said to be cut off, beside 1", "2⁻³²", 1);
     glint_measure *colors = trial_events(t, "pixels that are not 1", 0);
     glint_scene scene;
     shape s = shape_begin();
@@ -89,7 +90,7 @@ static glint_status closed_room(trial *t)
                           "depth %d: %u deep, %llu reflections instead of %llu", depths[i],
                           r->deepest, (unsigned long long)r->rays.reflected,
                           (unsigned long long)rays);
-            measure_value(shares, t, r->truncation.by_depth, 1, 1, "depth %d", depths[i]);
+            measure_value(shares, t, r->truncation.by_depth, 1, 0x1p-32, "depth %d", depths[i]);
         }
         for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
             const double *rgb = picture.values + 4 * p;
@@ -105,8 +106,7 @@ static glint_status closed_room(trial *t)
 
 // ---- The white furnace -------------------------------------------------------------------------
 
-// Glass, glass in glass and mirrors in a mirrored room with a hole in it, all without loss, or in
-// the open.
+// Glass, glass in glass and mirrors, all without loss, in a mirrored room or in the open.
 static glint_status furnace_scene(trial *t, bool closed, glint_scene *scene)
 {
     static const double left[3] = {-0.3, 0, 0}, right[3] = {0.3, 0, 0.1};

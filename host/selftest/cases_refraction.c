@@ -49,13 +49,14 @@ static glint_status critical_formulas(trial *t, double exempt)
     enum { PER_INDEX = 1024, COUNT = INDEX_COUNT * PER_INDEX };
     static double in[COUNT][4], out[COUNT][4];
     glint_measure *wrong = trial_events(t, "cosines on the wrong side beyond the exempt band", 0);
-    // cos² θt, which is about twice the distance, is known to 4u or so; its root to that over twice
-    // the root.
+    // cos² θt, which is about 2η times the distance, is known to about 4u·η², its root to that over
+    // twice the root.
     glint_measure *errors = trial_error(t, "error of the reflectance", "u/√distance", 16);
+    glint_measure *beyond = trial_error(t, "and beyond ten times the band, η up to 2.42", "", 2e-3);
     for (int i = 0; i < COUNT; i++) {
         const int which = i / PER_INDEX;
         const double eta = trial_rounded(t, indices[which]), critical = asin(1 / eta);
-        const double distance = pow(10, trial_random(t, -16, -0.5)) * (i % 2 ? 1 : -1);
+        const double distance = exempt * pow(10, trial_random(t, 0, 5.5)) * (i % 2 ? 1 : -1);
         in[i][0] = cos(fmin(fmax(critical + distance, 0), GLINT_PI / 2));
         in[i][1] = eta;
     }
@@ -74,6 +75,10 @@ static glint_status critical_formulas(trial *t, double exempt)
         const double got = out[i][0] >= 0 ? out[i][1] : 1;
         measure_value(errors, t, got, reflectance(cosine, eta), t->u * eta * eta / sqrt(distance),
                       "cos θ %.9g, η %.9g", cosine, eta);
+        if (distance > 10 * exempt && eta < 3) {
+            measure_value(beyond, t, got, reflectance(cosine, eta), 1, "cos θ %.9g, η %.9g", cosine,
+                          eta);
+        }
     }
     return status;
 }
@@ -144,10 +149,10 @@ static glint_status equal_indices(trial *t)
     glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
     for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
         if (in[i][0] == 1) {
-            measure_error(reflected, out[i][1], "η %.9g: %.3g", in[i][1], out[i][1]);
+            measure_error(reflected, fabs(out[i][1]), "η %.9g: %.3g", in[i][1], out[i][1]);
         }
         if (in[i][1] == 1) {
-            measure_error(slanting, out[i][1], "cos θ %.9g: %.3g", in[i][0], out[i][1]);
+            measure_error(slanting, fabs(out[i][1]), "cos θ %.9g: %.3g", in[i][0], out[i][1]);
         }
     }
     if (status == GLINT_OK) {
@@ -171,6 +176,7 @@ static glint_status extreme_indices(trial *t)
     static double in[COUNT][4], out[COUNT][4];
     glint_measure *snell = trial_error(t, "η sin θi − sin θt", "u·max(1, η)", 4);
     glint_measure *lengths = trial_error(t, "|t| beside 1", "u·max(1, η²)/cos θt", 8);
+    glint_measure *mirrored = trial_error(t, "the reflected direction", "u", 4);
     glint_measure *sides = trial_events(t, "rays on the wrong side of 5.739° from 10 to 1", 0);
     for (int i = 0; i < COUNT; i++) {
         in[i][1] = i % 2 ? 10 : 0.1;
@@ -183,19 +189,22 @@ static glint_status extreme_indices(trial *t)
         const double sine = sqrt((1 - cosine) * (1 + cosine));
         measure_value(snell, t, -out[i][0], eta * sine, t->u * scale, "cos θ %.9g, η %g", cosine,
                       eta);
+        measure_value(mirrored, t, hypot(out[i][2] + sine, out[i][3] - cosine), 0, t->u,
+                      "cos θ %.9g", cosine);
         const double root = sqrt(fmax(0, transmitted_squared(cosine, eta)));
         measure_value(lengths, t, hypot(out[i][0], out[i][1]), 1, t->u * fmax(1, eta * eta) / root,
                       "cos θ %.9g, η %g", cosine, eta);
     }
     for (int i = 0; i < COUNT; i++) {
+        const double away = trial_random(t, 1e-4, 5);
         in[i][1] = 10;
-        in[i][0] = cos((5.739170 + (i % 2 ? 1e-4 : -1e-4)) * GLINT_PI / 180);
+        in[i][0] = cos((5.739170 + (i % 2 ? away : -away)) * GLINT_PI / 180);
     }
     if (status == GLINT_OK) {
         status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
     }
-    for (int i = 0; status == GLINT_OK && i < 2; i++) {
-        measure_event(sides, (out[i][0] >= 0) != (i == 0), "cos θ %.9g: cos² θt %.3g", in[i][0],
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        measure_event(sides, (out[i][0] >= 0) != (i % 2 == 0), "cos θ %.9g: cos² θt %.3g", in[i][0],
                       out[i][0]);
     }
     return status;
@@ -207,10 +216,10 @@ static glint_status fresnel_at_its_ends(trial *t)
 {
     enum { COUNT = 8 * INDEX_COUNT };
     static double in[COUNT][4], out[COUNT][4];
-    glint_measure *head_on = trial_error(t, "((n − 1)/(n + 1))² at 0°", "", 1e-6);
-    glint_measure *grazing = trial_error(t, "1 at 90°", "", 1e-6);
-    glint_measure *brewster = trial_error(t, "R_p = 0 at Brewster's angle", "", 1e-6);
-    glint_measure *between = trial_error(t, "in between", "u", 64);
+    glint_measure *head_on = trial_error(t, "((n − 1)/(n + 1))² at 0°", "u", 16);
+    glint_measure *grazing = trial_error(t, "1 at 90°", "u", 16);
+    glint_measure *brewster = trial_error(t, "R_p = 0 at Brewster's angle", "u", 16);
+    glint_measure *between = trial_error(t, "in between", "u", 16);
     for (size_t i = 0; i < COUNT; i++) {
         const double n = indices[i / 8];
         const double angles[] = {0, GLINT_PI / 2, atan(n), 0.2, 0.6, 1, 1.3, 1.5};
@@ -221,12 +230,13 @@ static glint_status fresnel_at_its_ends(trial *t)
     for (size_t i = 0; status == GLINT_OK && i < COUNT; i++) {
         const double n = indices[i / 8], got = out[i][1];
         if (i % 8 == 0) {
-            measure_value(head_on, t, got, pow((n - 1) / (n + 1), 2), 1, "n %g", n);
+            measure_value(head_on, t, got, pow((n - 1) / (n + 1), 2), t->u, "n %g", n);
         } else if (i % 8 == 1) {
-            measure_value(grazing, t, got, 1, 1, "n %g", n);
+            measure_value(grazing, t, got, 1, t->u, "n %g", n);
         } else if (i % 8 == 2) {
             // sin(θi − θt), where θi + θt is a right angle: −cos 2θi; half of its square is left.
-            measure_value(brewster, t, got, 0.5 * pow((n * n - 1) / (n * n + 1), 2), 1, "n %g", n);
+            measure_value(brewster, t, got, 0.5 * pow((n * n - 1) / (n * n + 1), 2), t->u, "n %g",
+                          n);
         } else {
             measure_value(between, t, got, reflectance(in[i][0], in[i][1]), t->u,
                           "n %g, cos θ %.9g", n, in[i][0]);

@@ -8,7 +8,7 @@
 
 static const double middle[3] = {0, 0, 0};
 
-// The share of pixels that show another triangle than the oracle's. Triangles from `last` on count
+// Judges the pixels: which show another triangle than the oracle's. Triangles from `last` on count
 // as one.
 static glint_status compare_hits(trial *t, const glint_scene *scene, const glint_camera *camera,
                                  const int size[2], double last, glint_measure *others)
@@ -92,8 +92,8 @@ static glint_status tiny_on_huge(trial *t)
     return status;
 }
 
-// A glass ball before a mirror, in a world 2^k times as large.
-static glint_status scaled_picture(trial *t, const glint_environment *environment, int k,
+// A glass ball before a mirror, in a world 2^k times as large, whose unit is 2^unit times as large.
+static glint_status scaled_picture(trial *t, const glint_environment *environment, int k, int unit,
                                    trial_picture *picture)
 {
     static const double ball[3] = {0.1, 0, 0.2};
@@ -104,7 +104,13 @@ static glint_status scaled_picture(trial *t, const glint_environment *environmen
     shape s = shape_begin();
     shape_add_ball(&s, ball, 0.4, 3, NULL, true, MATERIAL_GLASS);
     shape_add_quad(&s, wall, MATERIAL_MIRROR);
-    glint_status status = shape_end_with_unit(&s, scale, &scene, t->error);
+    glint_status status = shape_end_with_unit(&s, ldexp(1, unit), &scene, t->error);
+    for (size_t i = 0; status == GLINT_OK && i < 9 * scene.triangle_count; i++) {
+        scene.positions[i] *= (float)ldexp(1, k - unit);
+    }
+    if (status == GLINT_OK) {
+        glint_scene_find_bounds(&scene);
+    }
     const glint_camera camera = shape_camera(eye, middle, 0.8, 0);
     glint_settings settings = trial_settings(t);
     settings.depth = 8;
@@ -118,20 +124,23 @@ static glint_status scaled_picture(trial *t, const glint_environment *environmen
 
 static glint_status powers_of_two(trial *t)
 {
-    static const int exponents[] = {-20, 20, -60, 60};
+    // The last two leave the unit alone, so that the kernels get coordinates as small.
+    static const struct {
+        int scale, unit;
+    } scales[] = {{-20, -20}, {20, 20}, {-60, -60}, {60, 60}, {-10, 0}, {-20, 0}};
     glint_measure *errors = trial_error(t, "colours of the scaled scene", "ulp", 4);
     glint_environment environment;
     trial_picture plain = {0};
     glint_status status = trial_linear_environment(16, &environment, t->error);
     if (status == GLINT_OK) {
-        status = scaled_picture(t, &environment, 0, &plain);
+        status = scaled_picture(t, &environment, 0, 0, &plain);
     }
-    for (size_t i = 0; status == GLINT_OK && i < sizeof exponents / sizeof *exponents; i++) {
+    for (size_t i = 0; status == GLINT_OK && i < sizeof scales / sizeof *scales; i++) {
         trial_picture scaled;
-        status = scaled_picture(t, &environment, exponents[i], &scaled);
+        status = scaled_picture(t, &environment, scales[i].scale, scales[i].unit, &scaled);
         for (int p = 0; status == GLINT_OK && p < 4 * plain.width * plain.height; p++) {
-            measure_value(errors, t, trial_ulps(t, scaled.values[p], plain.values[p]), 0, 1,
-                          "2^%d, value %d: %.9g unscaled, %.9g scaled; in ulp", exponents[i], p,
+            measure_error(errors, fabs(trial_ulps(t, scaled.values[p], plain.values[p])),
+                          "2^%d, value %d: %.9g unscaled, %.9g scaled", scales[i].scale, p,
                           plain.values[p], scaled.values[p]);
         }
         trial_picture_free(&scaled);

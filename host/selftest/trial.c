@@ -3,7 +3,9 @@
 
 #include "base/memory.h"
 #include "selftest/shapes.h"
+#include "selftest/vectors.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -15,6 +17,7 @@
 
 static glint_measure *add_measure(trial *t, const char *what, const char *unit, double bound)
 {
+    assert(t->result->measure_count < GLINT_SELFTEST_MEASURES);
     glint_measure *m = &t->result->measures[t->result->measure_count++];
     *m = (glint_measure){.what = what, .unit = unit, .bound = bound};
     return m;
@@ -135,6 +138,20 @@ double trial_random(trial *t, double low, double high)
 double trial_rounded(const trial *t, double value)
 {
     return t->options->precision == GLINT_PRECISION_DOUBLE ? value : (double)(float)value;
+}
+
+glint_probe_ray trial_aim(const trial *t, const double from[3], const double to[3])
+{
+    glint_probe_ray ray = {.from = -1};
+    for (int k = 0; k < 3; k++) {
+        ray.origin[k] = trial_rounded(t, from[k]);
+        ray.direction[k] = to[k] - ray.origin[k];
+    }
+    make_unit(ray.direction);
+    for (int k = 0; k < 3; k++) {
+        ray.direction[k] = trial_rounded(t, ray.direction[k]);
+    }
+    return ray;
 }
 
 // ---- Environments ------------------------------------------------------------------------------

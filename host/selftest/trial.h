@@ -62,6 +62,9 @@ double trial_random(trial *t, double low, double high);
 // As the device gets it: rounded to float in single precision.
 double trial_rounded(const trial *t, double value);
 
+// From one place to another, in stored coordinates, each rounded.
+glint_probe_ray trial_aim(const trial *t, const double from[3], const double to[3]);
+
 // ---- The renderer ------------------------------------------------------------------------------
 
 // Probes of a scene, compiled with all features, so that most cases share their kernels, with
