@@ -176,6 +176,11 @@ static bool has_enough(const selftest_work *work)
     return work->request->fail_fast && work->troubled > 0;
 }
 
+static bool is_troubled(const glint_selftest_result *result)
+{
+    return result->verdict == GLINT_FAILED || result->verdict == GLINT_BROKEN;
+}
+
 static glint_status run_case(selftest_work *work, size_t index,
                              const glint_selftest_options *options, bool is_first,
                              glint_error *error)
@@ -188,7 +193,7 @@ static glint_status run_case(selftest_work *work, size_t index,
         *error = trouble;
         return status;
     }
-    work->troubled += result->verdict == GLINT_FAILED || result->verdict == GLINT_BROKEN;
+    work->troubled += is_troubled(result);
     if (prints_table(work)) {
         if (work->count == 1) {
             glint_selftest_print_device(glint_device_capabilities(work->device), stdout);
@@ -275,6 +280,18 @@ static glint_status write_reports(const selftest_work *work, glint_error *error)
     return status;
 }
 
+// The same case failed at another width or precision.
+static bool is_named_before(const selftest_work *work, size_t index)
+{
+    const char *name = work->results[index].name;
+    bool named = false;
+    for (size_t i = 0; i < index; i++) {
+        named =
+            named || (is_troubled(&work->results[i]) && strcmp(work->results[i].name, name) == 0);
+    }
+    return named;
+}
+
 // "3 of 84 cases failed: slivers, drift, prism"
 static glint_status give_verdict(const selftest_work *work, glint_error *error)
 {
@@ -286,12 +303,16 @@ static glint_status give_verdict(const selftest_work *work, glint_error *error)
     }
     char names[512] = "";
     for (size_t i = 0; i < work->count; i++) {
-        const glint_selftest_result *r = &work->results[i];
-        const bool is_troubled = r->verdict == GLINT_FAILED || r->verdict == GLINT_BROKEN;
-        const size_t used = strlen(names);
-        if (is_troubled && strstr(names, r->name) == NULL) {
-            snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "", r->name);
+        const size_t used = strlen(names), room = sizeof names - used;
+        if (!is_troubled(&work->results[i]) || is_named_before(work, i)) {
+            continue;
         }
+        const char *comma = used > 0 ? ", " : "";
+        if ((size_t)snprintf(NULL, 0, "%s%s, …", comma, work->results[i].name) >= room) {
+            snprintf(names + used, room, "%s…", comma);
+            break;
+        }
+        snprintf(names + used, room, "%s%s", comma, work->results[i].name);
     }
     return glint_fail(error, GLINT_MISMATCH, "%zu of %zu cases failed on '%s': %s", work->troubled,
                       work->count, glint_device_capabilities(work->device)->name, names);

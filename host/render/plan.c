@@ -246,25 +246,29 @@ static glint_status check_settings(const glint_plan_inputs *in, glint_error *err
 
 // A packet fills the widest vector of the device; where a work-item is one lane of the hardware's
 // own (GPUs), a packet is one ray.
+int glint_plan_native_width(const glint_capabilities *device, glint_precision precision)
+{
+    const int per_lane = precision == GLINT_PRECISION_DOUBLE ? 2 : 1;
+    return !device->is_cpu ? 1 : device->native_float_width / per_lane >= 16 ? 16 : 8;
+}
+
 static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
 {
     const glint_capabilities *device = in->device;
-    int lanes = device->native_float_width;
-    if (plan->precision == GLINT_PRECISION_DOUBLE) {
-        lanes /= 2;
-    }
+    const bool is_double = plan->precision == GLINT_PRECISION_DOUBLE;
+    const int lanes = device->native_float_width / (is_double ? 2 : 1);
     plan->bvh_width = device->native_float_width >= 16 ? 16 : 8;
     if (in->settings->kernel_width != 0) {
         plan->kernel_width = in->settings->kernel_width;
         snprintf(plan->width_reason, sizeof plan->width_reason, "asked for");
     } else if (!device->is_cpu) {
-        plan->kernel_width = 1;
+        plan->kernel_width = glint_plan_native_width(device, plan->precision);
         snprintf(plan->width_reason, sizeof plan->width_reason, "not a CPU: one ray a work-item");
     } else {
-        plan->kernel_width = lanes >= 16 ? 16 : 8;
+        plan->kernel_width = glint_plan_native_width(device, plan->precision);
         snprintf(plan->width_reason, sizeof plan->width_reason,
                  "%sthe device's vectors hold %d %ss", lanes < 8 ? "the narrowest packet; " : "",
-                 lanes, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float");
+                 lanes, is_double ? "double" : "float");
     }
 }
 

@@ -128,6 +128,9 @@ typedef struct glint_plan_inputs {
     const glint_settings *settings;
 } glint_plan_inputs;
 
+// Lanes of a packet on the device where nobody asks for others: 1, 8 or 16.
+int glint_plan_native_width(const glint_capabilities *device, glint_precision precision);
+
 // Errors: GLINT_USAGE for settings out of range and for half texels of an environment that half
 // cannot hold, GLINT_DEVICE_FAILED for what the device cannot do (double precision without
 // cl_khr_fp64).

@@ -31,7 +31,7 @@ void glint_json_put_real(json_t *object, const char *key, double value)
     glint_json_put(object, key, isfinite(value) ? json_real(value) : json_null());
 }
 
-static json_t *text_or_null(const char *text)
+json_t *glint_json_text(const char *text)
 {
     if (text == NULL) {
         return json_null();
@@ -53,14 +53,14 @@ static json_t *text_or_null(const char *text)
 
 void glint_json_put_text(json_t *object, const char *key, const char *text)
 {
-    glint_json_put(object, key, text_or_null(text));
+    glint_json_put(object, key, glint_json_text(text));
 }
 
 json_t *glint_json_warnings(const glint_warnings *warnings)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < warnings->count; i++) {
-        (void)json_array_append_new(list, text_or_null(warnings->texts[i]));
+        (void)json_array_append_new(list, glint_json_text(warnings->texts[i]));
     }
     return list;
 }

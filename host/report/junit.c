@@ -9,8 +9,10 @@
 #include <string.h>
 
 // As text or within quotes; what XML cannot hold becomes '?'.
-static void put_text(FILE *out, const char *text)
+static void put_text(FILE *out, const char *bytes)
 {
+    json_t *valid = glint_json_text(bytes);
+    const char *text = json_is_string(valid) ? json_string_value(valid) : "";
     for (; *text != '\0'; text++) {
         const unsigned char c = (unsigned char)*text;
         switch (c) {
@@ -33,6 +35,7 @@ static void put_text(FILE *out, const char *text)
             fputc(c < 0x20 ? '?' : c, out);
         }
     }
+    json_decref(valid);
 }
 
 static void put_attribute(FILE *out, const char *name, const char *value)
@@ -71,11 +74,12 @@ static void put_measures(FILE *out, const glint_selftest_result *r)
 static void put_trouble(FILE *out, const glint_selftest_result *r)
 {
     const glint_measure *worst = glint_selftest_worst(r);
-    char message[512];
+    char message[GLINT_MESSAGE_CAPACITY + 512];
     snprintf(message, sizeof message, "%s", r->reason);
     if (r->verdict == GLINT_FAILED && worst != NULL) {
         snprintf(message, sizeof message, "%s: %.6g %s, at most %.6g; %s", worst->what,
-                 worst->measured, worst->unit, worst->bound, worst->worst);
+                 worst->measured, worst->unit, worst->bound,
+                 worst->judged > 0 ? worst->worst : "nothing was judged");
     }
     const char *element = r->verdict == GLINT_SKIPPED  ? "skipped"
                           : r->verdict == GLINT_BROKEN ? "error"

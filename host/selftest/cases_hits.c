@@ -223,9 +223,6 @@ static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthogr
                           "pixel (%d, %d) looks through the sheet", i % SHEET, i / SHEET);
         }
     }
-    if (renderer != NULL) {
-        t->result->width = glint_renderer_plan(renderer)->kernel_width;
-    }
     glint_image_free(&image);
     glint_renderer_free(renderer);
     glint_environment_free(&environment);
@@ -482,6 +479,66 @@ static glint_status slivers(trial *t)
     return status;
 }
 
+// ---- Triangles seen edge-on --------------------------------------------------------------------
+
+// From places next to nothing off the planes of a box's walls, to other places like that: walls are
+// met edge-on, where rounding decides what is hit.
+static void aim_along_walls(trial *t, glint_probe_ray *rays, int count)
+{
+    for (int i = 0; i < count; i++) {
+        double ends[2][3];
+        for (int e = 0; e < 2; e++) {
+            for (int k = 0; k < 3; k++) {
+                ends[e][k] = trial_random(t, -0.7, 0.7);
+            }
+            ends[e][i % 3] = (i % 2 ? -0.5 : 0.5) + pow(10, trial_random(t, -8, -4)) * (e ? 1 : -1);
+        }
+        rays[i] = trial_aim(t, ends[0], ends[1]);
+    }
+}
+
+static glint_status edge_on_triangles(trial *t)
+{
+    enum { COUNT = 32768 };
+    static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
+    static glint_probe_ray rays[COUNT], reversed[COUNT];
+    static glint_probe_hit found[COUNT], again[COUNT];
+    glint_measure *company = trial_events(t, "hits that depend on the rays beside", 0);
+    glint_measure *weights = trial_error(t, "barycentric weights outside of [0, 1]", "u", 4);
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    shape s = shape_begin();
+    shape_add_box(&s, low, high, 2, false, MATERIAL_TINTED);
+    glint_status status = shape_end(&s, &scene, t->error);
+    aim_along_walls(t, rays, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        reversed[i] = rays[COUNT - 1 - i];
+    }
+    if (status == GLINT_OK) {
+        status = trial_probe(t, &scene, &probe);
+    }
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, found, COUNT);
+    }
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, reversed, again, COUNT);
+    }
+    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        const glint_probe_hit *a = &found[i], *b = &again[COUNT - 1 - i];
+        const double b1 = a->barycentric[0], b2 = a->barycentric[1];
+        measure_event(company, a->triangle != b->triangle || a->distance != b->distance,
+                      "ray %d: triangle %g at %.9g, in another order %g at %.9g", i, a->triangle,
+                      a->distance, b->triangle, b->distance);
+        if (a->triangle >= 0) {
+            measure_error(weights, fmax(0, fmax(fmax(-b1, -b2), b1 + b2 - 1)) / t->u,
+                          "ray %d, triangle %g: %.9g, %.9g", i, a->triangle, b1, b2);
+        }
+    }
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
 const trial_case hit_cases[] = {
     {"rays_at_shared_edges", "rays aimed at edges of closed meshes: none passes",
      rays_at_shared_edges},
@@ -494,5 +551,7 @@ const trial_case hit_cases[] = {
      triangles_without_area},
     {"slivers", "triangles a million times as long as wide: watertight, hit where the ray is",
      slivers},
+    {"edge_on_triangles", "rays along walls: hits in the triangles, whatever rays are beside",
+     edge_on_triangles},
     {0},
 };

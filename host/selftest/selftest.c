@@ -89,10 +89,12 @@ glint_status glint_selftest_run(size_t index, const glint_selftest_options *opti
                                 glint_selftest_result *result, glint_error *error)
 {
     const trial_case *c = case_at(index);
-    *result = (glint_selftest_result){
-        .name = c->name, .width = options->width, .precision = options->precision};
     const bool is_double = options->precision == GLINT_PRECISION_DOUBLE;
     const glint_capabilities *device = glint_device_capabilities(options->device);
+    const int native = glint_plan_native_width(device, options->precision);
+    *result = (glint_selftest_result){.name = c->name,
+                                      .width = options->width > 0 ? options->width : native,
+                                      .precision = options->precision};
     if (is_double && !device->has_double) {
         result->verdict = GLINT_SKIPPED;
         snprintf(result->reason, sizeof result->reason, "the device has no double precision");

@@ -203,11 +203,7 @@ static glint_status make_probe(const trial *t, const glint_scene *scene,
         .settings = &settings,
         .kernel_dir = t->options->kernel_dir,
     };
-    glint_status status = glint_probe_create(&inputs, probe, t->error);
-    if (status == GLINT_OK) {
-        t->result->width = glint_probe_plan(*probe)->kernel_width;
-    }
-    return status;
+    return glint_probe_create(&inputs, probe, t->error);
 }
 
 glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe **probe)
@@ -323,7 +319,6 @@ glint_status trial_frame(trial *t, const glint_scene *scene, const glint_environ
     }
     if (status == GLINT_OK) {
         status = read_picture(renderer, &image, picture, t->error);
-        t->result->width = picture->plan.kernel_width;
     }
     glint_image_free(&image);
     glint_renderer_free(renderer);
