@@ -18,8 +18,8 @@ void glint_json_put_flag(json_t *object, const char *key, bool value);
 void glint_json_put_count(json_t *object, const char *key, uint64_t value);
 // JSON has no NaN and no infinity: null stands for them.
 void glint_json_put_real(json_t *object, const char *key, double value);
-// Where a text is no UTF-8 (file names may hold any bytes), those that are no ASCII become '?'; NULL
-// becomes null.
+// Where a text is no UTF-8 (file names may hold any bytes), those that are no ASCII become '?';
+// NULL becomes null.
 json_t *glint_json_text(const char *text);
 void glint_json_put_text(json_t *object, const char *key, const char *text);
 
