@@ -30,13 +30,17 @@ typedef struct soup {
     float *positions, *normals; // [count][3][3]
     uint32_t *material_of;
     size_t count;
+    const bool *flat; // which of them have no area; NULL: none
+    size_t flat_count;
 } soup;
 
 // Without positions yet; one material, and one normal for all vertices.
 static soup empty_soup(size_t count)
 {
-    soup s = {malloc(count * 9 * sizeof(float)), calloc(count * 9, sizeof(float)),
-              calloc(count, sizeof(uint32_t)), count};
+    soup s = {.positions = malloc(count * 9 * sizeof(float)),
+              .normals = calloc(count * 9, sizeof(float)),
+              .material_of = calloc(count, sizeof(uint32_t)),
+              .count = count};
     assert_non_null(s.positions);
     assert_non_null(s.normals);
     assert_non_null(s.material_of);
@@ -272,7 +276,10 @@ static void check_report(const walk *w, const glint_bvh *bvh)
                      bvh->node_count * GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float) +
                          bvh->cluster_count * cluster_bytes);
     double lanes = (double)bvh->cluster_count * GLINT_CLUSTER_LANES;
-    assert_true(fabs(report->fill - (double)w->soup->count / lanes) < 1e-12);
+    const size_t kept = w->soup->count - w->soup->flat_count;
+    assert_int_equal(report->triangle_count, kept);
+    assert_int_equal(report->without_area, w->soup->flat_count);
+    assert_true(fabs(report->fill - (lanes > 0 ? (double)kept / lanes : 0)) < 1e-12);
 }
 
 static walk check_bvh(const soup *s, const glint_bvh *bvh)
@@ -283,7 +290,7 @@ static walk check_bvh(const soup *s, const glint_bvh *bvh)
     const float high[3] = {INFINITY, INFINITY, INFINITY};
     visit(&w, 0, low, high, 0, 0);
     for (size_t i = 0; i < s->count; i++) {
-        assert_int_equal(w.seen[i], 1);
+        assert_int_equal(w.seen[i], s->flat == NULL || !s->flat[i]);
     }
     assert_int_equal(w.nodes, bvh->node_count);
     assert_int_equal(w.clusters, bvh->cluster_count);
@@ -428,18 +435,53 @@ static void concentric_triangles_are_divided(void **state)
     free_soup(&s);
 }
 
-static void needles_and_points_are_triangles_too(void **state)
+static void triangles_without_area_are_left_out_and_needles_are_not(void **state)
 {
     (void)state;
-    soup s = random_soup(9000, 0);
-    for (size_t i = 0; i < s.count; i++) {
+    enum { COUNT = 9000 };
+    static bool flat[COUNT];
+    soup s = random_soup(COUNT, 0);
+    for (size_t i = 0; i < COUNT; i++) {
         float *p = s.positions + 9 * i;
         for (int k = 0; k < 3; k++) {
-            // A needle across the scene, one without width, a point.
-            p[3 + k] = i % 3 == 0 ? -p[k] : i % 3 == 1 ? p[6 + k] : p[k];
-            p[6 + k] = i % 3 == 2 ? p[k] : p[6 + k];
+            // A needle across the scene; an edge there and back; a point; a corner half-way between
+            // the others; a needle whose third corner is an ulp beside its edge.
+            const float a = p[k], b = ldexpf(floorf(ldexpf(p[3 + k], 20)), -20);
+            switch (i % 5) {
+            case 0:
+                p[3 + k] = -a;
+                break;
+            case 1:
+                p[3 + k] = p[6 + k];
+                break;
+            case 2:
+                p[3 + k] = p[6 + k] = a;
+                break;
+            default:
+                p[k] = 0;
+                p[3 + k] = b;
+                p[6 + k] = b / 2;
+                break;
+            }
         }
+        p[6] = i % 5 == 4 ? nextafterf(p[6], 2) : p[6];
+        flat[i] = i % 5 >= 1 && i % 5 <= 3;
+        s.flat_count += flat[i];
     }
+    s.flat = flat;
+    check_tree(&s);
+    free_soup(&s);
+}
+
+static void triangles_that_all_have_no_area_give_a_root_that_no_ray_meets(void **state)
+{
+    (void)state;
+    static bool flat[40];
+    soup s = random_soup(40, 0);
+    memset(s.positions, 0, s.count * 9 * sizeof(float));
+    memset(flat, true, sizeof flat);
+    s.flat = flat;
+    s.flat_count = s.count;
     check_tree(&s);
     free_soup(&s);
 }
@@ -563,7 +605,8 @@ int main(void)
         cmocka_unit_test(triangles_of_every_magnitude_keep_the_tree_shallow),
         cmocka_unit_test(coincident_triangles_are_divided_by_number),
         cmocka_unit_test(concentric_triangles_are_divided),
-        cmocka_unit_test(needles_and_points_are_triangles_too),
+        cmocka_unit_test(triangles_without_area_are_left_out_and_needles_are_not),
+        cmocka_unit_test(triangles_that_all_have_no_area_give_a_root_that_no_ray_meets),
         cmocka_unit_test(a_detail_inside_large_triangles_is_divided),
         cmocka_unit_test(the_largest_finite_coordinates_do_no_harm),
         cmocka_unit_test(any_number_of_threads_gives_the_same_tree),

@@ -33,7 +33,7 @@ typedef struct entry {
 typedef struct chunk {
     size_t entry, first, count;
     glint_reference *made; // to its triangles, owned; only while they are being made
-    size_t made_count;
+    size_t made_count, made_triangles;
     size_t left_before, right_before; // references of the chunks before it, on either side
     glint_bins bins;
     glint_box boxes[2]; // at first bounds and middles of its references, then middles of each side
@@ -108,6 +108,7 @@ static void make_references(size_t index, void *context)
     chunk *c = &b->chunks[index];
     glint_reference references[CHUNK];
     c->made_count = glint_references_make(b->in->positions, c->first, c->count, references);
+    c->made_triangles = 0;
     c->made = glint_allocate_unset(c->made_count, sizeof *c->made);
     if (c->made == NULL) {
         atomic_store(&b->failed, true);
@@ -117,6 +118,7 @@ static void make_references(size_t index, void *context)
     c->boxes[0] = c->boxes[1] = glint_box_empty();
     for (size_t i = 0; i < c->made_count; i++) {
         glint_box middle = glint_box_of(glint_box_middle(references[i]));
+        c->made_triangles += glint_reference_count(references[i]);
         c->boxes[0] = glint_box_union(c->boxes[0], references[i]);
         c->boxes[1] = glint_box_union(c->boxes[1], middle);
     }
@@ -135,13 +137,14 @@ static void gather_references(size_t index, void *context)
 static bool join_chunks(builder *b, glint_range *all)
 {
     all->node->bounds = all->middles = glint_box_empty();
-    all->count = 0;
+    all->count = all->triangle_count = 0;
     for (size_t i = 0; i < b->chunk_count; i++) {
         chunk *c = &b->chunks[i];
         all->node->bounds = glint_box_union(all->node->bounds, c->boxes[0]);
         all->middles = glint_box_union(all->middles, c->boxes[1]);
         c->left_before = all->count;
         all->count += c->made_count;
+        all->triangle_count += c->made_triangles;
     }
     b->references = glint_allocate_unset(all->count, sizeof *b->references);
     b->spare = glint_allocate_unset(all->count, sizeof *b->spare);
@@ -165,6 +168,7 @@ static bool start(builder *b)
     }
     glint_parallel_for_on(b->in->threads, b->chunk_count, make_references, b);
     bool made = !atomic_load(&b->failed) && join_chunks(b, &b->entries[0].range);
+    b->tree->triangle_count = b->entries[0].range.triangle_count;
     for (size_t i = 0; i < b->chunk_count; i++) {
         free(b->chunks[i].made);
     }
@@ -322,7 +326,8 @@ bool glint_binary_tree_build(const glint_bvh_inputs *in, glint_binary_tree *tree
     *tree = (glint_binary_tree){.arena_count = 1};
     builder b = {.in = in, .tree = tree};
     tree->arenas = glint_allocate(1, sizeof *tree->arenas);
-    bool done = tree->arenas != NULL && start(&b) && divide_upper_levels(&b) && build_ranges(&b);
+    bool done = tree->arenas != NULL && start(&b) &&
+                (tree->triangle_count == 0 || (divide_upper_levels(&b) && build_ranges(&b)));
     free(b.references);
     free(b.spare);
     free(b.entries);

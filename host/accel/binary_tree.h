@@ -15,10 +15,11 @@ typedef struct glint_binary_tree {
     glint_wide_costs costs;
     glint_arena *arenas; // of what the tree is made
     size_t arena_count;
+    size_t triangle_count; // that have an area
 } glint_binary_tree;
 
-// Builds the tree of at least one triangle. False where memory is short; the tree is to be freed in
-// either case.
+// Builds the tree of the triangles that have an area; without any there is no root. False where
+// memory is short; the tree is to be freed in either case.
 bool glint_binary_tree_build(const glint_bvh_inputs *in, glint_binary_tree *tree);
 void glint_binary_tree_free(glint_binary_tree *tree);
 

@@ -4,9 +4,16 @@
 
 #include "accel/binary_tree.h"
 #include "accel/collapse.h"
+#include "base/memory.h"
 
 #include <stdlib.h>
 
+static double ratio(size_t a, size_t b)
+{
+    return b > 0 ? (double)a / (double)b : 0;
+}
+
+// Of the triangles that have an area.
 static void finish_report(glint_bvh *bvh, size_t triangle_count)
 {
     const size_t node_bytes = GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float);
@@ -16,10 +23,23 @@ static void finish_report(glint_bvh *bvh, size_t triangle_count)
     report->triangle_count = triangle_count;
     report->node_count = bvh->node_count;
     report->cluster_count = bvh->cluster_count;
-    report->fill = (double)triangle_count / ((double)bvh->cluster_count * GLINT_CLUSTER_LANES);
+    report->fill = ratio(triangle_count, bvh->cluster_count * GLINT_CLUSTER_LANES);
     report->bytes = bvh->node_count * node_bytes +
                     bvh->cluster_count * (sizeof(glint_cluster) + normals + numbers);
-    report->bytes_per_triangle = (double)report->bytes / (double)triangle_count;
+    report->bytes_per_triangle = ratio(report->bytes, triangle_count);
+}
+
+// A root whose children no ray meets, for triangles that all have no area.
+static bool make_empty_root(glint_bvh *bvh)
+{
+    const size_t boxes = 6 * (size_t)bvh->width, values = GLINT_NODE_VALUES * (size_t)bvh->width;
+    bvh->nodes = glint_allocate(values, sizeof *bvh->nodes);
+    for (size_t i = 0; bvh->nodes != NULL && i < boxes; i++) {
+        bvh->nodes[i] = GLINT_FAR;
+    }
+    bvh->node_count = 1;
+    bvh->report.depth = 1;
+    return bvh->nodes != NULL;
 }
 
 glint_status glint_bvh_build(const glint_bvh_inputs *in, glint_bvh *bvh, glint_error *error)
@@ -35,14 +55,18 @@ glint_status glint_bvh_build(const glint_bvh_inputs *in, glint_bvh *bvh, glint_e
                           GLINT_TRIANGLES_MAX);
     }
     glint_binary_tree tree;
-    bool done =
-        glint_binary_tree_build(in, &tree) && glint_collapse(in, &tree.root, &tree.costs, bvh);
+    bool done = glint_binary_tree_build(in, &tree);
+    const size_t kept = tree.triangle_count;
+    if (done) {
+        done = kept > 0 ? glint_collapse(in, &tree.root, &tree.costs, bvh) : make_empty_root(bvh);
+    }
     glint_binary_tree_free(&tree);
     if (!done) {
         glint_bvh_free(bvh);
         return glint_fail_memory(error, "the tree");
     }
-    finish_report(bvh, count);
+    finish_report(bvh, kept);
+    bvh->report.without_area = count - kept;
     return GLINT_OK;
 }
 

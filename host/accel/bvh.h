@@ -17,7 +17,8 @@ typedef struct glint_cluster {
 
 // What was built, for `info` and statistics.
 typedef struct glint_bvh_report {
-    size_t triangle_count;
+    size_t triangle_count; // in the tree
+    size_t without_area;   // left out
     size_t node_count;
     size_t cluster_count;
     int depth;       // nodes on the longest way down
@@ -53,9 +54,10 @@ typedef struct glint_bvh_inputs {
     size_t threads; // 0: as many as there are cores; the tree is the same for any number
 } glint_bvh_inputs;
 
-// Deterministic: the same input gives the same tree. Two triangles of a cluster share a vertex
-// where its position and normal have the same bits. Errors: GLINT_DEVICE_FAILED (memory),
-// GLINT_BAD_INPUT (too many triangles for the layout).
+// Deterministic: the same input gives the same tree. Triangles without area, whose corners are in
+// line as they are stored, are left out: no ray hits them, whatever rounding makes of them. Two
+// triangles of a cluster share a vertex where its position and normal have the same bits. Errors:
+// GLINT_DEVICE_FAILED (memory), GLINT_BAD_INPUT (too many triangles for the layout).
 glint_status glint_bvh_build(const glint_bvh_inputs *inputs, glint_bvh *bvh, glint_error *error);
 void glint_bvh_free(glint_bvh *bvh);
 

@@ -19,6 +19,20 @@ static inline glint_box triangle_box(const float *positions, size_t triangle)
                        glint_larger4(glint_larger4(a, b), c)};
 }
 
+// Whether the corners span a plane. Differences of floats and products of those are double's but
+// for a rounding that the same products share: 0 where the corners are in line, and next to nowhere
+// else.
+static inline bool has_area(const float *positions, size_t triangle)
+{
+    const float *p = positions + 9 * triangle;
+    double a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)p[3 + k] - (double)p[k];
+        b[k] = (double)p[6 + k] - (double)p[k];
+    }
+    return a[1] * b[2] != a[2] * b[1] || a[2] * b[0] != a[0] * b[2] || a[0] * b[1] != a[1] * b[0];
+}
+
 static inline glint_reference make(glint_box box, size_t first, uint32_t count)
 {
     uint32_t bits = (uint32_t)first * GLINT_BUNDLE_MAX + (count - 1) + GLINT_REFERENCE_BITS;
@@ -61,12 +75,24 @@ static size_t make_four(const float *positions, size_t first, glint_reference *r
 size_t glint_references_make(const float *positions, size_t first, size_t count,
                              glint_reference *references)
 {
-    size_t made = 0, i = first;
-    for (; i + GLINT_BUNDLE_MAX <= first + count; i += GLINT_BUNDLE_MAX) {
-        made += make_four(positions, i, references + made);
-    }
-    for (; i < first + count; i++) {
-        references[made++] = make(triangle_box(positions, i), i, 1);
+    const size_t last = first + count;
+    size_t made = 0;
+    for (size_t i = first; i < last; i += GLINT_BUNDLE_MAX) {
+        const size_t own = last - i < GLINT_BUNDLE_MAX ? last - i : GLINT_BUNDLE_MAX;
+        bool sound[GLINT_BUNDLE_MAX], all = own == GLINT_BUNDLE_MAX;
+        for (size_t k = 0; k < own; k++) {
+            sound[k] = has_area(positions, i + k);
+            all = all && sound[k];
+        }
+        if (all) {
+            made += make_four(positions, i, references + made);
+            continue;
+        }
+        for (size_t k = 0; k < own; k++) {
+            if (sound[k]) {
+                references[made++] = make(triangle_box(positions, i + k), i + k, 1);
+            }
+        }
     }
     return made;
 }

@@ -209,14 +209,11 @@ static glint_status coincident_faces(trial *t)
         status = render_in_white(t, &scene, &camera, &settings, &picture);
     }
     for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
-        measure_event(higher, picture.values[4 * p + 3] >= (double)lowest,
+        measure_event(higher, !(picture.values[4 * p + 3] < (double)lowest),
                       "pixel %d shows triangle %g", p, picture.values[4 * p + 3]);
     }
     for (int i = 0; i < COUNT; i++) {
-        const glint_vec3 d = glint_random_direction(&t->random);
-        rays[i] = (glint_probe_ray){
-            .direction = {trial_rounded(t, d.x), trial_rounded(t, d.y), trial_rounded(t, d.z)},
-            .from = -1};
+        rays[i] = trial_random_ray(t, middle);
     }
     if (status == GLINT_OK) {
         status = trial_probe(t, &scene, &probe);
@@ -236,25 +233,29 @@ static glint_status coincident_faces(trial *t)
 
 // ---- Next to nothing ---------------------------------------------------------------------------
 
-static glint_status small_scene(trial *t, int triangles, bool behind, glint_scene *scene)
+// Where its triangles are: before the eye, behind it, or before it without area.
+typedef enum small_kind { BEFORE, BEHIND, FLAT } small_kind;
+
+static glint_status small_scene(trial *t, int triangles, small_kind kind, glint_scene *scene)
 {
     shape s = shape_begin();
     for (int i = 0; i < triangles; i++) {
-        const double x = -0.7 + 0.09 * i, z = behind ? 0.9 : -0.25;
-        const double corners[3][3] = {{x, -0.3, z}, {x + 0.08, -0.3, z}, {x, 0.4, z}};
+        const double x = -0.7 + 0.09 * i, z = kind == BEHIND ? 0.9 : -0.25;
+        const double right = kind == FLAT ? x : x + 0.08;
+        const double corners[3][3] = {{x, -0.3, z}, {right, -0.3, z}, {x, 0.4, z}};
         shape_add(&s, corners, NULL, MATERIAL_MIRROR);
     }
     return shape_end(&s, scene, t->error);
 }
 
-static glint_status tiny_picture(trial *t, int triangles, bool behind,
+static glint_status tiny_picture(trial *t, int triangles, small_kind kind,
                                  const glint_settings *settings, trial_picture *picture)
 {
     static const double eye[3] = {0, 0, 0.6};
     glint_scene scene;
     glint_environment environment = {0};
     *picture = (trial_picture){0};
-    glint_status status = small_scene(t, triangles, behind, &scene);
+    glint_status status = small_scene(t, triangles, kind, &scene);
     if (status == GLINT_OK) {
         status = trial_linear_environment(16, &environment, t->error);
     }
@@ -267,8 +268,8 @@ static glint_status tiny_picture(trial *t, int triangles, bool behind,
     return status;
 }
 
-// No triangle, and one behind the eye: the same bits. One triangle, and as many as a leaf holds:
-// the triangles that the oracle sees.
+// No triangle, one behind the eye, and some without area: the same bits. One triangle, and as many
+// as a leaf holds: the triangles that the oracle sees.
 static glint_status next_to_nothing(trial *t)
 {
     static const int counts[] = {1, 16, 17};
@@ -278,9 +279,9 @@ static glint_status next_to_nothing(trial *t)
     glint_settings settings = trial_settings(t);
     settings.depth = 1;
     trial_picture none, hidden;
-    glint_status status = tiny_picture(t, 0, false, &settings, &none);
-    if (status == GLINT_OK) {
-        status = tiny_picture(t, 1, true, &settings, &hidden);
+    glint_status status = tiny_picture(t, 0, BEFORE, &settings, &none);
+    for (int kind = BEHIND; status == GLINT_OK && kind <= FLAT; kind++) {
+        status = tiny_picture(t, 1, (small_kind)kind, &settings, &hidden);
         for (int p = 0; status == GLINT_OK && p < 4 * none.width * none.height; p++) {
             measure_event(empty, none.values[p] != hidden.values[p], "value %d: %.9g and %.9g", p,
                           none.values[p], hidden.values[p]);
@@ -295,9 +296,9 @@ static glint_status next_to_nothing(trial *t)
         trial_picture picture;
         glint_scene scene;
         oracle_scene judge = {0};
-        status = tiny_picture(t, counts[i], false, &settings, &picture);
+        status = tiny_picture(t, counts[i], BEFORE, &settings, &picture);
         if (status == GLINT_OK) {
-            status = small_scene(t, counts[i], false, &scene);
+            status = small_scene(t, counts[i], BEFORE, &scene);
         }
         if (status == GLINT_OK) {
             status = judge_begin(&scene, &judge, t->error);
@@ -322,7 +323,8 @@ const trial_case path_cases[] = {
     {"white_furnace", "mirrors and glass without loss under E = 1: 1 everywhere", white_furnace},
     {"coincident_faces", "a ball three times in one place: the lowest number wins",
      coincident_faces},
-    {"next_to_nothing", "no triangle, one, a leaf full and one more: what is there",
+    {"next_to_nothing",
+     "no triangle, one without area, one, a leaf full and one more: what is there",
      next_to_nothing},
     {0},
 };
