@@ -14,13 +14,9 @@
 
 #include <cmocka.h>
 
-static glint_settings small_frame(int depth)
+static glint_settings frame_of_layers(int depth)
 {
-    glint_settings settings = glint_settings_default;
-    // Not multiples of the packet, so that packets hang over both edges.
-    settings.width = 61;
-    settings.height = 43;
-    settings.depth = depth;
+    glint_settings settings = test_small_frame(depth);
     settings.aovs = GLINT_AOV_ALL;
     return settings;
 }
@@ -34,17 +30,6 @@ static const float *layer(const test_frame *frame, glint_aov aov)
 {
     assert_int_equal(frame->layers.count, GLINT_AOV_COUNT);
     return frame->layers.channels[aov].values;
-}
-
-static void render_named(const char *name, const glint_settings *settings, test_frame *frame)
-{
-    glint_scene scene = {0};
-    test_scene_load(name, &scene);
-    glint_environment environment;
-    bridge_direction_environment(32, &environment);
-    test_render(&scene, &environment, NULL, settings, frame);
-    glint_environment_free(&environment);
-    glint_scene_free(&scene);
 }
 
 static void assert_same_layers(const test_frame *a, const test_frame *b, size_t pixels)
@@ -130,7 +115,7 @@ static void layers_agree_with_the_oracle(void **state)
     static const char *const names[] = {"nested_glass", "gallery", "facing_mirrors", "glass_sphere",
                                         "prism"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        glint_settings settings = small_frame(8);
+        glint_settings settings = frame_of_layers(8);
         settings.samples_per_axis = i == 4 ? 2 : 1;
         compare_scene(names[i], &settings);
     }
@@ -207,7 +192,7 @@ static void check_faces(const char *name, const glint_settings *settings, bool s
 static void the_face_is_that_of_the_heaviest_look_up(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(1);
+    glint_settings settings = frame_of_layers(1);
     bool seen[6] = {false};
     check_faces("mirror_sphere", &settings, seen);
     for (int face = 0; face < 6; face++) {
@@ -227,12 +212,12 @@ static void layers_add_up_to_what_the_frame_reports(void **state)
     (void)state;
     static const char *const names[] = {"nested_glass", "facing_mirrors", "prism"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        glint_settings settings = small_frame(i == 1 ? 2 : 0);
+        glint_settings settings = frame_of_layers(i == 1 ? 2 : 0);
         settings.samples_per_axis = i == 2 ? 1 : 3;
         settings.min_weight = 0.01;
         settings.precision = i == 2 ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
         test_frame frame;
-        render_named(names[i], &settings, &frame);
+        test_render_named(names[i], &settings, &frame);
         double truncated = 0, total_reflections = 0, deepest = 0;
         const int samples = settings.samples_per_axis * settings.samples_per_axis;
         for (size_t p = 0; p < pixel_count(&settings); p++) {
@@ -260,21 +245,21 @@ static void every_width_and_tile_write_the_same_layers_and_leave_the_picture_alo
     } frames[] = {{"nested_glass", 0}, {"lecture_example_2", 3}, {"mirror_sphere", 1}};
     static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}, {1, 16}};
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
-        glint_settings settings = small_frame(frames[i].depth);
+        glint_settings settings = frame_of_layers(frames[i].depth);
         settings.samples_per_axis = 2;
         settings.kernel_width = settings.tile_packets = 1;
         settings.aovs = 0;
         test_frame plain, one, more;
-        render_named(frames[i].name, &settings, &plain);
+        test_render_named(frames[i].name, &settings, &plain);
         assert_int_equal(plain.layers.count, 0);
         settings.aovs = GLINT_AOV_ALL;
-        render_named(frames[i].name, &settings, &one);
+        test_render_named(frames[i].name, &settings, &one);
         assert_int_equal(test_count_different(&plain.image, &one.image), 0);
         assert_memory_equal(&plain.report.rays, &one.report.rays, sizeof one.report.rays);
         for (size_t w = 0; w < (i == 0 ? 4 : 2); w++) {
             settings.kernel_width = forms[w][0];
             settings.tile_packets = forms[w][1];
-            render_named(frames[i].name, &settings, &more);
+            test_render_named(frames[i].name, &settings, &more);
             assert_int_equal(test_count_different(&plain.image, &more.image), 0);
             assert_same_layers(&one, &more, pixel_count(&settings));
             test_frame_free(&more);
@@ -289,12 +274,12 @@ static void every_width_and_tile_write_the_same_layers_and_leave_the_picture_alo
 static void the_short_way_of_mirrors_writes_the_same_layers(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(1);
+    glint_settings settings = frame_of_layers(1);
     settings.env_rotate = 30; // else the sphere's diagonals are seams, where rounding decides
     test_frame mirrors, paths;
-    render_named("mirror_sphere", &settings, &mirrors);
+    test_render_named("mirror_sphere", &settings, &mirrors);
     settings.all_features = true;
-    render_named("mirror_sphere", &settings, &paths);
+    test_render_named("mirror_sphere", &settings, &paths);
     size_t other_faces = 0;
     for (size_t p = 0; p < pixel_count(&settings); p++) {
         for (int i = 0; i < GLINT_AOV_COUNT; i++) {
@@ -313,11 +298,11 @@ static void the_short_way_of_mirrors_writes_the_same_layers(void **state)
 static void what_a_pixel_shows_is_its_middle_samples(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(4);
+    glint_settings settings = frame_of_layers(4);
     test_frame one, nine;
-    render_named("nested_glass", &settings, &one);
+    test_render_named("nested_glass", &settings, &one);
     settings.samples_per_axis = 3;
-    render_named("nested_glass", &settings, &nine);
+    test_render_named("nested_glass", &settings, &nine);
     for (int i = GLINT_AOV_TRIANGLE; i < GLINT_AOV_COUNT; i++) {
         assert_memory_equal(layer(&one, (glint_aov)i), layer(&nine, (glint_aov)i),
                             pixel_count(&settings) * sizeof(float));
@@ -333,11 +318,11 @@ static void what_a_pixel_shows_is_its_middle_samples(void **state)
 static void layers_do_not_depend_on_the_filter(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(4);
+    glint_settings settings = frame_of_layers(4);
     test_frame bilinear, cones;
-    render_named("glass_sphere", &settings, &bilinear);
+    test_render_named("glass_sphere", &settings, &bilinear);
     settings.filter = GLINT_FILTER_MIP;
-    render_named("glass_sphere", &settings, &cones);
+    test_render_named("glass_sphere", &settings, &cones);
     assert_true(test_count_different(&bilinear.image, &cones.image) > 0);
     assert_same_layers(&bilinear, &cones, pixel_count(&settings));
     test_frame_free(&bilinear);
@@ -351,7 +336,7 @@ static void an_empty_scene_has_faces_and_nothing_else(void **state)
     glint_scene scene = {0};
     glint_environment environment;
     bridge_direction_environment(16, &environment);
-    const glint_settings settings = small_frame(0);
+    const glint_settings settings = frame_of_layers(0);
     test_frame frame;
     test_render(&scene, &environment, NULL, &settings, &frame);
     for (size_t p = 0; p < pixel_count(&settings); p++) {
@@ -371,15 +356,15 @@ static void an_empty_scene_has_faces_and_nothing_else(void **state)
 static void only_layers_that_are_asked_for_are_made(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(1);
+    glint_settings settings = frame_of_layers(1);
     settings.aovs = GLINT_AOV_BIT(GLINT_AOV_FACE) | GLINT_AOV_BIT(GLINT_AOV_TIR);
     test_frame some, all;
-    render_named("glass_slab", &settings, &some);
+    test_render_named("glass_slab", &settings, &some);
     assert_int_equal(some.layers.count, 2);
     assert_string_equal(some.layers.channels[0].name, "tir.count");
     assert_string_equal(some.layers.channels[1].name, "face.index");
     settings.aovs = GLINT_AOV_ALL;
-    render_named("glass_slab", &settings, &all);
+    test_render_named("glass_slab", &settings, &all);
     const size_t bytes = pixel_count(&settings) * sizeof(float);
     assert_memory_equal(some.layers.channels[0].values, layer(&all, GLINT_AOV_TIR), bytes);
     assert_memory_equal(some.layers.channels[1].values, layer(&all, GLINT_AOV_FACE), bytes);
@@ -393,7 +378,7 @@ static void a_renderer_without_layers_gives_none(void **state)
     glint_scene scene = {0};
     glint_environment environment;
     bridge_direction_environment(16, &environment);
-    glint_settings settings = small_frame(1);
+    glint_settings settings = frame_of_layers(1);
     settings.aovs = 0;
     const glint_renderer_inputs inputs = {.device = test_device(),
                                           .scene = &scene,

@@ -14,27 +14,6 @@
 
 #include <cmocka.h>
 
-static glint_settings small_frame(int depth)
-{
-    glint_settings settings = glint_settings_default;
-    // Not multiples of the packet, so that packets hang over both edges.
-    settings.width = 61;
-    settings.height = 43;
-    settings.depth = depth;
-    return settings;
-}
-
-static void render_named(const char *name, const glint_settings *settings, test_frame *frame)
-{
-    glint_scene scene = {0};
-    test_scene_load(name, &scene);
-    glint_environment environment;
-    bridge_direction_environment(32, &environment);
-    test_render(&scene, &environment, NULL, settings, frame);
-    glint_environment_free(&environment);
-    glint_scene_free(&scene);
-}
-
 // Single precision has half texels here, double has float ones; one scene is seen through cones.
 static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
 {
@@ -44,18 +23,18 @@ static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
     static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}, {1, 16}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         for (int precision = 0; precision < (i == 0 ? 2 : 1); precision++) {
-            glint_settings settings = small_frame(0);
+            glint_settings settings = test_small_frame(0);
             settings.precision = precision ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
             settings.filter = i == 1 ? GLINT_FILTER_MIP : GLINT_FILTER_BILINEAR;
             settings.kernel_width = 1;
             settings.tile_packets = 1;
             test_frame one, more;
-            render_named(names[i], &settings, &one);
+            test_render_named(names[i], &settings, &one);
             assert_int_equal(one.plan.half_texels, precision == 0);
             for (size_t w = 0; w < (i == 1 ? 4 : 2); w++) {
                 settings.kernel_width = forms[w][0];
                 settings.tile_packets = forms[w][1];
-                render_named(names[i], &settings, &more);
+                test_render_named(names[i], &settings, &more);
                 assert_int_equal(test_count_different(&one.image, &more.image), 0);
                 assert_memory_equal(&one.report.rays, &more.report.rays, sizeof one.report.rays);
                 test_frame_free(&more);
@@ -72,12 +51,12 @@ static void half_texels_change_a_frame_by_their_rounding_alone(void **state)
     (void)state;
     static const char *const names[] = {"mirror_sphere", "materials", "nested_glass"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        glint_settings settings = small_frame(0);
+        glint_settings settings = test_small_frame(0);
         test_frame half, whole;
         settings.texels = GLINT_TEXELS_HALF;
-        render_named(names[i], &settings, &half);
+        test_render_named(names[i], &settings, &half);
         settings.texels = GLINT_TEXELS_FLOAT;
-        render_named(names[i], &settings, &whole);
+        test_render_named(names[i], &settings, &whole);
         assert_true(half.plan.half_texels && !whole.plan.half_texels);
         assert_memory_equal(&half.report.rays, &whole.report.rays, sizeof half.report.rays);
         size_t different = 0;
@@ -124,7 +103,7 @@ static void assert_cones_are_closer(const glint_environment *environment, double
     for (size_t i = 0; i < 2; i++) {
         glint_scene scene = {0};
         test_scene_load(names[i], &scene);
-        glint_settings settings = small_frame(3);
+        glint_settings settings = test_small_frame(3);
         test_frame one, cones, many;
         test_render(&scene, environment, NULL, &settings, &one);
         settings.filter = GLINT_FILTER_MIP;
@@ -183,7 +162,7 @@ static void cones_change_nothing_where_texels_are_wide(void **state)
     test_scene_load("mirror_sphere", &scene);
     glint_environment noise;
     noise_environment(4, &noise);
-    glint_settings settings = small_frame(2);
+    glint_settings settings = test_small_frame(2);
     test_frame bilinear, cones;
     test_render(&scene, &noise, NULL, &settings, &bilinear);
     settings.filter = GLINT_FILTER_MIP;
@@ -201,11 +180,11 @@ static void features_that_a_scene_does_not_need_change_nothing(void **state)
     static const char *const names[] = {"mirror_sphere", "glass_sphere", "thin_wall",
                                         "lecture_example_2", "materials"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        glint_settings settings = small_frame(4);
+        glint_settings settings = test_small_frame(4);
         test_frame minimal, everything;
-        render_named(names[i], &settings, &minimal);
+        test_render_named(names[i], &settings, &minimal);
         settings.all_features = true;
-        render_named(names[i], &settings, &everything);
+        test_render_named(names[i], &settings, &everything);
         assert_int_equal(test_count_different(&minimal.image, &everything.image), 0);
         assert_true(glint_plan_feature_count(&minimal.plan) <
                     glint_plan_feature_count(&everything.plan));
@@ -222,7 +201,7 @@ static void the_environment_turns_counter_clockwise_seen_from_above(void **state
     glint_environment environment;
     bridge_direction_environment(32, &environment);
     bridge *b = bridge_create(&scene, &environment);
-    glint_settings settings = small_frame(1);
+    glint_settings settings = test_small_frame(1);
     settings.env_rotate = 90;
     settings.texels = GLINT_TEXELS_FLOAT;
     test_frame frame;
@@ -251,7 +230,7 @@ static void the_environment_turns_counter_clockwise_seen_from_above(void **state
 static void a_sample_grid_is_the_mean_of_its_samples(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(2);
+    glint_settings settings = test_small_frame(2);
     settings.samples_per_axis = 3;
     glint_scene scene = {0};
     test_scene_load("mirror_sphere", &scene);
@@ -281,11 +260,11 @@ static void a_sample_grid_is_the_mean_of_its_samples(void **state)
 static void a_transparent_background_is_left_out_and_surfaces_stay_whole(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(0);
+    glint_settings settings = test_small_frame(0);
     test_frame opaque, transparent;
-    render_named("glass_sphere", &settings, &opaque);
+    test_render_named("glass_sphere", &settings, &opaque);
     settings.transparent = true;
-    render_named("glass_sphere", &settings, &transparent);
+    test_render_named("glass_sphere", &settings, &transparent);
     size_t covered = 0, left_out = 0;
     for (size_t i = 0; i < 61 * 43; i++) {
         const float *a = opaque.image.pixels + 4 * i, *b = transparent.image.pixels + 4 * i;
@@ -306,18 +285,18 @@ static void a_transparent_background_is_left_out_and_surfaces_stay_whole(void **
 static void light_that_is_cut_off_is_reported_and_never_black(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(1);
+    glint_settings settings = test_small_frame(1);
     test_frame frame;
-    render_named("facing_mirrors", &settings, &frame);
+    test_render_named("facing_mirrors", &settings, &frame);
     assert_true(frame.report.truncation.by_depth > 0.3);
     for (size_t i = 0; i < 61 * 43; i++) {
         const float *p = frame.image.pixels + 4 * i;
         assert_true(p[0] + p[1] + p[2] > 0.1f);
     }
     test_frame_free(&frame);
-    settings = small_frame(0);
+    settings = test_small_frame(0);
     settings.min_weight = 0.25;
-    render_named("glass_sphere", &settings, &frame);
+    test_render_named("glass_sphere", &settings, &frame);
     assert_true(frame.report.truncation.by_min_weight > 0.01);
     assert_true(frame.report.truncation.by_stack == 0);
     test_frame_free(&frame);
@@ -326,16 +305,16 @@ static void light_that_is_cut_off_is_reported_and_never_black(void **state)
 static void rays_are_counted_by_class(void **state)
 {
     (void)state;
-    glint_settings settings = small_frame(1);
+    glint_settings settings = test_small_frame(1);
     test_frame frame;
-    render_named("mirror_sphere", &settings, &frame);
+    test_render_named("mirror_sphere", &settings, &frame);
     const glint_ray_counts *rays = &frame.report.rays;
     assert_int_equal(rays->primary, 61 * 43);
     assert_true(rays->reflected > 0 && rays->reflected < rays->primary);
     assert_int_equal(rays->refracted_in + rays->refracted_out + rays->transmitted, 0);
     assert_int_equal(frame.report.deepest, 1);
     test_frame_free(&frame);
-    render_named("glass_sphere", &settings, &frame);
+    test_render_named("glass_sphere", &settings, &frame);
     assert_int_equal(rays->refracted_in, rays->reflected);
     assert_int_equal(rays->refracted_out, 0);
     test_frame_free(&frame);
@@ -356,7 +335,7 @@ static void a_device_with_memory_of_its_own_makes_the_same_frame(void **state)
     test_scene_load("materials", &scene);
     glint_environment environment;
     bridge_direction_environment(32, &environment);
-    glint_settings settings = small_frame(1);
+    glint_settings settings = test_small_frame(1);
     glint_capabilities *capabilities = &test_device()->capabilities;
     const bool shares = capabilities->shares_memory;
     test_frame shared, copied;
@@ -380,7 +359,7 @@ static void a_frame_that_is_stopped_leaves_no_image(void **state)
     bridge_direction_environment(32, &environment);
     glint_camera camera;
     assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
-    glint_settings settings = small_frame(1);
+    glint_settings settings = test_small_frame(1);
     const glint_renderer_inputs inputs = {.device = test_device(),
                                           .scene = &scene,
                                           .environment = &environment,
@@ -406,7 +385,7 @@ static void a_frame_that_the_device_cannot_hold_is_refused_at_once(void **state)
     glint_scene scene = {0};
     glint_environment environment;
     bridge_direction_environment(32, &environment);
-    glint_settings settings = small_frame(1);
+    glint_settings settings = test_small_frame(1);
     settings.width = settings.height = 65536; // 64 GiB
     const glint_renderer_inputs inputs = {.device = test_device(),
                                           .scene = &scene,
@@ -428,7 +407,7 @@ static void a_kernel_that_does_not_compile_is_reported_with_its_file(void **stat
     bridge_direction_environment(32, &environment);
     glint_camera camera;
     assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
-    glint_settings settings = small_frame(1);
+    glint_settings settings = test_small_frame(1);
     glint_renderer_inputs inputs = {.device = test_device(),
                                     .scene = &scene,
                                     .environment = &environment,

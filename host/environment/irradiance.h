@@ -9,6 +9,12 @@
 extern "C" {
 #endif
 
+// Texels along an edge of the map that frames use, each of which is exact. Between them bilinear
+// filtering is off by about 10⁻⁴ under an environment of lights wider than a few degrees; under a
+// point-like one the irradiance has a kink where the light sets, and there it is off by up to half
+// a texel's angle over 2, 0.8% of that light's full irradiance.
+#define GLINT_IRRADIANCE_EDGE 64
+
 // Fills `irradiance` (edge texels a face) with E(n)/π, where
 // E(n) = ∫ L(ω) max(0, n·ω) dω over the sphere: 1 under a uniform environment of radiance 1.
 // The environment is taken as its texels, each with its exact solid angle and first moment; only

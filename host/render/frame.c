@@ -13,11 +13,6 @@
 #include <string.h>
 #include <time.h>
 
-// Texels along an edge of the irradiance map, each of which is exact. Between them bilinear
-// filtering is off by about 10⁻⁴ under an environment of lights wider than a few degrees; under a
-// point-like one the irradiance has a kink where the light sets, and there it is off by up to half
-// a texel's angle over 2, 0.8% of that light's full irradiance.
-#define IRRADIANCE_EDGE 64
 // Launches are made long enough to keep a device busy and short enough for progress and signals.
 #define LAUNCH_MS 100.0
 // The first frame's first one tells the speed.
@@ -242,8 +237,8 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
         r->phases.bvh = lap(&clock);
     }
     if (status == GLINT_OK && needs_irradiance(&r->plan) && !in->without_frames) {
-        status =
-            glint_irradiance_map(&in->environment->radiance, IRRADIANCE_EDGE, &irradiance, error);
+        status = glint_irradiance_map(&in->environment->radiance, GLINT_IRRADIANCE_EDGE,
+                                      &irradiance, error);
         r->phases.irradiance = lap(&clock);
     }
     if (status == GLINT_OK) {

@@ -2,6 +2,7 @@
 #include "support/bridge.h"
 
 #include "kernels/layout.h"
+#include "selftest/judge.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -17,10 +18,11 @@ struct bridge {
     oracle_scene scene;
     oracle_triangle *triangles;
     oracle_material *materials;
-    const glint_cube *cube;
+    const glint_cube *cube, *map; // radiance; irradiance, or NULL
     // Every texel as a vector: its direction, and its colour times its solid angle over π.
     double (*directions)[3], (*weighted)[3];
     int texel_count;
+    double *tie; // see bridge_take_tie
 };
 
 static const int s_axis[6] = GLINT_CUBE_S_AXIS, s_sign[6] = GLINT_CUBE_S_SIGN;
@@ -38,18 +40,21 @@ static void texel_direction(int face, double s, double t, double d[3])
 }
 
 // Bilinear in the face whose axis is nearest; the border of one texel is part of the data.
-static void look_up(const void *context, const double d[3], double rgb[3])
+static void look_up(const bridge *b, const glint_cube *cube, const double d[3], double rgb[3])
 {
-    const glint_cube *cube = ((const bridge *)context)->cube;
     int face = 0;
-    double most = -1;
+    double most = -1, next = -1;
     for (int f = 0; f < 6; f++) {
         double along = d[f / 2] * (f % 2 ? -1 : 1);
         if (along > most) {
+            next = most;
             most = along;
             face = f;
+        } else if (along > next) {
+            next = along;
         }
     }
+    *b->tie = fmin(*b->tie, most - next);
     double n = cube->edge;
     double x = (d[s_axis[face]] * s_sign[face] / most + 1) / 2 * n + 0.5;
     double y = (d[t_axis[face]] * t_sign[face] / most + 1) / 2 * n + 0.5;
@@ -68,9 +73,19 @@ static void look_up(const void *context, const double d[3], double rgb[3])
     }
 }
 
-static void sum_irradiance(const void *context, const double n[3], double rgb[3])
+static void look_up_radiance(const void *context, const double d[3], double rgb[3])
 {
     const bridge *b = context;
+    look_up(b, b->cube, d, rgb);
+}
+
+static void find_irradiance(const void *context, const double n[3], double rgb[3])
+{
+    const bridge *b = context;
+    if (b->map != NULL) {
+        look_up(b, b->map, n, rgb);
+        return;
+    }
     rgb[0] = rgb[1] = rgb[2] = 0;
     for (int i = 0; i < b->texel_count; i++) {
         const double *d = b->directions[i];
@@ -157,13 +172,16 @@ bridge *bridge_create(const glint_scene *scene, const glint_environment *environ
         b->materials[i] = convert_material(&scene->materials[i]);
     }
     weigh_texels(b);
+    b->tie = malloc(sizeof *b->tie);
+    assert_non_null(b->tie);
+    *b->tie = INFINITY;
     int count = (int)scene->triangle_count;
     b->scene = (oracle_scene){
         .triangles = b->triangles,
         .triangle_count = count,
         .materials = b->materials,
-        .radiance = look_up,
-        .irradiance = sum_irradiance,
+        .radiance = look_up_radiance,
+        .irradiance = find_irradiance,
         .context = b,
         .tree = count > 0 ? oracle_tree_create(b->triangles, count) : NULL,
     };
@@ -177,6 +195,7 @@ void bridge_free(bridge *b)
     free(b->materials);
     free(b->directions);
     free(b->weighted);
+    free(b->tie);
     free(b);
 }
 
@@ -185,31 +204,26 @@ const oracle_scene *bridge_scene(const bridge *b)
     return &b->scene;
 }
 
-static void copy_vector(glint_vec3 from, double to[3])
+void bridge_use_irradiance_map(bridge *b, const glint_cube *map)
 {
-    to[0] = from.x;
-    to[1] = from.y;
-    to[2] = from.z;
+    b->map = map;
+}
+
+double bridge_take_tie(const bridge *b)
+{
+    const double tie = *b->tie;
+    *b->tie = INFINITY;
+    return tie;
 }
 
 oracle_view bridge_view(const glint_camera *camera, const glint_settings *settings)
 {
-    oracle_view view = {
-        .yfov = camera->orthographic ? 0 : camera->yfov,
-        .ymag = camera->ymag,
-        .width = settings->width,
-        .height = settings->height,
-        .samples = settings->samples_per_axis,
-        .depth = settings->depth,
-        .min_weight = settings->min_weight,
-        .no_fresnel = settings->fresnel == GLINT_FRESNEL_NONE,
-        .transparent = settings->transparent,
-        .edges = true,
-    };
-    copy_vector(camera->eye, view.eye);
-    copy_vector(camera->right, view.right);
-    copy_vector(camera->up, view.up);
-    copy_vector(camera->back, view.back);
+    oracle_view view = judge_view(camera, settings);
+    view.depth = settings->depth;
+    view.min_weight = settings->min_weight;
+    view.no_fresnel = settings->fresnel == GLINT_FRESNEL_NONE;
+    view.transparent = settings->transparent;
+    view.edges = true;
     return view;
 }
 

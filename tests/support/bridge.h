@@ -17,6 +17,14 @@ void bridge_free(bridge *b);
 
 const oracle_scene *bridge_scene(const bridge *b);
 
+// Takes irradiance from a map, bilinear, as the kernels do, and not as the plain sum. Borrows it.
+void bridge_use_irradiance_map(bridge *b, const glint_cube *map);
+
+// How near the look-ups since the last call came to a tie between two faces of the cube, where
+// rounding decides in which of them a direction is looked up: the least difference between the two
+// largest components; INFINITY without look-ups.
+double bridge_take_tie(const bridge *b);
+
 // The camera and the settings; depth auto becomes the most that glint follows.
 oracle_view bridge_view(const glint_camera *camera, const glint_settings *settings);
 

@@ -1,6 +1,8 @@
 // Rendering in tests. See render.h.
 #include "support/render.h"
 
+#include "support/bridge.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -85,6 +87,26 @@ void test_render(const glint_scene *scene, const glint_environment *environment,
         require(glint_renderer_layers(renderer, &frame->layers, &error), &error);
     }
     glint_renderer_free(renderer);
+}
+
+void test_render_named(const char *name, const glint_settings *settings, test_frame *frame)
+{
+    glint_scene scene = {0};
+    test_scene_load(name, &scene);
+    glint_environment environment;
+    bridge_direction_environment(32, &environment);
+    test_render(&scene, &environment, NULL, settings, frame);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
+glint_settings test_small_frame(int depth)
+{
+    glint_settings settings = glint_settings_default;
+    settings.width = 61;
+    settings.height = 43;
+    settings.depth = depth;
+    return settings;
 }
 
 void test_frame_free(test_frame *frame)

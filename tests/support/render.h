@@ -26,7 +26,12 @@ typedef struct test_frame {
 // Renders with the scene's camera of that name (NULL: the first). Fails the test on any error.
 void test_render(const glint_scene *scene, const glint_environment *environment, const char *camera,
                  const glint_settings *settings, test_frame *frame);
+// The same of scenes/NAME.gltf under bridge_direction_environment(32).
+void test_render_named(const char *name, const glint_settings *settings, test_frame *frame);
 void test_frame_free(test_frame *frame);
+
+// Settings of 61 × 43 pixels, which are no multiples of a packet: packets hang over both edges.
+glint_settings test_small_frame(int depth);
 
 // The number of pixels of two images of one size that are not equal bit for bit.
 size_t test_count_different(const glint_image *a, const glint_image *b);
