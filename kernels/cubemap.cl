@@ -52,14 +52,12 @@ static inline cube_point find_on_cube(real3 d, lanes_int edge, lanes_int start)
     return point;
 }
 
-#if GLINT_DIAGNOSTICS
 // The face on which a point lies of the map itself (not of a level of it).
 static inline lanes_int face_of(const cube_map *map, const cube_point *point)
 {
     const lane_int pitch = map->edge + 2 * GLINT_CUBE_BORDER;
     return point->first / (pitch * pitch);
 }
-#endif
 
 // R, G, B and a fourth value of two texels side by side.
 static inline scalar8 load_texels(const cube_map *map, size_t place)

@@ -87,8 +87,8 @@ static inline void store_layers(const layers *l, const glint_frame_record *frame
         uint left = mask_bits(group_in_image(frame, column, row, g));
         for (; left != 0; left &= left - 1) {
             const int lane = lowest_bit(left);
-            const size_t before = (size_t)LANE_INT(rows, lane) * (size_t)frame->width;
-            stored[before + (size_t)LANE_INT(columns, lane)] = l->of_pixel[g * GLINT_WIDTH + lane];
+            const int x = (int)LANE_INT(columns, lane), y = (int)LANE_INT(rows, lane);
+            stored[pixel_number(frame, x, y)] = l->of_pixel[g * GLINT_WIDTH + lane];
         }
     }
 }

@@ -95,16 +95,22 @@ static inline void probe_store_hit(global scalar *out, size_t packet, int values
     probe_store(out, packet, values, 3, probe_numbers(numbers, hit->place));
 }
 
-// Closest hits as secondary rays find them.
+// The closest hits of a work-item's rays, as secondary rays find them; sets the rays.
+static inline void probe_closest(const scene_buffers *scene, global const scalar *in, path *rays,
+                                 closest *hits)
+{
+    mask active[PATH_GROUPS];
+    probe_rays(in, get_global_id(0) * PATH_GROUPS, rays, active);
+    trace_groups(scene, rays, active, hits);
+}
+
 kernel void probe_trace(PROBE_ARGUMENTS)
 {
     const scene_buffers scene = PROBE_SCENE;
     const size_t first = get_global_id(0) * PATH_GROUPS;
     path rays[PATH_GROUPS];
-    mask active[PATH_GROUPS];
     closest hits[PATH_GROUPS];
-    probe_rays(in, first, rays, active);
-    trace_groups(&scene, rays, active, hits);
+    probe_closest(&scene, in, rays, hits);
     for (int g = 0; g < PATH_GROUPS; g++) {
         probe_store_hit(out, first + g, GLINT_PROBE_HIT, numbers, &hits[SLOT(g)]);
     }
@@ -149,10 +155,8 @@ kernel void probe_bounce(PROBE_ARGUMENTS)
     const scene_buffers scene = PROBE_SCENE;
     const size_t first = get_global_id(0) * PATH_GROUPS;
     path rays[PATH_GROUPS];
-    mask active[PATH_GROUPS];
     closest hits[PATH_GROUPS];
-    probe_rays(in, first, rays, active);
-    trace_groups(&scene, rays, active, hits);
+    probe_closest(&scene, in, rays, hits);
     for (int g = 0; g < PATH_GROUPS; g++) {
         for (int i = 4; i < GLINT_PROBE_BOUNCE; i++) {
             probe_store(out, first + g, GLINT_PROBE_BOUNCE, i, real_of(0));
@@ -244,14 +248,15 @@ kernel void probe_environment(PROBE_ARGUMENTS)
 // there, in texels of the face with its border.
 kernel void probe_face(PROBE_ARGUMENTS)
 {
+    const scene_buffers scene = PROBE_SCENE;
+    const cube_map *map = &scene.environment;
     for (PROBE_PACKETS) {
         const real3 d = real3_of(PROBE_IN(0), PROBE_IN(1), PROBE_IN(2));
-        const cube_point point = find_on_cube(d, int_of(frame.environment_edge), int_of(0));
-        const lane_int pitch = frame.environment_edge + 2 * GLINT_CUBE_BORDER;
-        const lanes_int face = point.first / (pitch * pitch);
+        const cube_point point = find_on_cube(d, int_of(map->edge), int_of(0));
+        const lane_int pitch = map->edge + 2 * GLINT_CUBE_BORDER;
         const real row = to_real(point.first / pitch % pitch) + point.down;
         const real column = to_real(point.first % pitch) + point.right;
-        probe_store4(out, packet, real3_of(to_real(face), column, row), real_of(0));
+        probe_store4(out, packet, real3_of(to_real(face_of(map, &point)), column, row), real_of(0));
     }
 }
 
@@ -287,7 +292,7 @@ kernel void probe_tile_place(PROBE_ARGUMENTS)
             global scalar *place = out + GLINT_PROBE_VALUES * (packet * GLINT_WIDTH + lane);
             int column, row;
             find_tile(&frame, (int)id[0], (int)id[1], &column, &row);
-            const size_t first = pixel_place(&frame, column, row);
+            const size_t first = 4 * pixel_number(&frame, column, row);
             place[0] = (scalar)column;
             place[1] = (scalar)row;
             place[2] = (scalar)(first >> 24);

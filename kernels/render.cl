@@ -193,12 +193,6 @@ static inline void add_gathered(const gathered *sum, int group, scalar *sums)
 #endif
 }
 
-// Where a pixel's values begin in the frame: more than 2^31 of them are no mistake.
-static inline size_t pixel_place(const glint_frame_record *frame, int column, int row)
-{
-    return 4 * ((size_t)row * (size_t)frame->width + (size_t)column);
-}
-
 // Writes a group's pixels that lie inside the image: the sums of samples of which each has `share`.
 static inline void store_group(global scalar *pixels, const glint_frame_record *frame, int x0,
                                int y0, const scalar *sums, scalar share)
@@ -207,7 +201,7 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
     for (int j = 0; j < PACKET_HEIGHT && y0 + j < frame->height; j++) {
         pixel_row means = load_pixel_row(j, sums) * (pixel_row)share;
         means = GATHERS || GLINT_HITS ? means : opaque(means);
-        global scalar *row = pixels + pixel_place(frame, x0, y0 + j);
+        global scalar *row = pixels + 4 * pixel_number(frame, x0, y0 + j);
         if (x0 + PACKET_WIDTH <= frame->width) {
             if (aligned) {
                 stream_pixel_row(means, row);

@@ -120,6 +120,12 @@ static inline mask group_in_image(const glint_frame_record *frame, int tile_colu
     return across & down;
 }
 
+// A pixel's number, row by row: more than 2^31 of them are no mistake.
+static inline size_t pixel_number(const glint_frame_record *frame, int column, int row)
+{
+    return (size_t)row * (size_t)frame->width + (size_t)column;
+}
+
 // The places on the image plane of samples that lie (right, down) from the upper left corner of
 // their pixels. All but the last operation is exact: the same for every size of tiles.
 static inline real place_x(const glint_frame_record *frame, lanes_int columns, scalar right)

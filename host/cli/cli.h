@@ -17,6 +17,9 @@ extern const glint_command glint_command_selftest;
 // One line on stderr, "glint: …".
 void glint_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+// The message, and below it the details in full, such as a kernel build log.
+void glint_say_error(const glint_error *error);
+
 // Each warning from the given one on as one line on stderr, "glint: warning: …".
 void glint_say_warnings(const glint_warnings *warnings, size_t first);
 

@@ -16,10 +16,15 @@
 
 #define CASES_MAX 128
 
+// The cases that --case names.
+typedef struct case_selection {
+    bool any;
+    bool has[CASES_MAX];
+} case_selection;
+
 typedef struct selftest_request {
     bool list;
-    bool chosen[CASES_MAX]; // by --case
-    bool chooses;
+    case_selection cases;
     bool fail_fast;
     const char *device;
     const char *kernel_dir;
@@ -66,8 +71,8 @@ static glint_status fail_unknown_case(const glint_option *option, const char *na
 static glint_status parse_cases(const glint_option *option, const char *text, void *destination,
                                 glint_error *error)
 {
-    selftest_request *request = destination;
-    request->chooses = true;
+    case_selection *cases = destination;
+    cases->any = true;
     while (true) {
         char name[64];
         const size_t length = strcspn(text, ",");
@@ -79,7 +84,7 @@ static glint_status parse_cases(const glint_option *option, const char *text, vo
         if (glint_selftest_name(i) == NULL) {
             return fail_unknown_case(option, name, error);
         }
-        request->chosen[i] = true;
+        cases->has[i] = true;
         if (text[length] == '\0') {
             return GLINT_OK;
         }
@@ -92,8 +97,8 @@ static const glint_option selftest_options[] = {
     {GLINT_OPTION_FLAG, .name = "list", .help = "Print the cases, a line each, and run none.",
      .offset = offsetof(selftest_request, list)},
     {GLINT_OPTION_CUSTOM, .name = "case", .argument = "NAME[,NAME…]",
-     .help = "Run these cases alone. Any number of times.", .fallback = "all", .offset = 0,
-     .parse = parse_cases},
+     .help = "Run these cases alone. Any number of times.", .fallback = "all",
+     .offset = offsetof(selftest_request, cases), .parse = parse_cases},
     {GLINT_OPTION_CHOICE, .name = "precision", .argument = "P",
      .help = "float, double, or all: both, double where the device has it.", .fallback = "all",
      .offset = offsetof(selftest_request, precision), .choices = "float|double|all"},
@@ -206,7 +211,7 @@ static glint_status run_case(selftest_work *work, size_t index,
     }
     // A driver that fails at one kernel tends to fail at all: its log is shown once.
     if (trouble.details != NULL && !work->log_printed) {
-        glint_say("%s\n%s", trouble.message, trouble.details);
+        glint_say_error(&trouble);
         work->log_printed = true;
     }
     glint_error_free(&trouble);
@@ -225,7 +230,7 @@ static glint_status run_cases(selftest_work *work, int width, glint_precision pr
     glint_status status = GLINT_OK;
     bool is_first = true;
     for (size_t i = 0; status == GLINT_OK && glint_selftest_name(i) != NULL; i++) {
-        if ((!request->chooses || request->chosen[i]) && !has_enough(work)) {
+        if ((!request->cases.any || request->cases.has[i]) && !has_enough(work)) {
             status = run_case(work, i, &options, is_first, error);
             is_first = false;
         }

@@ -26,6 +26,16 @@ void glint_say(const char *format, ...)
     fprintf(stderr, "glint: %s\n", text);
 }
 
+void glint_say_error(const glint_error *error)
+{
+    glint_say("%s", error->message[0] != '\0' ? error->message : "failed without a reason");
+    const char *details = error->details;
+    if (details != NULL) {
+        const bool ends_line = details[0] != '\0' && details[strlen(details) - 1] == '\n';
+        fprintf(stderr, "%s%s", details, ends_line ? "" : "\n");
+    }
+}
+
 void glint_say_warnings(const glint_warnings *warnings, size_t first)
 {
     for (size_t i = first; i < warnings->count; i++) {
@@ -182,13 +192,7 @@ int main(int argc, char **argv)
         return glint_stop_status();
     }
     if (status != GLINT_OK) {
-        glint_say("%s", error.message[0] != '\0' ? error.message : "failed without a reason");
-        if (error.details != NULL) {
-            fprintf(stderr, "%s%s", error.details,
-                    error.details[0] != '\0' && error.details[strlen(error.details) - 1] == '\n'
-                        ? ""
-                        : "\n");
-        }
+        glint_say_error(&error);
     }
     glint_error_free(&error);
     return (int)status;

@@ -5,7 +5,6 @@
 #include "device/kernel_sources.h"
 
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,22 +61,15 @@ static glint_status find_source(const glint_program_request *request, source *fo
 }
 
 struct glint_built_program {
-    char *key; // of the request; owned
+    char *options; // all that it depends on: they name the kernels' folder too; owned
     cl_program program;
     struct glint_built_program *next;
 };
 
-// All that a program depends on. Truncated where it is too long to be built anyway.
-static void write_key(const glint_program_request *request, char *key, size_t capacity)
-{
-    snprintf(key, capacity, "%s %s", request->options,
-             request->kernel_dir != NULL ? request->kernel_dir : "");
-}
-
-static cl_program find_built(const struct glint_device *device, const char *key)
+static cl_program find_built(const struct glint_device *device, const char *options)
 {
     for (const struct glint_built_program *p = device->programs; p != NULL; p = p->next) {
-        if (strcmp(p->key, key) == 0) {
+        if (strcmp(p->options, options) == 0) {
             clRetainProgram(p->program);
             return p->program;
         }
@@ -86,14 +78,14 @@ static cl_program find_built(const struct glint_device *device, const char *key)
 }
 
 // Without memory for it the program is only built again another time.
-static void keep_built(struct glint_device *device, const char *key, cl_program program)
+static void keep_built(struct glint_device *device, const char *options, cl_program program)
 {
     struct glint_built_program *kept = calloc(1, sizeof *kept);
     if (kept == NULL) {
         return;
     }
-    kept->key = strdup(key);
-    if (kept->key == NULL) {
+    kept->options = strdup(options);
+    if (kept->options == NULL) {
         free(kept);
         return;
     }
@@ -109,17 +101,17 @@ void glint_programs_forget(struct glint_device *device)
         struct glint_built_program *first = device->programs;
         device->programs = first->next;
         clReleaseProgram(first->program);
-        free(first->key);
+        free(first->options);
         free(first);
     }
 }
 
-static glint_status compile(const struct glint_device *device, const source *found,
-                            const char *options, cl_program *program, glint_error *error)
+static glint_status compile(const struct glint_device *device, source *found, const char *options,
+                            cl_program *program, glint_error *error)
 {
     cl_int code;
-    cl_program made = clCreateProgramWithSource(
-        device->context, found->count, (const char **)(uintptr_t)found->parts, NULL, &code);
+    cl_program made =
+        clCreateProgramWithSource(device->context, found->count, found->parts, NULL, &code);
     if (code != CL_SUCCESS) {
         return glint_fail_opencl(error, device, "creating the kernels' program", code);
     }
@@ -142,7 +134,7 @@ glint_status glint_program_build(struct glint_device *device, const glint_progra
 {
     *program = NULL;
     source found;
-    char options[8192], key[16384];
+    char options[8192];
     glint_status status = find_source(request, &found, error);
     if (status != GLINT_OK) {
         return status;
@@ -152,14 +144,13 @@ glint_status glint_program_build(struct glint_device *device, const glint_progra
         return glint_fail(error, GLINT_BAD_INPUT, "%s: the folder's name is too long",
                           request->kernel_dir);
     }
-    write_key(request, key, sizeof key);
-    *program = request->with_probes ? find_built(device, key) : NULL;
+    *program = request->with_probes ? find_built(device, options) : NULL;
     if (*program != NULL) {
         return GLINT_OK;
     }
     status = compile(device, &found, options, program, error);
     if (status == GLINT_OK && request->with_probes) {
-        keep_built(device, key, *program);
+        keep_built(device, options, *program);
     }
     return status;
 }

@@ -4,6 +4,7 @@
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
+#include "selftest/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -135,24 +136,31 @@ static glint_status rays_at_vertices(trial *t)
 
 // ---- Against the oracle ------------------------------------------------------------------------
 
+static glint_status trace_scene(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
+                                glint_probe_hit *hits, size_t count)
+{
+    glint_probe *probe;
+    glint_status status = trial_probe(t, scene, &probe);
+    if (status == GLINT_OK) {
+        status = trial_trace(t, probe, rays, hits, count);
+    }
+    glint_probe_free(probe);
+    return status;
+}
+
 // What the probe and the oracle say of the rays, into arrays of `count`.
 static glint_status trace_both(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
                                glint_probe_hit *found, oracle_hit *wanted, size_t count)
 {
-    glint_probe *probe = NULL;
-    oracle_scene judge = {0};
+    oracle_scene judge;
     glint_status status = judge_begin(scene, &judge, t->error);
     if (status == GLINT_OK) {
-        status = trial_probe(t, scene, &probe);
-    }
-    if (status == GLINT_OK) {
-        status = trial_trace(t, probe, rays, found, count);
+        status = trace_scene(t, scene, rays, found, count);
     }
     for (size_t i = 0; status == GLINT_OK && i < count; i++) {
         wanted[i] = judge_ray(&judge, &rays[i]);
     }
     judge_end(&judge);
-    glint_probe_free(probe);
     return status;
 }
 
@@ -203,11 +211,7 @@ static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthogr
     glint_renderer *renderer = NULL;
     glint_image image = {0};
     glint_status status = trial_uniform_environment(1, &environment, t->error);
-    const glint_renderer_inputs inputs = {.device = t->options->device,
-                                          .scene = scene,
-                                          .environment = &environment,
-                                          .settings = &settings,
-                                          .kernel_dir = t->options->kernel_dir};
+    const glint_renderer_inputs inputs = trial_inputs(t, scene, &environment, &settings);
     if (status == GLINT_OK) {
         status = glint_renderer_create(&inputs, &renderer, t->error);
     }
@@ -352,18 +356,6 @@ static void aim_at_mesh(trial *t, const glint_scene *scene, glint_probe_ray *ray
     }
 }
 
-static glint_status trace_scene(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
-                                glint_probe_hit *hits, size_t count)
-{
-    glint_probe *probe = NULL;
-    glint_status status = trial_probe(t, scene, &probe);
-    if (status == GLINT_OK) {
-        status = trial_trace(t, probe, rays, hits, count);
-    }
-    glint_probe_free(probe);
-    return status;
-}
-
 static glint_status triangles_without_area(trial *t)
 {
     enum { COUNT = 8192 };
@@ -445,6 +437,17 @@ static double distance_to_point(const glint_scene *scene, const glint_probe_ray 
     return sqrt(squares);
 }
 
+// How far a hit's weights lie outside of the triangle, in u.
+static void judge_weights(glint_measure *weights, const trial *t, const glint_probe_hit *hit,
+                          int ray)
+{
+    const double b1 = hit->barycentric[0], b2 = hit->barycentric[1];
+    // Whichever is largest; the sum is NaN if one of them is.
+    const double outside = above_zero(-b1) + above_zero(-b2) + above_zero(b1 + b2 - 1);
+    measure_error(weights, outside / t->u, "ray %d, triangle %g: %.9g, %.9g", ray, hit->triangle,
+                  b1, b2);
+}
+
 static glint_status slivers(trial *t)
 {
     enum { COUNT = 65536 };
@@ -467,10 +470,7 @@ static glint_status slivers(trial *t)
         measure_event(leaks, missed, "ray %d from (%.9g, %.9g, %.9g)", i, rays[i].origin[0],
                       rays[i].origin[1], rays[i].origin[2]);
         if (!missed) {
-            const double b1 = found[i].barycentric[0], b2 = found[i].barycentric[1];
-            const double outside = fmax(0, fmax(fmax(-b1, -b2), b1 + b2 - 1));
-            measure_error(weights, outside / t->u, "ray %d, triangle %g: %.9g, %.9g", i,
-                          found[i].triangle, b1, b2);
+            judge_weights(weights, t, &found[i], i);
             measure_error(distances, distance_to_point(&scene, &rays[i], &found[i]) / t->u,
                           "ray %d, triangle %g", i, found[i].triangle);
         }
@@ -506,16 +506,13 @@ static glint_status edge_on_triangles(trial *t)
     glint_measure *company = trial_events(t, "hits that depend on the rays beside", 0);
     glint_measure *weights = trial_error(t, "barycentric weights outside of [0, 1]", "u", 4);
     glint_scene scene;
-    glint_probe *probe = NULL;
+    glint_probe *probe;
     shape s = shape_begin();
     shape_add_box(&s, low, high, 2, false, MATERIAL_TINTED);
-    glint_status status = shape_end(&s, &scene, t->error);
+    glint_status status = trial_build(t, &s, &scene, &probe);
     aim_along_walls(t, rays, COUNT);
     for (int i = 0; i < COUNT; i++) {
         reversed[i] = rays[COUNT - 1 - i];
-    }
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
     }
     if (status == GLINT_OK) {
         status = trial_trace(t, probe, rays, found, COUNT);
@@ -525,13 +522,11 @@ static glint_status edge_on_triangles(trial *t)
     }
     for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
         const glint_probe_hit *a = &found[i], *b = &again[COUNT - 1 - i];
-        const double b1 = a->barycentric[0], b2 = a->barycentric[1];
         measure_event(company, a->triangle != b->triangle || a->distance != b->distance,
                       "ray %d: triangle %g at %.9g, in another order %g at %.9g", i, a->triangle,
                       a->distance, b->triangle, b->distance);
         if (a->triangle >= 0) {
-            measure_error(weights, fmax(0, fmax(fmax(-b1, -b2), b1 + b2 - 1)) / t->u,
-                          "ray %d, triangle %g: %.9g, %.9g", i, a->triangle, b1, b2);
+            judge_weights(weights, t, a, i);
         }
     }
     glint_probe_free(probe);

@@ -50,18 +50,43 @@ static glint_status view_probe(trial *t, const glint_camera *camera, const int s
 }
 
 // What rounding leaves of a direction, which is forward + X right + Y up, each rounded, then made a
-// unit vector. In double precision the three come as sums of two floats, good to 2^-49, 16u.
-static double direction_bound(const trial *t)
+// unit vector, and of a start, which is such a sum too. In double precision the three come as sums
+// of two floats, good to 2^-49, 16u.
+static double sum_bound(const trial *t)
 {
     return t->options->precision == GLINT_PRECISION_DOUBLE ? 16 : 4;
 }
 
+// How far a primary ray's start lies from the line on which it should, in long double; a start may
+// be anywhere on it, as kernels begin where the scene does. In terms of the farthest coordinate.
+static double start_error(const glint_camera *camera, const int size[2], const double pixel[2],
+                          const double start[3])
+{
+    double d[3];
+    direction_of(camera, size, pixel[0], pixel[1], d);
+    const long double half = camera->orthographic ? (long double)camera->ymag : 0;
+    const long double x = half * (2 * (pixel[0] + 0.5L) - size[0]) / size[1];
+    const long double y = half * (size[1] - 2 * (pixel[1] + 0.5L)) / size[1];
+    long double away[3], along = 0, squares = 0;
+    double farthest = 1;
+    for (int k = 0; k < 3; k++) {
+        away[k] = start[k] - component(camera->eye, k) - x * component(camera->right, k) -
+                  y * component(camera->up, k);
+        along += away[k] * d[k];
+        farthest = fmax(farthest, fabs(start[k]));
+    }
+    for (int k = 0; k < 3; k++) {
+        squares += (away[k] - along * d[k]) * (away[k] - along * d[k]);
+    }
+    return (double)sqrtl(squares) / farthest;
+}
+
 // Corners, edges' middles, the middle, and anywhere.
-static glint_status measure_directions(trial *t, const glint_camera *camera, const int size[2],
-                                       glint_measure *errors, const char *what)
+static glint_status measure_rays(trial *t, const glint_camera *camera, const int size[2],
+                                 glint_measure *directions, glint_measure *starts, const char *what)
 {
     enum { COUNT = 512 };
-    static double in[COUNT][4], out[COUNT][4];
+    static double in[COUNT][4], out[COUNT][4], from[COUNT][4];
     glint_probe *probe;
     glint_frame_record frame;
     glint_status status = view_probe(t, camera, size, &probe, &frame);
@@ -76,11 +101,18 @@ static glint_status measure_directions(trial *t, const glint_camera *camera, con
         status =
             glint_probe_call(probe, GLINT_PROBE_PRIMARY, &frame, in[0], out[0], COUNT, t->error);
     }
+    if (status == GLINT_OK) {
+        status = glint_probe_call(probe, GLINT_PROBE_PRIMARY_ORIGIN, &frame, in[0], from[0], COUNT,
+                                  t->error);
+    }
     for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
         double expected[3];
         direction_of(camera, size, in[i][0], in[i][1], expected);
-        measure_vector(errors, t, out[i], expected, t->u, "%s, pixel (%g, %g)", what, in[i][0],
+        measure_vector(directions, t, out[i], expected, t->u, "%s, pixel (%g, %g)", what, in[i][0],
                        in[i][1]);
+        measure_error(starts, start_error(camera, size, in[i], from[i]) / t->u,
+                      "%s, pixel (%g, %g): (%.9g, %.9g, %.9g)", what, in[i][0], in[i][1],
+                      from[i][0], from[i][1], from[i][2]);
     }
     glint_probe_free(probe);
     return status;
@@ -94,12 +126,13 @@ static glint_status extreme_cameras(trial *t)
     } cameras[] = {
         {"parallel rays", 0}, {"0.01°", 0.01}, {"45°", 45}, {"179°", 179}, {"179.99°", 179.99}};
     static const int size[2] = {1920, 1080};
-    glint_measure *errors = trial_error(t, "directions of primary rays", "u", direction_bound(t));
+    glint_measure *errors = trial_error(t, "directions of primary rays", "u", sum_bound(t));
+    glint_measure *starts = trial_error(t, "from their starts to their lines", "u", sum_bound(t));
     glint_status status = GLINT_OK;
     for (size_t i = 0; status == GLINT_OK && i < sizeof cameras / sizeof *cameras; i++) {
         const glint_camera camera =
             shape_camera(eye, target, cameras[i].degrees * GLINT_PI / 180, 0.5);
-        status = measure_directions(t, &camera, size, errors, cameras[i].what);
+        status = measure_rays(t, &camera, size, errors, starts, cameras[i].what);
     }
     return status;
 }
@@ -110,7 +143,8 @@ static glint_status odd_sizes(trial *t)
 {
     static const int sizes[][2] = {{1, 1},     {1, 7},   {7, 1},        {1, 4097},
                                    {65536, 1}, {17, 33}, {65536, 65536}};
-    glint_measure *errors = trial_error(t, "directions of primary rays", "u", direction_bound(t));
+    glint_measure *errors = trial_error(t, "directions of primary rays", "u", sum_bound(t));
+    glint_measure *starts = trial_error(t, "from their starts to their lines", "u", sum_bound(t));
     glint_measure *pixels = trial_error(t, "colours of the empty scene", "2/edge² + u", 1);
     const glint_camera camera = shape_camera(eye, target, 0.7, 0);
     glint_environment environment = {0};
@@ -118,7 +152,7 @@ static glint_status odd_sizes(trial *t)
     for (size_t i = 0; status == GLINT_OK && i < sizeof sizes / sizeof *sizes; i++) {
         char what[32];
         snprintf(what, sizeof what, "%d×%d", sizes[i][0], sizes[i][1]);
-        status = measure_directions(t, &camera, sizes[i], errors, what);
+        status = measure_rays(t, &camera, sizes[i], errors, starts, what);
         glint_settings settings = trial_settings(t);
         settings.width = sizes[i][0];
         settings.height = sizes[i][1];
@@ -197,10 +231,9 @@ static glint_status large_numbers(trial *t)
 }
 
 const trial_case image_cases[] = {
-    {"extreme_cameras", "parallel rays, 0.01°, 179° and more: directions in closed form",
+    {"extreme_cameras", "parallel rays, 0.01°, 179° and more: the rays in closed form",
      extreme_cameras},
-    {"odd_sizes", "pictures of 1×1, 1×N, 65536×1 pixels and more: directions and colours",
-     odd_sizes},
+    {"odd_sizes", "pictures of 1×1, 1×N, 65536×1 pixels and more: rays and colours", odd_sizes},
     {"large_numbers", "places in pictures of more than 2^31 values", large_numbers},
     {0},
 };

@@ -26,13 +26,10 @@ static glint_status bounce_off(trial *t, const double normal[3], const glint_pro
                                glint_probe_bounce *bounces, size_t count)
 {
     glint_scene scene;
-    glint_probe *probe = NULL;
+    glint_probe *probe;
     shape s = shape_begin();
     add_square(&s, normal);
-    glint_status status = shape_end(&s, &scene, t->error);
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
+    glint_status status = trial_build(t, &s, &scene, &probe);
     if (status == GLINT_OK) {
         status = trial_bounce(t, probe, rays, bounces, count);
     }
@@ -78,7 +75,7 @@ static glint_status leaning_normals(trial *t)
         for (int i = 0; status == GLINT_OK && i < STEPS; i++) {
             const glint_probe_bounce *b = &bounces[i];
             const double along = dot(b->reflected, b->geometric_normal);
-            measure_error(under, fmax(0, -along) / t->u,
+            measure_error(under, above_zero(-along) / t->u,
                           "normal leans by %.4g°, ray %d: r·n = %.3g", tilt * 180 / GLINT_PI, i,
                           along);
             double step = 0, turn = 0;
@@ -86,7 +83,7 @@ static glint_status leaning_normals(trial *t)
                 step += pow(rays[i].direction[k] - rays[i - 1].direction[k], 2);
                 turn += pow(b->reflected[k] - bounces[i - 1].reflected[k], 2);
             }
-            measure_error(jumps, fmax(0, sqrt(turn) - sqrt(step)) / t->u,
+            measure_error(jumps, above_zero(sqrt(turn) - sqrt(step)) / t->u,
                           "normal leans by %.4g°, between rays %d and %d: %.3g, where they differ "
                           "by %.3g",
                           tilt * 180 / GLINT_PI, i - 1, i, sqrt(turn), sqrt(step));
@@ -210,6 +207,7 @@ static glint_status mirrored_room(trial *t, double length, glint_scene *scene)
 static glint_status drift(trial *t)
 {
     enum { COUNT = 256, BOUNCES = 1000 };
+    static const double middle[3] = {0, 0, 0};
     static glint_probe_ray rays[COUNT];
     static glint_probe_bounce bounces[COUNT];
     glint_measure *lost = trial_events(t, "rays that leave the closed room", 0);
@@ -218,10 +216,7 @@ static glint_status drift(trial *t)
     glint_probe *probe = NULL;
     glint_status status = mirrored_room(t, 1 + 1e-6, &scene);
     for (int i = 0; i < COUNT; i++) {
-        const glint_vec3 d = glint_random_direction(&t->random);
-        rays[i] = (glint_probe_ray){
-            .direction = {trial_rounded(t, d.x), trial_rounded(t, d.y), trial_rounded(t, d.z)},
-            .from = -1};
+        rays[i] = trial_random_ray(t, middle);
     }
     if (status == GLINT_OK) {
         status = trial_probe(t, &scene, &probe);

@@ -68,11 +68,11 @@ static glint_status critical_formulas(trial *t, double exempt)
         if (distance <= exempt) {
             continue;
         }
-        measure_event(wrong, (out[i][0] >= 0) != (squared >= 0),
+        measure_event(wrong, isnan(out[i][0]) || (out[i][0] >= 0) != (squared >= 0),
                       "cos θ %.9g, η %.9g: cos² θt expected %.3g, got %.3g", cosine, eta, squared,
                       out[i][0]);
         // What scatter() makes of it: all is reflected where the square is below 0.
-        const double got = out[i][0] >= 0 ? out[i][1] : 1;
+        const double got = out[i][0] < 0 ? 1 : out[i][1];
         measure_value(errors, t, got, reflectance(cosine, eta), t->u * eta * eta / sqrt(distance),
                       "cos θ %.9g, η %.9g", cosine, eta);
         if (distance > 10 * exempt && eta < 3) {
@@ -96,10 +96,10 @@ static glint_status critical_angle(trial *t)
     glint_measure *wrong = trial_events(t, "rays on the wrong side beyond the exempt band", 0);
     glint_scene scene = {0};
     glint_probe *probe = NULL;
-    shape s = shape_begin();
-    shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
     if (status == GLINT_OK) {
-        status = shape_end(&s, &scene, t->error);
+        shape s = shape_begin();
+        shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
+        status = trial_build(t, &s, &scene, &probe);
     }
     // From the middle of a glass box to its upper face.
     const double critical = asin(1 / SHAPE_GLASS_IOR);
@@ -111,9 +111,6 @@ static glint_status critical_angle(trial *t)
         for (int k = 0; k < 3; k++) {
             rays[i].direction[k] = trial_rounded(t, d[k]);
         }
-    }
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
     }
     if (status == GLINT_OK) {
         status = trial_bounce(t, probe, rays, bounces, COUNT);
@@ -204,8 +201,8 @@ static glint_status extreme_indices(trial *t)
         status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
     }
     for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
-        measure_event(sides, (out[i][0] >= 0) != (i % 2 == 0), "cos θ %.9g: cos² θt %.3g", in[i][0],
-                      out[i][0]);
+        measure_event(sides, isnan(out[i][0]) || (out[i][0] >= 0) != (i % 2 == 0),
+                      "cos θ %.9g: cos² θt %.3g", in[i][0], out[i][0]);
     }
     return status;
 }
@@ -220,6 +217,8 @@ static glint_status fresnel_at_its_ends(trial *t)
     glint_measure *grazing = trial_error(t, "1 at 90°", "u", 16);
     glint_measure *brewster = trial_error(t, "R_p = 0 at Brewster's angle", "u", 16);
     glint_measure *between = trial_error(t, "in between", "u", 16);
+    glint_measure *surfaces =
+        trial_error(t, "all of these, of solid glass met from outside", "u", 16);
     for (size_t i = 0; i < COUNT; i++) {
         const double n = indices[i / 8];
         const double angles[] = {0, GLINT_PI / 2, atan(n), 0.2, 0.6, 1, 1.3, 1.5};
@@ -241,6 +240,8 @@ static glint_status fresnel_at_its_ends(trial *t)
             measure_value(between, t, got, reflectance(in[i][0], in[i][1]), t->u,
                           "n %g, cos θ %.9g", n, in[i][0]);
         }
+        measure_value(surfaces, t, out[i][2], reflectance(in[i][0], in[i][1]), t->u,
+                      "n %g, cos θ %.9g", n, in[i][0]);
     }
     return status;
 }

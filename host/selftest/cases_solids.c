@@ -70,10 +70,10 @@ static glint_status slab(trial *t)
     glint_measure *directions = trial_error(t, "exit beside entry direction", "n²u/cos θ", 4);
     glint_measure *shifts = trial_error(t, "sideways shift", "u/cos θ", 8);
     glint_scene scene;
-    glint_probe *probe = NULL;
+    glint_probe *probe;
     shape s = shape_begin();
     shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
-    glint_status status = shape_end(&s, &scene, t->error);
+    glint_status status = trial_build(t, &s, &scene, &probe);
     for (int i = 0; i < COUNT; i++) {
         const double angle = trial_random(t, 0, 1.4), azimuth = trial_random(t, 0, 2 * GLINT_PI);
         const double d[3] = {sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), -cos(angle)};
@@ -84,9 +84,6 @@ static glint_status slab(trial *t)
         }
     }
     memcpy(begun, rays, sizeof rays);
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
     if (status == GLINT_OK) {
         status = follow(t, probe, 2, 0, rays, bounces, COUNT);
     }
@@ -219,18 +216,15 @@ static glint_status ball_error(trial *t, int level, bool smooth, int internal, b
     static glint_probe_bounce bounces[BALL_RAYS];
     static double impacts[BALL_RAYS];
     glint_scene scene;
-    glint_probe *probe = NULL;
+    glint_probe *probe;
     shape s = shape_begin();
     shape_add_ball(&s, centre, BALL_RADIUS, level, NULL, smooth, MATERIAL_GLASS);
     if (core) {
         shape_add_ball(&s, centre, CORE_RADIUS, level, NULL, smooth, MATERIAL_CORE);
     }
-    glint_status status = shape_end(&s, &scene, t->error);
+    glint_status status = trial_build(t, &s, &scene, &probe);
     aim_at_ball(t, core ? 0.55 : 0.85, rays, impacts);
     memcpy(begun, rays, sizeof rays);
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
     if (status == GLINT_OK) {
         // Reflected at the surfaces after the first, before the last.
         const unsigned reflected = ((1u << internal) - 1) << 1;

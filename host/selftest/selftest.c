@@ -72,7 +72,8 @@ static uint64_t seed_of(const char *name)
     return hash;
 }
 
-static glint_verdict verdict_of(glint_selftest_result *result)
+// Turns counts into shares where these are meant, and judges.
+static glint_verdict conclude(glint_selftest_result *result)
 {
     glint_verdict verdict = result->measure_count > 0 ? GLINT_PASSED : GLINT_FAILED;
     for (int i = 0; i < result->measure_count; i++) {
@@ -113,7 +114,7 @@ glint_status glint_selftest_run(size_t index, const glint_selftest_options *opti
     clock_gettime(CLOCK_MONOTONIC, &end);
     result->ms =
         (double)(end.tv_sec - begin.tv_sec) * 1e3 + (double)(end.tv_nsec - begin.tv_nsec) * 1e-6;
-    result->verdict = verdict_of(result);
+    result->verdict = conclude(result);
     if (status == GLINT_DEVICE_FAILED) {
         result->verdict = GLINT_BROKEN;
         snprintf(result->reason, sizeof result->reason, "%s", error->message);

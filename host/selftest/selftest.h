@@ -58,8 +58,9 @@ typedef struct glint_selftest_options {
 const char *glint_selftest_name(size_t index);
 const char *glint_selftest_summary(size_t index);
 
-// Runs one case. What the driver fails at is the case's verdict (GLINT_BROKEN), and error->details
-// may then hold a build log. Errors: GLINT_BAD_INPUT for kernel_dir.
+// Runs one case; `index` is one of those that have a name. What the driver fails at is the case's
+// verdict (GLINT_BROKEN), and error->details may then hold a build log. Errors: GLINT_BAD_INPUT for
+// kernel_dir.
 glint_status glint_selftest_run(size_t index, const glint_selftest_options *options,
                                 glint_selftest_result *result, glint_error *error);
 

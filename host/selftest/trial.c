@@ -2,7 +2,6 @@
 #include "selftest/trial.h"
 
 #include "base/memory.h"
-#include "selftest/shapes.h"
 #include "selftest/vectors.h"
 
 #include <assert.h>
@@ -154,6 +153,13 @@ glint_probe_ray trial_aim(const trial *t, const double from[3], const double to[
     return ray;
 }
 
+glint_probe_ray trial_random_ray(trial *t, const double from[3])
+{
+    const glint_vec3 d = glint_random_direction(&t->random);
+    const double to[3] = {from[0] + d.x, from[1] + d.y, from[2] + d.z};
+    return trial_aim(t, from, to);
+}
+
 // ---- Environments ------------------------------------------------------------------------------
 
 glint_status trial_linear_environment(int edge, glint_environment *environment, glint_error *error)
@@ -196,13 +202,7 @@ static glint_status make_probe(const trial *t, const glint_scene *scene,
     glint_settings settings = trial_settings(t);
     settings.all_features = true;
     settings.texels = GLINT_TEXELS_FLOAT;
-    const glint_renderer_inputs inputs = {
-        .device = t->options->device,
-        .scene = scene,
-        .environment = environment,
-        .settings = &settings,
-        .kernel_dir = t->options->kernel_dir,
-    };
+    const glint_renderer_inputs inputs = trial_inputs(t, scene, environment, &settings);
     return glint_probe_create(&inputs, probe, t->error);
 }
 
@@ -216,6 +216,13 @@ glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe *
     }
     glint_environment_free(&environment);
     return status;
+}
+
+glint_status trial_build(const trial *t, shape *s, glint_scene *scene, glint_probe **probe)
+{
+    *probe = NULL;
+    const glint_status status = shape_end(s, scene, t->error);
+    return status == GLINT_OK ? trial_probe(t, scene, probe) : status;
 }
 
 glint_status trial_probe_environment(const trial *t, const glint_environment *environment,
@@ -279,6 +286,19 @@ glint_settings trial_settings(const trial *t)
     return settings;
 }
 
+glint_renderer_inputs trial_inputs(const trial *t, const glint_scene *scene,
+                                   const glint_environment *environment,
+                                   const glint_settings *settings)
+{
+    return (glint_renderer_inputs){
+        .device = t->options->device,
+        .scene = scene,
+        .environment = environment,
+        .settings = settings,
+        .kernel_dir = t->options->kernel_dir,
+    };
+}
+
 static glint_status read_picture(glint_renderer *renderer, const glint_image *image,
                                  trial_picture *picture, glint_error *error)
 {
@@ -304,13 +324,7 @@ glint_status trial_frame(trial *t, const glint_scene *scene, const glint_environ
                          trial_picture *picture)
 {
     *picture = (trial_picture){0};
-    const glint_renderer_inputs inputs = {
-        .device = t->options->device,
-        .scene = scene,
-        .environment = environment,
-        .settings = settings,
-        .kernel_dir = t->options->kernel_dir,
-    };
+    const glint_renderer_inputs inputs = trial_inputs(t, scene, environment, settings);
     glint_renderer *renderer = NULL;
     glint_image image = {0};
     glint_status status = glint_renderer_create(&inputs, &renderer, t->error);

@@ -7,6 +7,7 @@
 #include "render/frame.h"
 #include "render/probe.h"
 #include "selftest/selftest.h"
+#include "selftest/shapes.h"
 
 typedef struct trial {
     const glint_selftest_options *options;
@@ -64,6 +65,8 @@ double trial_rounded(const trial *t, double value);
 
 // From one place to another, in stored coordinates, each rounded.
 glint_probe_ray trial_aim(const trial *t, const double from[3], const double to[3]);
+// In any direction.
+glint_probe_ray trial_random_ray(trial *t, const double from[3]);
 
 // ---- The renderer ------------------------------------------------------------------------------
 
@@ -74,6 +77,8 @@ glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe *
 // Of a scene that no one looks at, under another environment.
 glint_status trial_probe_environment(const trial *t, const glint_environment *environment,
                                      glint_probe **probe);
+// Ends the shape and makes probes of its scene; failed or not, both are the caller's to free.
+glint_status trial_build(const trial *t, shape *s, glint_scene *scene, glint_probe **probe);
 // The same of a scene that no one looks at, to call functions of numbers alone.
 glint_status trial_functions(const trial *t, glint_probe **probe);
 
@@ -101,6 +106,10 @@ typedef struct trial_picture {
 
 // Settings of frames at the trial's width and precision: 64 × 48 pixels, min_weight 0.
 glint_settings trial_settings(const trial *t);
+// What a renderer needs, on the trial's device. Borrows all.
+glint_renderer_inputs trial_inputs(const trial *t, const glint_scene *scene,
+                                   const glint_environment *environment,
+                                   const glint_settings *settings);
 
 glint_status trial_frame(trial *t, const glint_scene *scene, const glint_environment *environment,
                          const glint_camera *camera, const glint_settings *settings,

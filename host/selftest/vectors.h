@@ -32,4 +32,10 @@ static inline double distance(const double a[3], const double b[3])
     return sqrt(dot(away, away));
 }
 
+// x where it is above 0, else 0; NaN stays NaN, which fmax() would drop.
+static inline double above_zero(double x)
+{
+    return x <= 0 ? 0 : x;
+}
+
 #endif
