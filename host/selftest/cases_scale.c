@@ -7,6 +7,7 @@
 #include <string.h>
 
 static const double middle[3] = {0, 0, 0};
+static const int far_size[2] = {200, 150};
 
 // Judges the pixels: which show another triangle than the oracle's. Triangles from `last` on count
 // as one.
@@ -44,12 +45,10 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const glint
 
 // A ball a million metres from the origin, where a float steps by 1/16 of a metre: all that single
 // precision leaves of it is what its vertices were rounded to.
-static glint_status far_from_origin(trial *t)
+static glint_status rounded_ball(trial *t, glint_measure *others)
 {
     enum { UNIT = 8 };
     static const double far[3] = {1e6, -1e6, 1e6};
-    static const int size[2] = {200, 150};
-    glint_measure *others = trial_share(t, "pixels that show another triangle", 1e-4);
     glint_scene scene;
     shape s = shape_begin();
     shape_add_ball(&s, middle, 1, 3, NULL, true, MATERIAL_MIRROR);
@@ -63,10 +62,40 @@ static glint_status far_from_origin(trial *t)
         glint_scene_find_bounds(&scene);
         const double eye[3] = {far[0] + 10, far[1] + 5, far[2] + 14};
         const glint_camera camera = shape_camera(eye, far, 0.9, 0);
-        status = compare_hits(t, &scene, &camera, size, INFINITY, others);
+        status = compare_hits(t, &scene, &camera, far_size, INFINITY, others);
     }
     glint_scene_free(&scene);
     return status;
+}
+
+// A ball of 4 mm at ten million metres, as loaders place it whose transforms are double: its own
+// coordinates are small, and its place and the eye's, which double has to 2⁻³⁰ m there, are 2·10⁻⁵
+// of a pixel off.
+static glint_status small_ball(trial *t, glint_measure *others)
+{
+    static const double unit = 0x1p-8;
+    static const double far[3] = {1e7, -1e7, 1e7};
+    glint_scene scene;
+    shape s = shape_begin();
+    shape_add_ball(&s, middle, 0.002 / unit, 3, NULL, true, MATERIAL_MIRROR);
+    glint_status status = shape_end_with_unit(&s, unit, &scene, t->error);
+    if (status == GLINT_OK) {
+        scene.origin = (glint_vec3){far[0], far[1], far[2]};
+        glint_scene_find_bounds(&scene);
+        const double eye[3] = {far[0] + 0.004, far[1] + 0.002, far[2] + 0.006};
+        const glint_camera camera = shape_camera(eye, far, 0.9, 0);
+        status = compare_hits(t, &scene, &camera, far_size, INFINITY, others);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+static glint_status far_from_origin(trial *t)
+{
+    glint_measure *rounded = trial_share(t, "at 10⁶ m: pixels that show another triangle", 1e-4);
+    glint_measure *small = trial_share(t, "at 10⁷ m, of a ball of 4 mm", 1e-4);
+    const glint_status status = rounded_ball(t, rounded);
+    return status == GLINT_OK ? small_ball(t, small) : status;
 }
 
 // A ball of a millimetre on a plane of twenty kilometres. The plane's halves count as one: where
@@ -152,7 +181,8 @@ static glint_status powers_of_two(trial *t)
 }
 
 const trial_case scale_cases[] = {
-    {"far_from_origin", "a mesh at 10⁶ m, where floats step by 1/16: what the oracle sees",
+    {"far_from_origin",
+     "meshes at 10⁶ m, where floats step by 1/16, and of millimetres at 10⁷ m: the oracle's view",
      far_from_origin},
     {"powers_of_two", "a scene of glass and mirrors, times 2^±20 and 2^±60: the same picture",
      powers_of_two},
