@@ -55,9 +55,10 @@ typedef struct glint_bvh_inputs {
 } glint_bvh_inputs;
 
 // Deterministic: the same input gives the same tree. Triangles without area, whose corners are in
-// line as they are stored, are left out: no ray hits them, whatever rounding makes of them. Two
-// triangles of a cluster share a vertex where its position and normal have the same bits. Errors:
-// GLINT_DEVICE_FAILED (memory), GLINT_BAD_INPUT (too many triangles for the layout).
+// line as they are stored (a loader keeps them out, but scenes are made by hand too), are left out:
+// no ray hits them, whatever rounding makes of them. Two triangles of a cluster share a vertex
+// where its position and normal have the same bits. Errors: GLINT_DEVICE_FAILED (memory),
+// GLINT_BAD_INPUT (too many triangles for the layout).
 glint_status glint_bvh_build(const glint_bvh_inputs *inputs, glint_bvh *bvh, glint_error *error);
 void glint_bvh_free(glint_bvh *bvh);
 

@@ -1,6 +1,8 @@
 // Making references, bundled and single. See reference.h.
 #include "accel/reference.h"
 
+#include "base/vector.h"
+
 // Triangles are bundled if their common box has hardly more area than their own together. Four of a
 // flat patch have just as much; triangles from here and there have many times that. Written so that
 // areas that overflow make no bundle.
@@ -17,20 +19,6 @@ static inline glint_box triangle_box(const float *positions, size_t triangle)
     const glint_float4 c = {p[6], p[7], p[8], 0};
     return (glint_box){glint_larger4(glint_larger4(-a, -b), -c),
                        glint_larger4(glint_larger4(a, b), c)};
-}
-
-// Whether the corners span a plane. Differences of floats and products of those are double's but
-// for a rounding that the same products share: 0 where the corners are in line, and next to nowhere
-// else.
-static inline bool has_area(const float *positions, size_t triangle)
-{
-    const float *p = positions + 9 * triangle;
-    double a[3], b[3];
-    for (int k = 0; k < 3; k++) {
-        a[k] = (double)p[3 + k] - (double)p[k];
-        b[k] = (double)p[6 + k] - (double)p[k];
-    }
-    return a[1] * b[2] != a[2] * b[1] || a[2] * b[0] != a[0] * b[2] || a[0] * b[1] != a[1] * b[0];
 }
 
 static inline glint_reference make(glint_box box, size_t first, uint32_t count)
@@ -81,7 +69,7 @@ size_t glint_references_make(const float *positions, size_t first, size_t count,
         const size_t own = last - i < GLINT_BUNDLE_MAX ? last - i : GLINT_BUNDLE_MAX;
         bool sound[GLINT_BUNDLE_MAX], all = own == GLINT_BUNDLE_MAX;
         for (size_t k = 0; k < own; k++) {
-            sound[k] = has_area(positions, i + k);
+            sound[k] = glint_triangle_has_area(positions + 9 * (i + k));
             all = all && sound[k];
         }
         if (all) {

@@ -14,6 +14,25 @@ glint_vec3 glint_vec3_normalize(glint_vec3 a)
     return glint_vec3_scale(b, 1 / sqrt(glint_vec3_dot(b, b)));
 }
 
+// True if a·b = c·d exactly. The products' rounding errors are doubles too (they are far from
+// underflow here), so comparing both parts compares the exact products.
+static bool products_equal(double a, double b, double c, double d)
+{
+    const double first = a * b, second = c * d;
+    return first == second && fma(a, b, -first) == fma(c, d, -second);
+}
+
+bool glint_triangle_has_area(const float corners[9])
+{
+    double u[3], v[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = (double)corners[3 + k] - (double)corners[k];
+        v[k] = (double)corners[6 + k] - (double)corners[k];
+    }
+    return !(products_equal(u[1], v[2], u[2], v[1]) && products_equal(u[2], v[0], u[0], v[2]) &&
+             products_equal(u[0], v[1], u[1], v[0]));
+}
+
 glint_mat4 glint_mat4_multiply(const glint_mat4 *a, const glint_mat4 *b)
 {
     glint_mat4 c;

@@ -3,6 +3,7 @@
 #define GLINT_BASE_VECTOR_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,6 +52,10 @@ static inline double glint_vec3_length(glint_vec3 a)
 
 // The unit vector along `a`, or (0, 0, 0) where it has none (zero, infinite or NaN components).
 glint_vec3 glint_vec3_normalize(glint_vec3 a);
+
+// True if the corners (three values each) are not in line, exactly as the floats have it where they
+// lie within 2^29 of one another; beyond that their differences are rounded. Finite corners only.
+bool glint_triangle_has_area(const float corners[9]);
 
 extern const glint_mat4 glint_mat4_identity;
 

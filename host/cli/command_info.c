@@ -201,9 +201,6 @@ static void print_tree(const glint_bvh_report *bvh)
            bvh->cluster_count, 100 * bvh->fill, bvh->depth, bvh->sah_cost);
     printf("  tree: %.1f MiB, %.1f bytes a triangle\n", (double)bvh->bytes / 0x1p20,
            bvh->bytes_per_triangle);
-    if (bvh->without_area > 0) {
-        printf("  tree: %zu triangles without area are left out\n", bvh->without_area);
-    }
 }
 
 static void print_text(const glint_subject *subject)

@@ -42,7 +42,6 @@ json_t *glint_json_bvh(const glint_bvh_report *bvh)
 {
     json_t *object = json_object();
     glint_json_put_count(object, "triangles", bvh->triangle_count);
-    glint_json_put_count(object, "triangles_without_area", bvh->without_area);
     glint_json_put_count(object, "nodes", bvh->node_count);
     glint_json_put_count(object, "clusters", bvh->cluster_count);
     glint_json_put(object, "depth", json_integer(bvh->depth));

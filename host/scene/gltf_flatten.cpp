@@ -158,29 +158,6 @@ void choose_frame(const Bounds &bounds, glint_scene &scene)
     }
 }
 
-// True if a·b = c·d exactly. The products' rounding errors are doubles too (they are far from
-// underflow here), so comparing both parts compares the exact products.
-bool products_equal(double a, double b, double c, double d)
-{
-    double first = a * b;
-    double second = c * d;
-    return first == second && std::fma(a, b, -first) == std::fma(c, d, -second);
-}
-
-// Zero area, exactly as the stored floats have it (where they lie within 2^29 of one another;
-// beyond that the differences are rounded).
-bool has_no_area(const float *p)
-{
-    std::array<double, 3> u{};
-    std::array<double, 3> v{};
-    for (std::size_t k = 0; k < 3; k++) {
-        u[k] = static_cast<double>(p[3 + k]) - static_cast<double>(p[k]);
-        v[k] = static_cast<double>(p[6 + k]) - static_cast<double>(p[k]);
-    }
-    return products_equal(u[1], v[2], u[2], v[1]) && products_equal(u[2], v[0], u[0], v[2]) &&
-           products_equal(u[0], v[1], u[1], v[0]);
-}
-
 class Writer
 {
   public:
@@ -261,7 +238,7 @@ class Writer
             p[3 * c + 1] = static_cast<float>(stored.y);
             p[3 * c + 2] = static_cast<float>(stored.z);
         }
-        return !has_no_area(p);
+        return glint_triangle_has_area(p);
     }
 
     // Normals that are zero, NaN or infinite become (0, 0, 0) in glint_vec3_normalize.
