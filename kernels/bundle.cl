@@ -73,20 +73,17 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
     const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
     const int first = index * GLINT_CLUSTER_LANES;
     uint met = frustum_meets_triangles(&b->bounds, cluster, count, b->farthest);
+    const leaf leaf = {cluster, scene->numbers, first};
     bool found = false;
     if (GLINT_WIDTH > 1 && popcount(met) > SPARSE_TRIANGLES) {
         uint rays = rays_at_box(b, scene, box, hit);
         if (popcount(rays) < popcount(met)) {
-            const leaf leaf = {cluster, scene->numbers, first};
             return intersect_by_rays(b->rays, rays, from, &leaf, hit);
         }
     }
     for (; met != 0; met &= met - 1) {
-        int place = first + lowest_bit(met);
-        float vertices[9];
-        load_triangle(cluster, place - first, vertices);
-        found |= intersect_triangle(b->rays, b->axes, vertices, place, scene->numbers,
-                                    b->active & (from != (lane_int)place), hit);
+        found |= intersect_triangle(b->rays, b->axes, &leaf, first + lowest_bit(met), from,
+                                    b->active, hit);
     }
     return found;
 }

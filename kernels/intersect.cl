@@ -87,6 +87,13 @@ static inline mask rays_meet_box(const packet *p, global const float *node, int 
     return near <= far * FAR_SLACK;
 }
 
+// A cluster, whose triangles stand from place `first` on, and all triangles' numbers.
+typedef struct leaf {
+    global const float *cluster;
+    global const int *numbers;
+    int first;
+} leaf;
+
 // Reads the three vertices, x y z each, of the triangle in one lane of a cluster.
 static inline void load_triangle(global const float *cluster, int lane, float vertices[9])
 {
@@ -162,11 +169,67 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
     }
 }
 
-// Tests one triangle against the rays in `active` and keeps the nearer hit.
-static inline bool intersect_triangle(const packet *p, int axes, const float vertices[9], int place,
-                                      global const int *numbers, mask active, closest *hit)
+// How far from a triangle's plane rays start that leave it, in terms of its vertices' distances from
+// the origin of coordinates along the plane's normal; place_on_triangle says why.
+#define START_OFFSET (R(8.0) * EPSILON)
+
+// Whether a triangle lies in the plane of the one at place `start`, −1 for none: all its corners as
+// near to it as rays start off it (place_on_triangle).
+static inline bool lies_in_plane_of(const leaf *leaf, int start, const float corners[9])
+{
+    if (start < 0) {
+        return false;
+    }
+    const int cluster = start / GLINT_CLUSTER_LANES - leaf->first / GLINT_CLUSTER_LANES;
+    float own[9];
+    load_triangle(leaf->cluster + (long)cluster * GLINT_CLUSTER_VALUES, start % GLINT_CLUSTER_LANES,
+                  own);
+    scalar a[3], b[3], farthest = R(0.0), off[3] = {R(0.0), R(0.0), R(0.0)};
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        a[k] = (scalar)own[3 + k] - (scalar)own[k];
+        b[k] = (scalar)own[6 + k] - (scalar)own[k];
+    }
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const scalar n = a[i] * b[j] - a[j] * b[i];
+        farthest += fabs(n) * LARGEST3(fabs((scalar)own[k]), fabs((scalar)own[3 + k]),
+                                       fabs((scalar)own[6 + k]));
+#pragma unroll
+        for (int v = 0; v < 3; v++) {
+            off[v] = fused(n, (scalar)corners[3 * v + k] - (scalar)own[k], off[v]);
+        }
+    }
+    return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <= START_OFFSET * farthest;
+}
+
+// A ray that leaves a plane meets no triangle that lies in it. Where it starts in the plane itself,
+// as on one through the origin of coordinates at right angles to an axis, rounding may say that it
+// does: at a depth of no more than this share of the corners'.
+#define NEXT_TO_NOTHING R(0.00390625)
+
+// False for those of some rays that start in the plane of a triangle; true for all others.
+static inline mask start_off_plane(const leaf *leaf, lanes_int from, const float corners[9],
+                                   mask rays)
+{
+    lanes_int start = int_of(0);
+    for (uint left = mask_bits(rays); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        LANE_INT(start, lane) = lies_in_plane_of(leaf, (int)LANE_INT(from, lane), corners);
+    }
+    return start == (lane_int)0;
+}
+
+// Tests a leaf's triangle at `place` against the rays in `active`, which start on the triangles at
+// the places `from`, and keeps the nearer hit.
+static inline bool intersect_triangle(const packet *p, int axes, const leaf *leaf, int place,
+                                      lanes_int from, mask active, closest *hit)
 {
     bool found = false;
+    float vertices[9];
+    load_triangle(leaf->cluster, place - leaf->first, vertices);
+    active = active & (from != (lane_int)place);
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         if (!(axes & (1 << k))) {
@@ -205,9 +268,14 @@ static inline bool intersect_triangle(const packet *p, int axes, const float ver
         real t =
             fused(weights[0], az, fused(weights[1], bz, weights[2] * cz)) * p->shear_z * inverse;
         inside = inside & (t > R(0.0));
+        const real reach = LARGEST3(fabs(az), fabs(bz), fabs(cz)) * fabs(p->shear_z);
+        const mask near = inside & (t < NEXT_TO_NOTHING * reach);
+        if (any_lane(near)) {
+            inside = inside & start_off_plane(leaf, from, vertices, near);
+        }
         mask taken = inside & (t < hit->t), tied = inside & (t == hit->t);
         if (any_lane(tied)) {
-            taken = taken | (tied & has_lower_number(numbers, place, hit->place, tied));
+            taken = taken | (tied & has_lower_number(leaf->numbers, place, hit->place, tied));
         }
         found = found || any_lane(taken);
         hit->t = SELECT(taken, t, hit->t);
@@ -239,13 +307,6 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
     ray.from = (int)LANE_INT(from, lane);
     return ray;
 }
-
-// A cluster, whose triangles stand from place `first` on, and all triangles' numbers.
-typedef struct leaf {
-    global const float *cluster;
-    global const int *numbers;
-    int first;
-} leaf;
 
 // A ray against all triangles of a cluster: bits say for which the ray is inside or, perhaps by
 // rounding alone, on an edge; u, v and w as in intersect_triangle.
@@ -318,6 +379,10 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
     const scalar t = fused(u, az, fused(v, bz, w * cz)) * ray->shear_z * inverse;
     const scalar before = LANE(hit->t, lane);
     if (!(t > R(0.0) && t <= before)) {
+        return false;
+    }
+    const scalar reach = LARGEST3(fabs(az), fabs(bz), fabs(cz)) * fabs(ray->shear_z);
+    if (t < NEXT_TO_NOTHING * reach && lies_in_plane_of(leaf, ray->from, at)) {
         return false;
     }
     const int place = leaf->first + i, rival = (int)LANE_INT(hit->place, lane);

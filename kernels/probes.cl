@@ -292,7 +292,7 @@ kernel void probe_tile_place(PROBE_ARGUMENTS)
             global scalar *place = out + GLINT_PROBE_VALUES * (packet * GLINT_WIDTH + lane);
             int column, row;
             find_tile(&frame, (int)id[0], (int)id[1], &column, &row);
-            const size_t first = 4 * pixel_number(&frame, column, row);
+            const size_t first = pixel_place(&frame, column, row);
             place[0] = (scalar)column;
             place[1] = (scalar)row;
             place[2] = (scalar)(first >> 24);

@@ -201,7 +201,7 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
     for (int j = 0; j < PACKET_HEIGHT && y0 + j < frame->height; j++) {
         pixel_row means = load_pixel_row(j, sums) * (pixel_row)share;
         means = GATHERS || GLINT_HITS ? means : opaque(means);
-        global scalar *row = pixels + 4 * pixel_number(frame, x0, y0 + j);
+        global scalar *row = pixels + pixel_place(frame, x0, y0 + j);
         if (x0 + PACKET_WIDTH <= frame->width) {
             if (aligned) {
                 stream_pixel_row(means, row);

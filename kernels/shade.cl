@@ -171,7 +171,7 @@ static inline void place_on_triangle(const real3 vertices[3], const closest *hit
     reach.z = LARGER(fabs(vertices[0].z), LARGER(fabs(vertices[1].z), fabs(vertices[2].z)));
     real3 n = real3_of(fabs(s->geometric_normal.x), fabs(s->geometric_normal.y),
                        fabs(s->geometric_normal.z));
-    s->offset = R(8.0) * EPSILON * dot3(n, reach);
+    s->offset = START_OFFSET * dot3(n, reach);
 }
 
 // Rule 1: the side is the geometric normal's alone; both normals are turned to the viewer.

@@ -126,6 +126,12 @@ static inline size_t pixel_number(const glint_frame_record *frame, int column, i
     return (size_t)row * (size_t)frame->width + (size_t)column;
 }
 
+// Where its values begin in the frame.
+static inline size_t pixel_place(const glint_frame_record *frame, int column, int row)
+{
+    return 4 * pixel_number(frame, column, row);
+}
+
 // The places on the image plane of samples that lie (right, down) from the upper left corner of
 // their pixels. All but the last operation is exact: the same for every size of tiles.
 static inline real place_x(const glint_frame_record *frame, lanes_int columns, scalar right)

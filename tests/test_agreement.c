@@ -25,19 +25,29 @@
 // errors, what a few bounces on spheres make of one.
 #define FLOAT_MARGIN 1e-4
 
+typedef struct agreement_bounds {
+    int edge;                 // of the environment's cube
+    double margin, tolerance; // see near_a_decision; of a radiance between 0 and 1
+    bool stored_irradiance;   // the oracle takes the map that the kernels take, not the sum
+} agreement_bounds;
+
 typedef struct agreement {
     size_t pixels, different, unexplained, nonfinite;
     double largest; // difference among pixels that keep the margins
 } agreement;
 
-static bool near_a_decision(const oracle_report *report, double tie, double margin)
+static bool near_a_decision(const oracle_report *report, double margin)
 {
-    return report->edge < margin || report->critical < margin || report->threshold < margin ||
-           tie < margin;
+    return report->edge < margin || report->critical < margin || report->threshold < margin;
 }
 
+// A look-up this near to a tie between two faces of the cube, in components of its direction, may
+// fall on either; their interpolations of 0.5 + 0.5 d differ by 2 (2/N)²/8 · 0.5 at most.
+#define TIE 1e-9
+#define TIE_JUMP(edge) (0.5 / ((double)(edge) * (edge)))
+
 static agreement compare(const bridge *b, const oracle_view *view, const test_frame *frame,
-                         double margin, double tolerance)
+                         const agreement_bounds *bounds)
 {
     agreement a = {0};
     for (int y = 0; y < view->height; y++) {
@@ -52,22 +62,19 @@ static agreement compare(const bridge *b, const oracle_view *view, const test_fr
                 a.nonfinite += isfinite(got[k]) ? 0 : 1;
                 difference = fmax(difference, fabs(got[k] - rgba[k]));
             }
+            const bool tied = bridge_take_tie(b) < TIE;
+            const double allowed =
+                tied ? fmax(bounds->tolerance, TIE_JUMP(bounds->edge)) : bounds->tolerance;
             a.pixels++;
-            a.different += difference <= tolerance ? 0 : 1;
-            if (!near_a_decision(&report, bridge_take_tie(b), margin)) {
-                a.largest = fmax(a.largest, difference);
-                a.unexplained += difference <= tolerance ? 0 : 1;
+            a.different += difference <= bounds->tolerance ? 0 : 1;
+            if (!near_a_decision(&report, bounds->margin)) {
+                a.largest = tied ? a.largest : fmax(a.largest, difference);
+                a.unexplained += difference <= allowed ? 0 : 1;
             }
         }
     }
     return a;
 }
-
-typedef struct agreement_bounds {
-    int edge;                 // of the environment's cube
-    double margin, tolerance; // see near_a_decision; of a radiance between 0 and 1
-    bool stored_irradiance;   // the oracle takes the map that the kernels take, not the sum
-} agreement_bounds;
 
 static agreement render_and_compare(const char *name, const glint_settings *settings,
                                     const agreement_bounds *bounds)
@@ -89,7 +96,7 @@ static agreement render_and_compare(const char *name, const glint_settings *sett
     glint_camera camera;
     assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
     const oracle_view view = bridge_view(&camera, settings);
-    const agreement a = compare(b, &view, &frame, bounds->margin, bounds->tolerance);
+    const agreement a = compare(b, &view, &frame, bounds);
     print_message("%-20s %s depth %d: %zu of %zu pixels differ by more than %g, largest %.2g where "
                   "no decision is near\n",
                   name, settings->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
@@ -157,8 +164,10 @@ static void without_fresnel_the_device_agrees_with_the_oracle(void **state)
 }
 
 // Double precision leaves rounding alone, once the oracle takes the stored irradiance map too: 10⁻⁹
-// for every pixel of every scene that no decision is near, a tie between two faces of the cube
-// among them, whose interpolations differ.
+// for every pixel of every scene that no decision is near, and the jump between two faces of the
+// cube where a look-up ties between them. A decision is near where the oracle's margin is 10⁻⁹,
+// millions of rounding errors, as eight curved surfaces may make of one; six pixels of a frame may
+// be such.
 static void in_double_precision_only_rounding_is_left(void **state)
 {
     (void)state;
@@ -167,7 +176,7 @@ static void in_double_precision_only_rounding_is_left(void **state)
         settings.precision = GLINT_PRECISION_DOUBLE;
         const agreement_bounds limits = {64, 1e-9, 1e-9, true};
         agreement a = render_and_compare(scene_names[i], &settings, &limits);
-        assert_true((double)a.different <= 0.005 * (double)a.pixels);
+        assert_true((double)a.different <= 0.002 * (double)a.pixels);
     }
 }
 

@@ -66,7 +66,6 @@ glint_status glint_bvh_build(const glint_bvh_inputs *in, glint_bvh *bvh, glint_e
         return glint_fail_memory(error, "the tree");
     }
     finish_report(bvh, kept);
-    bvh->report.without_area = count - kept;
     return GLINT_OK;
 }
 

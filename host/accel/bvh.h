@@ -17,8 +17,7 @@ typedef struct glint_cluster {
 
 // What was built, for `info` and statistics.
 typedef struct glint_bvh_report {
-    size_t triangle_count; // in the tree
-    size_t without_area;   // left out
+    size_t triangle_count; // that have an area
     size_t node_count;
     size_t cluster_count;
     int depth;       // nodes on the longest way down

@@ -67,17 +67,17 @@ size_t glint_references_make(const float *positions, size_t first, size_t count,
     size_t made = 0;
     for (size_t i = first; i < last; i += GLINT_BUNDLE_MAX) {
         const size_t own = last - i < GLINT_BUNDLE_MAX ? last - i : GLINT_BUNDLE_MAX;
-        bool sound[GLINT_BUNDLE_MAX], all = own == GLINT_BUNDLE_MAX;
+        bool kept[GLINT_BUNDLE_MAX], all = own == GLINT_BUNDLE_MAX;
         for (size_t k = 0; k < own; k++) {
-            sound[k] = glint_triangle_has_area(positions + 9 * (i + k));
-            all = all && sound[k];
+            kept[k] = glint_triangle_has_area(positions + 9 * (i + k));
+            all = all && kept[k];
         }
         if (all) {
             made += make_four(positions, i, references + made);
             continue;
         }
         for (size_t k = 0; k < own; k++) {
-            if (sound[k]) {
+            if (kept[k]) {
                 references[made++] = make(triangle_box(positions, i + k), i + k, 1);
             }
         }

@@ -31,6 +31,7 @@ typedef struct selftest_request {
     int width;     // see widths
     int precision; // see precisions
     double rays;
+    int seed;
     const char *junit, *json;
 } selftest_request;
 
@@ -109,6 +110,9 @@ static const glint_option selftest_options[] = {
     {GLINT_OPTION_REAL, .name = "rays", .argument = "N",
      .help = "Rays of each case that counts leaks.", .fallback = "262144",
      .offset = offsetof(selftest_request, rays), .minimum = 1, .maximum = GLINT_SELFTEST_RAYS_MAX},
+    {GLINT_OPTION_INT, .name = "seed", .argument = "N",
+     .help = "Draw other rays, angles and places; the bounds stay the same.", .fallback = "0",
+     .offset = offsetof(selftest_request, seed), .minimum = 0, .maximum = 2147483647},
     {GLINT_OPTION_FLAG, .name = "fail-fast", .help = "Stop after the first case that fails.",
      .offset = offsetof(selftest_request, fail_fast)},
     {GLINT_OPTION_HEADING, .help = "Device"},
@@ -226,7 +230,8 @@ static glint_status run_cases(selftest_work *work, int width, glint_precision pr
                                             .kernel_dir = request->kernel_dir,
                                             .width = width,
                                             .precision = precision,
-                                            .rays = (uint64_t)request->rays};
+                                            .rays = (uint64_t)request->rays,
+                                            .seed = (uint32_t)request->seed};
     glint_status status = GLINT_OK;
     bool is_first = true;
     for (size_t i = 0; status == GLINT_OK && glint_selftest_name(i) != NULL; i++) {
@@ -272,6 +277,7 @@ static glint_status write_reports(const selftest_work *work, glint_error *error)
         .date = machine.date,
         .machine = machine.system,
         .rays = (uint64_t)request->rays,
+        .seed = (uint32_t)request->seed,
         .results = work->results,
         .count = work->count,
     };

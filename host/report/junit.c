@@ -142,9 +142,12 @@ static void put_suite(FILE *out, const glint_selftest_run_report *run,
     put_attribute(out, "name", name);
     put_counts(out, &counts);
     put_attribute(out, "timestamp", run->date);
+    char seed[16];
+    snprintf(seed, sizeof seed, "%u", (unsigned)run->seed);
     fputs(">\n    <properties>\n", out);
     put_property(out, "glint", GLINT_VERSION);
     put_property(out, "system", run->machine);
+    put_property(out, "seed", seed);
     put_property(out, "device", run->device->name);
     put_property(out, "platform", run->device->platform);
     put_property(out, "driver", run->device->driver);

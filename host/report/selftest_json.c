@@ -44,6 +44,7 @@ json_t *glint_selftest_json(const glint_selftest_run_report *run)
     glint_json_put_text(object, "system", run->machine);
     glint_json_put(object, "device", glint_json_device(run->device));
     glint_json_put_count(object, "rays", run->rays);
+    glint_json_put_count(object, "seed", run->seed);
     glint_json_put(object, "results", results);
     return object;
 }

@@ -14,6 +14,7 @@ typedef struct glint_selftest_run_report {
     const char *date;    // UTC, ISO 8601
     const char *machine; // "Linux 6.1.0 x86_64"
     uint64_t rays;       // of each case that counts leaks
+    uint32_t seed;       // of the draws
     const glint_selftest_result *results;
     size_t count;
 } glint_selftest_run_report;

@@ -442,7 +442,8 @@ static void judge_weights(glint_measure *weights, const trial *t, const glint_pr
                           int ray)
 {
     const double b1 = hit->barycentric[0], b2 = hit->barycentric[1];
-    // Whichever is largest; the sum is NaN if one of them is.
+    // All together, which is NaN if one of them is. Weights are quotients, good to 2u each, and the
+    // third is what they leave of 1.
     const double outside = above_zero(-b1) + above_zero(-b2) + above_zero(b1 + b2 - 1);
     measure_error(weights, outside / t->u, "ray %d, triangle %g: %.9g, %.9g", ray, hit->triangle,
                   b1, b2);

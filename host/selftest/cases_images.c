@@ -57,7 +57,7 @@ static double sum_bound(const trial *t)
     return t->options->precision == GLINT_PRECISION_DOUBLE ? 16 : 4;
 }
 
-// How far a primary ray's start lies from the line on which it should, in long double; a start may
+// How far a primary ray's start lies from the half-line on which it should, in long double; it may
 // be anywhere on it, as kernels begin where the scene does. In terms of the farthest coordinate.
 static double start_error(const glint_camera *camera, const int size[2], const double pixel[2],
                           const double start[3])
@@ -75,15 +75,28 @@ static double start_error(const glint_camera *camera, const int size[2], const d
         along += away[k] * d[k];
         farthest = fmax(farthest, fabs(start[k]));
     }
+    along = along > 0 ? along : 0;
     for (int k = 0; k < 3; k++) {
         squares += (away[k] - along * d[k]) * (away[k] - along * d[k]);
     }
     return (double)sqrtl(squares) / farthest;
 }
 
+typedef struct ray_measures {
+    glint_measure *directions, *starts;
+} ray_measures;
+
+static ray_measures measures_of_rays(trial *t)
+{
+    return (ray_measures){
+        trial_error(t, "directions of primary rays", "u", sum_bound(t)),
+        trial_error(t, "from their starts to their lines", "u", sum_bound(t)),
+    };
+}
+
 // Corners, edges' middles, the middle, and anywhere.
 static glint_status measure_rays(trial *t, const glint_camera *camera, const int size[2],
-                                 glint_measure *directions, glint_measure *starts, const char *what)
+                                 const ray_measures *judged, const char *what)
 {
     enum { COUNT = 512 };
     static double in[COUNT][4], out[COUNT][4], from[COUNT][4];
@@ -108,9 +121,9 @@ static glint_status measure_rays(trial *t, const glint_camera *camera, const int
     for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
         double expected[3];
         direction_of(camera, size, in[i][0], in[i][1], expected);
-        measure_vector(directions, t, out[i], expected, t->u, "%s, pixel (%g, %g)", what, in[i][0],
-                       in[i][1]);
-        measure_error(starts, start_error(camera, size, in[i], from[i]) / t->u,
+        measure_vector(judged->directions, t, out[i], expected, t->u, "%s, pixel (%g, %g)", what,
+                       in[i][0], in[i][1]);
+        measure_error(judged->starts, start_error(camera, size, in[i], from[i]) / t->u,
                       "%s, pixel (%g, %g): (%.9g, %.9g, %.9g)", what, in[i][0], in[i][1],
                       from[i][0], from[i][1], from[i][2]);
     }
@@ -126,13 +139,12 @@ static glint_status extreme_cameras(trial *t)
     } cameras[] = {
         {"parallel rays", 0}, {"0.01°", 0.01}, {"45°", 45}, {"179°", 179}, {"179.99°", 179.99}};
     static const int size[2] = {1920, 1080};
-    glint_measure *errors = trial_error(t, "directions of primary rays", "u", sum_bound(t));
-    glint_measure *starts = trial_error(t, "from their starts to their lines", "u", sum_bound(t));
+    const ray_measures judged = measures_of_rays(t);
     glint_status status = GLINT_OK;
     for (size_t i = 0; status == GLINT_OK && i < sizeof cameras / sizeof *cameras; i++) {
         const glint_camera camera =
             shape_camera(eye, target, cameras[i].degrees * GLINT_PI / 180, 0.5);
-        status = measure_rays(t, &camera, size, errors, starts, cameras[i].what);
+        status = measure_rays(t, &camera, size, &judged, cameras[i].what);
     }
     return status;
 }
@@ -143,8 +155,7 @@ static glint_status odd_sizes(trial *t)
 {
     static const int sizes[][2] = {{1, 1},     {1, 7},   {7, 1},        {1, 4097},
                                    {65536, 1}, {17, 33}, {65536, 65536}};
-    glint_measure *errors = trial_error(t, "directions of primary rays", "u", sum_bound(t));
-    glint_measure *starts = trial_error(t, "from their starts to their lines", "u", sum_bound(t));
+    const ray_measures judged = measures_of_rays(t);
     glint_measure *pixels = trial_error(t, "colours of the empty scene", "2/edge² + u", 1);
     const glint_camera camera = shape_camera(eye, target, 0.7, 0);
     glint_environment environment = {0};
@@ -152,7 +163,7 @@ static glint_status odd_sizes(trial *t)
     for (size_t i = 0; status == GLINT_OK && i < sizeof sizes / sizeof *sizes; i++) {
         char what[32];
         snprintf(what, sizeof what, "%d×%d", sizes[i][0], sizes[i][1]);
-        status = measure_rays(t, &camera, sizes[i], errors, starts, what);
+        status = measure_rays(t, &camera, sizes[i], &judged, what);
         glint_settings settings = trial_settings(t);
         settings.width = sizes[i][0];
         settings.height = sizes[i][1];

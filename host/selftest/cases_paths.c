@@ -268,7 +268,7 @@ static glint_status tiny_picture(trial *t, int triangles, small_kind kind,
     return status;
 }
 
-// No triangle, one behind the eye, and some without area: the same bits. One triangle, and as many
+// No triangle, one behind the eye, and one without area: the same bits. One triangle, and as many
 // as a leaf holds: the triangles that the oracle sees.
 static glint_status next_to_nothing(trial *t)
 {

@@ -63,9 +63,9 @@ const char *glint_verdict_name(glint_verdict verdict)
 }
 
 // A seed of the case's own, so that it draws the same numbers whichever cases ran before.
-static uint64_t seed_of(const char *name)
+static uint64_t seed_of(const char *name, uint32_t seed)
 {
-    uint64_t hash = 14695981039346656037u; // FNV-1a
+    uint64_t hash = 14695981039346656037u ^ (uint64_t)seed * 1099511628211u; // FNV-1a
     for (; *name != '\0'; name++) {
         hash = (hash ^ (uint64_t)(unsigned char)*name) * 1099511628211u;
     }
@@ -105,7 +105,7 @@ glint_status glint_selftest_run(size_t index, const glint_selftest_options *opti
     complete.rays = options->rays > 0 ? options->rays : GLINT_SELFTEST_RAYS;
     trial t = {.options = &complete,
                .u = is_double ? 0x1p-53 : 0x1p-24,
-               .random = {seed_of(c->name)},
+               .random = {seed_of(c->name, options->seed)},
                .result = result,
                .error = error};
     struct timespec begin, end;

@@ -51,6 +51,7 @@ typedef struct glint_selftest_options {
     int width;              // lanes: 1, 8 or 16; 0: the plan's choice for the device
     glint_precision precision;
     uint64_t rays; // of each case that counts leaks; 0: GLINT_SELFTEST_RAYS
+    uint32_t seed; // other draws for each seed; 0 is as good as any
 } glint_selftest_options;
 
 // The cases in their order: name ("rays_at_shared_edges") and in a line what is done and what must

@@ -10,7 +10,7 @@ quick=equal_indices,metal_at_its_ends
 # ---- help and mistakes --------------------------------------------------------------------------
 
 check 'selftest --help tells every option' help_mentions selftest list case precision kernel-width \
-    rays fail-fast device kernel-dir junit json help
+    rays seed fail-fast device kernel-dir junit json help
 run --help
 check 'glint --help lists it' grep -q '^  selftest ' stdout
 refuses 2 'unknown case' selftest --case nonsense
@@ -20,6 +20,7 @@ refuses 2 '--kernel-width' selftest --kernel-width 4
 refuses 2 '--precision' selftest --precision half
 refuses 2 '--rays' selftest --rays 0
 refuses 2 '--rays' selftest --rays many
+refuses 2 '--seed' selftest --seed -1
 refuses 2 'unexpected' selftest something
 refuses 2 '--junit writes there' selftest --case $quick --junit out/x --json out/x
 refuses 3 'in/missing' selftest --kernel-dir in/missing

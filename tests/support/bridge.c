@@ -22,7 +22,7 @@ struct bridge {
     // Every texel as a vector: its direction, and its colour times its solid angle over π.
     double (*directions)[3], (*weighted)[3];
     int texel_count;
-    double *tie; // see bridge_take_tie
+    double *tie; // see bridge_take_tie; by itself, as look-ups get a const bridge
 };
 
 static const int s_axis[6] = GLINT_CUBE_S_AXIS, s_sign[6] = GLINT_CUBE_S_SIGN;

@@ -1,4 +1,5 @@
-// What glint loads, as the oracle takes it: data is copied, no code of the renderer is called.
+// What glint loads, as the oracle takes it: data is copied, and no code of the renderer that is
+// judged is called. (An irradiance map may be handed over; tests/test_irradiance.c judges it.)
 #ifndef GLINT_TESTS_SUPPORT_BRIDGE_H
 #define GLINT_TESTS_SUPPORT_BRIDGE_H
 
