@@ -260,14 +260,22 @@ kernel void probe_face(PROBE_ARGUMENTS)
     }
 }
 
-// In: a column and a row. Out: where the primary ray through that pixel's middle starts.
+// The primary rays through the middles of the pixels that a packet's first two numbers name, column
+// and row.
+static inline path probe_pixels(const glint_frame_record *frame, global const scalar *in,
+                                size_t packet)
+{
+    primary first;
+    first.x = place_x(frame, to_int_truncated(PROBE_IN(0)), R(0.5));
+    first.y = place_y(frame, to_int_truncated(PROBE_IN(1)), R(0.5));
+    return primary_rays(frame, &first);
+}
+
+// In: a column and a row. Out: where the primary ray starts.
 kernel void probe_primary_origin(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
-        primary first;
-        first.x = place_x(&frame, to_int_truncated(PROBE_IN(0)), R(0.5));
-        first.y = place_y(&frame, to_int_truncated(PROBE_IN(1)), R(0.5));
-        probe_store4(out, packet, primary_rays(&frame, &first).origin, real_of(0));
+        probe_store4(out, packet, probe_pixels(&frame, in, packet).origin, real_of(0));
     }
 }
 
@@ -275,10 +283,7 @@ kernel void probe_primary_origin(PROBE_ARGUMENTS)
 kernel void probe_primary(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
-        primary first;
-        first.x = place_x(&frame, to_int_truncated(PROBE_IN(0)), R(0.5));
-        first.y = place_y(&frame, to_int_truncated(PROBE_IN(1)), R(0.5));
-        probe_store4(out, packet, primary_rays(&frame, &first).direction, real_of(0));
+        probe_store4(out, packet, probe_pixels(&frame, in, packet).direction, real_of(0));
     }
 }
 

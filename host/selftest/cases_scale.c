@@ -7,7 +7,6 @@
 #include <string.h>
 
 static const double middle[3] = {0, 0, 0};
-static const int far_size[2] = {200, 150};
 
 // Judges the pixels: which show another triangle than the oracle's. Triangles from `last` on count
 // as one.
@@ -43,6 +42,19 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const glint
     return status;
 }
 
+// Puts a ball's scene at a place, and judges what an eye near it sees, `size` times (10, 5, 14)
+// away.
+static glint_status watch_ball(trial *t, glint_scene *scene, const double place[3], double size,
+                               glint_measure *others)
+{
+    static const int pixels[2] = {200, 150};
+    const double eye[3] = {place[0] + 10 * size, place[1] + 5 * size, place[2] + 14 * size};
+    const glint_camera camera = shape_camera(eye, place, 0.9, 0);
+    scene->origin = (glint_vec3){place[0], place[1], place[2]};
+    glint_scene_find_bounds(scene);
+    return compare_hits(t, scene, &camera, pixels, INFINITY, others);
+}
+
 // A ball a million metres from the origin, where a float steps by 1/16 of a metre: all that single
 // precision leaves of it is what its vertices were rounded to.
 static glint_status rounded_ball(trial *t, glint_measure *others)
@@ -58,11 +70,7 @@ static glint_status rounded_ball(trial *t, glint_measure *others)
         scene.positions[i] = (float)(((double)world - far[i % 3]) / UNIT);
     }
     if (status == GLINT_OK) {
-        scene.origin = (glint_vec3){far[0], far[1], far[2]};
-        glint_scene_find_bounds(&scene);
-        const double eye[3] = {far[0] + 10, far[1] + 5, far[2] + 14};
-        const glint_camera camera = shape_camera(eye, far, 0.9, 0);
-        status = compare_hits(t, &scene, &camera, far_size, INFINITY, others);
+        status = watch_ball(t, &scene, far, 1, others);
     }
     glint_scene_free(&scene);
     return status;
@@ -73,18 +81,13 @@ static glint_status rounded_ball(trial *t, glint_measure *others)
 // of a pixel off.
 static glint_status small_ball(trial *t, glint_measure *others)
 {
-    static const double unit = 0x1p-8;
-    static const double far[3] = {1e7, -1e7, 1e7};
+    static const double unit = 0x1p-8, far[3] = {1e7, -1e7, 1e7};
     glint_scene scene;
     shape s = shape_begin();
     shape_add_ball(&s, middle, 0.002 / unit, 3, NULL, true, MATERIAL_MIRROR);
     glint_status status = shape_end_with_unit(&s, unit, &scene, t->error);
     if (status == GLINT_OK) {
-        scene.origin = (glint_vec3){far[0], far[1], far[2]};
-        glint_scene_find_bounds(&scene);
-        const double eye[3] = {far[0] + 0.004, far[1] + 0.002, far[2] + 0.006};
-        const glint_camera camera = shape_camera(eye, far, 0.9, 0);
-        status = compare_hits(t, &scene, &camera, far_size, INFINITY, others);
+        status = watch_ball(t, &scene, far, 4e-4, others);
     }
     glint_scene_free(&scene);
     return status;

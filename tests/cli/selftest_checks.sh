@@ -38,7 +38,7 @@ run selftest --case equal_indices --case metal_at_its_ends --precision float
 check 'cases by name: passed' test "$status" -eq 0 -a ! -s stderr
 check 'cases by name: these' grep -q '^2 cases, all of them within their bounds$' stdout
 check 'a measure a line' grep -qE '^metal_at_its_ends .* ok$' stdout
-run selftest --case $quick --precision float --kernel-width all --junit out/x.xml --json out/x.json
+run selftest --case $quick --precision float --kernel-width all --seed 7 --junit out/x.xml --json out/x.json
 check 'every width' test "$(grep -c '^float, packets of' stdout)" -eq 3
 cp out/x.json out/stats.json
 check 'JSON: the device' "$json_get" out/x.json device name
@@ -46,6 +46,8 @@ check 'JSON: a verdict' stat_is passed results 0 verdict
 check 'JSON: a bound' stat_is 8.0 results 5 measures 0 bound
 check 'JSON: it holds' stat_is true results 5 measures 0 holds
 check 'JSON: widths' stat_is 16 results 5 width
+check 'JSON: the seed' stat_is 7 seed
+check 'JUnit: the seed' grep -q '<property name="seed" value="7"' out/x.xml
 check 'JUnit: a suite for each width' test "$(grep -c '<testsuite name="glint.selftest.float.width' out/x.xml)" -eq 3
 check 'JUnit: the cases' grep -q '<testsuites name="glint selftest" tests="6" failures="0" errors="0" skipped="0"' out/x.xml
 if command -v xmllint >/dev/null; then
