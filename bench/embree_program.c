@@ -3,20 +3,13 @@
 #include "embree_cube.h"
 #include "embree_tile.h"
 
+#include "base/clock.h"
 #include "base/half.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
 
 // ---- Trees -------------------------------------------------------------------------------------
 
@@ -45,9 +38,9 @@ static RTCScene build_scene(embree_program *program, embree_quality quality, dou
     rtcSetSceneBuildQuality(scene, quality == EMBREE_HIGH ? RTC_BUILD_QUALITY_HIGH
                                                           : RTC_BUILD_QUALITY_MEDIUM);
     rtcSetSceneFlags(scene, program->inputs.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    double start = now_ms();
+    double start = glint_now_ms();
     rtcCommitScene(scene);
-    *ms = now_ms() - start;
+    *ms = glint_now_ms() - start;
     return scene;
 }
 

@@ -1,6 +1,7 @@
 // The mirror by OpenGL. See llvmpipe_program.h.
 #include "llvmpipe_program.h"
 
+#include "base/clock.h"
 #include "base/half.h"
 #include "base/memory.h"
 #include "kernels/layout.h"
@@ -11,7 +12,6 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 // ---- Shaders -----------------------------------------------------------------------------------
 
@@ -346,18 +346,11 @@ void llvmpipe_program_free(llvmpipe_program *p)
     free(p);
 }
 
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
-
 double llvmpipe_program_frame(llvmpipe_program *p, llvmpipe_texels texels)
 {
     glBindTexture(GL_TEXTURE_CUBE_MAP, p->cubes[texels]);
     glFinish();
-    double start = now_ms();
+    double start = glint_now_ms();
     glClear(GL_DEPTH_BUFFER_BIT);
     glUseProgram(p->mesh);
     glBindVertexArray(p->mesh_array);
@@ -366,7 +359,7 @@ double llvmpipe_program_frame(llvmpipe_program *p, llvmpipe_texels texels)
     glBindVertexArray(p->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glFinish();
-    return now_ms() - start;
+    return glint_now_ms() - start;
 }
 
 // OpenGL's rows run from the bottom up.

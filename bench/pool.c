@@ -1,6 +1,7 @@
 // Threads that wait for work. See pool.h.
 #include "pool.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 
 #include <immintrin.h>
@@ -9,7 +10,6 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include <time.h>
 
 #define THREADS_MAX 256
 
@@ -36,13 +36,6 @@ typedef struct worker {
     int index;
 } worker;
 
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
-
 static void run_items(bench_pool *pool, int index)
 {
     // All set off together: waking up is not part of the work.
@@ -50,7 +43,7 @@ static void run_items(bench_pool *pool, int index)
     while (atomic_load(&pool->ready) < pool->threads) {
         _mm_pause();
     }
-    double first = now_ms();
+    double first = glint_now_ms();
     for (;;) {
         size_t item = atomic_fetch_add(&pool->next, 1);
         if (item >= pool->count) {
@@ -58,7 +51,7 @@ static void run_items(bench_pool *pool, int index)
         }
         pool->body(pool->context, item, index);
     }
-    double last = now_ms();
+    double last = glint_now_ms();
     pthread_mutex_lock(&pool->lock);
     pool->first_ms = pool->finished == 0 || first < pool->first_ms ? first : pool->first_ms;
     pool->last_ms = pool->finished == 0 || last > pool->last_ms ? last : pool->last_ms;

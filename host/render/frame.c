@@ -1,6 +1,7 @@
 // Rendering one frame. See frame.h.
 #include "render/frame.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "device/program.h"
 #include "environment/irradiance.h"
@@ -11,7 +12,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 // Launches are made long enough to keep a device busy and short enough for progress and signals.
 #define LAUNCH_MS 100.0
@@ -21,21 +21,6 @@
 // still in the caches. One where so many rows would be a long launch by themselves.
 #define BAND_ROWS 4
 #define BAND_SAMPLES 2e6
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
-
-// Milliseconds since *start, which moves on to now.
-static double lap(double *start)
-{
-    double now = now_ms(), elapsed = now - *start;
-    *start = now;
-    return elapsed;
-}
 
 static size_t scalar_bytes(const glint_renderer *r)
 {
@@ -214,7 +199,7 @@ static int traversal_stack(int need)
 
 static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, glint_error *error)
 {
-    double clock = now_ms();
+    double clock = glint_now_ms();
     glint_bvh bvh = {0};
     glint_cube irradiance = {0};
     glint_upload_sizes sizes = {0};
@@ -229,17 +214,17 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
     if (status == GLINT_OK) {
         status = glint_upload_check(in->device, in->scene, &sizes, error);
     }
-    r->phases.analysis = lap(&clock);
+    r->phases.analysis = glint_lap_ms(&clock);
     if (status == GLINT_OK) {
         status = glint_plan_build_tree(&r->plan, in->scene, &bvh, error);
         r->bvh = bvh.report;
         r->plan.traversal_stack = traversal_stack(bvh.report.stack_need);
-        r->phases.bvh = lap(&clock);
+        r->phases.bvh = glint_lap_ms(&clock);
     }
     if (status == GLINT_OK && needs_irradiance(&r->plan) && !in->without_frames) {
         status = glint_irradiance_map(&in->environment->radiance, GLINT_IRRADIANCE_EDGE,
                                       &irradiance, error);
-        r->phases.irradiance = lap(&clock);
+        r->phases.irradiance = glint_lap_ms(&clock);
     }
     if (status == GLINT_OK) {
         const glint_upload_inputs inputs = {
@@ -256,11 +241,11 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
         r->environment_edge = in->environment->radiance.edge;
         r->irradiance_edge = irradiance.edge;
         status = create_outputs(r, error);
-        r->phases.upload = lap(&clock);
+        r->phases.upload = glint_lap_ms(&clock);
     }
     if (status == GLINT_OK && !in->without_frames) {
         status = build_kernel(in, r, error);
-        r->phases.kernel_build = lap(&clock);
+        r->phases.kernel_build = glint_lap_ms(&clock);
     }
     glint_bvh_free(&bvh);
     glint_cube_free(&irradiance);
@@ -404,21 +389,21 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
     double first_step = r->bands_per_ms > 0 ? r->bands_per_ms * LAUNCH_MS
                                             : FIRST_LAUNCH_SAMPLES / (row_samples * record->band);
     size_t step = round_up((size_t)fmax(1, first_step), local[1]);
-    double begin = now_ms();
+    double begin = glint_now_ms();
     for (size_t first = 0; first < bands;) {
         size_t count = first + step < bands ? step : bands - first;
-        double clock = now_ms();
+        double clock = glint_now_ms();
         glint_status status = launch(r, record, first, count, error);
         if (status != GLINT_OK) {
             return status;
         }
         first += count;
-        step = next_step(step, lap(&clock), local[1]);
+        step = next_step(step, glint_lap_ms(&clock), local[1]);
         if (progress != NULL && !progress->step(progress->context, first, bands)) {
             return glint_fail(error, GLINT_INTERRUPTED, "stopped");
         }
     }
-    r->bands_per_ms = (double)bands / fmax(now_ms() - begin, 1e-3);
+    r->bands_per_ms = (double)bands / fmax(glint_now_ms() - begin, 1e-3);
     return GLINT_OK;
 }
 
@@ -451,20 +436,20 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     if (status == GLINT_OK) {
         status = set_argument(r, PIXELS_ARGUMENT, sizeof target, &target, error);
     }
-    double clock = now_ms();
+    double clock = glint_now_ms();
     if (status == GLINT_OK) {
         status = clear_counters(r, error);
     }
     if (status == GLINT_OK) {
         status = run_launches(r, &record, progress, error);
-        report->kernel_ms = lap(&clock);
+        report->kernel_ms = glint_lap_ms(&clock);
     }
     glint_status ended =
         glint_pixels_end(&r->pixels, status == GLINT_OK, image, status == GLINT_OK ? error : NULL);
     status = status == GLINT_OK ? ended : status;
     if (status == GLINT_OK) {
         status = read_counters(r, report, error);
-        report->readback_ms = lap(&clock);
+        report->readback_ms = glint_lap_ms(&clock);
     }
     if (status != GLINT_OK) {
         glint_image_free(image);

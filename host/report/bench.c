@@ -6,6 +6,7 @@
 // outside its time.
 #include "report/bench.h"
 
+#include "base/clock.h"
 #include "report/machine.h"
 
 #include <math.h>
@@ -13,9 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#define SHOW_SECONDS 0.1 // between two frames that are shown
+#define SHOW_MS 100.0 // between two frames that are shown
 #define WARM_UP_MS 1000.0
 #define WARM_UP_AGREEMENT 1.05 // the longest of three frames over the shortest
 
@@ -64,13 +64,6 @@ static bool step(void *context, uint64_t done, uint64_t total)
 static glint_progress progress_of(bench_run *run)
 {
     return (glint_progress){step, &run->watcher};
-}
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
 static glint_status create_renderer(bench_run *run, glint_error *error)
@@ -187,21 +180,21 @@ static glint_status keep_time(bench_run *run, const glint_frame_report *report, 
     return GLINT_OK;
 }
 
-static bool wants_more(const bench_run *run, double elapsed)
+static bool wants_more(const bench_run *run, double elapsed_ms)
 {
     if (run->options->rounds > 0) {
         return run->count < (size_t)run->options->rounds;
     }
-    return run->count < GLINT_BENCH_LEAST_FRAMES || elapsed < run->options->seconds;
+    return run->count < GLINT_BENCH_LEAST_FRAMES || elapsed_ms < 1e3 * run->options->seconds;
 }
 
 static glint_status measure_frames(bench_run *run, glint_error *error)
 {
-    double begun = now(), shown = -INFINITY;
+    double begun = glint_now_ms(), shown = -INFINITY;
     glint_status status = GLINT_OK;
-    while (status == GLINT_OK && wants_more(run, now() - begun)) {
-        if (now() - shown > SHOW_SECONDS) {
-            shown = now();
+    while (status == GLINT_OK && wants_more(run, glint_now_ms() - begun)) {
+        if (glint_now_ms() - shown > SHOW_MS) {
+            shown = glint_now_ms();
             show(run, "measuring, frame %zu, %.1f s", run->count + 1, shown - begun);
         }
         glint_frame_report report;

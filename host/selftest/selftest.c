@@ -1,11 +1,11 @@
 // Running the cases. See selftest.h.
 #include "selftest/selftest.h"
 
+#include "base/clock.h"
 #include "selftest/trial.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 static const trial_case *const groups[] = {hit_cases,         scale_cases,      spawn_cases,
                                            normal_cases,      refraction_cases, solid_cases,
@@ -108,12 +108,9 @@ glint_status glint_selftest_run(size_t index, const glint_selftest_options *opti
                .random = {seed_of(c->name, options->seed)},
                .result = result,
                .error = error};
-    struct timespec begin, end;
-    clock_gettime(CLOCK_MONOTONIC, &begin);
+    double clock = glint_now_ms();
     glint_status status = c->run(&t);
-    clock_gettime(CLOCK_MONOTONIC, &end);
-    result->ms =
-        (double)(end.tv_sec - begin.tv_sec) * 1e3 + (double)(end.tv_nsec - begin.tv_nsec) * 1e-6;
+    result->ms = glint_lap_ms(&clock);
     result->verdict = conclude(result);
     if (status == GLINT_DEVICE_FAILED) {
         result->verdict = GLINT_BROKEN;
