@@ -180,6 +180,47 @@ static void a_scene_without_cameras_is_framed(void **state)
     assert_non_null(strstr(error.message, "the scene has none"));
 }
 
+static void a_turntable_goes_round_its_centre(void **state)
+{
+    (void)state;
+    const glint_vec3 centre = {3, -2, 1e6};
+    glint_camera camera = {.yfov = 1};
+    glint_camera_frame_bounds((glint_vec3){2, -3, 1e6 - 1}, (glint_vec3){4, -1, 1e6 + 1}, &camera);
+    const glint_vec3 arm = glint_vec3_subtract(camera.eye, centre);
+    for (int64_t step = -7; step <= 14; step++) {
+        const glint_camera turned = glint_camera_orbit(&camera, centre, step, 7);
+        assert_right_handed(&turned);
+        assert_near(turned.eye.y, camera.eye.y);
+        const double angle = 2 * GLINT_PI * (double)step / 7;
+        const glint_vec3 own = glint_vec3_subtract(turned.eye, centre);
+        // One rounding of a coordinate near 1e6 is 1.2e-10.
+        assert_true(fabs(own.x - (arm.x * cos(angle) + arm.z * sin(angle))) < 1e-9);
+        assert_true(fabs(own.z - (arm.z * cos(angle) - arm.x * sin(angle))) < 1e-9);
+        const glint_camera whole = glint_camera_orbit(&camera, centre, step + 7, 7);
+        assert_memory_equal(&whole.eye, &turned.eye, sizeof whole.eye);
+    }
+}
+
+static void quarter_turns_are_exact(void **state)
+{
+    (void)state;
+    const glint_camera camera = {
+        .yfov = 1, .eye = {0.1, 0.2, 0.7}, .right = {1, 0, 0}, .up = {0, 1, 0}, .back = {0, 0, 1}};
+    const glint_vec3 centre = {0, 0, 0};
+    // Counter-clockwise from above: what stood before the scene comes to stand to its right.
+    static const double eyes[4][3] = {
+        {0.1, 0.2, 0.7}, {0.7, 0.2, -0.1}, {-0.1, 0.2, -0.7}, {-0.7, 0.2, 0.1}};
+    for (int quarter = 0; quarter < 4; quarter++) {
+        for (int64_t steps = 4; steps <= 1000; steps += 4) {
+            const glint_camera turned =
+                glint_camera_orbit(&camera, centre, quarter * (steps / 4), steps);
+            assert_true(turned.eye.x == eyes[quarter][0]);
+            assert_true(turned.eye.y == eyes[quarter][1]);
+            assert_true(turned.eye.z == eyes[quarter][2]);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +233,8 @@ int main(void)
         cmocka_unit_test(cameras_are_chosen_by_name_then_by_index),
         cmocka_unit_test(the_list_of_many_cameras_is_cut),
         cmocka_unit_test(a_scene_without_cameras_is_framed),
+        cmocka_unit_test(a_turntable_goes_round_its_centre),
+        cmocka_unit_test(quarter_turns_are_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

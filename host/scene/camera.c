@@ -63,3 +63,38 @@ void glint_camera_frame_bounds(glint_vec3 low, glint_vec3 high, glint_camera *ca
     camera->up = glint_vec3_cross(back, camera->right);
     camera->eye = glint_vec3_add(center, glint_vec3_scale(back, distance));
 }
+
+// Turned about +Y by `quarters` quarter turns and an angle with the given cosine and sine.
+static glint_vec3 turn(glint_vec3 v, int quarters, double cosine, double sine)
+{
+    const glint_vec3 turned = {v.x * cosine + v.z * sine, v.y, v.z * cosine - v.x * sine};
+    switch (quarters) {
+    case 0:
+        return turned;
+    case 1:
+        return (glint_vec3){turned.z, turned.y, -turned.x};
+    case 2:
+        return (glint_vec3){-turned.x, turned.y, -turned.z};
+    default:
+        return (glint_vec3){-turned.z, turned.y, turned.x};
+    }
+}
+
+glint_camera glint_camera_orbit(const glint_camera *camera, glint_vec3 centre, int64_t step,
+                                int64_t steps)
+{
+    const int64_t within = (step % steps + steps) % steps;
+    if (within == 0) {
+        return *camera;
+    }
+    const int quarters = (int)(4 * within / steps);
+    const double angle = GLINT_PI / 2 * ((double)(4 * within % steps) / (double)steps);
+    const double cosine = cos(angle), sine = sin(angle);
+    const glint_vec3 arm = glint_vec3_subtract(camera->eye, centre);
+    glint_camera turned = *camera;
+    turned.eye = glint_vec3_add(centre, turn(arm, quarters, cosine, sine));
+    turned.right = turn(camera->right, quarters, cosine, sine);
+    turned.up = turn(camera->up, quarters, cosine, sine);
+    turned.back = turn(camera->back, quarters, cosine, sine);
+    return turned;
+}

@@ -5,6 +5,7 @@
 #include "base/vector.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -31,6 +32,12 @@ bool glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera);
 // of 1:1. A box without extent, or none (low > high), gives a camera at +Z that looks at its centre
 // or the origin.
 void glint_camera_frame_bounds(glint_vec3 low, glint_vec3 high, glint_camera *camera);
+
+// The camera turned about the vertical axis through `centre` (metres) by step/steps of a whole
+// turn, counter-clockwise seen from above (from +Z towards +X); any step, steps > 0. Quarter turns
+// are exact, whole ones the camera itself. The name stays the camera's.
+glint_camera glint_camera_orbit(const glint_camera *camera, glint_vec3 centre, int64_t step,
+                                int64_t steps);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,72 @@
+// Which frames of a shot are meant, and which of them are one machine's part.
+#ifndef GLINT_RENDER_FRAME_LIST_H
+#define GLINT_RENDER_FRAME_LIST_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define GLINT_FRAME_MAX 999999999 // frames are numbered from −this to this
+
+// first, first + step, … : `count` frames.
+typedef struct glint_frame_range {
+    int64_t first, step;
+    uint64_t count;
+    bool overlaps; // whether an earlier range of the list may hold some of them too
+} glint_frame_range;
+
+// Frames in the order in which they were asked for, each once. Takes memory for ranges, not for
+// frames. Zero is valid and empty.
+typedef struct glint_frame_list {
+    size_t range_count;
+    glint_frame_range *ranges; // owned
+    uint64_t count;            // of different frames
+} glint_frame_list;
+
+// A list between commas of frames "7", ranges "1-240", and ranges with steps "20-40x2", "48-1x-1".
+// A range without a step may run down. Numbers may be negative: "-5--1". Errors: GLINT_USAGE; the
+// list is then empty.
+glint_status glint_frame_list_parse(const char *text, glint_frame_list *list, glint_error *error);
+
+// The frames from `first` to `last`.
+glint_status glint_frame_list_span(int first, int last, glint_frame_list *list, glint_error *error);
+
+void glint_frame_list_free(glint_frame_list *list);
+
+bool glint_frame_list_holds(const glint_frame_list *list, int frame);
+
+// The lowest and the highest frame of a list that is not empty.
+int glint_frame_list_lowest(const glint_frame_list *list);
+int glint_frame_list_highest(const glint_frame_list *list);
+
+// Part `index` of `count`, counted from 1: of the list's frames every count-th, so that neighbours,
+// which take about as long, go to different parts. {1, 1} is all of it.
+typedef struct glint_shard {
+    uint32_t index, count;
+} glint_shard;
+
+// "2/5". Errors: GLINT_USAGE.
+glint_status glint_shard_parse(const char *text, glint_shard *shard, glint_error *error);
+
+// How many of `count` frames a part has.
+uint64_t glint_shard_size(glint_shard shard, uint64_t count);
+
+// A walk over one part of a list; list and shard set, the rest zero.
+typedef struct glint_frame_cursor {
+    const glint_frame_list *list;
+    glint_shard shard;
+    size_t range;
+    uint64_t index;   // in the range
+    uint64_t ordinal; // of different frames so far, in any part
+} glint_frame_cursor;
+
+// The next frame; false at the end.
+bool glint_frame_next(glint_frame_cursor *cursor, int *frame);
+
+// Writes frames, sorted in place, as a list like "3,7-9,20" into `text`, with what finds no room
+// counted: "3,7-9 and 12 more".
+void glint_frame_list_print(int *frames, size_t count, char *text, size_t capacity);
+
+#endif
