@@ -474,6 +474,13 @@ glint_status glint_image_write(const char *path, const glint_image *image,
     }
 }
 
+void glint_image_use_threads(int count)
+{
+    OIIO::attribute("threads", count);
+    // There 0 is one for each core as well, and −1 none beside the caller's.
+    OIIO::attribute("exr_threads", count == 1 ? -1 : count);
+}
+
 void glint_image_discard_temporaries(void)
 {
     glint_output_file_discard_all();

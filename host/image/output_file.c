@@ -125,38 +125,31 @@ static glint_status place_split(place *where, glint_error *error)
 
 // What stands at the path decides: nothing or a regular file may be replaced, a link is followed to
 // its file. A device or a pipe cannot appear whole by renaming; a folder is a mistake.
-static glint_status place_find(const char *path, place *where, glint_error *error)
+static glint_status check_target(const char *path, const place *where, glint_error *error)
 {
     struct stat facts;
-    bool is_link = lstat(path, &facts) == 0 && S_ISLNK(facts.st_mode);
-    where->path = is_link ? realpath(path, NULL) : strdup(path);
-    if (where->path == NULL) {
-        glint_fail(error, GLINT_OUTPUT_FAILED,
-                   is_link ? "%s: a symbolic link that leads nowhere (remove it or mend it)"
-                           : "%s: not enough memory for its name",
-                   path);
-        return GLINT_OUTPUT_FAILED;
+    if (stat(where->path, &facts) != 0) {
+        return GLINT_OK;
     }
-    glint_status status = place_split(where, error);
-    if (status != GLINT_OK) {
-        return status;
+    if (S_ISDIR(facts.st_mode) || where->name[0] == '\0') {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: is a folder (name a file in it)", path);
     }
-    if (stat(where->path, &facts) == 0) {
-        if (S_ISDIR(facts.st_mode) || where->name[0] == '\0') {
-            return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: is a folder (name a file in it)",
-                              path);
-        }
-        if (!S_ISREG(facts.st_mode)) {
-            return glint_fail(error, GLINT_OUTPUT_FAILED,
-                              "%s: is no regular file, and a device or pipe cannot be replaced as "
-                              "a whole (name a file)",
-                              path);
-        }
-        if (access(where->path, W_OK) != 0) {
-            return glint_fail(error, GLINT_OUTPUT_FAILED,
-                              "%s: is write-protected (change its permissions or the name)", path);
-        }
+    if (!S_ISREG(facts.st_mode)) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "%s: is no regular file, and a device or pipe cannot be replaced as a "
+                          "whole (name a file)",
+                          path);
     }
+    if (access(where->path, W_OK) != 0) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "%s: is write-protected (change its permissions or the name)", path);
+    }
+    return GLINT_OK;
+}
+
+static glint_status check_folder(const char *path, const place *where, glint_error *error)
+{
+    struct stat facts;
     if (stat(where->folder, &facts) != 0) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: its folder %s: %s (make it first)", path,
                           where->folder, strerror(errno));
@@ -171,6 +164,39 @@ static glint_status place_find(const char *path, place *where, glint_error *erro
                           path);
     }
     return GLINT_OK;
+}
+
+static glint_status place_find(const char *path, place *where, glint_error *error)
+{
+    struct stat facts;
+    bool is_link = lstat(path, &facts) == 0 && S_ISLNK(facts.st_mode);
+    where->path = is_link ? realpath(path, NULL) : strdup(path);
+    if (where->path == NULL) {
+        glint_fail(error, GLINT_OUTPUT_FAILED,
+                   is_link ? "%s: a symbolic link that leads nowhere (remove it or mend it)"
+                           : "%s: not enough memory for its name",
+                   path);
+        return GLINT_OUTPUT_FAILED;
+    }
+    glint_status status = place_split(where, error);
+    if (status == GLINT_OK) {
+        status = check_target(path, where, error);
+    }
+    return status == GLINT_OK ? check_folder(path, where, error) : status;
+}
+
+glint_status glint_output_file_check_folder(const char *path, glint_error *error)
+{
+    place where = {.path = strdup(path)};
+    if (where.path == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    glint_status status = place_split(&where, error);
+    if (status == GLINT_OK) {
+        status = check_folder(path, &where, error);
+    }
+    place_free(&where);
+    return status;
 }
 
 glint_status glint_output_file_check(const char *path, glint_error *error)
@@ -248,11 +274,13 @@ static void remove_stale(const place *where)
 
 // ---- Writing ------------------------------------------------------------------------------------
 
+// The folder is held open, so that a temporary is found again though the folder be moved meanwhile.
 typedef struct temporary {
-    char path[PATH_MAX];
+    char path[PATH_MAX]; // for the signal handler
+    const char *name;    // within the folder
     slot *registered;
     bool made;
-    int file;
+    int folder, file;
 } temporary;
 
 static int open_temporary(const place *where, temporary *made)
@@ -260,6 +288,11 @@ static int open_temporary(const place *where, temporary *made)
     static atomic_uint next;
     char before[NAME_MAX], after[NAME_MAX];
     temporary_parts(where, before, after);
+    made->folder = open(where->folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (made->folder < 0) {
+        return errno;
+    }
+    made->name = made->path + strlen(where->folder) + 1;
     for (int attempt = 0; attempt < 1000; attempt++) {
         int printed =
             snprintf(made->path, sizeof made->path, "%s/%s%ld-%08x-%u%s", where->folder, before,
@@ -269,9 +302,10 @@ static int open_temporary(const place *where, temporary *made)
         }
         // Registered before it exists, so that a signal in between leaves nothing.
         made->registered = slot_take(made->path);
-        made->file = atomic_load(&discarding)
-                         ? (errno = EINTR, -1)
-                         : open(made->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        made->file =
+            atomic_load(&discarding)
+                ? (errno = EINTR, -1)
+                : openat(made->folder, made->name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (made->file >= 0) {
             made->made = true;
             return 0;
@@ -306,9 +340,9 @@ static int write_all(int file, const unsigned char *bytes, size_t size)
 }
 
 // The new name itself reaches the disk with its folder. The file is whole either way.
-static void sync_folder(const char *folder)
+static void sync_folder(int folder)
 {
-    int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int file = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file >= 0) {
         fsync(file);
         close(file);
@@ -336,7 +370,7 @@ glint_status glint_output_file_write(const char *path, const void *bytes, size_t
                                      glint_error *error)
 {
     place where = {0};
-    temporary made = {.file = -1};
+    temporary made = {.folder = -1, .file = -1};
     int cause = 0;
     glint_status status = place_find(path, &where, error);
     if (status != GLINT_OK) {
@@ -350,7 +384,7 @@ glint_status glint_output_file_write(const char *path, const void *bytes, size_t
     if (made.file >= 0 && close(made.file) != 0 && cause == 0 && errno != EINTR) {
         cause = errno;
     }
-    if (cause == 0 && rename(made.path, where.path) != 0) {
+    if (cause == 0 && renameat(made.folder, made.name, made.folder, where.name) != 0) {
         cause = errno;
     }
     if (cause != 0) {
@@ -358,14 +392,17 @@ glint_status glint_output_file_write(const char *path, const void *bytes, size_t
                             strerror(cause), advice(cause));
         goto cleanup;
     }
-    sync_folder(where.folder);
+    sync_folder(made.folder);
 
 cleanup:
     if (made.made) {
         if (status != GLINT_OK) {
-            unlink(made.path);
+            unlinkat(made.folder, made.name, 0);
         }
         slot_release(made.registered);
+    }
+    if (made.folder >= 0) {
+        close(made.folder);
     }
     place_free(&where);
     return status;

@@ -14,6 +14,9 @@ extern "C" {
 // writable, or where something stands that must not be replaced. Nothing is created.
 glint_status glint_output_file_check(const char *path, glint_error *error);
 
+// The same of the folder alone, whatever stands at `path`.
+glint_status glint_output_file_check_folder(const char *path, glint_error *error);
+
 // Writes `size` bytes under a temporary name in the folder of `path`, brings them to the disk and
 // renames. What stood at `path` is replaced; a symbolic link is followed and stays. The file's
 // permissions are 0666 less the umask. Temporaries of the same output that a dead process of this

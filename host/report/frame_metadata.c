@@ -66,9 +66,10 @@ static glint_metadata *add(glint_frame_metadata *metadata, const char *name,
     return entry;
 }
 
-static void add_text(glint_frame_metadata *metadata, const char *name, const char *text)
+void glint_frame_metadata_add_text(glint_frame_metadata *metadata, const char *name,
+                                   const char *text)
 {
-    if (text != NULL && text[0] != '\0') {
+    if (text != NULL && text[0] != '\0' && metadata->count < GLINT_FRAME_METADATA_MAX) {
         add(metadata, name, GLINT_METADATA_STRING)->string = text;
     }
 }
@@ -92,7 +93,7 @@ static void add_time(glint_frame_metadata *metadata)
         strftime(metadata->date, sizeof metadata->date, "%Y:%m:%d %H:%M:%S", &local) == 0) {
         return;
     }
-    add_text(metadata, "capDate", metadata->date);
+    glint_frame_metadata_add_text(metadata, "capDate", metadata->date);
     add_real(metadata, "utcOffset", 0 - (double)local.tm_gmtoff);
 }
 
@@ -110,13 +111,13 @@ void glint_frame_metadata_fill(const glint_subject *subject, int frame, double e
     glint_plan_describe(subject->plan, metadata->plan, sizeof metadata->plan);
     snprintf(metadata->device, sizeof metadata->device, "%s (%s, %s)", subject->device->name,
              subject->device->platform, subject->device->driver);
-    add_text(metadata, "Software", "glint " GLINT_VERSION);
+    glint_frame_metadata_add_text(metadata, "Software", "glint " GLINT_VERSION);
     add_int(metadata, "imageCounter", frame);
-    add_text(metadata, "glint:scene", subject->scene->path);
-    add_text(metadata, "glint:environment", subject->environment->name);
-    add_text(metadata, "glint:camera", subject->camera->name);
-    add_text(metadata, "glint:plan", metadata->plan);
-    add_text(metadata, "glint:device", metadata->device);
+    glint_frame_metadata_add_text(metadata, "glint:scene", subject->scene->path);
+    glint_frame_metadata_add_text(metadata, "glint:environment", subject->environment->name);
+    glint_frame_metadata_add_text(metadata, "glint:camera", subject->camera->name);
+    glint_frame_metadata_add_text(metadata, "glint:plan", metadata->plan);
+    glint_frame_metadata_add_text(metadata, "glint:device", metadata->device);
     add_int(metadata, "glint:samples", settings->samples_per_axis * settings->samples_per_axis);
     add_real(metadata, "glint:exposure", exposure);
     add_real(metadata, "glint:render_ms", render_ms);

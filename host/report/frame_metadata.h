@@ -32,4 +32,8 @@ typedef struct glint_frame_metadata {
 void glint_frame_metadata_fill(const glint_subject *subject, int frame, double exposure,
                                double render_ms, glint_frame_metadata *metadata);
 
+// A further entry, while there is room; borrows both texts. An empty one is left out.
+void glint_frame_metadata_add_text(glint_frame_metadata *metadata, const char *name,
+                                   const char *text);
+
 #endif

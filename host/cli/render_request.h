@@ -1,0 +1,44 @@
+// What `glint render` was asked for: its options, and what can be found wrong with them before
+// anything is loaded.
+#ifndef GLINT_CLI_RENDER_REQUEST_H
+#define GLINT_CLI_RENDER_REQUEST_H
+
+#include "cli/inputs.h"
+#include "image/image_io.h"
+#include "render/frame_list.h"
+#include "render/frame_name.h"
+
+#include <stdbool.h>
+
+typedef struct render_request {
+    glint_input_request inputs; // first: the shared tables' offsets count from here
+    const char *output;
+    const char *stats;
+    const char *compression;
+    int exr_type; // index of the choices
+    double exposure;
+    int progress; // a glint_progress_mode
+    const char *frames_text, *shard_text;
+    int turntable; // frames of a whole turn; 0: the camera stays
+    bool skip_existing;
+    bool is_sequence; // from here on set by render_request_finish
+    glint_frame_list frames;
+    glint_shard shard;
+    glint_frame_name name;
+} render_request;
+
+extern const glint_option *const render_option_groups[];
+
+// Checks what the parser cannot see and completes the request. Errors: GLINT_USAGE,
+// GLINT_OUTPUT_FAILED, GLINT_BAD_INPUT. Whatever the outcome, it is for render_request_free.
+glint_status render_request_finish(render_request *request, glint_error *error);
+void render_request_free(render_request *request);
+
+// How the image is encoded, without metadata and layers.
+glint_write_options render_write_options(const render_request *request);
+
+// Warns of what the chosen format cannot keep of this scene.
+void render_request_warn(const render_request *request, const glint_scene *scene,
+                         glint_warnings *warnings);
+
+#endif

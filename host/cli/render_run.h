@@ -1,0 +1,58 @@
+// The frames of `glint render`, one or many: which are next, where they go, what came of them.
+#ifndef GLINT_CLI_RENDER_RUN_H
+#define GLINT_CLI_RENDER_RUN_H
+
+#include "cli/progress.h"
+#include "cli/render_request.h"
+#include "device/device.h"
+#include "render/frame.h"
+#include "report/fingerprint.h"
+#include "report/stats.h"
+#include "report/subject.h"
+
+// Milliseconds of several frames.
+typedef struct render_spread {
+    double sum, least, most;
+} render_spread;
+
+// What came of the frames that are through.
+typedef struct render_totals {
+    uint64_t rendered, skipped;
+    size_t failed, failed_capacity;
+    int *failed_frames; // owned; in the order in which they failed
+    glint_ray_counts rays;
+    render_spread trace, write;
+    glint_frame_report worst; // the one with the most truncated weight, with the largest of the
+                              // other figures that warnings are about
+} render_totals;
+
+// Everything a run holds. Zero is valid.
+typedef struct render_run {
+    const render_request *request;
+    glint_progress_display display;
+    glint_inputs inputs;
+    glint_device *device;
+    glint_renderer *renderer;
+    glint_fingerprint fingerprint;
+    glint_frame_cursor cursor;
+    uint64_t frames; // of this run's shard
+    glint_stats_log *stats;
+    render_totals totals;
+    glint_frame_report last;   // of the last frame that was rendered
+    double rendering_begun_ms; // since the display began
+    size_t warnings_said;
+    glint_error failure; // what ended the run before its time; its code is 0 where nothing did
+} render_run;
+
+// Renders the frames, each to its file, and says what is to be said of each. What fails of one
+// frame alone does not stop the others of a sequence. Errors: what ended the run.
+glint_status render_run_frames(render_run *run, glint_error *error);
+
+// As GLINT_FRAMES_FAILED, with their names, if any frame failed.
+glint_status render_run_verdict(const render_run *run, glint_error *error);
+
+glint_subject render_run_subject(const render_run *run);
+
+void render_run_free(render_run *run);
+
+#endif

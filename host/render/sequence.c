@@ -1,0 +1,291 @@
+// Tracing and writing side by side. See sequence.h.
+//
+// Frames live in slots. The caller's thread takes a free one, traces into it and queues it; a
+// writer takes the oldest in the queue and puts it among the finished; the caller's thread hands
+// those to `done` between launches, and the slot is free again. So nothing but the queues is
+// shared, and whoever shows progress needs no lock.
+#include "render/sequence.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define MEMORY_IN_FLIGHT 1e9 // bytes of pixels
+#define WAIT_MS 100          // between two looks at whether the end is asked for
+
+typedef struct slot {
+    glint_sequence_frame frame;
+    struct slot *next; // in a queue
+} slot;
+
+// First in, first out.
+typedef struct queue {
+    slot *first, *last;
+} queue;
+
+typedef struct pipeline {
+    const glint_sequence *sequence;
+    size_t slot_count, busy; // slots, and those that hold a frame: the caller's thread alone knows
+    slot *slots;
+    queue idle; // the caller's thread's
+    pthread_mutex_t lock;
+    pthread_cond_t work, finished;
+    queue waiting, through; // under the lock
+    bool closed;            // under the lock: no more frames will come
+    bool ended;             // `done` wants no more: the caller's thread's
+    pthread_t *threads;
+    size_t thread_count;
+} pipeline;
+
+static void push(queue *q, slot *s)
+{
+    s->next = NULL;
+    if (q->first == NULL) {
+        q->first = s;
+    } else {
+        q->last->next = s;
+    }
+    q->last = s;
+}
+
+static slot *pop(queue *q)
+{
+    slot *s = q->first;
+    if (s != NULL) {
+        q->first = s->next;
+    }
+    return s;
+}
+
+size_t glint_sequence_writers(int width, int height)
+{
+    const double bytes = 4.0 * sizeof(float) * width * height;
+    const double room = MEMORY_IN_FLIGHT / bytes - 2;
+    const size_t cores = (size_t)glint_usable_cores();
+    return room < 1 ? 1 : room < (double)cores ? (size_t)room : cores;
+}
+
+// ---- Writers -----------------------------------------------------------------------------------
+
+static void write_slot(const glint_sequence *sequence, slot *s)
+{
+    const double begun = glint_now_ms();
+    sequence->write(sequence->context, &s->frame);
+    s->frame.write_ms = glint_now_ms() - begun;
+}
+
+static void *writer(void *context)
+{
+    pipeline *p = context;
+    pthread_mutex_lock(&p->lock);
+    while (true) {
+        slot *s = pop(&p->waiting);
+        if (s != NULL) {
+            pthread_mutex_unlock(&p->lock);
+            write_slot(p->sequence, s);
+            pthread_mutex_lock(&p->lock);
+            push(&p->through, s);
+            pthread_cond_signal(&p->finished);
+        } else if (p->closed) {
+            break;
+        } else {
+            pthread_cond_wait(&p->work, &p->lock);
+        }
+    }
+    pthread_mutex_unlock(&p->lock);
+    return NULL;
+}
+
+// As many as can be had; without any, the caller's thread writes.
+static void start_writers(pipeline *p)
+{
+    while (p->thread_count < p->sequence->writers &&
+           pthread_create(&p->threads[p->thread_count], NULL, writer, p) == 0) {
+        p->thread_count++;
+    }
+}
+
+static void join_writers(pipeline *p)
+{
+    pthread_mutex_lock(&p->lock);
+    p->closed = true;
+    pthread_cond_broadcast(&p->work);
+    pthread_mutex_unlock(&p->lock);
+    for (size_t i = 0; i < p->thread_count; i++) {
+        pthread_join(p->threads[i], NULL);
+    }
+}
+
+// ---- The caller's thread -----------------------------------------------------------------------
+
+// Hands the finished frames on, which frees their slots.
+static void collect(pipeline *p)
+{
+    pthread_mutex_lock(&p->lock);
+    queue through = p->through;
+    p->through = (queue){0};
+    pthread_mutex_unlock(&p->lock);
+    for (slot *s = pop(&through); s != NULL; s = pop(&through)) {
+        if (!p->sequence->done(p->sequence->context, &s->frame)) {
+            p->ended = true;
+        }
+        glint_error_free(&s->frame.error);
+        glint_layers_free(&s->frame.layers);
+        p->busy--;
+        push(&p->idle, s);
+    }
+}
+
+// Waits a while for a writer to be through with a frame.
+static void wait_for_writers(pipeline *p)
+{
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += WAIT_MS * 1000000L;
+    until.tv_sec += until.tv_nsec / 1000000000L;
+    until.tv_nsec %= 1000000000L;
+    pthread_mutex_lock(&p->lock);
+    int code = 0;
+    while (p->through.first == NULL && code != ETIMEDOUT) {
+        code = pthread_cond_timedwait(&p->finished, &p->lock, &until);
+    }
+    pthread_mutex_unlock(&p->lock);
+}
+
+// Between launches.
+static bool step(void *context, uint64_t done, uint64_t total)
+{
+    pipeline *p = context;
+    const glint_progress *progress = &p->sequence->progress;
+    collect(p);
+    return progress->step == NULL || progress->step(progress->context, done, total);
+}
+
+static glint_status trace(pipeline *p, slot *s, glint_error *error)
+{
+    glint_renderer *renderer = p->sequence->renderer;
+    const glint_progress progress = {step, p};
+    const double begun = glint_now_ms();
+    glint_status status = glint_renderer_frame(renderer, &s->frame.camera, &progress,
+                                               &s->frame.image, &s->frame.report, error);
+    if (status == GLINT_OK && p->sequence->with_layers) {
+        status = glint_renderer_layers(renderer, &s->frame.layers, error);
+    }
+    s->frame.trace_ms = glint_now_ms() - begun;
+    return status;
+}
+
+static void queue_for_writing(pipeline *p, slot *s)
+{
+    p->busy++;
+    if (p->thread_count == 0) {
+        write_slot(p->sequence, s);
+        push(&p->through, s);
+        return;
+    }
+    pthread_mutex_lock(&p->lock);
+    push(&p->waiting, s);
+    pthread_cond_signal(&p->work);
+    pthread_mutex_unlock(&p->lock);
+}
+
+// An idle slot, waiting for one where all hold frames; NULL where the end is asked for meanwhile.
+static slot *take_slot(pipeline *p, glint_status *status, glint_error *error)
+{
+    while (true) {
+        if (!step(p, 0, 1)) {
+            *status = glint_fail(error, GLINT_INTERRUPTED, "stopped");
+            return NULL;
+        }
+        if (p->ended) {
+            return NULL;
+        }
+        slot *s = pop(&p->idle);
+        if (s != NULL) {
+            return s;
+        }
+        wait_for_writers(p);
+    }
+}
+
+static glint_status feed(pipeline *p, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    while (status == GLINT_OK) {
+        slot *s = take_slot(p, &status, error);
+        if (s == NULL) {
+            return status;
+        }
+        // The image's memory serves again.
+        s->frame = (glint_sequence_frame){.image = s->frame.image};
+        if (!p->sequence->next(p->sequence->context, &s->frame)) {
+            push(&p->idle, s);
+            return GLINT_OK;
+        }
+        status = trace(p, s, error);
+        if (status == GLINT_OK) {
+            p->sequence->traced(p->sequence->context);
+            queue_for_writing(p, s);
+        }
+    }
+    return status;
+}
+
+static glint_status run(pipeline *p, glint_error *error)
+{
+    for (size_t i = 0; i < p->slot_count; i++) {
+        push(&p->idle, &p->slots[i]);
+    }
+    start_writers(p);
+    glint_status status = feed(p, error);
+    while (p->busy > 0) {
+        collect(p);
+        if (p->busy > 0) {
+            wait_for_writers(p);
+        }
+    }
+    join_writers(p);
+    return status;
+}
+
+static void make_conditions(pipeline *p)
+{
+    pthread_condattr_t attributes;
+    pthread_condattr_init(&attributes);
+    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+    pthread_mutex_init(&p->lock, NULL);
+    pthread_cond_init(&p->work, NULL);
+    pthread_cond_init(&p->finished, &attributes);
+    pthread_condattr_destroy(&attributes);
+}
+
+glint_status glint_sequence_run(const glint_sequence *sequence, glint_error *error)
+{
+    pipeline p = {.sequence = sequence, .slot_count = sequence->writers + 2};
+    p.slots = glint_allocate(p.slot_count, sizeof *p.slots);
+    p.threads = glint_allocate(sequence->writers, sizeof *p.threads);
+    if (p.slots == NULL || p.threads == NULL) {
+        free(p.slots);
+        free(p.threads);
+        return glint_fail_memory(error, "the frames in flight");
+    }
+    make_conditions(&p);
+    glint_status status = run(&p, error);
+    pthread_cond_destroy(&p.work);
+    pthread_cond_destroy(&p.finished);
+    pthread_mutex_destroy(&p.lock);
+    for (size_t i = 0; i < p.slot_count; i++) {
+        glint_image_free(&p.slots[i].frame.image);
+        glint_layers_free(&p.slots[i].frame.layers);
+        glint_error_free(&p.slots[i].frame.error);
+    }
+    free(p.slots);
+    free(p.threads);
+    return status;
+}

@@ -1,0 +1,56 @@
+// Frames one after the other: while the device traces one, threads of their own write those before.
+#ifndef GLINT_RENDER_SEQUENCE_H
+#define GLINT_RENDER_SEQUENCE_H
+
+#include "base/status.h"
+#include "image/image.h"
+#include "render/frame.h"
+#include "render/layers.h"
+#include "scene/camera.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// A frame on its way from `next` by way of `write` to `done`.
+typedef struct glint_sequence_frame {
+    int number;
+    glint_camera camera; // set by `next`
+    glint_image image;
+    glint_layers layers; // where they are asked for
+    glint_frame_report report;
+    double trace_ms; // from the first launch until the pixels were read back
+    double write_ms;
+    glint_status status; // of `write`
+    glint_error error;   // where that is not GLINT_OK
+} glint_sequence_frame;
+
+typedef struct glint_sequence {
+    glint_renderer *renderer;
+    bool with_layers; // the renderer's settings ask for some
+    size_t writers;   // threads that write; at least 1
+    // Sets the next frame's number and camera; false: there is none left.
+    bool (*next)(void *context, glint_sequence_frame *frame);
+    // A frame has been traced, and waits to be written.
+    void (*traced)(void *context);
+    // Brings a frame to where it belongs. Called from the writing threads, for several frames at
+    // once. An error of this one frame goes into frame->status and frame->error.
+    void (*write)(void *context, glint_sequence_frame *frame);
+    // A frame is through, well or not; frames may overtake each other. False: no further one.
+    bool (*done)(void *context, glint_sequence_frame *frame);
+    glint_progress
+        progress;  // within a frame; see frame.h. Also called while writers are waited for
+    void *context; // of all but progress
+} glint_sequence;
+
+// How many writers keep up with the device: one for each core, but no more than keep the frames in
+// flight within a gigabyte.
+size_t glint_sequence_writers(int width, int height);
+
+// Runs until `next` has no more, until `done` or `progress` asks for an end, or until the device
+// fails; what has been traced by then is written all the same. All but `write` is called on the
+// caller's thread. No more than writers + 2 frames are held at once. Errors: GLINT_INTERRUPTED
+// where `progress` asked for the end, GLINT_DEVICE_FAILED. An end by `done` is GLINT_OK: the caller
+// knows.
+glint_status glint_sequence_run(const glint_sequence *sequence, glint_error *error);
+
+#endif

@@ -1,0 +1,178 @@
+// What decides a frame's pixels. See fingerprint.h.
+#include "report/fingerprint.h"
+
+#include "device/kernel_sources.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+// Where files say what they say of themselves: headers come first, but for TIFF's, which may stand
+// behind the pixels.
+#define SEARCHED 65536
+
+// ---- What frames share -------------------------------------------------------------------------
+
+// Numbers as texts, so that neither padding nor the order of bytes matters.
+static void add_text(XXH3_state_t *state, const char *text)
+{
+    XXH3_128bits_update(state, text, strlen(text) + 1);
+}
+
+static void add_numbers(XXH3_state_t *state, const double *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%a", numbers[i]);
+        add_text(state, text);
+    }
+}
+
+static void add_vector(XXH3_state_t *state, glint_vec3 v)
+{
+    const double numbers[] = {v.x, v.y, v.z};
+    add_numbers(state, numbers, 3);
+}
+
+// Arrays of float and of integers, as they lie in memory, with their length before them.
+static void add_array(XXH3_state_t *state, const void *array, size_t size, size_t count)
+{
+    const double bytes = array != NULL ? (double)size * (double)count : -1;
+    add_numbers(state, &bytes, 1);
+    if (array != NULL) {
+        XXH3_128bits_update(state, array, size * count);
+    }
+}
+
+static void add_material(XXH3_state_t *state, const glint_material *m)
+{
+    const double numbers[] = {(double)m->metallic,     (double)m->roughness,
+                              (double)m->transmission, (double)m->ior,
+                              (double)m->thickness,    (double)m->attenuation_distance,
+                              m->unlit ? 1 : 0,        (double)m->mirror};
+    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+    add_array(state, m->base_color, sizeof *m->base_color, 3);
+    add_array(state, m->emission, sizeof *m->emission, 3);
+    add_array(state, m->attenuation_color, sizeof *m->attenuation_color, 3);
+}
+
+static void add_scene(XXH3_state_t *state, const glint_scene *scene)
+{
+    add_vector(state, scene->origin);
+    add_numbers(state, &scene->unit, 1);
+    add_array(state, scene->positions, 9 * sizeof *scene->positions, scene->triangle_count);
+    add_array(state, scene->normals, 9 * sizeof *scene->normals, scene->triangle_count);
+    add_array(state, scene->material_of, sizeof *scene->material_of, scene->triangle_count);
+    for (size_t i = 0; i < scene->material_count; i++) {
+        add_material(state, &scene->materials[i]);
+    }
+}
+
+static void add_settings(XXH3_state_t *state, const glint_settings *s)
+{
+    const double numbers[] = {s->width,      s->height,     s->samples_per_axis,
+                              s->depth,      s->min_weight, s->transparent ? 1 : 0,
+                              s->env_rotate, s->precision,  s->fresnel,
+                              s->output,     s->filter,     s->aovs};
+    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+}
+
+static void add_encoding(XXH3_state_t *state, const char *path, const glint_write_options *options)
+{
+    const char *dot = strrchr(path, '.');
+    add_text(state, dot != NULL ? dot : "");
+    add_text(state, options->compression != NULL ? options->compression : "");
+    const double numbers[] = {options->exr_float ? 1 : 0, (double)options->exposure};
+    add_numbers(state, numbers, 2);
+}
+
+glint_status glint_fingerprint_make(const glint_subject *subject, const char *path,
+                                    const glint_write_options *options,
+                                    glint_fingerprint *fingerprint, glint_error *error)
+{
+    XXH3_state_t *state = XXH3_createState();
+    if (state == NULL) {
+        return glint_fail_memory(error, "the fingerprint");
+    }
+    XXH3_128bits_reset(state);
+    add_text(state, "glint " GLINT_VERSION);
+    add_text(state, glint_kernel_source);
+    char build[4096];
+    glint_plan_build_options(subject->plan, build, sizeof build);
+    add_text(state, build);
+    add_settings(state, subject->settings);
+    add_encoding(state, path, options);
+    add_scene(state, subject->scene);
+    const glint_cube *radiance = &subject->environment->radiance;
+    add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
+    const XXH128_hash_t hash = XXH3_128bits_digest(state);
+    *fingerprint = (glint_fingerprint){hash.high64, hash.low64};
+    XXH3_freeState(state);
+    return GLINT_OK;
+}
+
+// ---- A frame -----------------------------------------------------------------------------------
+
+void glint_fingerprint_frame(const glint_fingerprint *fingerprint, const glint_camera *camera,
+                             char text[GLINT_FINGERPRINT_TEXT])
+{
+    const glint_vec3 vectors[] = {camera->eye, camera->right, camera->up, camera->back};
+    char all[512];
+    size_t length = (size_t)snprintf(all, sizeof all, "%016llx%016llx %d %a",
+                                     (unsigned long long)fingerprint->high,
+                                     (unsigned long long)fingerprint->low, camera->orthographic,
+                                     camera->orthographic ? camera->ymag : camera->yfov);
+    for (int i = 0; i < 4; i++) {
+        length += (size_t)snprintf(all + length, sizeof all - length, " %a %a %a", vectors[i].x,
+                                   vectors[i].y, vectors[i].z);
+    }
+    const XXH128_hash_t hash = XXH3_128bits(all, length);
+    snprintf(text, GLINT_FINGERPRINT_TEXT, "%016llx%016llx", (unsigned long long)hash.high64,
+             (unsigned long long)hash.low64);
+}
+
+// ---- In files ----------------------------------------------------------------------------------
+
+// The digits behind the name, up to a few bytes of each format's own further on.
+static bool find_in(const char *bytes, size_t size, char text[GLINT_FINGERPRINT_TEXT])
+{
+    enum { NAME = sizeof GLINT_FINGERPRINT_NAME - 1, BETWEEN = 16, DIGITS = 32 };
+    const char *name = memmem(bytes, size, GLINT_FINGERPRINT_NAME, NAME);
+    if (name == NULL) {
+        return false;
+    }
+    const char *end = bytes + size;
+    for (const char *at = name + NAME; at < name + NAME + BETWEEN && at + DIGITS <= end; at++) {
+        int digits = 0;
+        while (digits < DIGITS && isxdigit((unsigned char)at[digits])) {
+            digits++;
+        }
+        if (digits == DIGITS) {
+            memcpy(text, at, DIGITS);
+            text[DIGITS] = '\0';
+            return true;
+        }
+    }
+    return false;
+}
+
+void glint_fingerprint_find(const char *path, char text[GLINT_FINGERPRINT_TEXT])
+{
+    text[0] = '\0';
+    FILE *file = fopen(path, "rbe");
+    char *bytes = malloc(SEARCHED);
+    if (file != NULL && bytes != NULL) {
+        const size_t first = fread(bytes, 1, SEARCHED, file);
+        if (!find_in(bytes, first, text) && first == SEARCHED &&
+            fseek(file, -SEARCHED, SEEK_END) == 0) {
+            find_in(bytes, fread(bytes, 1, SEARCHED, file), text);
+        }
+    }
+    free(bytes);
+    if (file != NULL) {
+        fclose(file);
+    }
+}

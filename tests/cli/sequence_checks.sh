@@ -1,0 +1,267 @@
+#!/usr/bin/env bash
+# Command-line tests of sequences: glint render --frames, --turntable, --shard, --skip-existing.
+# sequence_checks.sh GLINT JSON_GET SCENES [KILLS]
+# KILLS is how many times a run is killed at a random moment (3).
+scenes=$(readlink -f -- "$3")
+kills=${4:-3}
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+scene=in/scene.gltf
+cp "$scenes/mirror_sphere.gltf" in/scene.gltf
+cp "$scenes/mirror_sphere.bin" in/
+small=(--size 48x32 --progress none)
+
+# sequence ARGUMENT…: with a turntable of 8.
+sequence() {
+    run render "$scene" --turntable 8 "${small[@]}" "$@"
+}
+
+files() { # FOLDER: its files on one line
+    (cd "$1" && find . -mindepth 1 -printf '%P\n' | sort | tr '\n' ' ')
+}
+
+same_pixels() { # A B
+    "$glint" compare "$1" "$2" --fail-above max=0 --fail-above nan=0
+}
+
+eight='f.0001.exr f.0002.exr f.0003.exr f.0004.exr f.0005.exr f.0006.exr f.0007.exr f.0008.exr '
+
+# ---- mistakes -----------------------------------------------------------------------------------
+
+refuses 2 'which frames?' render "$scene" -o out/f.####.exr
+refuses 2 "need a place for their number" render "$scene" --frames 1-3 -o out/f.exr
+refuses 2 "two places" render "$scene" --frames 1-3 -o out/f.##.##.exr
+refuses 2 "frames '1-'" render "$scene" --frames 1- -o out/f.##.exr
+refuses 2 "never come to" render "$scene" --frames 1-9x-2 -o out/f.##.exr
+refuses 2 "leads nowhere" render "$scene" --frames 1-9x0 -o out/f.##.exr
+refuses 2 "shard '3/2'" render "$scene" --frames 1-9 --shard 3/2 -o out/f.##.exr
+refuses 2 'one frame alone' render "$scene" --shard 1/2 -o out/f.exr
+refuses 2 '--turntable' render "$scene" --turntable 0 -o out/f.##.exr
+refuses 2 'does not say how it was made' render "$scene" --skip-existing -o out/f.hdr
+refuses 5 'out/none' render "$scene" --turntable 2 -o out/none/f.####.exr
+cp "$scenes/axes.hdr" in/env.0003.hdr
+refuses 2 'this is an input' render "$scene" --env in/env.0003.hdr --frames 1-9 -o in/env.####.hdr
+run render "$scene" --env in/env.0003.hdr --frames 4-5 "${small[@]}" -o in/env.####.hdr
+check 'an input between frames is none of them' test "$status" -eq 0 -a -s in/env.0005.hdr
+
+# ---- frames -------------------------------------------------------------------------------------
+
+mkdir whole
+sequence -o whole/f.####.exr --stats whole.jsonl
+check 'a turntable: exit status 0, nothing on stdout' test "$status" -eq 0 -a ! -s stdout
+check 'a turntable: its files' test "$(files whole)" = "$eight"
+check 'statistics: a line for the run, the frames, the total' test "$(wc -l <whole.jsonl)" -eq 10
+sed -n 1p whole.jsonl >out/stats.json
+check 'statistics: the run' stat_is 8 frames
+sed -n 4p whole.jsonl >out/stats.json
+check 'statistics: a frame' stat_is_positive rays primary
+check 'statistics: its outcome' stat_is rendered outcome
+tail -n 1 whole.jsonl >out/stats.json
+check 'statistics: the total' stat_is 8 rendered
+check 'statistics: not stopped' stat_is false stopped
+check 'the turntable turns' test "$(same_pixels whole/f.0001.exr whole/f.0002.exr >/dev/null; echo $?)" -eq 7
+run render "$scene" "${small[@]}" -o out/one.exr
+check 'frame 1 is the camera as it stands' same_pixels out/one.exr whole/f.0001.exr
+sequence --frames 6 -o out/six.exr
+check 'a frame by itself has the same pixels' same_pixels out/six.exr whole/f.0006.exr
+clean
+sequence --frames 0,9,-7,8 -o out/f.%02d.exr
+check 'frames outside the turn: their files' test "$(files out)" = 'f.-07.exr f.00.exr f.08.exr f.09.exr '
+check 'frame 9 of 8 is frame 1' same_pixels out/f.09.exr whole/f.0001.exr
+check 'frame 0 of 8 is frame 8' same_pixels out/f.00.exr whole/f.0008.exr
+check 'frame -7 of 8 is frame 1' same_pixels out/f.-07.exr whole/f.0001.exr
+clean
+run render "$scene" "${small[@]}" --frames 3-1,2-5x3 -o out/f.#.png --stats order.jsonl
+check 'each frame once' test "$(files out)" = 'f.1.png f.2.png f.3.png f.5.png '
+check 'without a motion frames are alike' cmp out/f.1.png out/f.1.png
+clean
+
+# ---- parts --------------------------------------------------------------------------------------
+
+for part in 1 2 3; do
+    sequence --shard $part/3 -o out/f.####.exr
+    check "part $part of 3: exit status 0" test "$status" -eq 0
+    [ $part != 2 ] || check 'parts 1 and 2: their frames' \
+        test "$(files out)" = 'f.0001.exr f.0002.exr f.0004.exr f.0005.exr f.0007.exr f.0008.exr '
+done
+check 'all parts: every frame' test "$(files out)" = "$eight"
+for k in 1 2 3 4 5 6 7 8; do
+    check "parts: frame $k has the same pixels" same_pixels "out/f.000$k.exr" "whole/f.000$k.exr"
+done
+clean
+run render "$scene" --frames 1-3 --shard 5/8 -o out/f.#.exr
+check 'a part without frames: said, exit status 0' \
+    test "$status" -eq 0 -a "$(cat stderr)" = 'glint: --shard: none of the 3 frames is in part 5 of 8'
+run render "$scene" "${small[@]}" --frames 1-1000000 --shard 77/1000000 -o out/f.#######.hdr
+check 'one of a million frames' test "$status" -eq 0 -a "$(files out)" = 'f.0000077.hdr '
+clean
+
+# ---- restart ------------------------------------------------------------------------------------
+
+cp whole/* out/
+rm out/f.0002.exr
+head -c 3000 whole/f.0003.exr >out/f.0003.exr
+printf 'no image' >out/f.0004.exr
+sequence -o out/f.0005.exr --frames 5 --env-rotate 90
+touch -d 2020-01-01 out/*.exr
+sequence -o out/f.####.exr --skip-existing --stats restart.jsonl
+check 'a restart: exit status 0' test "$status" -eq 0
+check 'a restart: a damaged frame' grep -q '^glint: out/f.0003.exr: rendered again: it is damaged$' stderr
+check 'a restart: what is no frame' grep -q '^glint: out/f.0004.exr: rendered again: it does not say' stderr
+check 'a restart: a stale frame' grep -q '^glint: out/f.0005.exr: rendered again: made from another' stderr
+check 'a restart: nothing else is said' test "$(wc -l <stderr)" -eq 3
+tail -n 1 restart.jsonl >stats.json
+check 'a restart: four rendered' test "$("$json_get" stats.json rendered)" -eq 4
+check 'a restart: four skipped' test "$("$json_get" stats.json skipped)" -eq 4
+check 'a restart: what was whole was not touched' \
+    test "$(find out -name '*.exr' ! -newermt 2021-01-01 | wc -l)" -eq 4
+for k in 2 3 4 5; do
+    check "a restart: frame $k has the same pixels" same_pixels "out/f.000$k.exr" "whole/f.000$k.exr"
+done
+touch -d 2020-01-01 out/*.exr
+sequence -o out/f.####.exr --skip-existing --size 32x32
+check 'other settings: all again' test "$(find out -name '*.exr' -newermt 2021-01-01 | wc -l)" -eq 8
+sed 's/0\.972,/0.5,/' in/scene.gltf >in/other.gltf
+sequence --frames 1 -o out/f.####.exr
+run render in/other.gltf --turntable 8 --frames 1 "${small[@]}" -o out/f.####.exr --skip-existing
+check 'another material: again' grep -q 'made from another scene' stderr
+clean
+for extension in png tif jpg; do
+    sequence --frames 1-2 -o "out/f.#.$extension"
+    sequence --frames 1-2 -o "out/f.#.$extension" --skip-existing --stats out/s.jsonl
+    tail -n 1 out/s.jsonl >stats.json
+    check "$extension: skipped" test "$("$json_get" stats.json skipped)" -eq 2
+    clean
+done
+
+# Killed at any moment, a run leaves whole frames alone, and the next one completes them.
+large=(--turntable 8 --size 400x300 -o)
+mkdir undisturbed
+run render "$scene" "${large[@]}" undisturbed/f.####.exr --progress none
+caught=0 # in the middle
+for ((k = 0; k < kills; k++)); do
+    "$glint" render "$scene" "${large[@]}" out/f.####.exr --skip-existing --progress plain \
+        >stdout 2>stderr &
+    process=$!
+    until grep -q rendering stderr || ! kill -0 "$process" 2>/dev/null; do
+        sleep 0.02
+    done
+    sleep "$(awk -v seed="$RANDOM" 'BEGIN { srand(seed); printf "%.3f", 0.2 * rand() }')"
+    kill -9 "$process" 2>/dev/null
+    wait "$process" 2>/dev/null
+    find out -name 'f.*.exr' | sort >standing
+    while read -r file; do
+        check "killed: $file is whole" same_pixels "$file" "undisturbed/${file#out/}"
+    done <standing
+    standing=$(wc -l <standing)
+    [ "$standing" -eq 0 ] || [ "$standing" -eq 8 ] || caught=$((caught + 1))
+    find out -name 'f.*.exr' -exec touch -d 2020-01-01 {} +
+    run render "$scene" "${large[@]}" out/f.####.exr --skip-existing --progress none
+    check 'restarted: every frame, no temporaries' test "$(files out)" = "$eight"
+    check 'restarted: none was rendered twice' \
+        test "$(find out -name '*.exr' ! -newermt 2021-01-01 | wc -l)" -eq "$standing"
+    for file in out/f.*.exr; do
+        check "restarted: $file" same_pixels "$file" "undisturbed/${file#out/}"
+    done
+    clean
+done
+echo "# $caught of $kills were killed with some frames written and some not"
+
+# ---- signals ------------------------------------------------------------------------------------
+
+for pair in INT:130 TERM:143; do
+    "$glint" render "$scene" --turntable 100000 --size 480x320 --progress plain -o out/f.######.exr \
+        --stats sequence.jsonl >stdout 2>stderr &
+    process=$!
+    for _ in $(seq 300); do
+        [ ! -e out/f.000003.exr ] || break
+        sleep 0.1
+    done
+    kill "-${pair%:*}" "$process"
+    wait "$process"
+    check "SIG${pair%:*}: exit status ${pair#*:}" test $? -eq "${pair#*:}"
+    check "SIG${pair%:*}: no temporaries" test -z "$(find out -name '.*.tmp.*')"
+    check "SIG${pair%:*}: frames are whole" "$glint" compare out/f.000003.exr out/f.000003.exr
+    tail -n 1 sequence.jsonl >stats.json
+    check "SIG${pair%:*}: the total says so" test "$("$json_get" stats.json stopped)" = true
+    clean
+done
+
+# ---- what cannot be written ---------------------------------------------------------------------
+
+mkdir out/f.0003.exr out/f.0005.exr
+sequence -o out/f.####.exr --stats failed.jsonl
+check 'frames whose names are taken: exit status 6' test "$status" -eq 6
+check 'frames whose names are taken: each is named' test "$(grep -c 'is a folder' stderr)" -eq 2
+check 'frames whose names are taken: listed' grep -q '2 of 8 frames failed: 3,5 ' stderr
+check 'frames whose names are taken: the others are there' test "$(files out)" = "$eight"
+check 'frames whose names are taken: statistics' test "$(grep -c '"outcome": "failed"' failed.jsonl)" -eq 2
+clean
+(
+    ulimit -f 6000 # KiB: more than compiled kernels take
+    exec "$glint" render "$scene" --turntable 8 --size 1024x512 --exr-type float --compression none \
+        --progress none -o out/f.####.exr
+) >stdout 2>stderr
+check 'files that grow past a limit: exit status 5' test $? -eq 5
+check 'files that grow past a limit: one line' test "$(wc -l <stderr)" -eq 1
+check 'files that grow past a limit: nothing half-written' test -z "$(ls -A out)"
+mkdir disk
+if [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; then
+    run render "$scene" --turntable 80 --size 96x64 --exr-type float --compression none \
+        --progress none -o disk/f.####.exr
+    check 'a disk that fills up: exit status 5' test "$status" -eq 5
+    check 'a disk that fills up: said once' test "$(wc -l <stderr)" -eq 1
+    check 'a disk that fills up: no temporaries' test -z "$(find disk -name '.*.tmp.*')"
+    for file in disk/*.exr; do
+        [ -e "$file" ] || continue
+        check "a disk that fills up: $file is whole" "$glint" compare "$file" "$file"
+    done
+    umount disk
+else
+    skip 'a disk that fills up' 'no small file system can be mounted'
+fi
+mkdir out/gone
+"$glint" render "$scene" --turntable 100000 --size 480x320 --progress none -o out/gone/f.######.exr \
+    >stdout 2>stderr &
+process=$!
+for _ in $(seq 300); do
+    [ ! -e out/gone/f.000003.exr ] || break
+    sleep 0.1
+done
+mv out/gone vanished
+wait "$process"
+check 'a folder that vanishes: exit status 5' test $? -eq 5
+check 'a folder that vanishes: said once' test "$(wc -l <stderr)" -eq 1
+check 'a folder that vanishes: no temporaries' test -z "$(find vanished -name '.*.tmp.*')"
+clean
+
+# ---- two at once --------------------------------------------------------------------------------
+
+for k in 1 2; do
+    "$glint" render "$scene" --turntable 8 "${small[@]}" -o out/f.####.exr --skip-existing \
+        >stdout.$k 2>stderr.$k &
+    pids[k]=$!
+done
+for k in 1 2; do
+    wait "${pids[k]}"
+    check "two at once: number $k ends well" test $? -eq 0
+done
+check 'two at once: every frame, no temporaries' test "$(files out)" = "$eight"
+for k in 1 2 3 4 5 6 7 8; do
+    check "two at once: frame $k" same_pixels "out/f.000$k.exr" "whole/f.000$k.exr"
+done
+clean
+
+# ---- what is shown ------------------------------------------------------------------------------
+
+run render "$scene" --turntable 3 --size 48x32 -o out/f.#.exr --progress plain
+check 'plain: a line a frame' test "$(grep -c '^glint: frame [123] rendered, traced in .* ms, written in .* ms: out/f.[123].exr (. of 3, .*left)$' stderr)" -eq 3
+check 'plain: a summary' grep -q '3 frames: 3 rendered, 0 skipped, 0 failed' stderr
+run render "$scene" --turntable 3 --size 48x32 -o out/f.#.exr --progress json
+check 'json: an object a line' test "$(grep -vc '^{"event": ".*}$' stderr)" -eq 0
+check 'json: a frame' grep -q '"event": "frame", "frame": 2, "file": "out/f.2.exr", "outcome": "rendered"' stderr
+check 'json: done' grep -q '"event": "done", .*"rendered": 3, "skipped": 0, "failed": 0' stderr
+clean
+
+finish

@@ -1,0 +1,242 @@
+// The pipeline of a sequence: every frame is written once with the pixels that it has by itself,
+// no more are in flight than was promised, and it ends when it is told to.
+#include "render/sequence.h"
+
+#include "support/bridge.h"
+#include "support/render.h"
+
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { FRAMES = 12, WRITERS = 2 };
+
+typedef struct shot {
+    glint_scene scene;
+    glint_environment environment;
+    glint_settings settings;
+    glint_renderer *renderer;
+    glint_image alone[FRAMES]; // each frame by itself
+    int asked;                 // how many frames `next` gave
+    int end;                   // how many it has
+    int refuse_after;          // how many `done` takes before it asks for the end
+    int fail;                  // the frame that cannot be written; −1: none
+    atomic_int writing, most_writing, written[FRAMES], different;
+    int in_flight, most_in_flight, traced, done, failed;
+    pthread_t caller;
+    useconds_t delay; // of writing
+    int stop_at;      // the frame within which `progress` asks for the end; −1: none
+} shot;
+
+static glint_camera camera_of(const shot *s, int number)
+{
+    const glint_vec3 centre = {0, 0, 0};
+    return glint_camera_orbit(&s->scene.cameras[0], centre, number, FRAMES);
+}
+
+static int open_shot(void **state)
+{
+    shot *s = calloc(1, sizeof *s);
+    glint_error error = {0};
+    test_scene_load("mirror_sphere", &s->scene);
+    bridge_direction_environment(32, &s->environment);
+    s->settings = test_small_frame(2);
+    const glint_renderer_inputs inputs = {.device = test_device(),
+                                          .scene = &s->scene,
+                                          .environment = &s->environment,
+                                          .settings = &s->settings};
+    assert_int_equal(glint_renderer_create(&inputs, &s->renderer, &error), GLINT_OK);
+    for (int i = 0; i < FRAMES; i++) {
+        const glint_camera camera = camera_of(s, i);
+        assert_int_equal(
+            glint_renderer_frame(s->renderer, &camera, NULL, &s->alone[i], NULL, &error), GLINT_OK);
+    }
+    assert_true(test_count_different(&s->alone[0], &s->alone[1]) > 0);
+    *state = s;
+    return 0;
+}
+
+static int close_shot(void **state)
+{
+    shot *s = *state;
+    for (int i = 0; i < FRAMES; i++) {
+        glint_image_free(&s->alone[i]);
+    }
+    glint_renderer_free(s->renderer);
+    glint_environment_free(&s->environment);
+    glint_scene_free(&s->scene);
+    free(s);
+    return test_close_device(state);
+}
+
+static bool next(void *context, glint_sequence_frame *frame)
+{
+    shot *s = context;
+    if (s->asked == s->end) {
+        return false;
+    }
+    frame->number = s->asked++;
+    frame->camera = camera_of(s, frame->number);
+    return true;
+}
+
+static void traced(void *context)
+{
+    shot *s = context;
+    s->traced++;
+    s->in_flight++;
+    s->most_in_flight = s->in_flight > s->most_in_flight ? s->in_flight : s->most_in_flight;
+}
+
+static void write_frame(void *context, glint_sequence_frame *frame)
+{
+    shot *s = context;
+    const int now = atomic_fetch_add(&s->writing, 1) + 1;
+    int most = atomic_load(&s->most_writing);
+    while (now > most && !atomic_compare_exchange_weak(&s->most_writing, &most, now)) {
+    }
+    usleep(s->delay);
+    atomic_fetch_add(&s->written[frame->number], 1);
+    if (test_count_different(&frame->image, &s->alone[frame->number]) > 0) {
+        atomic_fetch_add(&s->different, 1);
+    }
+    if (frame->number == s->fail) {
+        frame->status = glint_fail(&frame->error, GLINT_OUTPUT_FAILED, "no");
+    }
+    atomic_fetch_sub(&s->writing, 1);
+}
+
+static bool done(void *context, glint_sequence_frame *frame)
+{
+    shot *s = context;
+    assert_true(pthread_equal(pthread_self(), s->caller));
+    assert_true((frame->number == s->fail) == (frame->status != GLINT_OK));
+    s->failed += frame->status != GLINT_OK;
+    s->in_flight--;
+    s->done++;
+    return s->done < s->refuse_after;
+}
+
+static bool step(void *context, uint64_t at, uint64_t total)
+{
+    const shot *s = context;
+    return !(s->asked - 1 == s->stop_at && at > 0 && at <= total);
+}
+
+// Runs with what is set in *s, and the counts beginning anew.
+static glint_status run(shot *s, size_t writers, useconds_t delay)
+{
+    s->asked = s->in_flight = s->most_in_flight = s->traced = s->done = s->failed = 0;
+    atomic_store(&s->most_writing, 0);
+    atomic_store(&s->different, 0);
+    memset(s->written, 0, sizeof s->written);
+    s->caller = pthread_self();
+    s->delay = delay;
+    const glint_sequence sequence = {.renderer = s->renderer,
+                                     .writers = writers,
+                                     .next = next,
+                                     .traced = traced,
+                                     .write = write_frame,
+                                     .done = done,
+                                     .progress = {step, s},
+                                     .context = s};
+    glint_error error = {0};
+    glint_status status = glint_sequence_run(&sequence, &error);
+    glint_error_free(&error);
+    assert_int_equal(atomic_load(&s->writing), 0);
+    assert_int_equal(s->in_flight, 0);
+    assert_int_equal(s->done, s->traced);
+    return status;
+}
+
+static void settle(shot *s)
+{
+    s->end = FRAMES;
+    s->refuse_after = FRAMES + 1;
+    s->fail = -1;
+    s->stop_at = -1;
+}
+
+static void assert_each_written_once(shot *s, int frames)
+{
+    for (int i = 0; i < FRAMES; i++) {
+        assert_int_equal(atomic_load(&s->written[i]), i < frames ? 1 : 0);
+    }
+    assert_int_equal(atomic_load(&s->different), 0);
+}
+
+static void frames_have_the_pixels_that_they_have_by_themselves(void **state)
+{
+    shot *s = *state;
+    settle(s);
+    for (size_t writers = 1; writers <= 4; writers++) {
+        assert_int_equal(run(s, writers, 0), GLINT_OK);
+        assert_each_written_once(s, FRAMES);
+    }
+    s->end = 0;
+    assert_int_equal(run(s, 1, 0), GLINT_OK);
+    assert_each_written_once(s, 0);
+}
+
+static void no_more_frames_are_in_flight_than_was_promised(void **state)
+{
+    shot *s = *state;
+    settle(s);
+    assert_int_equal(run(s, WRITERS, 50000), GLINT_OK); // tracing takes far less
+    assert_each_written_once(s, FRAMES);
+    assert_true(atomic_load(&s->most_writing) <= WRITERS);
+    assert_true(s->most_in_flight <= WRITERS + 2);
+}
+
+static void one_bad_frame_does_not_stop_the_others(void **state)
+{
+    shot *s = *state;
+    settle(s);
+    s->fail = 3;
+    assert_int_equal(run(s, WRITERS, 0), GLINT_OK);
+    assert_int_equal(s->failed, 1);
+    assert_each_written_once(s, FRAMES);
+}
+
+static void it_ends_when_told_to(void **state)
+{
+    shot *s = *state;
+    settle(s);
+    s->refuse_after = 2;
+    assert_int_equal(run(s, WRITERS, 20000), GLINT_OK);
+    assert_true(s->traced < FRAMES);
+    assert_each_written_once(s, s->traced);
+    settle(s);
+    s->stop_at = 4; // its pixels are discarded, what was traced before is written
+    assert_int_equal(run(s, WRITERS, 0), GLINT_INTERRUPTED);
+    assert_int_equal(s->traced, 4);
+    assert_each_written_once(s, 4);
+}
+
+static void writers_are_bounded_by_memory(void **state)
+{
+    (void)state;
+    assert_true(glint_sequence_writers(1920, 1080) >= 1);
+    assert_int_equal(glint_sequence_writers(65536, 65536), 1);
+    assert_true(glint_sequence_writers(4000, 4000) <= 2); // 256 MB each
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_have_the_pixels_that_they_have_by_themselves),
+        cmocka_unit_test(no_more_frames_are_in_flight_than_was_promised),
+        cmocka_unit_test(one_bad_frame_does_not_stop_the_others),
+        cmocka_unit_test(it_ends_when_told_to),
+        cmocka_unit_test(writers_are_bounded_by_memory),
+    };
+    return cmocka_run_group_tests(tests, open_shot, close_shot);
+}
