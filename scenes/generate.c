@@ -24,6 +24,7 @@ static const struct {
     {"absorption_box", build_absorption_box},
     {"materials", build_materials},
     {"orthographic", build_orthographic},
+    {"clockwork", build_clockwork},
 };
 
 static glint_status write_scenes(const char *folder, glint_error *error)

@@ -1,6 +1,8 @@
 // A scene before it is written. See model.h.
 #include "model.h"
 
+#include <string.h>
+
 void model_free(model *scene)
 {
     for (int i = 0; i < scene->geometry_count; i++) {
@@ -61,6 +63,22 @@ void model_rest(model *scene, node *object, double height)
     const mesh *shown = &scene->geometries[object->geometry].mesh;
     double scale = object->scale > 0 ? object->scale : 1;
     object->translation[1] = height - scale * mesh_lowest(shown, object->rotation);
+}
+
+motion *model_add_motion(model *scene, const node *moved, const char *path,
+                         const char *interpolation)
+{
+    motion *added = &scene->motions[next_index(scene, &scene->motion_count)];
+    *added =
+        (motion){.node = (int)(moved - scene->nodes), .path = path, .interpolation = interpolation};
+    return added;
+}
+
+void motion_add_key(motion *m, double seconds, const double *value)
+{
+    const int last = m->key_count < MOTION_KEYS ? m->key_count++ : MOTION_KEYS - 1;
+    m->times[last] = seconds;
+    memcpy(m->values[last], value, (strcmp(m->path, "rotation") == 0 ? 4 : 3) * sizeof *value);
 }
 
 static void add_camera(model *scene, const camera *c, glint_vec3 eye, glint_vec3 target)

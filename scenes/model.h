@@ -44,11 +44,23 @@ typedef struct camera {
 
 #define MODEL_CAPACITY 64
 
+// How one property of a node moves: a glTF channel with its sampler.
+#define MOTION_KEYS 16
+typedef struct motion {
+    int node;
+    const char *path;          // "translation", "rotation" or "scale"
+    const char *interpolation; // "LINEAR", "STEP" or "CUBICSPLINE"
+    int key_count;
+    double times[MOTION_KEYS]; // seconds, ascending
+    double values[MOTION_KEYS][4];
+    double tangents[MOTION_KEYS][4]; // CUBICSPLINE: of both sides of a key, per second
+} motion;
+
 // Zero is valid: an empty scene. Strings are borrowed. Adding past the capacity sets `overflow`,
 // which model_check reports.
 typedef struct model {
     const char *name; // also the files' name
-    int geometry_count, material_count, node_count, camera_count;
+    int geometry_count, material_count, node_count, camera_count, motion_count;
     struct {
         const char *name;
         mesh mesh;
@@ -56,6 +68,8 @@ typedef struct model {
     material materials[MODEL_CAPACITY];
     node nodes[MODEL_CAPACITY];
     camera cameras[MODEL_CAPACITY];
+    motion motions[MODEL_CAPACITY]; // one clip
+    const char *clip;               // its name
     bool overflow;
 } model;
 
@@ -77,6 +91,12 @@ void model_add_perspective(model *scene, const char *name, double yfov, glint_ve
                            glint_vec3 target);
 void model_add_orthographic(model *scene, const char *name, double ymag, glint_vec3 eye,
                             glint_vec3 target);
+
+// A motion of a node, without keys.
+motion *model_add_motion(model *scene, const node *moved, const char *path,
+                         const char *interpolation);
+// A key; the tangent is 0. `value` has 3 numbers, or 4 of a rotation.
+void motion_add_key(motion *m, double seconds, const double *value);
 
 material material_metal(const char *name, double r, double g, double b);
 material material_paint(const char *name, double r, double g, double b, double roughness);

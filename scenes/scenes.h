@@ -23,6 +23,9 @@ void build_axes(model *scene);
 void build_materials(model *scene);
 void build_orthographic(model *scene);
 
+// Objects that move (motions.c).
+void build_clockwork(model *scene);
+
 // The labelled axis environment, 1024 × 512, lat-long (axes_map.c).
 glint_status draw_axes_map(glint_image *image, glint_error *error);
 

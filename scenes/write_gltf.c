@@ -19,7 +19,7 @@ typedef struct gltf_writer {
     const model *scene;
     FILE *binary;
     size_t offset; // bytes written so far
-    json_t *views, *accessors, *meshes;
+    json_t *views, *accessors, *meshes, *channels, *samplers;
     // The accessors of each geometry; −1: none.
     int position[MODEL_CAPACITY], normal[MODEL_CAPACITY], index[MODEL_CAPACITY];
     int mesh_of[MODEL_CAPACITY][MODEL_CAPACITY]; // [geometry][material]: mesh, −1: not yet
@@ -86,14 +86,17 @@ static void put_vectors(gltf_writer *w, const glint_vec3 *vectors, size_t count)
     }
 }
 
-// Describes the bytes from `start` to here as one accessor; its index.
+// Describes the bytes from `start` to here as one accessor; its index. `target` 0: for no buffer
+// of a graphics card.
 static int add_accessor(gltf_writer *w, size_t start, json_t *accessor, int target)
 {
     json_t *view = json_object();
     json_object_set_new(view, "buffer", json_integer(0));
     json_object_set_new(view, "byteOffset", json_integer((json_int_t)start));
     json_object_set_new(view, "byteLength", json_integer((json_int_t)(w->offset - start)));
-    json_object_set_new(view, "target", json_integer(target));
+    if (target != 0) {
+        json_object_set_new(view, "target", json_integer(target));
+    }
     json_object_set_new(accessor, "bufferView",
                         json_integer((json_int_t)json_array_size(w->views)));
     json_array_append_new(w->views, view);
@@ -157,6 +160,60 @@ static void write_geometries(gltf_writer *w)
         w->position[i] = write_positions(w, m);
         w->normal[i] = m->flat ? -1 : write_normals(w, m);
         w->index[i] = write_indices(w, m);
+    }
+}
+
+// ---- Motions -----------------------------------------------------------------------------------
+
+static int write_times(gltf_writer *w, const motion *m)
+{
+    size_t start = w->offset;
+    for (int i = 0; i < m->key_count; i++) {
+        put_float(w, m->times[i]);
+    }
+    json_t *times = accessor(COMPONENT_FLOAT, (size_t)m->key_count, "SCALAR");
+    json_object_set_new(times, "min", json_pack("[o]", exact((double)(float)m->times[0])));
+    json_object_set_new(times, "max",
+                        json_pack("[o]", exact((double)(float)m->times[m->key_count - 1])));
+    return add_accessor(w, start, times, 0);
+}
+
+static void put_values(gltf_writer *w, const double *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        put_float(w, values[i]);
+    }
+}
+
+static int write_values(gltf_writer *w, const motion *m)
+{
+    const bool is_spline = strcmp(m->interpolation, "CUBICSPLINE") == 0;
+    const int count = strcmp(m->path, "rotation") == 0 ? 4 : 3;
+    size_t start = w->offset;
+    for (int i = 0; i < m->key_count; i++) {
+        if (is_spline) {
+            put_values(w, m->tangents[i], count);
+        }
+        put_values(w, m->values[i], count);
+        if (is_spline) {
+            put_values(w, m->tangents[i], count);
+        }
+    }
+    const size_t elements = (size_t)m->key_count * (is_spline ? 3 : 1);
+    return add_accessor(w, start, accessor(COMPONENT_FLOAT, elements, count == 4 ? "VEC4" : "VEC3"),
+                        0);
+}
+
+static void write_motions(gltf_writer *w)
+{
+    for (int i = 0; i < w->scene->motion_count; i++) {
+        const motion *m = &w->scene->motions[i];
+        const int input = write_times(w, m), output = write_values(w, m);
+        json_array_append_new(w->samplers,
+                              json_pack("{s:i, s:s, s:i}", "input", input, "interpolation",
+                                        m->interpolation, "output", output));
+        json_array_append_new(w->channels, json_pack("{s:i, s:{s:i, s:s}}", "sampler", i, "target",
+                                                     "node", m->node, "path", m->path));
     }
 }
 
@@ -328,6 +385,11 @@ static json_t *scene_to_json(gltf_writer *w)
     json_object_set(file, "meshes", w->meshes);
     json_object_set(file, "accessors", w->accessors);
     json_object_set(file, "bufferViews", w->views);
+    if (scene->motion_count > 0) {
+        json_object_set_new(file, "animations",
+                            json_pack("[{s:s, s:O, s:O}]", "name", scene->clip, "channels",
+                                      w->channels, "samplers", w->samplers));
+    }
     return file;
 }
 
@@ -368,7 +430,10 @@ glint_status write_gltf(const model *scene, const char *folder, glint_error *err
     w.views = json_array();
     w.accessors = json_array();
     w.meshes = json_array();
+    w.channels = json_array();
+    w.samplers = json_array();
     write_geometries(&w);
+    write_motions(&w);
     bool failed = ferror(w.binary) != 0;
     failed = fclose(w.binary) != 0 || failed;
     if (failed) {
@@ -380,5 +445,7 @@ glint_status write_gltf(const model *scene, const char *folder, glint_error *err
     json_decref(w.views);
     json_decref(w.accessors);
     json_decref(w.meshes);
+    json_decref(w.channels);
+    json_decref(w.samplers);
     return status;
 }

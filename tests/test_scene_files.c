@@ -147,7 +147,9 @@ static void what_is_not_modelled_is_said_once(void **state)
         "{\"attributes\":{\"POSITION\":0},\"mode\":3}]}],"
         "\"nodes\":[{\"mesh\":0,\"skin\":0,\"name\":\"n\"},{\"mesh\":0,\"rotation\":[0,0,0,2],"
         "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],\"skins\":[{\"joints\":[0]}],"
-        "\"scenes\":[{\"nodes\":[0,1]}],\"animations\":[{\"name\":\"spin\"},{}],"
+        "\"scenes\":[{\"nodes\":[0,1]}],\"animations\":[{\"name\":\"spin\",\"samplers\":[],"
+        "\"channels\":[]},"
+        "{\"samplers\":[],\"channels\":[]}],"
         "\"textures\":[{}],\"materials\":[{\"name\":\"gold\",\"alphaMode\":\"MASK\","
         "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}},"
         "\"extras\":{\"glint\":{\"miror\":1}}},"
@@ -161,7 +163,7 @@ static void what_is_not_modelled_is_said_once(void **state)
         "nodes[0] \"n\": skins are not applied",
         "nodes[1]: lights are not modelled",
         "nodes[1]: the rotation is no unit quaternion",
-        "animations[0] \"spin\" and 1 more: animations are not applied",
+        "animations[0] \"spin\": the first of 2 animations is shown",
         "materials[0] \"gold\": baseColorTexture: textures are not modelled yet, baseColorFactor",
         "materials[1] \"lens\": transmissionTexture: textures are not modelled yet, transmissionF",
         "materials[0] \"gold\" and 1 more: roughness above 0 on metal or glass is rendered smooth",

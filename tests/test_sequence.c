@@ -88,9 +88,10 @@ static bool next(void *context, glint_sequence_frame *frame)
     return true;
 }
 
-static void traced(void *context)
+static void traced(void *context, glint_sequence_frame *frame)
 {
     shot *s = context;
+    frame->own = s;
     s->traced++;
     s->in_flight++;
     s->most_in_flight = s->in_flight > s->most_in_flight ? s->in_flight : s->most_in_flight;
@@ -119,6 +120,7 @@ static bool done(void *context, glint_sequence_frame *frame)
     shot *s = context;
     assert_true(pthread_equal(pthread_self(), s->caller));
     assert_true((frame->number == s->fail) == (frame->status != GLINT_OK));
+    assert_ptr_equal(frame->own, s);
     s->failed += frame->status != GLINT_OK;
     s->in_flight--;
     s->done++;
@@ -229,6 +231,44 @@ static void writers_are_bounded_by_memory(void **state)
     assert_true(glint_sequence_writers(4000, 4000) <= 2); // 256 MB each
 }
 
+// Frames of a renderer that is given one scene after the other are those of renderers made for
+// each: also where a scene needs other kernels, as one without glass does.
+static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
+{
+    shot *s = *state;
+    static const double times[] = {0, 0.3, 1.1, 2, 0.3};
+    glint_error error = {0};
+    glint_scene_source *source;
+    const char *path = GLINT_SOURCE_DIR "/scenes/clockwork.gltf";
+    assert_int_equal(glint_scene_open(path, NULL, &source, &error), GLINT_OK);
+    glint_settings settings = test_small_frame(0);
+    glint_renderer_inputs inputs = {.device = test_device(),
+                                    .scene = &s->scene,
+                                    .environment = &s->environment,
+                                    .settings = &settings};
+    glint_renderer *moved;
+    assert_int_equal(glint_renderer_create(&inputs, &moved, &error), GLINT_OK);
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
+        glint_scene scene;
+        glint_image here = {0}, there = {0};
+        glint_renderer *fresh;
+        assert_int_equal(glint_scene_at(source, times[i], &scene, NULL, &error), GLINT_OK);
+        inputs.scene = &scene;
+        assert_int_equal(glint_renderer_create(&inputs, &fresh, &error), GLINT_OK);
+        assert_int_equal(glint_renderer_set_scene(moved, &scene, &error), GLINT_OK);
+        const glint_camera *camera = &scene.cameras[0];
+        assert_int_equal(glint_renderer_frame(moved, camera, NULL, &here, NULL, &error), GLINT_OK);
+        assert_int_equal(glint_renderer_frame(fresh, camera, NULL, &there, NULL, &error), GLINT_OK);
+        assert_int_equal(test_count_different(&here, &there), 0);
+        glint_renderer_free(fresh);
+        glint_image_free(&here);
+        glint_image_free(&there);
+        glint_scene_free(&scene);
+    }
+    glint_renderer_free(moved);
+    glint_scene_close(source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -237,6 +277,7 @@ int main(void)
         cmocka_unit_test(one_bad_frame_does_not_stop_the_others),
         cmocka_unit_test(it_ends_when_told_to),
         cmocka_unit_test(writers_are_bounded_by_memory),
+        cmocka_unit_test(a_renderer_given_a_scene_is_one_made_of_it),
     };
     return cmocka_run_group_tests(tests, open_shot, close_shot);
 }

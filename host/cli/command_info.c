@@ -71,6 +71,17 @@ static void print_scene(const glint_scene *scene, const glint_topology *topology
            scene->skipped_points, scene->skipped_lines, scene->degenerate_triangles);
 }
 
+static void print_motion(const glint_motion *motion)
+{
+    if (motion->moves_triangles || motion->moves_cameras) {
+        printf("  animation %s: %g s, moves %s (shown at its beginning)\n",
+               name_or_none(motion->clip), motion->duration,
+               !motion->moves_cameras     ? "objects"
+               : !motion->moves_triangles ? "cameras"
+                                          : "objects and cameras");
+    }
+}
+
 static void print_material(const glint_scene *scene, size_t index)
 {
     const glint_material *material = &scene->materials[index];
@@ -206,6 +217,7 @@ static void print_tree(const glint_bvh_report *bvh)
 static void print_text(const glint_subject *subject)
 {
     print_scene(subject->scene, subject->topology);
+    print_motion(subject->motion);
     print_lists(subject->scene);
     print_cameras(subject->scene, subject->camera);
     print_environment(subject->environment);
@@ -270,6 +282,7 @@ static glint_status print(const info_request *request, info_work *work, glint_er
     const glint_subject subject = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,
+        .motion = &work->inputs.motion,
         .environment = &work->inputs.environment,
         .camera = &work->inputs.camera,
         .settings = &request->inputs.settings,

@@ -8,24 +8,6 @@
 
 #define TRUNCATION_WORTH_SAYING 5e-3 // share of all weight
 
-static glint_status create_renderer(render_run *run, glint_error *error)
-{
-    const glint_input_request *request = &run->request->inputs;
-    glint_status status = glint_device_open(request->device, &run->device, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
-    glint_progress_phase(&run->display, "prepare", "building the tree and the kernels");
-    const glint_renderer_inputs inputs = {
-        .device = run->device,
-        .scene = &run->inputs.scene,
-        .environment = &run->inputs.environment,
-        .settings = &request->settings,
-        .kernel_dir = request->kernel_dir,
-    };
-    return glint_renderer_create(&inputs, &run->renderer, error);
-}
-
 // ---- Statistics --------------------------------------------------------------------------------
 
 // What is known before the first frame, and of a single one after it.
@@ -67,6 +49,7 @@ static glint_status finish_stats(render_run *run, glint_error *error)
         .skipped = totals->skipped,
         .failed = totals->failed,
         .rays = totals->rays,
+        .build_ms = totals->build.sum,
         .trace_ms = totals->trace.sum,
         .write_ms = totals->write.sum,
         .total_ms = glint_progress_elapsed(&run->display),
@@ -150,6 +133,9 @@ static void say_sequence(const render_run *run)
                   (double)totals->rendered / seconds,
                   1e-6 * (double)glint_stats_rays(&totals->rays) / seconds);
         glint_say("  %-6s %10s %10s %10s", "", "mean", "least", "most");
+        if (run->inputs.motion.moves_triangles) {
+            say_spread("build", &totals->build, totals->rendered);
+        }
         say_spread("trace", &totals->trace, totals->rendered);
         say_spread("write", &totals->write, totals->rendered);
     }
@@ -181,19 +167,28 @@ static void say_summary(const render_run *run)
 
 // ---- The command -------------------------------------------------------------------------------
 
-static glint_status prepare(render_run *run, glint_error *error)
+static glint_status prepare(render_run *run, render_request *request, glint_error *error)
 {
-    const render_request *request = run->request;
     glint_warnings *warnings = &run->inputs.warnings;
-    glint_status status = glint_inputs_load(&request->inputs, &run->display, &run->inputs, error);
+    glint_status status = render_run_load(run, error);
     glint_progress_clear(&run->display);
+    if (status == GLINT_OK) {
+        status = render_request_settle(request, &run->inputs.motion, warnings, error);
+    }
     if (status != GLINT_OK) {
         return status;
     }
+    run->frames = glint_shard_size(request->shard, request->frames.count);
     render_request_warn(request, &run->inputs.scene, warnings);
     glint_say_warnings(warnings, 0);
     run->warnings_said = warnings->count;
-    status = create_renderer(run, error);
+    if (run->frames == 0) {
+        glint_say("--shard: none of the %llu frames is in part %u of %u",
+                  (unsigned long long)request->frames.count, request->shard.index,
+                  request->shard.count);
+        return GLINT_OK;
+    }
+    status = render_run_prepare(run, error);
     glint_progress_clear(&run->display);
     return status == GLINT_OK ? open_stats(run, error) : status;
 }
@@ -230,21 +225,15 @@ static void set_defaults(void *context)
     render_request *request = context;
     glint_input_request_default(&request->inputs);
     request->shard = (glint_shard){1, 1};
+    request->fps = 24;
 }
 
-static glint_status run_request(const render_request *request, glint_error *error)
+static glint_status run_request(render_request *request, glint_error *error)
 {
-    render_run run = {.request = request,
-                      .frames = glint_shard_size(request->shard, request->frames.count)};
+    render_run run = {.request = request};
     glint_progress_begin(&run.display, (glint_progress_mode)request->progress);
-    if (run.frames == 0) {
-        glint_say("--shard: none of the %llu frames is in part %u of %u",
-                  (unsigned long long)request->frames.count, request->shard.index,
-                  request->shard.count);
-        return GLINT_OK;
-    }
-    glint_status status = prepare(&run, error);
-    if (status == GLINT_OK) {
+    glint_status status = prepare(&run, request, error);
+    if (status == GLINT_OK && run.frames > 0) {
         status = render(&run, error);
     }
     glint_progress_clear(&run.display);
@@ -275,7 +264,7 @@ const glint_command glint_command_render = {
                 "  glint render car.glb --env studio.hdr --env-rotate 90 --samples 16 -o car.exr\n"
                 "  glint render jewel.glb --depth 8 --background transparent -o jewel.exr\n"
                 "  glint render jewel.glb --turntable 240 -o turn/jewel.####.exr\n"
-                "  glint render jewel.glb --turntable 240 -o turn/jewel.####.exr --skip-existing\n",
+                "  glint render walk.glb --animation walk --fps 25 -o walk/walk.####.exr\n",
     .groups = render_option_groups,
     .positional = "SCENE",
     .request_size = sizeof(render_request),

@@ -133,6 +133,9 @@ const glint_option glint_input_options[] = {
     {GLINT_OPTION_TEXT, .name = "camera", .argument = "NAME|INDEX",
      .help = "The camera to see through.",
      .fallback = "the first; without any, one that frames the scene", .offset = OFFSET(camera)},
+    {GLINT_OPTION_TEXT, .name = "animation", .argument = "NAME|INDEX",
+     .help = "Which of the file's animations; all at once, or none: everything as its nodes say.",
+     .fallback = "the first", .offset = OFFSET(animation)},
     {GLINT_OPTION_TEXT, .name = "scene", .argument = "NAME|INDEX",
      .help = "Which of the file's glTF scenes.", .fallback = "the file's default",
      .offset = OFFSET(scene_name)},
@@ -230,8 +233,20 @@ static glint_status load_scene(const glint_input_request *request, glint_inputs 
     if (request->is_built_in) {
         return glint_built_in_scene(request->scene, &inputs->scene, error);
     }
-    const glint_scene_options options = {.scene = request->scene_name};
-    return glint_scene_load(request->scene, &options, &inputs->scene, &inputs->warnings, error);
+    const glint_scene_options options = {.scene = request->scene_name,
+                                         .animation = request->animation};
+    glint_status status = glint_scene_open(request->scene, &options, &inputs->source, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    inputs->motion = *glint_scene_motion(inputs->source);
+    status = glint_scene_at(inputs->source, 0, &inputs->scene, &inputs->warnings, error);
+    if (!inputs->motion.moves_triangles && !inputs->motion.moves_cameras) {
+        glint_scene_close(inputs->source); // it holds the file
+        inputs->source = NULL;
+        inputs->motion = (glint_motion){0};
+    }
+    return status;
 }
 
 static glint_status load_environment(const glint_input_request *request, glint_inputs *inputs,
@@ -268,6 +283,7 @@ glint_status glint_inputs_load(const glint_input_request *request, glint_progres
 void glint_inputs_free(glint_inputs *inputs)
 {
     glint_environment_free(&inputs->environment);
+    glint_scene_close(inputs->source);
     glint_scene_free(&inputs->scene);
     glint_warnings_free(&inputs->warnings);
     *inputs = (glint_inputs){0};

@@ -17,6 +17,7 @@ typedef struct glint_input_request {
     bool is_built_in;
     const char *scene_name;
     const char *camera;
+    const char *animation;
     const char *env;
     glint_layout env_layout;
     const char *device;
@@ -58,7 +59,9 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
 typedef struct glint_inputs {
     glint_scene scene;
     glint_environment environment;
-    glint_camera camera; // its strings are the scene's
+    glint_camera camera;        // its strings are the scene's
+    glint_scene_source *source; // where something moves, else NULL; the scene is that of time 0
+    glint_motion motion;        // its clip's name is the source's
     glint_warnings warnings;
     double scene_ms, environment_ms;
 } glint_inputs;

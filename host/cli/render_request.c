@@ -5,6 +5,7 @@
 #include "cli/progress.h"
 #include "image/output_file.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,11 +118,15 @@ static const glint_option sequence_options[] = {
     {GLINT_OPTION_TEXT, .name = "frames", .argument = "LIST",
      .help = "Which frames: 7, 1-240, 1-10,20-40x2 (every second), 48-1x-1 (downwards); each once, "
              "in this order.",
-     .fallback = "with --turntable N, 1-N", .offset = offsetof(render_request, frames_text)},
+     .fallback = "with --turntable N, 1-N; else the animation's",
+     .offset = offsetof(render_request, frames_text)},
     {GLINT_OPTION_INT, .name = "turntable", .argument = "N",
      .help = "Turn the camera about the scene's middle, counter-clockwise seen from above, once in "
              "N frames; frame 1 is the camera as it stands.",
      .offset = offsetof(render_request, turntable), .minimum = 1, .maximum = GLINT_FRAME_MAX},
+    {GLINT_OPTION_REAL, .name = "fps", .argument = "RATE",
+     .help = "Frames a second of the animation; frame 1 is its beginning.", .fallback = "24",
+     .offset = offsetof(render_request, fps), .minimum = 1e-3, .maximum = 1e5},
     {GLINT_OPTION_FLAG, .name = "skip-existing",
      .help = "Leave frames alone that are whole and were made from the same scene, environment and "
              "settings by the same version; render the others.",
@@ -244,17 +249,15 @@ static glint_status check_format(const render_request *request, glint_error *err
 static glint_status find_frames(render_request *request, glint_error *error)
 {
     glint_status status = glint_frame_name_parse(request->output, &request->name, error);
-    request->is_sequence = request->frames_text != NULL || request->turntable > 0;
-    if (status == GLINT_OK && !request->is_sequence && request->name.length > 0) {
-        return glint_fail(error, GLINT_USAGE,
-                          "%s: which frames? (name them with --frames 1-240, or --turntable 240)",
-                          request->output);
-    }
+    request->is_sequence =
+        request->frames_text != NULL || request->turntable > 0 || request->name.length > 0;
     if (status == GLINT_OK && !request->is_sequence && request->shard.count > 1) {
         return glint_fail(error, GLINT_USAGE,
                           "--shard: there is one frame alone (name several with --frames)");
     }
-    if (status == GLINT_OK) {
+    const bool is_known =
+        !request->is_sequence || request->frames_text != NULL || request->turntable > 0;
+    if (status == GLINT_OK && is_known) {
         status = request->frames_text != NULL
                      ? glint_frame_list_parse(request->frames_text, &request->frames, error)
                      : glint_frame_list_span(1, request->turntable > 0 ? request->turntable : 1,
@@ -299,6 +302,47 @@ glint_status render_request_finish(render_request *request, glint_error *error)
         status = check_place(request, error);
     }
     return status;
+}
+
+double render_request_time(const render_request *request, int frame)
+{
+    return (frame - 1) / request->fps;
+}
+
+// The frames of a clip: up to the first one at or, but for rounding, beyond its end.
+static glint_status take_clip(render_request *request, double duration, glint_error *error)
+{
+    const double frames = ceil(duration * request->fps * (1 - 1e-9)) + 1;
+    if (frames > GLINT_FRAME_MAX) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: the animation has %.3g frames at %g a second (name some with "
+                          "--frames)",
+                          request->inputs.scene, frames, request->fps);
+    }
+    glint_status status = glint_frame_list_span(1, (int)frames, &request->frames, error);
+    return status == GLINT_OK ? check_distinct(request, error) : status;
+}
+
+glint_status render_request_settle(render_request *request, const glint_motion *motion,
+                                   glint_warnings *warnings, glint_error *error)
+{
+    const bool moves = motion->moves_triangles || motion->moves_cameras;
+    if (request->frames.count == 0) {
+        return moves ? take_clip(request, motion->duration, error)
+                     : glint_fail(error, GLINT_USAGE,
+                                  "%s: which frames? (nothing moves in the scene: name them with "
+                                  "--frames 1-240, or --turntable 240)",
+                                  request->output);
+    }
+    const int highest = glint_frame_list_highest(&request->frames);
+    const double end = motion->duration * request->fps + 1; // in frames
+    if (moves && highest > ceil(end - 1e-6)) {
+        glint_warn(warnings,
+                   "%s: the animation ends at frame %.6g (%g s); the frames after it, up to %d, "
+                   "show its end",
+                   request->inputs.scene, end, motion->duration, highest);
+    }
+    return GLINT_OK;
 }
 
 void render_request_free(render_request *request)

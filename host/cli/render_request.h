@@ -20,6 +20,7 @@ typedef struct render_request {
     int progress; // a glint_progress_mode
     const char *frames_text, *shard_text;
     int turntable; // frames of a whole turn; 0: the camera stays
+    double fps;
     bool skip_existing;
     bool is_sequence; // from here on set by render_request_finish
     glint_frame_list frames;
@@ -29,10 +30,19 @@ typedef struct render_request {
 
 extern const glint_option *const render_option_groups[];
 
-// Checks what the parser cannot see and completes the request. Errors: GLINT_USAGE,
-// GLINT_OUTPUT_FAILED, GLINT_BAD_INPUT. Whatever the outcome, it is for render_request_free.
+// Checks what the parser cannot see and completes the request, but for a sequence that is as long
+// as the scene's animation. Errors: GLINT_USAGE, GLINT_OUTPUT_FAILED, GLINT_BAD_INPUT. Whatever the
+// outcome, it is for render_request_free.
 glint_status render_request_finish(render_request *request, glint_error *error);
 void render_request_free(render_request *request);
+
+// Once the scene is known: the frames, where they are those of its animation, and a warning where
+// frames go beyond it. Errors: GLINT_USAGE where nothing says which frames there are.
+glint_status render_request_settle(render_request *request, const glint_motion *motion,
+                                   glint_warnings *warnings, glint_error *error);
+
+// Seconds of the animation at a frame: frame 1 is its beginning.
+double render_request_time(const render_request *request, int frame);
 
 // How the image is encoded, without metadata and layers.
 glint_write_options render_write_options(const render_request *request);

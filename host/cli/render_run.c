@@ -1,6 +1,7 @@
 // The frames of a run. See render_run.h.
 #include "cli/render_run.h"
 
+#include "base/clock.h"
 #include "cli/cli.h"
 #include "image/output_file.h"
 #include "render/sequence.h"
@@ -26,21 +27,107 @@ glint_subject render_run_subject(const render_run *run)
     };
 }
 
-// ---- Which frames ------------------------------------------------------------------------------
+// ---- The scene at a frame ----------------------------------------------------------------------
 
+// Moves the run's scene to a frame. On failure what there was stays.
+static glint_status stand(render_run *run, int frame, glint_error *error)
+{
+    glint_inputs *inputs = &run->inputs;
+    const glint_motion *motion = &inputs->motion;
+    const double time = render_request_time(run->request, frame);
+    glint_status status = GLINT_OK;
+    if (motion->moves_triangles) {
+        glint_scene scene;
+        status = glint_scene_at(inputs->source, time, &scene, NULL, error);
+        if (status == GLINT_OK) {
+            glint_scene_free(&inputs->scene);
+            inputs->scene = scene;
+            status = glint_fingerprint_scene(&scene, &run->scene_is, error);
+        }
+    } else if (motion->moves_cameras) {
+        status = glint_scene_cameras_at(inputs->source, time, &inputs->scene, error);
+    }
+    if (status == GLINT_OK && inputs->source != NULL) {
+        status =
+            glint_scene_camera(&inputs->scene, run->request->inputs.camera, &inputs->camera, error);
+    }
+    return status;
+}
+
+// The camera of the frame that the scene stands at.
 static glint_camera camera_of(const render_run *run, int frame)
 {
+    glint_camera camera = run->inputs.camera;
+    camera.name = run->camera_name;
+    if (run->request->turntable == 0) {
+        return camera;
+    }
     const glint_scene *scene = &run->inputs.scene;
-    const int turntable = run->request->turntable;
-    if (turntable == 0) {
-        return run->inputs.camera;
+    glint_vec3 low, high, centre = {0, 0, 0};
+    glint_scene_shown_bounds(scene, &low, &high);
+    if (low.x <= high.x) {
+        centre = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
     }
-    glint_vec3 centre = {0, 0, 0};
-    if (scene->triangle_count > 0) {
-        centre = glint_vec3_scale(glint_vec3_add(scene->low, scene->high), 0.5);
-    }
-    return glint_camera_orbit(&run->inputs.camera, centre, (int64_t)frame - 1, turntable);
+    return glint_camera_orbit(&camera, centre, (int64_t)frame - 1, run->request->turntable);
 }
+
+static bool equal(glint_fingerprint a, glint_fingerprint b)
+{
+    return a.high == b.high && a.low == b.low;
+}
+
+// Gives the renderer the scene, unless it shows the same already.
+static glint_status show(render_run *run, glint_error *error)
+{
+    if (equal(run->scene_is, run->renderer_shows)) {
+        return GLINT_OK;
+    }
+    glint_status status = glint_renderer_set_scene(run->renderer, &run->inputs.scene, error);
+    run->renderer_shows = status == GLINT_OK ? run->scene_is : (glint_fingerprint){0};
+    return status;
+}
+
+glint_status render_run_load(render_run *run, glint_error *error)
+{
+    const render_request *request = run->request;
+    glint_status status = glint_inputs_load(&request->inputs, &run->display, &run->inputs, error);
+    if (status == GLINT_OK) {
+        status = glint_fingerprint_scene(&run->inputs.scene, &run->scene_is, error);
+    }
+    if (status == GLINT_OK) {
+        const char *name = run->inputs.camera.name;
+        run->label.path = run->inputs.scene.path != NULL ? strdup(run->inputs.scene.path) : NULL;
+        run->camera_name = name != NULL ? strdup(name) : NULL;
+    }
+    return status;
+}
+
+glint_status render_run_prepare(render_run *run, glint_error *error)
+{
+    const glint_input_request *request = &run->request->inputs;
+    run->cursor = (glint_frame_cursor){.list = &run->request->frames, .shard = run->request->shard};
+    glint_frame_cursor first = run->cursor;
+    int frame;
+    glint_status status = glint_frame_next(&first, &frame) ? stand(run, frame, error) : GLINT_OK;
+    if (status == GLINT_OK) {
+        status = glint_device_open(request->device, &run->device, error);
+    }
+    if (status != GLINT_OK) {
+        return status;
+    }
+    glint_progress_phase(&run->display, "prepare", "building the tree and the kernels");
+    const glint_renderer_inputs inputs = {
+        .device = run->device,
+        .scene = &run->inputs.scene,
+        .environment = &run->inputs.environment,
+        .settings = &request->settings,
+        .kernel_dir = request->kernel_dir,
+    };
+    run->renderer_shows = run->scene_is;
+    return glint_renderer_create(&inputs, &run->renderer, error);
+}
+
+// ---- Which frames ------------------------------------------------------------------------------
 
 // Whether the file of a frame is there, whole, and what would be rendered again. Says why not,
 // where there is one.
@@ -51,7 +138,7 @@ static bool is_done(const render_run *run, int frame, const char *path)
     }
     char wanted[GLINT_FINGERPRINT_TEXT], found[GLINT_FINGERPRINT_TEXT];
     const glint_camera camera = camera_of(run, frame);
-    glint_fingerprint_frame(&run->fingerprint, &camera, wanted);
+    glint_fingerprint_frame(&run->fingerprint, &run->scene_is, &camera, wanted);
     glint_fingerprint_find(path, found);
     if (strcmp(wanted, found) != 0) {
         glint_say("%s: rendered again: %s", path,
@@ -91,20 +178,77 @@ static void skip(render_run *run, int frame, const char *path)
     log_frame(run, &facts);
 }
 
+static void count_failed(render_totals *totals, int frame)
+{
+    if (totals->failed == totals->failed_capacity) {
+        const size_t capacity = 2 * totals->failed_capacity + 16;
+        int *frames = realloc(totals->failed_frames, capacity * sizeof *frames);
+        if (frames != NULL) {
+            totals->failed_frames = frames;
+            totals->failed_capacity = capacity;
+        }
+    }
+    if (totals->failed < totals->failed_capacity) {
+        totals->failed_frames[totals->failed++] = frame;
+    }
+}
+
+// A frame that cannot be rendered: as its scene at its time is bad, or the device failed, which is
+// the end.
+static void miss(render_run *run, int frame, const char *path, glint_error *error)
+{
+    count_failed(&run->totals, frame);
+    glint_progress_past(&run->display, false);
+    const glint_progress_frame shown = {
+        .number = frame, .file = path != NULL ? path : "", .outcome = GLINT_FRAME_FAILED};
+    const glint_stats_frame facts = {.number = frame,
+                                     .file = path,
+                                     .outcome = glint_frame_outcome_name(GLINT_FRAME_FAILED),
+                                     .error = error->message};
+    log_frame(run, &facts);
+    if (!run->request->is_sequence || error->code == GLINT_DEVICE_FAILED) {
+        run->failure = *error;
+        *error = (glint_error){0};
+        return;
+    }
+    glint_progress_clear(&run->display);
+    glint_say("frame %d: %s", frame, error->message);
+    glint_progress_through(&run->display, &shown);
+}
+
+// Brings scene, camera and renderer to a frame; false where its file need not be rendered.
+static bool wants(render_run *run, int frame, const char *path, glint_error *error)
+{
+    const double begun = glint_now_ms();
+    glint_status status = stand(run, frame, error);
+    if (status == GLINT_OK && run->request->skip_existing && is_done(run, frame, path)) {
+        skip(run, frame, path);
+        return false;
+    }
+    if (status == GLINT_OK) {
+        status = show(run, error);
+    }
+    run->build_ms = glint_now_ms() - begun;
+    return status == GLINT_OK;
+}
+
 static bool next_frame(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
     while (run->failure.code == GLINT_OK && !glint_stop_requested() &&
            glint_frame_next(&run->cursor, &frame->number)) {
+        glint_error error = {0};
         char *path = glint_frame_name_make(&run->request->name, frame->number);
-        const bool skipped =
-            run->request->skip_existing && path != NULL && is_done(run, frame->number, path);
-        if (skipped) {
-            skip(run, frame->number, path);
-        }
-        free(path);
-        if (!skipped) {
+        const bool wanted = path != NULL ? wants(run, frame->number, path, &error)
+                                         : (glint_fail_memory(&error, "a file name"), false);
+        if (wanted) {
             frame->camera = camera_of(run, frame->number);
+        } else if (error.code != GLINT_OK) {
+            miss(run, frame->number, path, &error);
+        }
+        glint_error_free(&error);
+        free(path);
+        if (wanted) {
             return true;
         }
     }
@@ -113,29 +257,52 @@ static bool next_frame(void *context, glint_sequence_frame *frame)
 
 // ---- Writing -----------------------------------------------------------------------------------
 
-// On a writer's thread: nothing of the run changes here.
+// What goes with a frame to its writer.
+typedef struct parcel {
+    glint_frame_metadata metadata;
+    char fingerprint[GLINT_FINGERPRINT_TEXT];
+    double build_ms;
+} parcel;
+
+// Whatever may change with the next frame is taken along.
+static void frame_is_traced(void *context, glint_sequence_frame *frame)
+{
+    render_run *run = context;
+    const render_request *request = run->request;
+    glint_progress_past(&run->display, true);
+    parcel *made = calloc(1, sizeof *made);
+    frame->own = made;
+    if (made == NULL) {
+        return; // the writer says so
+    }
+    glint_subject subject = render_run_subject(run);
+    subject.scene = &run->label;
+    subject.camera = &frame->camera;
+    made->build_ms = run->build_ms;
+    glint_frame_metadata_fill(&subject, frame->number, request->exposure,
+                              frame->report.kernel_ms + frame->report.readback_ms, &made->metadata);
+    if (request->inputs.kernel_dir == NULL) {
+        glint_fingerprint_frame(&run->fingerprint, &run->scene_is, &frame->camera,
+                                made->fingerprint);
+        glint_frame_metadata_add_text(&made->metadata, GLINT_FINGERPRINT_NAME, made->fingerprint);
+    }
+}
+
+// On a writer's thread: nothing of the run changes here, and nothing is read that does elsewhere.
 static void write_frame(void *context, glint_sequence_frame *frame)
 {
     const render_run *run = context;
     const render_request *request = run->request;
+    const parcel *along = frame->own;
     char *path = glint_frame_name_make(&request->name, frame->number);
-    if (path == NULL) {
-        frame->status = glint_fail_memory(&frame->error, "a file name");
+    if (path == NULL || along == NULL) {
+        frame->status = glint_fail_memory(&frame->error, "what a frame's file says of it");
+        free(path);
         return;
     }
-    glint_subject subject = render_run_subject(run);
-    subject.camera = &frame->camera;
-    glint_frame_metadata metadata;
-    glint_frame_metadata_fill(&subject, frame->number, request->exposure,
-                              frame->report.kernel_ms + frame->report.readback_ms, &metadata);
-    char fingerprint[GLINT_FINGERPRINT_TEXT];
-    if (request->inputs.kernel_dir == NULL) {
-        glint_fingerprint_frame(&run->fingerprint, &frame->camera, fingerprint);
-        glint_frame_metadata_add_text(&metadata, GLINT_FINGERPRINT_NAME, fingerprint);
-    }
     glint_write_options options = render_write_options(request);
-    options.metadata = metadata.entries;
-    options.metadata_count = metadata.count;
+    options.metadata = along->metadata.entries;
+    options.metadata_count = along->metadata.count;
     options.channels = frame->layers.channels;
     options.channel_count = frame->layers.count;
     frame->status = glint_image_write(path, &frame->image, &options, &frame->error);
@@ -151,9 +318,11 @@ static void add_to_spread(render_spread *spread, uint64_t before, double ms)
     spread->most = before == 0 ? ms : fmax(spread->most, ms);
 }
 
-static void count_rendered(render_totals *totals, const glint_sequence_frame *frame)
+static void count_rendered(render_totals *totals, const glint_sequence_frame *frame,
+                           double build_ms)
 {
     const glint_frame_report *report = &frame->report;
+    add_to_spread(&totals->build, totals->rendered, build_ms);
     add_to_spread(&totals->trace, totals->rendered, frame->trace_ms);
     add_to_spread(&totals->write, totals->rendered, frame->write_ms);
     totals->rays.primary += report->rays.primary;
@@ -175,21 +344,6 @@ static void count_rendered(render_totals *totals, const glint_sequence_frame *fr
         worst->nonfinite_pixels = report->nonfinite_pixels;
     }
     totals->rendered++;
-}
-
-static void count_failed(render_totals *totals, int frame)
-{
-    if (totals->failed == totals->failed_capacity) {
-        const size_t capacity = 2 * totals->failed_capacity + 16;
-        int *frames = realloc(totals->failed_frames, capacity * sizeof *frames);
-        if (frames != NULL) {
-            totals->failed_frames = frames;
-            totals->failed_capacity = capacity;
-        }
-    }
-    if (totals->failed < totals->failed_capacity) {
-        totals->failed_frames[totals->failed++] = frame;
-    }
 }
 
 // Whether a frame that could not be written tells nothing of the next one: its own name is taken by
@@ -217,6 +371,8 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
     const bool is_written = frame->status == GLINT_OK;
+    const parcel *along = frame->own;
+    const double build_ms = along != NULL ? along->build_ms : 0;
     char *path = glint_frame_name_make(&run->request->name, frame->number);
     const glint_frame_outcome outcome = is_written ? GLINT_FRAME_RENDERED : GLINT_FRAME_FAILED;
     const glint_stats_frame facts = {.number = frame->number,
@@ -224,11 +380,12 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
                                      .outcome = glint_frame_outcome_name(outcome),
                                      .error = is_written ? NULL : frame->error.message,
                                      .report = &frame->report,
+                                     .build_ms = build_ms,
                                      .trace_ms = frame->trace_ms,
                                      .write_ms = frame->write_ms};
     log_frame(run, &facts);
     if (is_written) {
-        count_rendered(&run->totals, frame);
+        count_rendered(&run->totals, frame, build_ms);
         run->last = frame->report;
     } else {
         fail_frame(run, frame, path);
@@ -242,6 +399,7 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
         glint_progress_through(&run->display, &shown);
     }
     free(path);
+    free(frame->own);
     return run->failure.code == GLINT_OK;
 }
 
@@ -251,12 +409,6 @@ static bool step(void *context, uint64_t done, uint64_t total)
 {
     glint_progress_step(context, done, total);
     return !glint_stop_requested();
-}
-
-static void frame_is_traced(void *context)
-{
-    render_run *run = context;
-    glint_progress_past(&run->display, true);
 }
 
 static void begin_display(render_run *run)
@@ -282,12 +434,11 @@ glint_status render_run_frames(render_run *run, glint_error *error)
     const glint_subject subject = render_run_subject(run);
     const glint_write_options options = render_write_options(request);
     glint_status status =
-        glint_fingerprint_make(&subject, request->output, &options, &run->fingerprint, error);
+        glint_fingerprint_run(&subject, request->output, &options, &run->fingerprint, error);
     if (status != GLINT_OK) {
         return status;
     }
     begin_display(run);
-    run->cursor = (glint_frame_cursor){.list = &request->frames, .shard = request->shard};
     const size_t writers = glint_sequence_writers(settings->width, settings->height);
     const glint_sequence sequence = {
         .renderer = run->renderer,
@@ -339,5 +490,7 @@ void render_run_free(render_run *run)
     glint_inputs_free(&run->inputs);
     glint_error_free(&run->failure);
     free(run->totals.failed_frames);
+    free(run->label.path);
+    free(run->camera_name);
     *run = (render_run){0};
 }

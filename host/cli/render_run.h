@@ -21,7 +21,7 @@ typedef struct render_totals {
     size_t failed, failed_capacity;
     int *failed_frames; // owned; in the order in which they failed
     glint_ray_counts rays;
-    render_spread trace, write;
+    render_spread build, trace, write; // build: the scene at its time, its tree
     glint_frame_report worst; // the one with the most truncated weight, with the largest of the
                               // other figures that warnings are about
 } render_totals;
@@ -33,7 +33,12 @@ typedef struct render_run {
     glint_inputs inputs;
     glint_device *device;
     glint_renderer *renderer;
-    glint_fingerprint fingerprint;
+    glint_fingerprint fingerprint;    // of what all frames share
+    glint_fingerprint scene_is;       // of inputs.scene
+    glint_fingerprint renderer_shows; // of the renderer's
+    glint_scene label;                // the scene's path, which outlives scenes of other times
+    char *camera_name;                // likewise; owned
+    double build_ms;                  // of the frame that is traced
     glint_frame_cursor cursor;
     uint64_t frames; // of this run's shard
     glint_stats_log *stats;
@@ -43,6 +48,12 @@ typedef struct render_run {
     size_t warnings_said;
     glint_error failure; // what ended the run before its time; its code is 0 where nothing did
 } render_run;
+
+// Loads what the request names. Errors: as loading.
+glint_status render_run_load(render_run *run, glint_error *error);
+
+// Opens the device and makes the renderer of the scene as the run's first frame shows it.
+glint_status render_run_prepare(render_run *run, glint_error *error);
 
 // Renders the frames, each to its file, and says what is to be said of each. What fails of one
 // frame alone does not stop the others of a sequence. Errors: what ended the run.

@@ -45,11 +45,12 @@ static bool has_solids(const glint_scene *scene)
 }
 
 // The topology is found only where the plan asks for it: millions of triangles take seconds.
-static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r, glint_error *error)
+static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r,
+                            const glint_plan *before, glint_error *error)
 {
     glint_topology topology = {0};
-    glint_status status =
-        has_solids(in->scene) ? glint_topology_find(in->scene, &topology, error) : GLINT_OK;
+    const bool wanted = has_solids(in->scene) && !in->scene->moves;
+    glint_status status = wanted ? glint_topology_find(in->scene, &topology, error) : GLINT_OK;
     if (status == GLINT_OK) {
         const glint_plan_inputs inputs = {
             .scene = in->scene,
@@ -57,6 +58,7 @@ static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r, 
             .environment = &in->environment->radiance,
             .device = glint_device_capabilities(in->device),
             .settings = in->settings,
+            .before = before,
         };
         status = glint_plan_make(&inputs, &r->plan, error);
     }
@@ -81,14 +83,14 @@ static glint_status set_argument(const glint_renderer *r, cl_uint index, size_t 
 
 static glint_status set_buffers(const glint_renderer *r, glint_error *error)
 {
-    const cl_mem buffers[] = {r->memory.nodes,
-                              r->memory.clusters,
-                              r->memory.normals,
-                              r->memory.numbers,
-                              r->memory.materials,
-                              r->memory.media,
-                              r->memory.environment,
-                              r->memory.irradiance,
+    const cl_mem buffers[] = {r->geometry.nodes,
+                              r->geometry.clusters,
+                              r->geometry.normals,
+                              r->geometry.numbers,
+                              r->geometry.materials,
+                              r->geometry.media,
+                              r->light.environment,
+                              r->light.irradiance,
                               r->pixels.own,
                               r->counters,
                               r->layers};
@@ -197,13 +199,13 @@ static int traversal_stack(int need)
     return size;
 }
 
-static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, glint_error *error)
+// Plan and tree of the scene, and whether the device can hold them.
+static glint_status prepare(const glint_renderer_inputs *in, glint_renderer *r,
+                            const glint_plan *before, glint_bvh *bvh, glint_error *error)
 {
     double clock = glint_now_ms();
-    glint_bvh bvh = {0};
-    glint_cube irradiance = {0};
     glint_upload_sizes sizes = {0};
-    glint_status status = analyse(in, r, error);
+    glint_status status = analyse(in, r, before, error);
     if (status == GLINT_OK) {
         status = glint_pixels_size(r->settings.width, r->settings.height, scalar_bytes(r),
                                    &sizes.frame, error);
@@ -216,12 +218,39 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
     }
     r->phases.analysis = glint_lap_ms(&clock);
     if (status == GLINT_OK) {
-        status = glint_plan_build_tree(&r->plan, in->scene, &bvh, error);
-        r->bvh = bvh.report;
-        r->plan.traversal_stack = traversal_stack(bvh.report.stack_need);
+        status = glint_plan_build_tree(&r->plan, in->scene, bvh, error);
+        r->bvh = bvh->report;
+        r->plan.traversal_stack = traversal_stack(bvh->report.stack_need);
         r->phases.bvh = glint_lap_ms(&clock);
     }
-    if (status == GLINT_OK && needs_irradiance(&r->plan) && !in->without_frames) {
+    return status;
+}
+
+// Puts the tree and the materials in the place of those that there were.
+static glint_status upload_geometry(const glint_renderer_inputs *in, glint_renderer *r,
+                                    glint_bvh *bvh, glint_error *error)
+{
+    const glint_upload_inputs inputs = {
+        .device = in->device, .scene = in->scene, .bvh = bvh, .plan = &r->plan};
+    double clock = glint_now_ms();
+    glint_geometry_memory fresh;
+    glint_status status = glint_geometry_upload(&inputs, &fresh, error);
+    if (status == GLINT_OK) {
+        glint_geometry_memory_free(&r->geometry);
+        r->geometry = fresh;
+        r->space = glint_stored_space_of(in->scene);
+    }
+    r->phases.upload = glint_lap_ms(&clock);
+    return status;
+}
+
+static glint_status upload_light(const glint_renderer_inputs *in, glint_renderer *r,
+                                 glint_error *error)
+{
+    double clock = glint_now_ms();
+    glint_cube irradiance = {0};
+    glint_status status = GLINT_OK;
+    if (needs_irradiance(&r->plan) && !in->without_frames) {
         status = glint_irradiance_map(&in->environment->radiance, GLINT_IRRADIANCE_EDGE,
                                       &irradiance, error);
         r->phases.irradiance = glint_lap_ms(&clock);
@@ -229,27 +258,51 @@ static glint_status fill(const glint_renderer_inputs *in, glint_renderer *r, gli
     if (status == GLINT_OK) {
         const glint_upload_inputs inputs = {
             .device = in->device,
-            .scene = in->scene,
-            .bvh = &bvh,
             .plan = &r->plan,
             .environment = &in->environment->radiance,
             .irradiance = &irradiance,
         };
-        status = glint_scene_upload(&inputs, &r->memory, error);
-    }
-    if (status == GLINT_OK) {
+        status = glint_light_upload(&inputs, &r->light, error);
         r->environment_edge = in->environment->radiance.edge;
         r->irradiance_edge = irradiance.edge;
+        r->phases.upload += glint_lap_ms(&clock);
+    }
+    glint_cube_free(&irradiance);
+    return status;
+}
+
+// All that a plan is put to work with.
+static glint_status set_up(const glint_renderer_inputs *in, glint_renderer *r, glint_bvh *bvh,
+                           glint_error *error)
+{
+    glint_status status = upload_geometry(in, r, bvh, error);
+    if (status == GLINT_OK) {
+        status = upload_light(in, r, error);
+    }
+    double clock = glint_now_ms();
+    if (status == GLINT_OK) {
         status = create_outputs(r, error);
-        r->phases.upload = glint_lap_ms(&clock);
+        r->phases.upload += glint_lap_ms(&clock);
     }
     if (status == GLINT_OK && !in->without_frames) {
         status = build_kernel(in, r, error);
         r->phases.kernel_build = glint_lap_ms(&clock);
     }
-    glint_bvh_free(&bvh);
-    glint_cube_free(&irradiance);
     return status;
+}
+
+static void tear_down(glint_renderer *r)
+{
+    glint_geometry_memory_free(&r->geometry);
+    glint_light_memory_free(&r->light);
+    glint_pixels_free(&r->pixels);
+    glint_buffer_release(r->counters);
+    glint_buffer_release(r->layers);
+    r->counters = r->layers = NULL;
+    if (r->kernel != NULL) {
+        clReleaseKernel(r->kernel);
+        r->kernel = NULL;
+    }
 }
 
 glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
@@ -262,14 +315,47 @@ glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_re
     }
     r->device = inputs->device;
     r->settings = *inputs->settings;
-    r->space = glint_stored_space_of(inputs->scene);
-    glint_status status = fill(inputs, r, error);
+    r->inputs = *inputs;
+    r->inputs.settings = &r->settings;
+    glint_bvh bvh = {0};
+    glint_status status = prepare(inputs, r, NULL, &bvh, error);
+    if (status == GLINT_OK) {
+        status = set_up(inputs, r, &bvh, error);
+    }
+    glint_bvh_free(&bvh);
     if (status != GLINT_OK) {
         glint_renderer_free(r);
         return status;
     }
     *renderer = r;
     return GLINT_OK;
+}
+
+glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scene,
+                                      glint_error *error)
+{
+    const glint_plan before = r->plan;
+    char old_options[4096], options[4096];
+    glint_plan_build_options(&before, old_options, sizeof old_options);
+    glint_renderer_inputs in = r->inputs;
+    in.scene = scene;
+    glint_bvh bvh = {0};
+    glint_status status = prepare(&in, r, &before, &bvh, error);
+    if (status != GLINT_OK) {
+        r->plan = before;
+    } else {
+        glint_plan_build_options(&r->plan, options, sizeof options);
+        if (strcmp(options, old_options) == 0 && r->kernel != NULL) {
+            status = upload_geometry(&in, r, &bvh, error);
+            status = status == GLINT_OK ? set_buffers(r, error) : status;
+        } else {
+            // Other kernels, and what they read.
+            tear_down(r);
+            status = set_up(&in, r, &bvh, error);
+        }
+    }
+    glint_bvh_free(&bvh);
+    return status;
 }
 
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer)
@@ -289,14 +375,15 @@ const glint_phases *glint_renderer_phases(const glint_renderer *renderer)
 
 glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
 {
-    const glint_scene_memory *memory = &renderer->memory;
+    const glint_geometry_memory *geometry = &renderer->geometry;
+    const glint_light_memory *light = &renderer->light;
     return (glint_device_bytes){
-        .scene = glint_buffer_bytes(memory->clusters) + glint_buffer_bytes(memory->normals) +
-                 glint_buffer_bytes(memory->numbers) + glint_buffer_bytes(memory->materials) +
-                 glint_buffer_bytes(memory->media),
-        .tree = glint_buffer_bytes(memory->nodes),
+        .scene = glint_buffer_bytes(geometry->clusters) + glint_buffer_bytes(geometry->normals) +
+                 glint_buffer_bytes(geometry->numbers) + glint_buffer_bytes(geometry->materials) +
+                 glint_buffer_bytes(geometry->media),
+        .tree = glint_buffer_bytes(geometry->nodes),
         .environment =
-            glint_buffer_bytes(memory->environment) + glint_buffer_bytes(memory->irradiance),
+            glint_buffer_bytes(light->environment) + glint_buffer_bytes(light->irradiance),
         .frame = glint_pixels_bytes(&renderer->pixels) + layers_bytes(renderer),
     };
 }
@@ -306,13 +393,7 @@ void glint_renderer_free(glint_renderer *renderer)
     if (renderer == NULL) {
         return;
     }
-    glint_scene_memory_free(&renderer->memory);
-    glint_pixels_free(&renderer->pixels);
-    glint_buffer_release(renderer->counters);
-    glint_buffer_release(renderer->layers);
-    if (renderer->kernel != NULL) {
-        clReleaseKernel(renderer->kernel);
-    }
+    tear_down(renderer);
     free(renderer);
 }
 
@@ -427,6 +508,10 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     glint_frame_report own_report = {0};
     report = report != NULL ? report : &own_report;
     *report = (glint_frame_report){0};
+    if (r->kernel == NULL) {
+        glint_image_free(image);
+        return glint_fail(error, GLINT_USAGE, "the renderer was made without frames, or failed");
+    }
     glint_frame_record record;
     glint_view_record(&r->space, camera, &r->settings, &r->plan, &record);
     record.environment_edge = r->environment_edge;

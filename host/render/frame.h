@@ -66,9 +66,10 @@ typedef struct glint_renderer glint_renderer;
 typedef struct glint_renderer_inputs {
     glint_device *device;                 // borrowed, must outlive the renderer
     const glint_scene *scene;             // borrowed during creation only
-    const glint_environment *environment; // borrowed during creation only
+    const glint_environment *environment; // borrowed during creation; as long as the renderer lives
+                                          // where it is given other scenes
     const glint_settings *settings;       // borrowed during creation only
-    const char *kernel_dir;               // NULL: the embedded kernels
+    const char *kernel_dir;               // NULL: the embedded kernels; borrowed likewise
     bool without_frames;                  // no frame will be asked for (see probe.h)
 } glint_renderer_inputs;
 
@@ -76,6 +77,13 @@ typedef struct glint_renderer_inputs {
 // GLINT_DEVICE_FAILED; a kernel that does not compile leaves the build log in error->details.
 glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
                                    glint_error *error);
+
+// Another scene in the place of the one that there was, for the frames that follow: its plan and
+// its tree are made, and uploaded; kernels are compiled only where the plan has changed, the
+// environment stays. The scene is borrowed during the call. Errors as above; a renderer that failed
+// may be given another scene, and renders no frame until then.
+glint_status glint_renderer_set_scene(glint_renderer *renderer, const glint_scene *scene,
+                                      glint_error *error);
 
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);

@@ -170,6 +170,8 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
            scene->normals != NULL ? "some primitive has normals" : "no primitive has normals");
     if (!plan->features[GLINT_FEATURE_SOLID].compiled) {
         decide(plan, GLINT_FEATURE_NESTED_MEDIA, false, "no material with a volume");
+    } else if (scene->moves) {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, true, "solids may come to nest: the scene moves");
     } else if (glint_topology_solids_may_nest(scene, in->topology)) {
         decide(plan, GLINT_FEATURE_NESTED_MEDIA, true,
                "solids may nest: not all are convex and apart from each other");
@@ -308,6 +310,13 @@ static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *p
 {
     const bool asked_for = in->settings->texels == GLINT_TEXELS_HALF;
     const size_t capacity = sizeof plan->texels_reason;
+    if (in->before != NULL) {
+        plan->half_texels = in->before->half_texels;
+        plan->texels_rmse = in->before->texels_rmse;
+        plan->environment_bytes /= plan->half_texels ? 2 : 1;
+        memcpy(plan->texels_reason, in->before->texels_reason, capacity);
+        return GLINT_OK;
+    }
     glint_half_rounding half;
     glint_status status = glint_half_rounding_measure(in->environment, &half, error);
     if (status != GLINT_OK) {

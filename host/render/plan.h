@@ -126,6 +126,8 @@ typedef struct glint_plan_inputs {
     const glint_cube *environment;
     const glint_capabilities *device;
     const glint_settings *settings;
+    const glint_plan *before; // NULL, or one of the same environment, device and settings: what was
+                              // found of the texels is taken over
 } glint_plan_inputs;
 
 // Lanes of a packet on the device where nobody asks for others: 1, 8 or 16.

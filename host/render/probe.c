@@ -147,9 +147,10 @@ static glint_status set_arguments(const glint_probe *probe, cl_kernel kernel,
                                   const glint_frame_record *frame, glint_error *error)
 {
     const glint_renderer *r = probe->renderer;
-    const glint_scene_memory *m = &r->memory;
-    const cl_mem buffers[] = {m->nodes, m->clusters,    m->normals,    m->numbers, m->materials,
-                              m->media, m->environment, m->irradiance, probe->in,  probe->out};
+    const glint_geometry_memory *g = &r->geometry;
+    const cl_mem buffers[] = {g->nodes,     g->clusters, g->normals,           g->numbers,
+                              g->materials, g->media,    r->light.environment, r->light.irradiance,
+                              probe->in,    probe->out};
     const cl_uint count = sizeof buffers / sizeof *buffers;
     cl_int code = CL_SUCCESS;
     for (cl_uint i = 0; code == CL_SUCCESS && i < count; i++) {

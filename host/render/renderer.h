@@ -8,13 +8,15 @@
 #include "render/view.h"
 
 struct glint_renderer {
-    glint_device *device; // borrowed
+    glint_device *device;         // borrowed
+    glint_renderer_inputs inputs; // borrowed; the scene is that of the creation, and may be gone
     glint_settings settings;
     glint_plan plan;
     glint_bvh_report bvh;
     glint_phases phases;
     glint_stored_space space;
-    glint_scene_memory memory;
+    glint_geometry_memory geometry;
+    glint_light_memory light;
     int environment_edge, irradiance_edge;
     cl_kernel kernel; // NULL without frames
     glint_pixels pixels;

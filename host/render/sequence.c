@@ -230,7 +230,7 @@ static glint_status feed(pipeline *p, glint_error *error)
         }
         status = trace(p, s, error);
         if (status == GLINT_OK) {
-            p->sequence->traced(p->sequence->context);
+            p->sequence->traced(p->sequence->context, &s->frame);
             queue_for_writing(p, s);
         }
     }

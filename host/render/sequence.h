@@ -22,6 +22,7 @@ typedef struct glint_sequence_frame {
     double write_ms;
     glint_status status; // of `write`
     glint_error error;   // where that is not GLINT_OK
+    void *own;           // the caller's: set by `traced`, released by `done`
 } glint_sequence_frame;
 
 typedef struct glint_sequence {
@@ -30,8 +31,8 @@ typedef struct glint_sequence {
     size_t writers;   // threads that write; at least 1
     // Sets the next frame's number and camera; false: there is none left.
     bool (*next)(void *context, glint_sequence_frame *frame);
-    // A frame has been traced, and waits to be written.
-    void (*traced)(void *context);
+    // A frame has been traced, and is about to be queued.
+    void (*traced)(void *context, glint_sequence_frame *frame);
     // Brings a frame to where it belongs. Called from the writing threads, for several frames at
     // once. An error of this one frame goes into frame->status and frame->error.
     void (*write)(void *context, glint_sequence_frame *frame);

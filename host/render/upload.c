@@ -99,11 +99,10 @@ size_t glint_buffer_bytes(cl_mem buffer)
 // A buffer that holds *data: a copy or, on a device that shares the host's memory, *data itself,
 // which is then kept, and *data NULL.
 static glint_status hand_over(const struct glint_device *device, const char *what, size_t bytes,
-                              void **data, glint_scene_memory *memory, cl_mem *buffer,
-                              glint_error *error)
+                              void **data, glint_kept *kept, cl_mem *buffer, glint_error *error)
 {
     if (!device->capabilities.shares_memory || bytes < LEAST_BYTES ||
-        memory->kept_count == GLINT_KEPT_MAX) {
+        kept->count == GLINT_KEPT_MAX) {
         return glint_buffer_create(device, what, bytes, *data, buffer, error);
     }
     glint_status status = check_size(device, what, bytes, error);
@@ -116,13 +115,13 @@ static glint_status hand_over(const struct glint_device *device, const char *wha
     if (code != CL_SUCCESS) {
         return glint_fail_opencl(error, device, what, code);
     }
-    memory->kept[memory->kept_count++] = *data;
+    kept->data[kept->count++] = *data;
     *data = NULL;
     return GLINT_OK;
 }
 
 // The tree's arrays are the device's already.
-static glint_status upload_tree(const glint_upload_inputs *in, glint_scene_memory *memory,
+static glint_status upload_tree(const glint_upload_inputs *in, glint_geometry_memory *memory,
                                 glint_error *error)
 {
     glint_bvh *bvh = in->bvh;
@@ -142,7 +141,7 @@ static glint_status upload_tree(const glint_upload_inputs *in, glint_scene_memor
     };
     glint_status status = GLINT_OK;
     for (size_t i = 0; status == GLINT_OK && i < sizeof arrays / sizeof *arrays; i++) {
-        status = hand_over(in->device, arrays[i].what, arrays[i].bytes, &data[i], memory,
+        status = hand_over(in->device, arrays[i].what, arrays[i].bytes, &data[i], &memory->kept,
                            arrays[i].buffer, error);
     }
     bvh->nodes = data[0];
@@ -201,7 +200,7 @@ static glint_medium_record medium_record(const glint_material *m, double unit)
     return record;
 }
 
-static glint_status upload_materials(const glint_upload_inputs *in, glint_scene_memory *memory,
+static glint_status upload_materials(const glint_upload_inputs *in, glint_geometry_memory *memory,
                                      glint_error *error)
 {
     const glint_scene *scene = in->scene;
@@ -250,7 +249,7 @@ static glint_status upload_cube(const glint_upload_inputs *in, const char *what,
 }
 
 // The environment and its coarser levels. Of halfs the map's own texels need no copy in between.
-static glint_status upload_levels(const glint_upload_inputs *in, glint_scene_memory *memory,
+static glint_status upload_levels(const glint_upload_inputs *in, glint_light_memory *memory,
                                   glint_error *error)
 {
     const char *what = "the environment";
@@ -265,12 +264,12 @@ static glint_status upload_levels(const glint_upload_inputs *in, glint_scene_mem
     } else if (half) {
         glint_mip_levels_fill(cube, floats);
         glint_mip_levels_to_half(cube, floats, halfs);
-        status = hand_over(in->device, what, count * sizeof(uint16_t), &halfs, memory,
+        status = hand_over(in->device, what, count * sizeof(uint16_t), &halfs, &memory->kept,
                            &memory->environment, error);
     } else {
         memcpy(floats, cube->texels, own * sizeof(float));
         glint_mip_levels_fill(cube, (float *)floats + own);
-        status = hand_over(in->device, what, count * sizeof(float), &floats, memory,
+        status = hand_over(in->device, what, count * sizeof(float), &floats, &memory->kept,
                            &memory->environment, error);
     }
     free(floats);
@@ -278,7 +277,7 @@ static glint_status upload_levels(const glint_upload_inputs *in, glint_scene_mem
     return status;
 }
 
-static glint_status upload_environment(const glint_upload_inputs *in, glint_scene_memory *memory,
+static glint_status upload_environment(const glint_upload_inputs *in, glint_light_memory *memory,
                                        glint_error *error)
 {
     const char *what = "the environment";
@@ -294,28 +293,36 @@ static glint_status upload_environment(const glint_upload_inputs *in, glint_scen
         return glint_fail_memory(error, what);
     }
     glint_cube_to_half(in->environment, texels);
-    glint_status status = hand_over(in->device, what, count * sizeof(uint16_t), &texels, memory,
-                                    &memory->environment, error);
+    glint_status status = hand_over(in->device, what, count * sizeof(uint16_t), &texels,
+                                    &memory->kept, &memory->environment, error);
     free(texels);
     return status;
 }
 
-glint_status glint_scene_upload(const glint_upload_inputs *in, glint_scene_memory *memory,
-                                glint_error *error)
+glint_status glint_geometry_upload(const glint_upload_inputs *in, glint_geometry_memory *memory,
+                                   glint_error *error)
 {
-    *memory = (glint_scene_memory){0};
+    *memory = (glint_geometry_memory){0};
     glint_status status = upload_tree(in, memory, error);
     if (status == GLINT_OK) {
         status = upload_materials(in, memory, error);
     }
-    if (status == GLINT_OK) {
-        status = upload_environment(in, memory, error);
+    if (status != GLINT_OK) {
+        glint_geometry_memory_free(memory);
     }
+    return status;
+}
+
+glint_status glint_light_upload(const glint_upload_inputs *in, glint_light_memory *memory,
+                                glint_error *error)
+{
+    *memory = (glint_light_memory){0};
+    glint_status status = upload_environment(in, memory, error);
     if (status == GLINT_OK) {
         status = upload_cube(in, "the irradiance", in->irradiance, &memory->irradiance, error);
     }
     if (status != GLINT_OK) {
-        glint_scene_memory_free(memory);
+        glint_light_memory_free(memory);
     }
     return status;
 }
@@ -327,7 +334,14 @@ void glint_buffer_release(cl_mem buffer)
     }
 }
 
-void glint_scene_memory_free(glint_scene_memory *memory)
+static void kept_free(glint_kept *kept)
+{
+    for (int i = 0; i < kept->count; i++) {
+        free(kept->data[i]);
+    }
+}
+
+void glint_geometry_memory_free(glint_geometry_memory *memory)
 {
     glint_buffer_release(memory->nodes);
     glint_buffer_release(memory->clusters);
@@ -335,10 +349,14 @@ void glint_scene_memory_free(glint_scene_memory *memory)
     glint_buffer_release(memory->numbers);
     glint_buffer_release(memory->materials);
     glint_buffer_release(memory->media);
+    kept_free(&memory->kept);
+    *memory = (glint_geometry_memory){0};
+}
+
+void glint_light_memory_free(glint_light_memory *memory)
+{
     glint_buffer_release(memory->environment);
     glint_buffer_release(memory->irradiance);
-    for (int i = 0; i < memory->kept_count; i++) {
-        free(memory->kept[i]);
-    }
-    *memory = (glint_scene_memory){0};
+    kept_free(&memory->kept);
+    *memory = (glint_light_memory){0};
 }

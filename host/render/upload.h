@@ -9,16 +9,25 @@
 #include "render/plan.h"
 #include "scene/scene.h"
 
-#define GLINT_KEPT_MAX 8
+#define GLINT_KEPT_MAX 4
+
+// The host's memory that buffers lie in, on devices that share it.
+typedef struct glint_kept {
+    void *data[GLINT_KEPT_MAX];
+    int count;
+} glint_kept;
 
 // Zero is valid: no buffers. Each is described in kernels/layout.h; those that the plan does not
 // need are a few bytes long, as a kernel's arguments cannot be left out.
-typedef struct glint_scene_memory {
-    cl_mem nodes, clusters, normals, numbers, materials, media, environment, irradiance;
-    // The host's memory that buffers lie in, on devices that share it.
-    void *kept[GLINT_KEPT_MAX];
-    int kept_count;
-} glint_scene_memory;
+typedef struct glint_geometry_memory {
+    cl_mem nodes, clusters, normals, numbers, materials, media;
+    glint_kept kept;
+} glint_geometry_memory;
+
+typedef struct glint_light_memory {
+    cl_mem environment, irradiance;
+    glint_kept kept;
+} glint_light_memory;
 
 // Everything that is uploaded. Pointers are borrowed; `irradiance` may be an empty cube. A device
 // that shares the host's memory takes the tree's arrays over instead of copying them, and leaves
@@ -43,10 +52,16 @@ typedef struct glint_upload_sizes {
 glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
                                 const glint_upload_sizes *sizes, glint_error *error);
 
-// Errors: GLINT_DEVICE_FAILED.
-glint_status glint_scene_upload(const glint_upload_inputs *inputs, glint_scene_memory *memory,
+// The tree and the materials, of `inputs` all but the cubes. Errors: GLINT_DEVICE_FAILED; *memory
+// is then empty.
+glint_status glint_geometry_upload(const glint_upload_inputs *inputs, glint_geometry_memory *memory,
+                                   glint_error *error);
+void glint_geometry_memory_free(glint_geometry_memory *memory);
+
+// The cubes. Errors likewise.
+glint_status glint_light_upload(const glint_upload_inputs *inputs, glint_light_memory *memory,
                                 glint_error *error);
-void glint_scene_memory_free(glint_scene_memory *memory);
+void glint_light_memory_free(glint_light_memory *memory);
 
 // A buffer of `bytes` (at least 16 are made), filled from `data` unless that is NULL. `what` names
 // it in messages.

@@ -63,6 +63,8 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
 {
     add_vector(state, scene->origin);
     add_numbers(state, &scene->unit, 1);
+    const double moves = scene->moves ? 1 : 0; // which the plan heeds
+    add_numbers(state, &moves, 1);
     add_array(state, scene->positions, 9 * sizeof *scene->positions, scene->triangle_count);
     add_array(state, scene->normals, 9 * sizeof *scene->normals, scene->triangle_count);
     add_array(state, scene->material_of, sizeof *scene->material_of, scene->triangle_count);
@@ -80,6 +82,13 @@ static void add_settings(XXH3_state_t *state, const glint_settings *s)
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
 }
 
+// What is chosen for the device, and not for the scene.
+static void add_plan(XXH3_state_t *state, const glint_plan *plan)
+{
+    const double numbers[] = {plan->kernel_width, plan->tiles ? 1 : 0, plan->half_texels ? 1 : 0};
+    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+}
+
 static void add_encoding(XXH3_state_t *state, const char *path, const glint_write_options *options)
 {
     const char *dot = strrchr(path, '.');
@@ -89,42 +98,66 @@ static void add_encoding(XXH3_state_t *state, const char *path, const glint_writ
     add_numbers(state, numbers, 2);
 }
 
-glint_status glint_fingerprint_make(const glint_subject *subject, const char *path,
-                                    const glint_write_options *options,
-                                    glint_fingerprint *fingerprint, glint_error *error)
+static glint_status begin(XXH3_state_t **state, glint_error *error)
 {
-    XXH3_state_t *state = XXH3_createState();
-    if (state == NULL) {
+    *state = XXH3_createState();
+    if (*state == NULL) {
         return glint_fail_memory(error, "the fingerprint");
     }
-    XXH3_128bits_reset(state);
-    add_text(state, "glint " GLINT_VERSION);
-    add_text(state, glint_kernel_source);
-    char build[4096];
-    glint_plan_build_options(subject->plan, build, sizeof build);
-    add_text(state, build);
-    add_settings(state, subject->settings);
-    add_encoding(state, path, options);
-    add_scene(state, subject->scene);
-    const glint_cube *radiance = &subject->environment->radiance;
-    add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
-    const XXH128_hash_t hash = XXH3_128bits_digest(state);
-    *fingerprint = (glint_fingerprint){hash.high64, hash.low64};
-    XXH3_freeState(state);
+    XXH3_128bits_reset(*state);
     return GLINT_OK;
+}
+
+static glint_fingerprint finish(XXH3_state_t *state)
+{
+    const XXH128_hash_t hash = XXH3_128bits_digest(state);
+    XXH3_freeState(state);
+    return (glint_fingerprint){hash.high64, hash.low64};
+}
+
+glint_status glint_fingerprint_run(const glint_subject *subject, const char *path,
+                                   const glint_write_options *options,
+                                   glint_fingerprint *fingerprint, glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status == GLINT_OK) {
+        add_text(state, "glint " GLINT_VERSION);
+        add_text(state, glint_kernel_source);
+        add_settings(state, subject->settings);
+        add_plan(state, subject->plan);
+        add_encoding(state, path, options);
+        const glint_cube *radiance = &subject->environment->radiance;
+        add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
+        *fingerprint = finish(state);
+    }
+    return status;
+}
+
+glint_status glint_fingerprint_scene(const glint_scene *scene, glint_fingerprint *fingerprint,
+                                     glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status == GLINT_OK) {
+        add_scene(state, scene);
+        *fingerprint = finish(state);
+    }
+    return status;
 }
 
 // ---- A frame -----------------------------------------------------------------------------------
 
-void glint_fingerprint_frame(const glint_fingerprint *fingerprint, const glint_camera *camera,
-                             char text[GLINT_FINGERPRINT_TEXT])
+void glint_fingerprint_frame(const glint_fingerprint *run, const glint_fingerprint *scene,
+                             const glint_camera *camera, char text[GLINT_FINGERPRINT_TEXT])
 {
     const glint_vec3 vectors[] = {camera->eye, camera->right, camera->up, camera->back};
     char all[512];
-    size_t length = (size_t)snprintf(all, sizeof all, "%016llx%016llx %d %a",
-                                     (unsigned long long)fingerprint->high,
-                                     (unsigned long long)fingerprint->low, camera->orthographic,
-                                     camera->orthographic ? camera->ymag : camera->yfov);
+    size_t length =
+        (size_t)snprintf(all, sizeof all, "%016llx%016llx %016llx%016llx %d %a",
+                         (unsigned long long)run->high, (unsigned long long)run->low,
+                         (unsigned long long)scene->high, (unsigned long long)scene->low,
+                         camera->orthographic, camera->orthographic ? camera->ymag : camera->yfov);
     for (int i = 0; i < 4; i++) {
         length += (size_t)snprintf(all + length, sizeof all - length, " %a %a %a", vectors[i].x,
                                    vectors[i].y, vectors[i].z);

@@ -8,24 +8,28 @@
 
 #include <stdint.h>
 
-// What the frames of a run share: the program's version and its kernels, the scene, the
-// environment, the settings, the plan, and how a file is encoded; not the device, nor the names of
-// files.
+// Zero is valid, and nobody's.
 typedef struct glint_fingerprint {
     uint64_t high, low;
 } glint_fingerprint;
 
 #define GLINT_FINGERPRINT_TEXT 33 // 32 hexadecimal digits and the end
 
-// `subject`: scene, environment, settings and plan are needed. `path` names the format by its
-// extension. Reads every triangle and texel once. Errors: GLINT_DEVICE_FAILED (memory).
-glint_status glint_fingerprint_make(const glint_subject *subject, const char *path,
-                                    const glint_write_options *options,
-                                    glint_fingerprint *fingerprint, glint_error *error);
+// Of what the frames of a run share: the program's version and its kernels, the environment, the
+// settings, what the plan takes from the device, and how a file is encoded; not of the device, nor
+// of the names of files. `subject`: environment, settings and plan are needed. `path` names the
+// format by its extension. Reads every texel once. Errors: GLINT_DEVICE_FAILED (memory).
+glint_status glint_fingerprint_run(const glint_subject *subject, const char *path,
+                                   const glint_write_options *options,
+                                   glint_fingerprint *fingerprint, glint_error *error);
 
-// Of the frame that `camera` sees. From any thread.
-void glint_fingerprint_frame(const glint_fingerprint *fingerprint, const glint_camera *camera,
-                             char text[GLINT_FINGERPRINT_TEXT]);
+// Of a scene's triangles and materials, each of which is read once. Errors likewise.
+glint_status glint_fingerprint_scene(const glint_scene *scene, glint_fingerprint *fingerprint,
+                                     glint_error *error);
+
+// Of the frame of a run in which `camera` sees a scene.
+void glint_fingerprint_frame(const glint_fingerprint *run, const glint_fingerprint *scene,
+                             const glint_camera *camera, char text[GLINT_FINGERPRINT_TEXT]);
 
 // The name of the entry that holds it in a file's metadata.
 #define GLINT_FINGERPRINT_NAME "glint:fingerprint"

@@ -23,11 +23,26 @@ size_t glint_inventory_device_bytes(const glint_subject *subject)
     return bytes;
 }
 
+// null where nothing moves.
+static json_t *animation_object(const glint_motion *motion)
+{
+    if (motion == NULL || !(motion->moves_triangles || motion->moves_cameras)) {
+        return json_null();
+    }
+    json_t *object = json_object();
+    glint_json_put_text(object, "clip", motion->clip);
+    glint_json_put_real(object, "seconds", motion->duration);
+    glint_json_put_flag(object, "moves_triangles", motion->moves_triangles);
+    glint_json_put_flag(object, "moves_cameras", motion->moves_cameras);
+    return object;
+}
+
 glint_status glint_inventory_json(const glint_subject *subject, char **text, glint_error *error)
 {
     json_t *root = json_object();
     glint_json_put_text(root, "glint", GLINT_VERSION);
     glint_json_put(root, "scene", glint_json_scene(subject->scene, subject->topology, true));
+    glint_json_put(root, "animation", animation_object(subject->motion));
     glint_json_put(root, "environment", glint_json_environment(subject->environment));
     glint_json_put(root, "camera", glint_json_camera(subject->camera));
     glint_json_put(root, "settings", glint_json_settings(subject->settings));

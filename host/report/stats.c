@@ -179,6 +179,7 @@ glint_status glint_stats_log_frame(glint_stats_log *log, const glint_stats_frame
         json_t *milliseconds = json_object();
         glint_json_put_real(milliseconds, "kernel", frame->report->kernel_ms);
         glint_json_put_real(milliseconds, "readback", frame->report->readback_ms);
+        glint_json_put_real(milliseconds, "build", frame->build_ms);
         glint_json_put_real(milliseconds, "trace", frame->trace_ms);
         glint_json_put_real(milliseconds, "write", frame->write_ms);
         glint_json_put(root, "milliseconds", milliseconds);
@@ -197,6 +198,7 @@ glint_status glint_stats_log_total(glint_stats_log *log, const glint_stats_total
     glint_json_put_count(root, "failed", total->failed);
     glint_json_put_flag(root, "stopped", total->stopped);
     json_t *milliseconds = json_object();
+    glint_json_put_real(milliseconds, "build", total->build_ms);
     glint_json_put_real(milliseconds, "trace", total->trace_ms);
     glint_json_put_real(milliseconds, "write", total->write_ms);
     glint_json_put_real(milliseconds, "total", total->total_ms);

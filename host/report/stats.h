@@ -36,14 +36,14 @@ typedef struct glint_stats_frame {
     const char *outcome;              // "rendered", "skipped" or "failed"
     const char *error;                // what went wrong; NULL
     const glint_frame_report *report; // NULL of a skipped one
-    double trace_ms, write_ms;
+    double build_ms, trace_ms, write_ms;
 } glint_stats_frame;
 
 typedef struct glint_stats_total {
     uint64_t frames; // that there were to do
     uint64_t rendered, skipped, failed;
     glint_ray_counts rays;
-    double trace_ms, write_ms; // sums; frames are traced while others are written
+    double build_ms, trace_ms, write_ms; // sums; frames are traced while others are written
     double total_ms;
     bool stopped; // before all were through
 } glint_stats_total;

@@ -14,6 +14,7 @@
 typedef struct glint_subject {
     const glint_scene *scene;
     const glint_topology *topology;
+    const glint_motion *motion; // NULL, or all zero: nothing moves
     const glint_environment *environment;
     const glint_camera *camera;
     const glint_settings *settings;

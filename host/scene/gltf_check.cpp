@@ -1,6 +1,8 @@
 // Validation of the raw JSON: the top level, buffers, views and accessors. See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 
+#include "scene/gltf_animation.hpp"
+
 #include "scene/gltf_material.hpp"
 #include "scene/gltf_uri.hpp"
 
@@ -333,6 +335,7 @@ void check_document(const Document &document, Checked &checked)
     check_materials(document.root);
     check_meshes(document.root, checked);
     check_graph(document.root, checked);
+    check_animations(document.root);
 }
 
 } // namespace glint

@@ -17,7 +17,7 @@ struct Checked {
     std::vector<int> parents; // of each node; −1: a root
 };
 
-// The whole document: calls the others in turn. Reads no buffer.
+// The whole document: calls the others, and check_animations, in turn. Reads no buffer.
 void check_document(const Document &document, Checked &checked);
 
 // Buffers, views and accessors.
@@ -31,10 +31,11 @@ void check_graph(const json &root, Checked &checked);
 
 // A vertex attribute, index or instance attribute must be of one of these.
 struct Format {
-    const char *type;     // "VEC3"
-    bool plain_float;     // 5126
-    bool normalized_ints; // normalised signed byte or short
-    bool quantized;       // whatever KHR_mesh_quantization lets positions be
+    const char *type;           // "VEC3"
+    bool plain_float;           // 5126
+    bool normalized_ints;       // normalised signed byte or short
+    bool quantized;             // whatever KHR_mesh_quantization lets positions be
+    bool unsigned_ints = false; // normalised unsigned byte or short
 };
 void check_format(const json &accessor, const Place &place, const Format &format);
 

@@ -100,6 +100,7 @@ void check_format(const json &accessor, const Place &place, const Format &format
     bool good = format.plain_float && component == 5126;
     good =
         good || (format.normalized_ints && normalized && (component == 5120 || component == 5122));
+    good = good || (format.unsigned_ints && normalized && (component == 5121 || component == 5123));
     good = good || (format.quantized && component >= 5120 && component <= 5123);
     if (!good || type != format.type) {
         std::string wanted = std::string(format.type) + " of floats (5126)";

@@ -103,7 +103,7 @@ static const json &required(const json &object, const Place &place, const char *
     return *found;
 }
 
-static void expect_object(const json &value, const Place &place)
+void expect_object(const json &value, const Place &place)
 {
     if (!value.is_object()) {
         refuse(place, described(value) + " stands where an object must stand");

@@ -58,6 +58,9 @@ const json *member(const json &object, const char *key);
 const json &object_at(const json &object, const Place &place, const char *key);
 const json &array_at(const json &object, const Place &place, const char *key);
 
+// Refuses what is no object.
+void expect_object(const json &value, const Place &place);
+
 // Refuses what stands under a key of the top level unless it is an array of objects, or missing.
 void check_objects(const json &root, const char *key);
 // That array, once it has been checked; an empty one where there is none.

@@ -59,7 +59,32 @@ constexpr std::array<double, 3> no_move = {0, 0, 0};
 constexpr std::array<double, 4> no_turn = {0, 0, 0, 1};
 constexpr std::array<double, 3> no_scale = {1, 1, 1};
 
-glint_mat4 local_matrix(Load &load, std::size_t index)
+// The node's own value of a property, unless it moves.
+void move(const Moves *moves, Property property, double time, std::vector<double> &value)
+{
+    if (moves != nullptr && !moves->of[property].times.empty()) {
+        const glint_curve curve = moves->of[property].view();
+        value.resize(property == rotation ? 4 : 3);
+        glint_curve_sample(&curve, time, value.data());
+    }
+}
+
+const Moves *moves_of(const Load &load, std::size_t index)
+{
+    auto found = load.clips.nodes.find(index);
+    return found == load.clips.nodes.end() ? nullptr : &found->second;
+}
+
+bool ever_moves(const Moves *moves)
+{
+    return moves != nullptr &&
+           std::any_of(moves->of.begin(), moves->of.end(), [](const Curve &curve) {
+               const glint_curve view = curve.view();
+               return !curve.times.empty() && glint_curve_moves(&view);
+           });
+}
+
+glint_mat4 local_matrix(Load &load, std::size_t index, double time)
 {
     const tinygltf::Node &node = load.model.nodes[index];
     if (!node.matrix.empty()) {
@@ -82,9 +107,16 @@ glint_mat4 local_matrix(Load &load, std::size_t index)
                            node_where(load, index));
         }
     }
-    return from_parts(node.translation.empty() ? no_move.data() : node.translation.data(),
-                      node.rotation.empty() ? no_turn.data() : node.rotation.data(),
-                      node.scale.empty() ? no_scale.data() : node.scale.data());
+    const Moves *moves = moves_of(load, index);
+    std::vector<double> shift = node.translation;
+    std::vector<double> turn = node.rotation;
+    std::vector<double> size = node.scale;
+    move(moves, translation, time, shift);
+    move(moves, rotation, time, turn);
+    move(moves, scale, time, size);
+    return from_parts(shift.empty() ? no_move.data() : shift.data(),
+                      turn.empty() ? no_turn.data() : turn.data(),
+                      size.empty() ? no_scale.data() : size.data());
 }
 
 bool is_hidden(const glint_mat4 &matrix)
@@ -312,16 +344,18 @@ char *copy_text(const std::string &text)
     return copy;
 }
 
-void walk_scene(Load &load, const char *name, glint_scene &scene)
+void walk_scene(Load &load, const char *name, double time, glint_scene &scene)
 {
     struct Step {
         int node;
         glint_mat4 parent;
+        bool moves;
     };
+    load.draws.clear();
     std::vector<Step> stack;
     std::vector<int> roots = find_roots(load, name);
     for (auto it = roots.rbegin(); it != roots.rend(); ++it) {
-        stack.push_back({*it, glint_mat4_identity});
+        stack.push_back({*it, glint_mat4_identity, false});
     }
     std::vector<glint_camera> cameras;
     try {
@@ -330,8 +364,11 @@ void walk_scene(Load &load, const char *name, glint_scene &scene)
             stack.pop_back();
             auto index = static_cast<std::size_t>(step.node);
             const tinygltf::Node &node = load.model.nodes[index];
-            glint_mat4 local = local_matrix(load, index);
+            glint_mat4 local = local_matrix(load, index, time);
             glint_mat4 to_world = glint_mat4_multiply(&step.parent, &local);
+            bool moves = step.moves || ever_moves(moves_of(load, index));
+            load.moves_triangles = load.moves_triangles || (moves && node.mesh >= 0);
+            load.moves_cameras = load.moves_cameras || (moves && node.camera >= 0);
             survey_node(load, index);
             if (node.camera >= 0) {
                 add_camera(load, index, to_world, cameras);
@@ -342,7 +379,7 @@ void walk_scene(Load &load, const char *name, glint_scene &scene)
                 draw_mesh(load, index, to_world, scene);
             }
             for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
-                stack.push_back({*it, to_world});
+                stack.push_back({*it, to_world, moves});
             }
         }
         scene.cameras =

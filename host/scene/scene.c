@@ -1,8 +1,6 @@
 // The scene's life, and the choice of a camera. What fills it is gltf.cpp.
 #include "scene/scene.h"
 
-#include "scene/gltf.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,14 +40,22 @@ void glint_scene_find_bounds(glint_scene *scene)
     scene->high = (glint_vec3){high[0], high[1], high[2]};
 }
 
+void glint_scene_shown_bounds(const glint_scene *scene, glint_vec3 *low, glint_vec3 *high)
+{
+    *low = scene->moves ? scene->swept_low : scene->low;
+    *high = scene->moves ? scene->swept_high : scene->high;
+}
+
 glint_status glint_scene_load(const char *path, const glint_scene_options *options,
                               glint_scene *scene, glint_warnings *warnings, glint_error *error)
 {
     *scene = (glint_scene){0};
-    glint_status status = glint_gltf_load(path, options, scene, warnings, error);
-    if (status != GLINT_OK) {
-        glint_scene_free(scene);
+    glint_scene_source *source;
+    glint_status status = glint_scene_open(path, options, &source, error);
+    if (status == GLINT_OK) {
+        status = glint_scene_at(source, 0, scene, warnings, error);
     }
+    glint_scene_close(source);
     return status;
 }
 
@@ -94,7 +100,9 @@ glint_status glint_scene_camera(const glint_scene *scene, const char *name, glin
     *camera = (glint_camera){0};
     if (name == NULL) {
         if (scene->camera_count == 0) {
-            glint_camera_frame_bounds(scene->low, scene->high, camera);
+            glint_vec3 low, high;
+            glint_scene_shown_bounds(scene, &low, &high);
+            glint_camera_frame_bounds(low, high, camera);
         } else {
             *camera = scene->cameras[0];
         }

@@ -69,17 +69,56 @@ typedef struct glint_scene {
     size_t skipped_points, skipped_lines; // primitives drawn by nodes that were left out, with a
                                           // warning
     size_t degenerate_triangles;          // zero area: kept out of `positions`
+
+    bool moves; // the file's animation moves triangles: this is how they stand at one time
+    glint_vec3 swept_low, swept_high; // bounds over the whole animation, where it does
 } glint_scene;
 
 typedef struct glint_scene_options {
-    const char *scene; // which glTF scene, by name or index; NULL: the file's default, else 0
+    const char *scene;     // which glTF scene, by name or index; NULL: the file's default, else 0
+    const char *animation; // which clip, by name or index; "all" at once, "none"; NULL: the first
 } glint_scene_options;
 
-// Loads .gltf or .glb. `options` and `warnings` may be NULL. Errors: GLINT_BAD_INPUT with
-// "FILE: object[index]: cause (what to do)". On failure `scene` is left empty.
+// Loads .gltf or .glb as it is at the beginning of its animation. `options` and `warnings` may be
+// NULL. Errors: GLINT_BAD_INPUT with "FILE: object[index]: cause (what to do)". On failure `scene`
+// is left empty.
 glint_status glint_scene_load(const char *path, const glint_scene_options *options,
                               glint_scene *scene, glint_warnings *warnings, glint_error *error);
 void glint_scene_free(glint_scene *scene);
+
+// ---- Over time ---------------------------------------------------------------------------------
+
+// A file that stays open, to give its scene at any time of its animation. Opaque.
+typedef struct glint_scene_source glint_scene_source;
+
+// What the chosen clip does.
+typedef struct glint_motion {
+    bool moves_triangles, moves_cameras;
+    double duration;  // seconds, to the last key; 0 without a clip
+    const char *clip; // its name, the source's; NULL where it has none
+} glint_motion;
+
+// `options` may be NULL. Errors: as glint_scene_load; *source is then NULL.
+glint_status glint_scene_open(const char *path, const glint_scene_options *options,
+                              glint_scene_source **source, glint_error *error);
+const glint_motion *glint_scene_motion(const glint_scene_source *source);
+
+// The scene at a time (seconds): what a file would hold whose nodes stood like this. Before the
+// first key the first holds, after the last the last. On failure `scene` is left empty.
+glint_status glint_scene_at(glint_scene_source *source, double time, glint_scene *scene,
+                            glint_warnings *warnings, glint_error *error);
+
+// Sets a scene's cameras alone to how they are at a time.
+glint_status glint_scene_cameras_at(glint_scene_source *source, double time, glint_scene *scene,
+                                    glint_error *error);
+
+void glint_scene_close(glint_scene_source *source); // NULL is allowed
+
+// ------------------------------------------------------------------------------------------------
+
+// The bounds that cameras without a place of their own are put up for: of all that is there, over
+// the whole animation.
+void glint_scene_shown_bounds(const glint_scene *scene, glint_vec3 *low, glint_vec3 *high);
 
 // Sets the bounds from the triangles.
 void glint_scene_find_bounds(glint_scene *scene);

@@ -60,10 +60,10 @@ mkdir in/folder.gltf in/empty
 # ---- help ---------------------------------------------------------------------------------------
 
 render_options='output exposure compression exr-type aov stats progress frames turntable
-    skip-existing shard env env-layout env-rotate camera
+    fps skip-existing shard env env-layout env-rotate camera animation
     scene size samples depth min-weight background precision fresnel texels filter device
     kernel-width kernel-tile kernel-dir help'
-info_options='json env env-layout env-rotate camera scene size samples depth min-weight background
+info_options='json env env-layout env-rotate camera animation scene size samples depth min-weight background
     precision fresnel texels filter device kernel-width kernel-tile help'
 
 # shellcheck disable=SC2086 # lists of words

@@ -168,6 +168,50 @@ for ((k = 0; k < kills; k++)); do
 done
 echo "# $caught of $kills were killed with some frames written and some not"
 
+# ---- motion -------------------------------------------------------------------------------------
+
+cp "$scenes/clockwork.gltf" "$scenes/clockwork.bin" in/
+moving=(in/clockwork.gltf "${small[@]}")
+run render "${moving[@]}" --fps 4 -o out/m.##.hdr --stats moving.jsonl
+check 'an animation: as long as it is' \
+    test "$(files out)" = 'm.01.hdr m.02.hdr m.03.hdr m.04.hdr m.05.hdr m.06.hdr m.07.hdr m.08.hdr m.09.hdr '
+tail -n 1 moving.jsonl >stats.json
+check 'an animation: what building took' test "$("$json_get" stats.json milliseconds build)" != 0
+mkdir moved
+mv out/* moved/
+run render "${moving[@]}" -o out/one.hdr
+check 'without frames: its beginning' cmp out/one.hdr moved/m.01.hdr
+run render "${moving[@]}" --fps 4 --frames 6,2 --shard 1/2 -o out/m.##.hdr
+check 'a frame of an animation by itself' cmp out/m.06.hdr moved/m.06.hdr
+run render "${moving[@]}" --fps 8 --frames 3 -o out/m.##.hdr
+check 'twice the rate: half the time' cmp out/m.03.hdr moved/m.02.hdr
+run render "${moving[@]}" --fps 4 --frames 0,9-11 -o out/m.##.hdr
+check 'before its beginning it stands' cmp out/m.00.hdr moved/m.01.hdr
+check 'after its end it stands' cmp out/m.11.hdr moved/m.09.hdr
+check 'after its end: a warning' grep -q 'warning: in/clockwork.gltf: the animation ends at frame 9 (2 s)' stderr
+clean
+run render "${moving[@]}" --animation none -o out/rest.hdr
+check 'at rest: as its nodes say' test "$status" -eq 0 -a -s out/rest.hdr
+clean
+refuses 2 'nothing moves in the scene' render "${moving[@]}" --animation none -o out/m.##.hdr
+refuses 3 'there is no animation "walk" (there is 0 "clockwork")' render "${moving[@]}" \
+    --animation walk -o out/m.hdr
+refuses 2 '--fps' render "${moving[@]}" --fps 0 -o out/m.##.hdr
+run render "${moving[@]}" --camera still --fps 4 --frames 1-9x4 -o out/m.##.hdr
+check 'a camera that stands still' test "$status" -eq 0
+check 'a camera that stands still: the scene moves' test "$(cmp -s out/m.01.hdr out/m.05.hdr; echo $?)" -eq 1
+clean
+run render "${moving[@]}" --fps 4 -o out/m.##.exr
+touch -d 2020-01-01 out/*.exr
+rm out/m.04.exr
+run render "${moving[@]}" --fps 4 -o out/m.##.exr --skip-existing
+check 'a moving scene is completed' test "$(find out -name '*.exr' -newermt 2021-01-01)" = out/m.04.exr
+run render "${moving[@]}" --fps 5 --frames 1-2 -o out/m.##.exr --skip-existing
+check 'another rate: frame 1 is the same, frame 2 is not' \
+    test "$(find out -name '*.exr' -newermt 2021-01-01 | sort | tr '\n' ' ')" = 'out/m.02.exr out/m.04.exr '
+clean
+clean
+
 # ---- signals ------------------------------------------------------------------------------------
 
 for pair in INT:130 TERM:143; do

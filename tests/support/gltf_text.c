@@ -110,7 +110,7 @@ glint_status load_text(const char *folder, const char *text, const char *scene_n
                        glint_scene *scene, glint_warnings *warnings, glint_error *error)
 {
     const char *path = write_bytes(folder, "test.gltf", text, strlen(text));
-    glint_scene_options options = {scene_name};
+    glint_scene_options options = {.scene = scene_name};
     return glint_scene_load(path, &options, scene, warnings, error);
 }
 

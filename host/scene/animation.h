@@ -1,0 +1,39 @@
+// How a property of a node moves: glTF's keyframes and what lies between them.
+#ifndef GLINT_SCENE_ANIMATION_H
+#define GLINT_SCENE_ANIMATION_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum glint_interpolation {
+    GLINT_INTERPOLATION_LINEAR, // rotations along the shorter arc, at a steady rate
+    GLINT_INTERPOLATION_STEP,   // each key's value holds until the next key
+    GLINT_INTERPOLATION_CUBIC,  // Hermite's spline through the keys with their tangents
+} glint_interpolation;
+
+// Borrows its arrays.
+typedef struct glint_curve {
+    glint_interpolation interpolation;
+    bool is_rotation; // values are quaternions (x, y, z, w) of any length but 0; else vectors of 3
+    size_t key_count; // at least 1
+    const double *times;  // [key_count], seconds, ascending
+    const double *values; // [key_count][3 or 4]; CUBIC: [key_count][in-tangent, value,
+                          // out-tangent][3 or 4], tangents per second
+} glint_curve;
+
+// The value at a time, of 3 numbers, or 4 of a unit quaternion. Before the first key its value
+// holds, after the last key the last's.
+void glint_curve_sample(const glint_curve *curve, double time, double *value);
+
+// Whether the value ever changes.
+bool glint_curve_moves(const glint_curve *curve);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

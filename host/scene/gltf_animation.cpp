@@ -1,0 +1,278 @@
+// Animations of a glTF file. See gltf_animation.hpp.
+#include "scene/gltf_animation.hpp"
+
+#include "scene/gltf_accessor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+namespace glint
+{
+
+namespace
+{
+
+// ---- Checks ------------------------------------------------------------------------------------
+
+bool is_modelled(const std::string &path)
+{
+    return path == "translation" || path == "rotation" || path == "scale";
+}
+
+glint_interpolation interpolation_of(const json &sampler, const Place &place)
+{
+    std::string name = optional_text(sampler, place, "interpolation");
+    if (name.empty() || name == "LINEAR") {
+        return GLINT_INTERPOLATION_LINEAR;
+    }
+    if (name == "STEP") {
+        return GLINT_INTERPOLATION_STEP;
+    }
+    if (name == "CUBICSPLINE") {
+        return GLINT_INTERPOLATION_CUBIC;
+    }
+    refuse(place / "interpolation",
+           in_quotes(name) + " is none (LINEAR, STEP or CUBICSPLINE is expected)");
+}
+
+void check_sampler(const json &root, const json &sampler, const Place &place)
+{
+    const json &accessors = objects_of(root, "accessors");
+    for (const char *key : {"input", "output"}) {
+        if (optional_index(sampler, place, key, accessors.size(), "accessor") < 0) {
+            refuse(place / key, "missing (glTF 2.0 requires it)");
+        }
+    }
+    const json &times = accessors[sampler["input"].get<std::size_t>()];
+    check_format(times, place / "input", {"SCALAR", true, false, false});
+    interpolation_of(sampler, place);
+}
+
+// Numbers a key: 1 or, with tangents, 3.
+std::size_t values_a_key(const json &sampler, const Place &place)
+{
+    return interpolation_of(sampler, place) == GLINT_INTERPOLATION_CUBIC ? 3 : 1;
+}
+
+// A sampler as the channel that uses it needs it.
+void check_output(const json &root, const json &sampler, const Place &place,
+                  const std::string &path)
+{
+    const json &accessors = objects_of(root, "accessors");
+    const json &output = accessors[sampler["output"].get<std::size_t>()];
+    const json &input = accessors[sampler["input"].get<std::size_t>()];
+    bool is_rotation = path == "rotation";
+    check_format(output, place / "output",
+                 {is_rotation ? "VEC4" : "VEC3", true, is_rotation, false, is_rotation});
+    auto keys = input["count"].get<std::uint64_t>();
+    auto values = output["count"].get<std::uint64_t>();
+    std::uint64_t each = values_a_key(sampler, place);
+    if (values != each * keys) {
+        refuse(place / "output", counted(values, "value") + " for " + counted(keys, "key") +
+                                     (each == 3 ? ", which have three each" : "") +
+                                     " (the file is damaged)");
+    }
+}
+
+void check_channel(const json &root, const json &channel, const Place &place, const json &samplers,
+                   const Place &samplers_place)
+{
+    std::ptrdiff_t sampler = optional_index(channel, place, "sampler", samplers.size(), "sampler");
+    if (sampler < 0) {
+        refuse(place / "sampler", "missing (glTF 2.0 requires it)");
+    }
+    const json &target = object_at(channel, place, "target");
+    optional_index(target, place / "target", "node", objects_of(root, "nodes").size(), "node");
+    std::string path = optional_text(target, place / "target", "path");
+    if (path.empty()) {
+        refuse(place / "target" / "path", "missing (glTF 2.0 requires it)");
+    }
+    if (is_modelled(path)) {
+        auto index = static_cast<std::size_t>(sampler);
+        check_output(root, samplers[index], samplers_place[index], path);
+    }
+}
+
+} // namespace
+
+void check_animations(const json &root)
+{
+    const json &animations = objects_of(root, "animations");
+    for (std::size_t i = 0; i < animations.size(); i++) {
+        Place place = (Place() / "animations")[i];
+        optional_text(animations[i], place, "name");
+        const json &samplers = array_at(animations[i], place, "samplers");
+        const json &channels = array_at(animations[i], place, "channels");
+        for (std::size_t k = 0; k < samplers.size(); k++) {
+            expect_object(samplers[k], (place / "samplers")[k]);
+            check_sampler(root, samplers[k], (place / "samplers")[k]);
+        }
+        for (std::size_t k = 0; k < channels.size(); k++) {
+            expect_object(channels[k], (place / "channels")[k]);
+            check_channel(root, channels[k], (place / "channels")[k], samplers, place / "samplers");
+        }
+    }
+}
+
+// ---- Reading -----------------------------------------------------------------------------------
+
+namespace
+{
+
+std::vector<double> read_times(const Reader &reader, const Place &place)
+{
+    std::vector<double> times(reader.count());
+    for (std::size_t i = 0; i < times.size(); i++) {
+        reader.numbers(i, 1, &times[i]);
+        if (!std::isfinite(times[i]) || times[i] < 0 || (i > 0 && times[i] <= times[i - 1])) {
+            refuse(place / "input", "key " + std::to_string(i) + " is at " + shown(times[i]) +
+                                        " s (times must be finite, from 0 and ascend)");
+        }
+    }
+    return times;
+}
+
+std::vector<double> read_values(const Reader &reader, std::size_t components, std::size_t each,
+                                const Place &place)
+{
+    std::vector<double> values(reader.count() * components);
+    for (std::size_t i = 0; i < reader.count(); i++) {
+        double *value = values.data() + i * components;
+        reader.numbers(i, components, value);
+        double squares = 0;
+        for (std::size_t k = 0; k < components; k++) {
+            squares += value[k] * value[k];
+        }
+        bool is_tangent = each == 3 && i % 3 != 1;
+        if (!std::isfinite(squares) || (components == 4 && !is_tangent && !(squares > 0))) {
+            refuse(place / "output",
+                   "value " + std::to_string(i) +
+                       (components == 4 ? " is no rotation (a quaternion must be finite and not 0)"
+                                        : " is not finite (the file is damaged)"));
+        }
+    }
+    return values;
+}
+
+Curve read_curve(const Document &document, const tinygltf::Model &model, const json &sampler,
+                 const Place &place, bool is_rotation)
+{
+    const std::size_t views = objects_of(document.root, "bufferViews").size();
+    Curve curve;
+    curve.is_rotation = is_rotation;
+    curve.interpolation = interpolation_of(sampler, place);
+    curve.times = read_times(Reader(model, sampler["input"].get<std::size_t>(), views), place);
+    curve.values = read_values(Reader(model, sampler["output"].get<std::size_t>(), views),
+                               is_rotation ? 4 : 3, values_a_key(sampler, place), place);
+    return curve;
+}
+
+void read_channel(const Document &document, const tinygltf::Model &model, const json &animation,
+                  const Place &place, std::size_t number, Clips &clips, Tally &tally)
+{
+    const json &channel = animation["channels"][number];
+    const json &target = channel["target"];
+    std::string where = (place / "channels")[number].text();
+    auto path = target["path"].get<std::string>();
+    if (path == "weights") {
+        tally.add("morph targets are not modelled, their animation is left out", where);
+        return;
+    }
+    if (!is_modelled(path) || member(target, "node") == nullptr) {
+        tally.add("only translation, rotation and scale of nodes are animated, this is left out",
+                  where);
+        return;
+    }
+    auto node = target["node"].get<std::size_t>();
+    if (!model.nodes[node].matrix.empty()) {
+        tally.add("the node has a matrix, which cannot be animated, and stays where it is", where);
+        return;
+    }
+    auto sampler = channel["sampler"].get<std::size_t>();
+    Property property = path == "translation" ? translation : path == "rotation" ? rotation : scale;
+    Curve curve = read_curve(document, model, animation["samplers"][sampler],
+                             (place / "samplers")[sampler], property == rotation);
+    clips.duration = std::max(clips.duration, curve.times.back());
+    clips.nodes[node].of[property] = std::move(curve);
+}
+
+void read_clip(const Document &document, const tinygltf::Model &model, std::size_t index,
+               Clips &clips, Tally &tally)
+{
+    const json &animation = objects_of(document.root, "animations")[index];
+    Place place = (Place() / "animations")[index];
+    for (std::size_t k = 0; k < animation["channels"].size(); k++) {
+        read_channel(document, model, animation, place, k, clips, tally);
+    }
+    if (clips.name.empty()) {
+        clips.name = optional_text(animation, place, "name");
+    }
+}
+
+std::string name_of(const json &animations, std::size_t index)
+{
+    return optional_text(animations[index], Place(), "name");
+}
+
+std::string list_of(const json &animations)
+{
+    std::string list;
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < animations.size() && i < most; i++) {
+        std::string name = name_of(animations, i);
+        list +=
+            (i == 0 ? "" : ", ") + std::to_string(i) + (name.empty() ? "" : " " + in_quotes(name));
+    }
+    return list + (animations.size() > most ? ", ..." : "");
+}
+
+std::size_t find_clip(const json &animations, const char *name)
+{
+    for (std::size_t i = 0; i < animations.size(); i++) {
+        if (name_of(animations, i) == name) {
+            return i;
+        }
+    }
+    char *end = nullptr;
+    unsigned long index = std::strtoul(name, &end, 10);
+    bool is_index = name[0] >= '0' && name[0] <= '9' && *end == '\0';
+    if (!is_index || index >= animations.size()) {
+        throw refusal("there is no animation " + in_quotes(name) +
+                      (animations.empty() ? " (the file has none)"
+                                          : " (there is " + list_of(animations) + ")"));
+    }
+    return index;
+}
+
+} // namespace
+
+Clips read_clips(const Document &document, const tinygltf::Model &model, const char *name,
+                 Tally &tally)
+{
+    const json &animations = objects_of(document.root, "animations");
+    Clips clips;
+    if (name != nullptr && std::strcmp(name, "none") == 0) {
+        return clips;
+    }
+    if (name != nullptr && std::strcmp(name, "all") == 0) {
+        for (std::size_t i = 0; i < animations.size(); i++) {
+            read_clip(document, model, i, clips, tally);
+        }
+        return clips;
+    }
+    if (name == nullptr && animations.empty()) {
+        return clips;
+    }
+    if (name == nullptr && animations.size() > 1) {
+        std::string first = name_of(animations, 0);
+        tally.add("the first of " + std::to_string(animations.size()) +
+                      " animations is shown (--animation names another, or all)",
+                  "animations[0]" + (first.empty() ? "" : " " + in_quotes(first)));
+    }
+    read_clip(document, model, name == nullptr ? 0 : find_clip(animations, name), clips, tally);
+    return clips;
+}
+
+} // namespace glint

@@ -1,0 +1,490 @@
+// Keyframes against closed forms; animated scenes against files in which the nodes stand as they
+// should at that time; animations that are refused.
+#include "scene/animation.h"
+#include "scene/scene.h"
+#include "support/gltf_text.h"
+#include "support/scratch.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// ---- Curves ------------------------------------------------------------------------------------
+
+static void assert_close(const double *got, const double *expected, int count, double tolerance)
+{
+    for (int k = 0; k < count; k++) {
+        if (!(fabs(got[k] - expected[k]) <= tolerance)) {
+            fail_msg("[%d]: %.17g is not %.17g", k, got[k], expected[k]);
+        }
+    }
+}
+
+static void linear_and_step_hold_at_the_ends(void **state)
+{
+    (void)state;
+    const double times[] = {0.5, 1.5, 3.5};
+    const double values[] = {1, 2, 3, 5, -2, 3, 9, 0, 7};
+    glint_curve curve = {GLINT_INTERPOLATION_LINEAR, false, 3, times, values};
+    static const double samples[][5] = {
+        // time; LINEAR's value; STEP's first number
+        {-1, 1, 2, 3, 1},       {0, 1, 2, 3, 1},         {0.5, 1, 2, 3, 1}, {1, 3, 0, 3, 1},
+        {1.5, 5, -2, 3, 5},     {2.5, 7, -1, 5, 5},      {3.5, 9, 0, 7, 9}, {100, 9, 0, 7, 9},
+        {INFINITY, 9, 0, 7, 9}, {-INFINITY, 1, 2, 3, 1}, {NAN, 1, 2, 3, 1},
+    };
+    for (size_t i = 0; i < sizeof samples / sizeof *samples; i++) {
+        double value[3];
+        curve.interpolation = GLINT_INTERPOLATION_LINEAR;
+        glint_curve_sample(&curve, samples[i][0], value);
+        assert_close(value, &samples[i][1], 3, 1e-15);
+        curve.interpolation = GLINT_INTERPOLATION_STEP;
+        glint_curve_sample(&curve, samples[i][0], value);
+        assert_close(value, &samples[i][4], 1, 0);
+    }
+}
+
+// Hermite's spline is the one cubic with given ends and slopes: it gives any cubic back.
+static void splines_give_cubics_back(void **state)
+{
+    (void)state;
+    enum { KEYS = 4 };
+    const double times[KEYS] = {0.25, 1, 1.5, 4};
+    double values[KEYS * 9];
+    for (int i = 0; i < KEYS; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double t = times[i], a = k + 1;
+            values[9 * i + 3 + k] = a * t * t * t - 2 * t * t + t - a;
+            values[9 * i + k] = values[9 * i + 6 + k] = 3 * a * t * t - 4 * t + 1;
+        }
+    }
+    const glint_curve curve = {GLINT_INTERPOLATION_CUBIC, false, KEYS, times, values};
+    for (int step = 0; step <= 375; step++) {
+        const double t = 0.25 + 0.01 * step;
+        double value[3], expected[3];
+        glint_curve_sample(&curve, t, value);
+        for (int k = 0; k < 3; k++) {
+            const double a = k + 1;
+            expected[k] = a * t * t * t - 2 * t * t + t - a;
+        }
+        assert_close(value, expected, 3, 1e-12 * 200); // values of up to 162
+    }
+}
+
+static void quaternion_about(const double axis[3], double angle, double q[4])
+{
+    for (int k = 0; k < 3; k++) {
+        q[k] = axis[k] * sin(angle / 2);
+    }
+    q[3] = cos(angle / 2);
+}
+
+// A turn at a steady rate is a turn by the share of its angle, also where keys are not unit, of
+// opposite sign, next to nothing apart, or half a turn.
+static void rotations_take_the_shorter_way_at_a_steady_rate(void **state)
+{
+    (void)state;
+    const double axis[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, times[] = {0, 1};
+    static const double angles[] = {0, 1e-300, 1e-12, 1e-4, 1, 2, 3.1, 3.14159};
+    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+            double values[8];
+            quaternion_about(axis, 0.7, values);
+            quaternion_about(axis, 0.7 + angles[i], values + 4);
+            for (int k = 0; k < 4; k++) {
+                values[k] *= 3;
+                values[4 + k] *= sign * 0.5;
+            }
+            const glint_curve curve = {GLINT_INTERPOLATION_LINEAR, true, 2, times, values};
+            for (int eighth = 0; eighth <= 8; eighth++) {
+                const double share = eighth / 8.0;
+                double got[4], expected[4];
+                glint_curve_sample(&curve, share, got);
+                quaternion_about(axis, 0.7 + share * angles[i], expected);
+                const double same = got[3] * expected[3] < 0 ? -1 : 1;
+                for (int k = 0; k < 4; k++) {
+                    expected[k] *= same;
+                }
+                assert_close(got, expected, 4, 1e-15 * 4);
+            }
+        }
+    }
+}
+
+static void splines_of_rotations_are_unit(void **state)
+{
+    (void)state;
+    const double times[] = {0, 2};
+    // Through opposite quaternions: half-way the spline passes through 0, where there is no turn.
+    const double values[] = {0, 0, 0, 0, 0, 0, 0, 1,  0, 0, 0, 0,
+                             0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0};
+    const glint_curve curve = {GLINT_INTERPOLATION_CUBIC, true, 2, times, values};
+    for (int step = 0; step <= 16; step++) {
+        double q[4];
+        glint_curve_sample(&curve, step / 8.0, q);
+        assert_close(&(double){q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]}, &(double){1},
+                     1, 1e-15);
+    }
+}
+
+static void what_never_changes_does_not_move(void **state)
+{
+    (void)state;
+    const double times[] = {0, 1}, still[] = {1, 2, 3, 1, 2, 3}, moving[] = {1, 2, 3, 1, 2, 4};
+    const double resting[18] = {0, 0, 0, 1, 2, 3, 0, 0, 0, 0, 0, 0, 1, 2, 3, 0, 0, 0};
+    const double swinging[18] = {0, 0, 0, 1, 2, 3, 1, 0, 0, 0, 0, 0, 1, 2, 3, 0, 0, 0};
+    assert_false(
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_LINEAR, false, 2, times, still}));
+    assert_false(
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_LINEAR, false, 1, times, moving}));
+    assert_true(
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_STEP, false, 2, times, moving}));
+    assert_false(
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_CUBIC, false, 2, times, resting}));
+    assert_true(
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_CUBIC, false, 2, times, swinging}));
+}
+
+// ---- Scenes ------------------------------------------------------------------------------------
+
+// The tetrahedron, and behind it the keys of a clip of two seconds.
+typedef struct moving_data {
+    tetrahedron shape;
+    float times[3];
+    float places[3][3], sizes[3][3];
+    float turns[3][4];
+    int16_t short_turns[3][4];
+} moving_data;
+
+static moving_data make_data(void)
+{
+    const float half = 0.70710678f;
+    return (moving_data){
+        .shape = the_tetrahedron,
+        .times = {0, 1, 2},
+        .places = {{0, 0, 0}, {4, 0, 0}, {4, 2, 0}},
+        .sizes = {{1, 1, 1}, {2, 2, 2}, {0, 0, 0}},
+        .turns = {{0, 0, 0, 1}, {0, half, 0, half}, {0, 1, 0, 0}},
+        .short_turns = {{0, 0, 0, 32767}, {0, 23170, 0, 23170}, {0, 32767, 0, 0}},
+    };
+}
+
+#define ACCESSORS                                                                                  \
+    ",{\"bufferView\":3,\"componentType\":5126,\"count\":3,\"type\":\"SCALAR\"},"                  \
+    "{\"bufferView\":4,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"                     \
+    "{\"bufferView\":5,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"                     \
+    "{\"bufferView\":6,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},"                     \
+    "{\"bufferView\":7,\"componentType\":5122,\"normalized\":true,\"count\":3,\"type\":\"VEC4\"}]"
+#define STORAGE                                                                                    \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"                                           \
+    "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":48},"                                          \
+    "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24},"                                          \
+    "{\"buffer\":0,\"byteOffset\":120,\"byteLength\":12},"                                         \
+    "{\"buffer\":0,\"byteOffset\":132,\"byteLength\":36},"                                         \
+    "{\"buffer\":0,\"byteOffset\":168,\"byteLength\":36},"                                         \
+    "{\"buffer\":0,\"byteOffset\":204,\"byteLength\":48},"                                         \
+    "{\"buffer\":0,\"byteOffset\":252,\"byteLength\":24}],"                                        \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"      \
+    "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"                     \
+    "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}" ACCESSORS         \
+    ",\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE "}]}]"
+// A parent that moves and turns, its child that grows, a mesh that stays, a camera on the parent.
+#define NODES                                                                                      \
+    ",\"nodes\":[{\"children\":[1,3],\"name\":\"arm\"%s},{\"mesh\":0,\"translation\":[1,0,0]%s},"  \
+    "{\"mesh\":0,\"translation\":[0,0,-3]},{\"camera\":0,\"translation\":[0,0,9]}],"               \
+    "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}],"           \
+    "\"scenes\":[{\"nodes\":[0,2]}]"
+#define CLIP                                                                                       \
+    ",\"animations\":[{\"name\":\"wave\",\"samplers\":[{\"input\":3,\"output\":4},"                \
+    "{\"input\":3,\"output\":5,\"interpolation\":\"LINEAR\"},{\"input\":3,\"output\":%d}],"        \
+    "\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}},"              \
+    "{\"sampler\":2,\"target\":{\"node\":0,\"path\":\"rotation\"}},"                               \
+    "{\"sampler\":1,\"target\":{\"node\":1,\"path\":\"scale\"}}]}]"
+
+static char *moving_text(const char *format, int turns)
+{
+    const moving_data data = make_data();
+    char rest[8192];
+    int length = snprintf(rest, sizeof rest, STORAGE NODES, "", "");
+    snprintf(rest + length, sizeof rest - (size_t)length, format, turns);
+    return gltf_text(&data, sizeof data, rest);
+}
+
+static glint_scene_source *open_text(const char *folder, char *text, const char *clip,
+                                     glint_status wanted, const char *message)
+{
+    const char *path = write_bytes(folder, "moving.gltf", text, strlen(text));
+    free(text);
+    const glint_scene_options options = {.animation = clip};
+    glint_scene_source *source;
+    glint_error error = {0};
+    const glint_status status = glint_scene_open(path, &options, &source, &error);
+    if (status != wanted || (message != NULL && strstr(error.message, message) == NULL)) {
+        fail_msg("status %d: %s", status, error.message);
+    }
+    glint_error_free(&error);
+    return source;
+}
+
+// The same scene at rest, with the nodes where `arm` and `child` put them.
+static glint_scene baked(const char *folder, const char *arm, const char *child)
+{
+    const moving_data data = make_data();
+    char rest[8192];
+    snprintf(rest, sizeof rest, STORAGE NODES, arm, child);
+    return load_rest(folder, &data, sizeof data, rest);
+}
+
+static void assert_same_scene(const glint_scene *a, const glint_scene *b)
+{
+    assert_int_equal(a->triangle_count, b->triangle_count);
+    assert_memory_equal(&a->origin, &b->origin, sizeof a->origin);
+    assert_true(a->unit == b->unit);
+    assert_memory_equal(a->positions, b->positions, 9 * a->triangle_count * sizeof(float));
+    assert_memory_equal(a->normals, b->normals, 9 * a->triangle_count * sizeof(float));
+    assert_int_equal(a->camera_count, 1);
+    assert_memory_equal(&a->cameras[0].eye, &b->cameras[0].eye, 4 * sizeof(glint_vec3));
+}
+
+static const struct {
+    double time;
+    const char *arm, *child;
+} stands[] = {
+    {-1, "", ""},
+    {0, "", ""},
+    {0.5, ",\"translation\":[2,0,0],\"rotation\":[0,0.38268343236508977,0,0.9238795325112867]",
+     ",\"scale\":[1.5,1.5,1.5]"},
+    {1, ",\"translation\":[4,0,0],\"rotation\":[0,0.7071067811865476,0,0.7071067811865476]",
+     ",\"scale\":[2,2,2]"},
+    {1.25, ",\"translation\":[4,0.5,0],\"rotation\":[0,0.8314696123025452,0,0.5555702330196022]",
+     ",\"scale\":[1.5,1.5,1.5]"},
+    {2, ",\"translation\":[4,2,0],\"rotation\":[0,1,0,0]", ",\"scale\":[0,0,0]"},
+    {1e9, ",\"translation\":[4,2,0],\"rotation\":[0,1,0,0]", ",\"scale\":[0,0,0]"},
+};
+
+static void a_moving_scene_is_the_one_in_which_nodes_stand_so(void **state)
+{
+    glint_scene_source *source = open_text(*state, moving_text(CLIP, 6), NULL, GLINT_OK, NULL);
+    const glint_motion *motion = glint_scene_motion(source);
+    assert_true(motion->moves_triangles && motion->moves_cameras && motion->duration == 2);
+    assert_string_equal(motion->clip, "wave");
+    for (size_t i = 0; i < sizeof stands / sizeof *stands; i++) {
+        glint_scene scene, expected = baked(*state, stands[i].arm, stands[i].child);
+        assert_int_equal(glint_scene_at(source, stands[i].time, &scene, NULL, NULL), GLINT_OK);
+        assert_true(scene.moves && !expected.moves);
+        // Turns of float keys differ from those of the text by their rounding.
+        assert_int_equal(scene.triangle_count, expected.triangle_count);
+        assert_int_equal(scene.triangle_count, stands[i].time >= 2 ? 4 : 8);
+        for (size_t k = 0; k < 9 * scene.triangle_count; k++) {
+            const double there = (double)expected.positions[k] * expected.unit;
+            const double here = (double)scene.positions[k] * scene.unit;
+            const double shift[3] = {scene.origin.x - expected.origin.x,
+                                     scene.origin.y - expected.origin.y,
+                                     scene.origin.z - expected.origin.z};
+            assert_true(fabs(here + shift[k % 3] - there) < 4e-6);
+        }
+        assert_true(glint_vec3_length(
+                        glint_vec3_subtract(scene.cameras[0].eye, expected.cameras[0].eye)) < 4e-6);
+        glint_scene_free(&scene);
+        glint_scene_free(&expected);
+    }
+    glint_scene_close(source);
+}
+
+static void at_its_keys_the_scene_is_the_same_bit_for_bit(void **state)
+{
+    glint_scene_source *source = open_text(*state, moving_text(CLIP, 6), NULL, GLINT_OK, NULL);
+    glint_scene scene, expected = baked(*state, "", "");
+    for (int again = 0; again < 2; again++) { // what comes between leaves no trace
+        assert_int_equal(glint_scene_at(source, 0, &scene, NULL, NULL), GLINT_OK);
+        assert_same_scene(&scene, &expected);
+        glint_scene_free(&scene);
+        assert_int_equal(glint_scene_at(source, 1.5, &scene, NULL, NULL), GLINT_OK);
+        glint_scene_free(&scene);
+    }
+    glint_scene_free(&expected);
+    expected =
+        baked(*state, ",\"translation\":[4,2,0],\"rotation\":[0,1,0,0]", ",\"scale\":[0,0,0]");
+    assert_int_equal(glint_scene_at(source, 2, &scene, NULL, NULL), GLINT_OK);
+    assert_same_scene(&scene, &expected);
+    // Cameras alone.
+    assert_int_equal(glint_scene_cameras_at(source, 0, &scene, NULL), GLINT_OK);
+    assert_true(scene.cameras[0].eye.z == 9 && scene.cameras[0].eye.x == 0);
+    glint_scene_free(&scene);
+    glint_scene_free(&expected);
+    glint_scene_close(source);
+}
+
+static void short_integers_are_turns_too(void **state)
+{
+    glint_scene a, b;
+    glint_scene_source *source = open_text(*state, moving_text(CLIP, 6), NULL, GLINT_OK, NULL);
+    assert_int_equal(glint_scene_at(source, 0.7, &a, NULL, NULL), GLINT_OK);
+    glint_scene_close(source);
+    source = open_text(*state, moving_text(CLIP, 7), NULL, GLINT_OK, NULL);
+    assert_int_equal(glint_scene_at(source, 0.7, &b, NULL, NULL), GLINT_OK);
+    glint_scene_close(source);
+    for (size_t k = 0; k < 9 * a.triangle_count; k++) {
+        assert_true(fabsf(a.positions[k] - b.positions[k]) < 1e-4f); // of 2⁻¹⁵ each
+    }
+    glint_scene_free(&a);
+    glint_scene_free(&b);
+}
+
+static void clips_are_chosen_by_name_and_index(void **state)
+{
+    static const struct {
+        const char *clip;
+        bool moves;
+        const char *refusal;
+    } cases[] = {
+        {NULL, true, NULL},
+        {"wave", true, NULL},
+        {"0", true, NULL},
+        {"all", true, NULL},
+        {"none", false, NULL},
+        {"1", false, "there is no animation \"1\" (there is 0 \"wave\")"},
+        {"Wave", false, "there is no animation"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        glint_scene_source *source =
+            open_text(*state, moving_text(CLIP, 6), cases[i].clip,
+                      cases[i].refusal != NULL ? GLINT_BAD_INPUT : GLINT_OK, cases[i].refusal);
+        if (source != NULL) {
+            assert_int_equal(glint_scene_motion(source)->moves_triangles, cases[i].moves);
+        }
+        glint_scene_close(source);
+    }
+}
+
+// A camera that is made up for a moving scene sees all that it will do, and stands still.
+static void bounds_are_those_of_the_whole_clip(void **state)
+{
+    glint_scene_source *source = open_text(*state, moving_text(CLIP, 6), NULL, GLINT_OK, NULL);
+    glint_scene scene;
+    assert_int_equal(glint_scene_at(source, 0, &scene, NULL, NULL), GLINT_OK);
+    glint_vec3 low, high;
+    glint_scene_shown_bounds(&scene, &low, &high);
+    for (int step = 0; step <= 64; step++) {
+        glint_scene then;
+        assert_int_equal(glint_scene_at(source, step / 32.0, &then, NULL, NULL), GLINT_OK);
+        glint_vec3 same_low, same_high;
+        glint_scene_shown_bounds(&then, &same_low, &same_high);
+        assert_memory_equal(&low, &same_low, sizeof low);
+        assert_memory_equal(&high, &same_high, sizeof high);
+        assert_true(then.low.x >= low.x - 1e-6 && then.high.x <= high.x + 1e-6);
+        assert_true(then.low.y >= low.y - 1e-6 && then.high.y <= high.y + 1e-6);
+        assert_true(then.low.z >= low.z - 1e-6 && then.high.z <= high.z + 1e-6);
+        glint_scene_free(&then);
+    }
+    assert_true(high.x < 4 + 1 + 2 + 1e-6 && low.x > -4); // and not much more
+    glint_scene_free(&scene);
+    glint_scene_close(source);
+}
+
+// ---- Mistakes ----------------------------------------------------------------------------------
+
+#define ONE_CHANNEL(samplers, channel)                                                             \
+    ",\"animations\":[{\"samplers\":[" samplers "],\"channels\":[" channel "]}]%.0d"
+#define MOVE "{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}}"
+
+static void damaged_animations_are_refused(void **state)
+{
+    static const char *const cases[][2] = {
+        {",\"animations\":[{}]%.0d", "animations[0].samplers: missing"},
+        {",\"animations\":[{\"samplers\":[],\"channels\":5}]%.0d", "animations[0].channels"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":4}", "7"), "animations[0].channels[0]"},
+        {ONE_CHANNEL("{\"input\":3}", MOVE), "samplers[0].output: missing"},
+        {ONE_CHANNEL("{\"input\":99,\"output\":4}", MOVE), "samplers[0].input"},
+        {ONE_CHANNEL("{\"input\":4,\"output\":4}", MOVE),
+         "samplers[0].input: the accessor holds VEC3"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":6}", MOVE),
+         "samplers[0].output: the accessor holds VEC4"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":0}", MOVE), "4 values for 3 keys"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":4,\"interpolation\":\"CUBICSPLINE\"}", MOVE),
+         "3 values for 3 keys, which have three each"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":4,\"interpolation\":\"BEZIER\"}", MOVE),
+         "\"BEZIER\" is none"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":4}",
+                     "{\"sampler\":1,\"target\":{\"path\":\"scale\"}}"),
+         "channels[0].sampler"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":4}",
+                     "{\"sampler\":0,\"target\":{\"node\":4,\"path\":\"scale\"}}"),
+         "channels[0].target.node"},
+        {ONE_CHANNEL("{\"input\":3,\"output\":4}", "{\"sampler\":0,\"target\":{\"node\":0}}"),
+         "target.path: missing"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        glint_scene_source *source =
+            open_text(*state, moving_text(cases[i][0], 0), NULL, GLINT_BAD_INPUT, cases[i][1]);
+        assert_null(source);
+    }
+}
+
+static void keys_that_make_no_sense_are_refused(void **state)
+{
+    for (int which = 0; which < 5; which++) {
+        moving_data data = make_data();
+        static const char *const messages[] = {"key 1 is at 0 s", "key 0 is at -1 s", "key 2 is at",
+                                               "value 1 is no rotation", "value 2 is not finite"};
+        data.times[1] = which == 0 ? 0 : 1;
+        data.times[0] = which == 1 ? -1 : 0;
+        data.times[2] = which == 2 ? NAN : 2;
+        if (which == 3) {
+            memset(data.turns[1], 0, sizeof data.turns[1]);
+        }
+        data.places[2][0] = which == 4 ? INFINITY : 4;
+        char rest[8192];
+        int length = snprintf(rest, sizeof rest, STORAGE NODES, "", "");
+        snprintf(rest + length, sizeof rest - (size_t)length, CLIP, 6);
+        char *text = gltf_text(&data, sizeof data, rest);
+        assert_null(open_text(*state, text, NULL, GLINT_BAD_INPUT, messages[which]));
+    }
+}
+
+static void what_is_not_animated_is_said(void **state)
+{
+    char *text =
+        moving_text(",\"animations\":[{\"samplers\":[{\"input\":3,\"output\":4}],\"channels\":["
+                    "{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"weights\"}},"
+                    "{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"pointer\"}},"
+                    "{\"sampler\":0,\"target\":{\"path\":\"translation\"}}]},"
+                    "{\"samplers\":[],\"channels\":[],\"name\":\"b\"}]%.0d",
+                    0);
+    glint_scene_source *source = open_text(*state, text, NULL, GLINT_OK, NULL);
+    assert_false(glint_scene_motion(source)->moves_triangles);
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    assert_int_equal(glint_scene_at(source, 0, &scene, &warnings, NULL), GLINT_OK);
+    assert_true(any_warning_has(&warnings, "channels[0]: morph targets are not modelled"));
+    assert_true(any_warning_has(&warnings, "channels[1] and 1 more: only translation, rotation"));
+    assert_true(any_warning_has(&warnings, "the first of 2 animations is shown"));
+    glint_warnings_free(&warnings);
+    glint_scene_free(&scene);
+    glint_scene_close(source);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(linear_and_step_hold_at_the_ends),
+        cmocka_unit_test(splines_give_cubics_back),
+        cmocka_unit_test(rotations_take_the_shorter_way_at_a_steady_rate),
+        cmocka_unit_test(splines_of_rotations_are_unit),
+        cmocka_unit_test(what_never_changes_does_not_move),
+        cmocka_unit_test(a_moving_scene_is_the_one_in_which_nodes_stand_so),
+        cmocka_unit_test(at_its_keys_the_scene_is_the_same_bit_for_bit),
+        cmocka_unit_test(short_integers_are_turns_too),
+        cmocka_unit_test(clips_are_chosen_by_name_and_index),
+        cmocka_unit_test(bounds_are_those_of_the_whole_clip),
+        cmocka_unit_test(damaged_animations_are_refused),
+        cmocka_unit_test(keys_that_make_no_sense_are_refused),
+        cmocka_unit_test(what_is_not_animated_is_said),
+    };
+    return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}
