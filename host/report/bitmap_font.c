@@ -1,6 +1,8 @@
 // Signs of 5 × 7 dots. See bitmap_font.h.
 #include "report/bitmap_font.h"
 
+#include <string.h>
+
 #include <stddef.h>
 
 typedef struct glyph {
@@ -51,4 +53,28 @@ bool glint_font_dot(char sign, int x, int y)
         }
     }
     return false;
+}
+
+void glint_font_fill(glint_image *image, const int box[4], const float color[3])
+{
+    for (int y = box[1]; y < box[1] + box[3]; y++) {
+        for (int x = box[0]; x < box[0] + box[2]; x++) {
+            memcpy(glint_image_pixel(image, x, y), color, 3 * sizeof *color);
+        }
+    }
+}
+
+void glint_font_draw(glint_image *image, int x, int y, int unit, const char *text,
+                     const float color[3])
+{
+    for (; *text != '\0'; text++, x += GLINT_FONT_ADVANCE * unit) {
+        for (int row = 0; row < GLINT_FONT_HEIGHT; row++) {
+            for (int column = 0; column < GLINT_FONT_WIDTH; column++) {
+                if (glint_font_dot(*text, column, row)) {
+                    const int dot[4] = {x + column * unit, y + row * unit, unit, unit};
+                    glint_font_fill(image, dot, color);
+                }
+            }
+        }
+    }
 }

@@ -89,34 +89,12 @@ glint_heat_layout glint_heat_layout_for(int width, int height)
 
 // ---- Drawing ------------------------------------------------------------------------------------
 
-static void fill(glint_image *map, const int box[4], const float color[3])
-{
-    for (int y = box[1]; y < box[1] + box[3]; y++) {
-        for (int x = box[0]; x < box[0] + box[2]; x++) {
-            memcpy(glint_image_pixel(map, x, y), color, 3 * sizeof *color);
-        }
-    }
-}
-
-static void draw_text(glint_image *map, int x, int y, int unit, const char *text)
-{
-    for (; *text != '\0'; text++, x += GLINT_FONT_ADVANCE * unit) {
-        for (int row = 0; row < GLINT_FONT_HEIGHT; row++) {
-            for (int column = 0; column < GLINT_FONT_WIDTH; column++) {
-                if (glint_font_dot(*text, column, row)) {
-                    const int dot[4] = {x + column * unit, y + row * unit, unit, unit};
-                    fill(map, dot, ink);
-                }
-            }
-        }
-    }
-}
-
 // Under the bar, its middle at x.
 static void draw_label(const glint_heat_layout *layout, int x, const char *text, glint_image *map)
 {
     const int width = ((int)strlen(text) * GLINT_FONT_ADVANCE - 1) * layout->unit;
-    draw_text(map, x - width / 2, layout->strip_y + LABEL_Y * layout->unit, layout->unit, text);
+    glint_font_draw(map, x - width / 2, layout->strip_y + LABEL_Y * layout->unit, layout->unit,
+                    text, ink);
 }
 
 static void draw_box(const glint_heat_layout *layout, int x, const float color[3], const char *text,
@@ -125,8 +103,8 @@ static void draw_box(const glint_heat_layout *layout, int x, const float color[3
     const int side = layout->bar_height, unit = layout->unit;
     const int frame[4] = {x - unit, layout->bar_y - unit, side + 2 * unit, side + 2 * unit};
     const int box[4] = {x, layout->bar_y, side, side};
-    fill(map, frame, ink); // black would be lost on the dark background
-    fill(map, box, color);
+    glint_font_fill(map, frame, ink); // black would be lost on the dark background
+    glint_font_fill(map, box, color);
     draw_label(layout, x + side / 2, text, map);
 }
 
@@ -137,7 +115,7 @@ static void draw_bar(const glint_heat_legend *legend, const glint_heat_layout *l
         float color[3];
         glint_heat_color((x + 0.5) / layout->bar_width, color);
         const int column[4] = {layout->bar_x + x, layout->bar_y, 1, layout->bar_height};
-        fill(map, column, color);
+        glint_font_fill(map, column, color);
     }
     for (int k = 0; k <= GLINT_HEAT_DECADES; k++) {
         const int exponent = legend->top - GLINT_HEAT_DECADES + k;
@@ -146,7 +124,7 @@ static void draw_bar(const glint_heat_legend *legend, const glint_heat_layout *l
                              TICK * layout->unit};
         char text[16];
         snprintf(text, sizeof text, exponent == 0 ? "1" : "1e%d", exponent);
-        fill(map, tick, ink);
+        glint_font_fill(map, tick, ink);
         draw_label(layout, x, text, map);
     }
 }
@@ -159,7 +137,7 @@ static void draw_marker(const glint_heat_legend *legend, const glint_heat_layout
     const int x = layout->bar_x + (int)lround(place * layout->bar_width);
     for (int row = 0; row < MARKER * layout->unit; row++) {
         const int line[4] = {x - row, layout->bar_y - 1 - row, 2 * row + 1, 1};
-        fill(map, line, ink);
+        glint_font_fill(map, line, ink);
     }
 }
 
@@ -175,8 +153,8 @@ static void draw_title(const glint_heat_legend *legend, const glint_heat_layout 
     } else {
         snprintf(text, sizeof text, "%s difference, worst 0", legend->measure);
     }
-    draw_text(map, MARGIN * layout->unit, layout->strip_y + TITLE_Y * layout->unit, layout->unit,
-              text);
+    glint_font_draw(map, MARGIN * layout->unit, layout->strip_y + TITLE_Y * layout->unit,
+                    layout->unit, text, ink);
 }
 
 void glint_heat_scale_draw(const glint_heat_legend *legend, const glint_heat_layout *layout,
@@ -184,8 +162,8 @@ void glint_heat_scale_draw(const glint_heat_legend *legend, const glint_heat_lay
 {
     const int strip[4] = {0, layout->strip_y, layout->width, layout->height - layout->strip_y};
     const int beside[4] = {picture_width, 0, layout->width - picture_width, layout->strip_y};
-    fill(map, strip, background);
-    fill(map, beside, background);
+    glint_font_fill(map, strip, background);
+    glint_font_fill(map, beside, background);
     draw_title(legend, layout, map);
     draw_box(layout, layout->equal_x, glint_heat_equal, "0", map);
     draw_bar(legend, layout, map);

@@ -308,4 +308,23 @@ check 'json: a frame' grep -q '"event": "frame", "frame": 2, "file": "out/f.2.ex
 check 'json: done' grep -q '"event": "done", .*"rendered": 3, "skipped": 0, "failed": 0' stderr
 clean
 
+# ---- contact sheets -----------------------------------------------------------------------------
+
+check 'contact --help tells every option' help_mentions contact output columns width exposure help
+refuses 2 'no output' contact whole/f.0001.exr
+refuses 2 'no images' contact -o out/sheet.png
+refuses 2 'one of the images' contact whole/*.exr -o whole/f.0002.exr
+refuses 2 '--columns' contact whole/*.exr --columns 0 -o out/sheet.png
+refuses 2 'more than 32768 on a side' contact whole/*.exr --columns 8 --width 4096 -o out/sheet.png
+refuses 5 'out/none' contact whole/*.exr -o out/none/sheet.png
+run contact whole/*.exr -o out/sheet.png
+check 'a contact sheet' test "$status" -eq 0 -a -s out/sheet.png -a ! -s stdout -a ! -s stderr
+run contact whole/f.0001.exr in/scene.bin whole/f.0002.exr -o out/part.png
+check 'a contact sheet: one is missing: exit status 6' test "$status" -eq 6 -a -s out/part.png
+check 'a contact sheet: it is named' grep -q 'in/scene.bin: ' stderr
+check 'a contact sheet: how many' grep -q 'out/part.png: 1 of 3 images are missing' stderr
+clean
+run contact in/scene.bin in/scene.gltf -o out/none.png
+check 'a contact sheet of nothing: exit status 3' test "$status" -eq 3 -a -z "$(ls -A out)"
+
 finish

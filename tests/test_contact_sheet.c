@@ -1,0 +1,146 @@
+// Contact sheets: where pictures come to lie, and what a pixel of the sheet is the mean of.
+#include "report/contact_sheet.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { GAP = 8, LABEL = 20 }; // contact_sheet.c's
+
+static glint_contact_sheet make_sheet(int count, int columns, int width, int height)
+{
+    glint_contact_sheet sheet;
+    assert_int_equal(glint_contact_sheet_create(count, columns, width, height, &sheet, NULL),
+                     GLINT_OK);
+    return sheet;
+}
+
+static const float *at(const glint_contact_sheet *sheet, int index, int x, int y)
+{
+    const int column = index % sheet->columns, row = index / sheet->columns;
+    return glint_image_pixel(&sheet->image, GAP + column * (sheet->width + GAP) + x,
+                             GAP + row * (sheet->height + LABEL + GAP) + y);
+}
+
+static glint_image picture(int width, int height, int channels)
+{
+    glint_image image = {0};
+    assert_int_equal(glint_image_create(width, height, channels, &image, NULL), GLINT_OK);
+    return image;
+}
+
+static void pixels_are_means_of_what_they_cover(void **state)
+{
+    (void)state;
+    glint_contact_sheet sheet = make_sheet(1, 0, 3, 2);
+    // 7 × 5 to 3 × 2: borders fall within pixels. Of a plane every mean is its value in the middle.
+    glint_image image = picture(7, 5, 3);
+    for (int y = 0; y < 5; y++) {
+        for (int x = 0; x < 7; x++) {
+            float *p = glint_image_pixel(&image, x, y);
+            p[0] = 0.1F * ((float)x + 0.5F);
+            p[1] = 0.2F * ((float)y + 0.5F);
+            p[2] = 1;
+        }
+    }
+    glint_contact_sheet_put(&sheet, 0, &image, "");
+    for (int y = 0; y < 2; y++) {
+        for (int x = 0; x < 3; x++) {
+            const float *p = at(&sheet, 0, x, y);
+            // Within a pixel the picture is constant, so that means of parts of it are off by up to
+            // a quarter of a step on each side.
+            assert_true(fabsf(p[0] - 0.1F * ((float)x + 0.5F) * 7 / 3) < 0.1F / 8);
+            assert_true(fabsf(p[1] - 0.2F * ((float)y + 0.5F) * 5 / 2) < 0.2F / 8);
+            assert_true(fabsf(p[2] - 1) < 1e-6F);
+        }
+    }
+    // Where pixels go in evenly the mean is exact.
+    glint_image fine = picture(6, 4, 3);
+    for (int y = 0; y < 4; y++) {
+        for (int x = 0; x < 6; x++) {
+            glint_image_pixel(&fine, x, y)[0] = (float)(x % 2 + 2 * (y % 2));
+        }
+    }
+    glint_contact_sheet_put(&sheet, 0, &fine, "");
+    for (int i = 0; i < 6; i++) {
+        assert_true(at(&sheet, 0, i % 3, i / 3)[0] == 1.5F);
+    }
+    glint_image_free(&fine);
+    glint_image_free(&image);
+    glint_contact_sheet_free(&sheet);
+}
+
+static void pictures_lie_in_rows_and_fit(void **state)
+{
+    (void)state;
+    glint_contact_sheet sheet = make_sheet(5, 2, 16, 8);
+    assert_int_equal(sheet.columns, 2);
+    assert_int_equal(sheet.image.width, 2 * (16 + GAP) + GAP);
+    assert_int_equal(sheet.image.height, 3 * (8 + LABEL + GAP) + GAP);
+    glint_image square = picture(32, 32, 1);
+    for (int i = 0; i < 32 * 32; i++) {
+        square.pixels[i] = 5;
+    }
+    glint_contact_sheet_put(&sheet, 3, &square, "");
+    // 8 × 8 in the middle of 16 × 8.
+    assert_true(at(&sheet, 3, 4, 0)[0] == 5 && at(&sheet, 3, 11, 7)[2] == 5);
+    assert_true(at(&sheet, 3, 3, 0)[0] < 1 && at(&sheet, 3, 12, 7)[0] < 1);
+    for (int other = 0; other < 5; other++) {
+        assert_true(other == 3 || at(&sheet, other, 8, 4)[0] < 1);
+    }
+    glint_image_free(&square);
+    glint_contact_sheet_free(&sheet);
+}
+
+static void alpha_nan_and_missing_pictures_are_seen(void **state)
+{
+    (void)state;
+    glint_contact_sheet sheet = make_sheet(3, 3, 16, 16);
+    glint_image clear = picture(16, 16, 4);
+    float *half = glint_image_pixel(&clear, 3, 3);
+    half[0] = 0.5F;
+    half[3] = 0.5F;
+    glint_image_pixel(&clear, 5, 5)[1] = NAN;
+    glint_image_pixel(&clear, 6, 5)[1] = INFINITY;
+    glint_contact_sheet_put(&sheet, 0, &clear, "0001");
+    const float grey = at(&sheet, 0, 0, 0)[0];
+    assert_true(grey > 0.05F && at(&sheet, 0, 0, 0)[1] == grey);
+    assert_true(fabsf(at(&sheet, 0, 3, 3)[0] - (0.5F + grey / 2)) < 1e-6F);
+    for (int x = 5; x <= 6; x++) {
+        const float *magenta = at(&sheet, 0, x, 5);
+        assert_true(magenta[0] == 1 && magenta[1] == 0 && magenta[2] == 1);
+    }
+    glint_contact_sheet_put(&sheet, 1, NULL, "a label that is far too long for its room");
+    assert_true(at(&sheet, 1, 0, 0)[0] > 0.5F && at(&sheet, 1, 0, 15)[0] > 0.5F);
+    assert_true(at(&sheet, 1, 8, 0)[0] < 0.5F);
+    glint_image_free(&clear);
+    glint_contact_sheet_free(&sheet);
+}
+
+static void sheets_have_a_largest_size(void **state)
+{
+    (void)state;
+    glint_contact_sheet sheet;
+    glint_error error = {0};
+    assert_int_equal(glint_contact_sheet_create(1000000, 0, 240, 135, &sheet, &error), GLINT_USAGE);
+    assert_non_null(strstr(error.message, "--width"));
+    assert_int_equal(glint_contact_sheet_create(1, 7, 16, 16, &sheet, &error), GLINT_OK);
+    assert_int_equal(sheet.columns, 1);
+    glint_contact_sheet_free(&sheet);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pixels_are_means_of_what_they_cover),
+        cmocka_unit_test(pictures_lie_in_rows_and_fit),
+        cmocka_unit_test(alpha_nan_and_missing_pictures_are_seen),
+        cmocka_unit_test(sheets_have_a_largest_size),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
