@@ -49,6 +49,30 @@ static void linear_and_step_hold_at_the_ends(void **state)
     }
 }
 
+// Keys lie at the floats next to the frames' times, a third of them above: a step at frame n comes
+// at frame n, and not before.
+static void steps_come_at_their_frames(void **state)
+{
+    (void)state;
+    static const double rates[] = {12, 23.976, 24, 25, 29.97, 30, 48, 50, 60, 120};
+    enum { KEYS = 2000 };
+    static double times[KEYS], values[KEYS * 3];
+    for (size_t r = 0; r < sizeof rates / sizeof *rates; r++) {
+        for (int i = 0; i < KEYS; i++) {
+            times[i] = (double)(float)(i / rates[r]);
+            values[3 * i] = i;
+        }
+        const glint_curve curve = {GLINT_INTERPOLATION_STEP, false, KEYS, times, values};
+        for (int i = 0; i < KEYS; i++) {
+            double value[3];
+            glint_curve_sample(&curve, i / rates[r], value);
+            assert_true(value[0] == i);
+            glint_curve_sample(&curve, (i + 0.99) / rates[r], value);
+            assert_true(value[0] == i);
+        }
+    }
+}
+
 // Hermite's spline is the one cubic with given ends and slopes: it gives any cubic back.
 static void splines_give_cubics_back(void **state)
 {
@@ -473,6 +497,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(linear_and_step_hold_at_the_ends),
+        cmocka_unit_test(steps_come_at_their_frames),
         cmocka_unit_test(splines_give_cubics_back),
         cmocka_unit_test(rotations_take_the_shorter_way_at_a_steady_rate),
         cmocka_unit_test(splines_of_rotations_are_unit),

@@ -112,7 +112,7 @@ static void make_temporary(const char *output, long process, char *name, size_t 
     scratch_write(name, "half", -1);
 }
 
-static void stale_temporaries_of_the_same_output_are_removed(void **state)
+static void temporaries_of_dead_processes_are_removed(void **state)
 {
     (void)state;
     pid_t gone = fork();
@@ -125,11 +125,15 @@ static void stale_temporaries_of_the_same_output_are_removed(void **state)
     make_temporary("a.exr", (long)getppid(), alive, sizeof alive);
     make_temporary("b.exr", (long)gone, other, sizeof other);
     make_temporary("a.exr", (long)getpid(), ours, sizeof ours); // of a process before us
+    scratch_write(".a.tmp.exr", "someone else's", -1);
+    scratch_write(".a.exr.1-2-3x.tmp.exr", "someone else's", -1);
     assert_int_equal(write_text("a.exr", "x", NULL), GLINT_OK);
     assert_int_equal(access(scratch_path(dead), F_OK), -1);
     assert_int_equal(access(scratch_path(ours), F_OK), -1);
     assert_int_equal(access(scratch_path(alive), F_OK), 0);
-    assert_int_equal(access(scratch_path(other), F_OK), 0);
+    assert_int_equal(access(scratch_path(other), F_OK), -1);
+    assert_int_equal(access(scratch_path(".a.tmp.exr"), F_OK), 0);
+    assert_int_equal(access(scratch_path(".a.exr.1-2-3x.tmp.exr"), F_OK), 0);
 }
 
 // A limit on the size of files stands for a full disk: write() then fails in the same place.
@@ -232,7 +236,7 @@ int main(void)
         IN_FOLDER(permissions_follow_the_umask),
         IN_FOLDER(impossible_places_are_named),
         IN_FOLDER(a_symbolic_link_is_followed_and_stays),
-        IN_FOLDER(stale_temporaries_of_the_same_output_are_removed),
+        IN_FOLDER(temporaries_of_dead_processes_are_removed),
         IN_FOLDER(a_write_that_fails_leaves_nothing_and_keeps_what_was),
         IN_FOLDER(images_that_do_not_fit_on_the_disk_leave_nothing),
         IN_FOLDER(a_signal_leaves_no_temporary),

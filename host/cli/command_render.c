@@ -40,7 +40,7 @@ static glint_status open_stats(render_run *run, glint_error *error)
 static glint_status finish_stats(render_run *run, glint_error *error)
 {
     const render_totals *totals = &run->totals;
-    if (run->stats == NULL) {
+    if (run->stats == NULL || run->stats_failed) {
         return GLINT_OK;
     }
     const glint_stats_total total = {

@@ -129,7 +129,7 @@ static stand stand_of(const glint_progress_display *display, double frame_share)
     const double frames = display->frames > 0 ? (double)display->frames : 1;
     const double past = (double)display->past + frame_share;
     const double traced = (double)display->traced + frame_share;
-    const double elapsed = glint_now_ms() - display->render_begun;
+    const double elapsed = glint_now_ms() - display->render_begun - display->passing_ms;
     return (stand){
         .share = past < frames ? past / frames : 1,
         .frames_a_ms = traced / elapsed,
@@ -213,10 +213,16 @@ void glint_progress_step(glint_progress_display *display, uint64_t done, uint64_
     }
 }
 
-void glint_progress_past(glint_progress_display *display, bool was_traced)
+void glint_progress_traced(glint_progress_display *display)
 {
     display->past++;
-    display->traced += was_traced;
+    display->traced++;
+}
+
+void glint_progress_passed(glint_progress_display *display, double ms)
+{
+    display->past++;
+    display->passing_ms += ms;
 }
 
 const char *glint_frame_outcome_name(glint_frame_outcome outcome)

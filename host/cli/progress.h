@@ -24,7 +24,8 @@ typedef struct glint_progress_display {
     double rays;                    // primary rays of a frame, for the rate
     uint64_t frames, past, through; // of a sequence: all, those that need no more tracing, and
                                     // those that are on the disk or failed
-    uint64_t traced;                // of `past`, those that took time
+    uint64_t traced;                // of `past`, those that were
+    double passing_ms;              // what the others took
     bool line_is_drawn;
 } glint_progress_display;
 
@@ -41,8 +42,10 @@ void glint_progress_render(glint_progress_display *display, uint64_t frames, dou
 // Share of the frame: done of total, in any unit.
 void glint_progress_step(glint_progress_display *display, uint64_t done, uint64_t total);
 
-// A sequence's frame needs no more tracing: it has been traced, or was there already.
-void glint_progress_past(glint_progress_display *display, bool was_traced);
+// A sequence's frame needs no more tracing: it has been traced, or it was found in so many
+// milliseconds that it need not be.
+void glint_progress_traced(glint_progress_display *display);
+void glint_progress_passed(glint_progress_display *display, double ms);
 
 typedef enum glint_frame_outcome {
     GLINT_FRAME_RENDERED,

@@ -5,6 +5,7 @@
 #include "cli/progress.h"
 #include "image/output_file.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -180,14 +181,10 @@ static bool number_of(const glint_frame_name *name, const char *path, int *frame
     return true;
 }
 
-// Whether `path` is a file that the output replaces.
-static bool is_output(const render_request *request, const char *path)
+static bool is_frame(const render_request *request, const char *path)
 {
     int frame;
-    if (path == NULL || request->name.length == 0) {
-        return glint_same_file(request->output, path);
-    }
-    if (!number_of(&request->name, path, &frame) ||
+    if (path == NULL || !number_of(&request->name, path, &frame) ||
         !glint_frame_list_holds(&request->frames, frame)) {
         return false;
     }
@@ -195,6 +192,18 @@ static bool is_output(const render_request *request, const char *path)
     const bool same = glint_same_file(output, path);
     free(output);
     return same;
+}
+
+// Whether `path`, or the file that it leads to, is one that the output replaces.
+static bool is_output(const render_request *request, const char *path)
+{
+    if (path == NULL || request->name.length == 0) {
+        return glint_same_file(request->output, path);
+    }
+    char *target = realpath(path, NULL);
+    const bool is = is_frame(request, path) || is_frame(request, target);
+    free(target);
+    return is;
 }
 
 // An output that would replace an input, or another output.
@@ -309,10 +318,17 @@ double render_request_time(const render_request *request, int frame)
     return (frame - 1) / request->fps;
 }
 
-// The frames of a clip: up to the first one at or, but for rounding, beyond its end.
+// The first frame at or beyond the end of a clip, as a whole number. Keys are floats: a time that
+// is n frames is a little more or less than that.
+static double last_frame(const render_request *request, double duration)
+{
+    const double frames = duration * request->fps;
+    return ceil(frames - fmax(1e-6, 4 * FLT_EPSILON * frames)) + 1;
+}
+
 static glint_status take_clip(render_request *request, double duration, glint_error *error)
 {
-    const double frames = ceil(duration * request->fps * (1 - 1e-9)) + 1;
+    const double frames = last_frame(request, duration);
     if (frames > GLINT_FRAME_MAX) {
         return glint_fail(error, GLINT_USAGE,
                           "%s: the animation has %.3g frames at %g a second (name some with "
@@ -335,12 +351,12 @@ glint_status render_request_settle(render_request *request, const glint_motion *
                                   request->output);
     }
     const int highest = glint_frame_list_highest(&request->frames);
-    const double end = motion->duration * request->fps + 1; // in frames
-    if (moves && highest > ceil(end - 1e-6)) {
+    const double last = last_frame(request, motion->duration);
+    if (moves && highest > last) {
         glint_warn(warnings,
-                   "%s: the animation ends at frame %.6g (%g s); the frames after it, up to %d, "
+                   "%s: the animation ends at frame %.0f (%g s); the frames after it, up to %d, "
                    "show its end",
-                   request->inputs.scene, end, motion->duration, highest);
+                   request->inputs.scene, last, motion->duration, highest);
     }
     return GLINT_OK;
 }

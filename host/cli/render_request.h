@@ -18,7 +18,7 @@ typedef struct render_request {
     int exr_type; // index of the choices
     double exposure;
     int progress; // a glint_progress_mode
-    const char *frames_text, *shard_text;
+    const char *frames_text;
     int turntable; // frames of a whole turn; 0: the camera stays
     double fps;
     bool skip_existing;

@@ -2,6 +2,7 @@
 #include "cli/render_run.h"
 
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "cli/cli.h"
 #include "image/output_file.h"
 #include "render/sequence.h"
@@ -29,7 +30,7 @@ glint_subject render_run_subject(const render_run *run)
 
 // ---- The scene at a frame ----------------------------------------------------------------------
 
-// Moves the run's scene to a frame. On failure what there was stays.
+// Moves the run's scene and camera to a frame.
 static glint_status stand(render_run *run, int frame, glint_error *error)
 {
     glint_inputs *inputs = &run->inputs;
@@ -108,7 +109,16 @@ glint_status render_run_prepare(render_run *run, glint_error *error)
     run->cursor = (glint_frame_cursor){.list = &run->request->frames, .shard = run->request->shard};
     glint_frame_cursor first = run->cursor;
     int frame;
-    glint_status status = glint_frame_next(&first, &frame) ? stand(run, frame, error) : GLINT_OK;
+    // A frame whose scene is bad is one bad frame, and next_frame says so: the renderer begins with
+    // the first that is not.
+    glint_status status = GLINT_OK;
+    while (glint_frame_next(&first, &frame)) {
+        glint_error_free(error);
+        status = stand(run, frame, error);
+        if (status == GLINT_OK || status == GLINT_DEVICE_FAILED) {
+            break;
+        }
+    }
     if (status == GLINT_OK) {
         status = glint_device_open(request->device, &run->device, error);
     }
@@ -129,50 +139,77 @@ glint_status render_run_prepare(render_run *run, glint_error *error)
 
 // ---- Which frames ------------------------------------------------------------------------------
 
-// Whether the file of a frame is there, whole, and what would be rendered again. Says why not,
-// where there is one.
-static bool is_done(const render_run *run, int frame, const char *path)
+// Why a file that is there is not the frame; NULL where it is.
+static const char *why_again(const render_run *run, int frame, const char *path)
 {
-    if (access(path, F_OK) != 0) {
-        return false;
-    }
     char wanted[GLINT_FINGERPRINT_TEXT], found[GLINT_FINGERPRINT_TEXT];
     const glint_camera camera = camera_of(run, frame);
     glint_fingerprint_frame(&run->fingerprint, &run->scene_is, &camera, wanted);
     glint_fingerprint_find(path, found);
+    if (found[0] == '\0') {
+        return "it does not say how it was made";
+    }
     if (strcmp(wanted, found) != 0) {
-        glint_say("%s: rendered again: %s", path,
-                  found[0] == '\0' ? "it does not say how it was made"
-                                   : "made from another scene, environment or settings, or by "
-                                     "another version");
-        return false;
+        return "made from another scene, environment or settings, or by another version";
     }
     glint_image image = {0};
     glint_error error = {0};
     const bool is_whole = glint_image_read(path, &image, NULL, &error) == GLINT_OK;
-    if (!is_whole) {
-        glint_say("%s: rendered again: it is damaged", path);
-    }
     glint_image_free(&image);
     glint_error_free(&error);
-    return is_whole;
+    return is_whole ? NULL : "it is damaged";
+}
+
+// Whether the file of a frame is there, whole, and what would be rendered again.
+static bool is_done(render_run *run, int frame, const char *path)
+{
+    if (access(path, F_OK) != 0) {
+        return false;
+    }
+    const char *why = why_again(run, frame, path);
+    if (why != NULL) {
+        glint_progress_clear(&run->display);
+        glint_say("%s: rendered again: %s", path, why);
+    }
+    return why == NULL;
+}
+
+// What ends the run, unless something has before. Takes the error.
+static void end_by(render_run *run, glint_error *error)
+{
+    if (run->failure.code == GLINT_OK) {
+        run->failure = *error;
+        *error = (glint_error){0};
+    }
 }
 
 static void log_frame(render_run *run, const glint_stats_frame *facts)
 {
-    if (run->stats == NULL || run->failure.code != GLINT_OK) {
+    glint_error error = {0};
+    if (run->stats == NULL || run->stats_failed ||
+        glint_stats_log_frame(run->stats, facts, &error) == GLINT_OK) {
         return;
     }
-    glint_stats_log_frame(run->stats, facts, &run->failure);
+    run->stats_failed = true; // nothing comes behind a line that is not whole
+    end_by(run, &error);
+    glint_error_free(&error);
 }
 
-static void skip(render_run *run, int frame, const char *path)
+// Shows a frame of a sequence that is through.
+static void show_frame(render_run *run, const glint_progress_frame *shown)
+{
+    if (run->request->is_sequence) {
+        glint_progress_through(&run->display, shown);
+    }
+}
+
+static void skip(render_run *run, int frame, const char *path, double ms)
 {
     run->totals.skipped++;
-    glint_progress_past(&run->display, false);
+    glint_progress_passed(&run->display, ms);
     const glint_progress_frame shown = {
         .number = frame, .file = path, .outcome = GLINT_FRAME_SKIPPED};
-    glint_progress_through(&run->display, &shown);
+    show_frame(run, &shown);
     const glint_stats_frame facts = {
         .number = frame, .file = path, .outcome = glint_frame_outcome_name(GLINT_FRAME_SKIPPED)};
     log_frame(run, &facts);
@@ -180,7 +217,7 @@ static void skip(render_run *run, int frame, const char *path)
 
 static void count_failed(render_totals *totals, int frame)
 {
-    if (totals->failed == totals->failed_capacity) {
+    if (totals->failed_known == totals->failed_capacity) {
         const size_t capacity = 2 * totals->failed_capacity + 16;
         int *frames = realloc(totals->failed_frames, capacity * sizeof *frames);
         if (frames != NULL) {
@@ -188,17 +225,18 @@ static void count_failed(render_totals *totals, int frame)
             totals->failed_capacity = capacity;
         }
     }
-    if (totals->failed < totals->failed_capacity) {
-        totals->failed_frames[totals->failed++] = frame;
+    totals->failed++;
+    if (totals->failed_known < totals->failed_capacity) {
+        totals->failed_frames[totals->failed_known++] = frame;
     }
 }
 
 // A frame that cannot be rendered: as its scene at its time is bad, or the device failed, which is
 // the end.
-static void miss(render_run *run, int frame, const char *path, glint_error *error)
+static void miss(render_run *run, int frame, const char *path, double ms, glint_error *error)
 {
     count_failed(&run->totals, frame);
-    glint_progress_past(&run->display, false);
+    glint_progress_passed(&run->display, ms);
     const glint_progress_frame shown = {
         .number = frame, .file = path != NULL ? path : "", .outcome = GLINT_FRAME_FAILED};
     const glint_stats_frame facts = {.number = frame,
@@ -207,52 +245,51 @@ static void miss(render_run *run, int frame, const char *path, glint_error *erro
                                      .error = error->message};
     log_frame(run, &facts);
     if (!run->request->is_sequence || error->code == GLINT_DEVICE_FAILED) {
-        run->failure = *error;
-        *error = (glint_error){0};
+        end_by(run, error);
         return;
     }
     glint_progress_clear(&run->display);
     glint_say("frame %d: %s", frame, error->message);
-    glint_progress_through(&run->display, &shown);
+    show_frame(run, &shown);
 }
 
 // Brings scene, camera and renderer to a frame; false where its file need not be rendered.
 static bool wants(render_run *run, int frame, const char *path, glint_error *error)
 {
-    const double begun = glint_now_ms();
+    double clock = glint_now_ms();
     glint_status status = stand(run, frame, error);
+    run->build_ms = glint_lap_ms(&clock);
     if (status == GLINT_OK && run->request->skip_existing && is_done(run, frame, path)) {
-        skip(run, frame, path);
+        skip(run, frame, path, run->build_ms + glint_lap_ms(&clock));
         return false;
     }
+    clock = glint_now_ms();
     if (status == GLINT_OK) {
         status = show(run, error);
     }
-    run->build_ms = glint_now_ms() - begun;
+    run->build_ms += glint_lap_ms(&clock);
     return status == GLINT_OK;
 }
 
-static bool next_frame(void *context, glint_sequence_frame *frame)
+static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
-    while (run->failure.code == GLINT_OK && !glint_stop_requested() &&
-           glint_frame_next(&run->cursor, &frame->number)) {
-        glint_error error = {0};
-        char *path = glint_frame_name_make(&run->request->name, frame->number);
-        const bool wanted = path != NULL ? wants(run, frame->number, path, &error)
-                                         : (glint_fail_memory(&error, "a file name"), false);
-        if (wanted) {
-            frame->camera = camera_of(run, frame->number);
-        } else if (error.code != GLINT_OK) {
-            miss(run, frame->number, path, &error);
-        }
-        glint_error_free(&error);
-        free(path);
-        if (wanted) {
-            return true;
-        }
+    if (run->failure.code != GLINT_OK || glint_stop_requested() ||
+        !glint_frame_next(&run->cursor, &frame->number)) {
+        return GLINT_NEXT_NONE;
     }
-    return false;
+    glint_error error = {0};
+    char *path = glint_frame_name_make(&run->request->name, frame->number);
+    const bool wanted = path != NULL ? wants(run, frame->number, path, &error)
+                                     : (glint_fail_memory(&error, "a file name"), false);
+    if (wanted) {
+        frame->camera = camera_of(run, frame->number);
+    } else if (error.code != GLINT_OK) {
+        miss(run, frame->number, path, run->build_ms, &error);
+    }
+    glint_error_free(&error);
+    free(path);
+    return wanted ? GLINT_NEXT_FRAME : GLINT_NEXT_AGAIN;
 }
 
 // ---- Writing -----------------------------------------------------------------------------------
@@ -269,7 +306,7 @@ static void frame_is_traced(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
     const render_request *request = run->request;
-    glint_progress_past(&run->display, true);
+    glint_progress_traced(&run->display);
     parcel *made = calloc(1, sizeof *made);
     frame->own = made;
     if (made == NULL) {
@@ -361,9 +398,8 @@ static void fail_frame(render_run *run, glint_sequence_frame *frame, const char 
     if (concerns_one_frame(run, path)) {
         glint_progress_clear(&run->display);
         glint_say_error(&frame->error);
-    } else if (run->failure.code == GLINT_OK) {
-        run->failure = frame->error;
-        frame->error = (glint_error){0};
+    } else {
+        end_by(run, &frame->error);
     }
 }
 
@@ -390,14 +426,12 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
     } else {
         fail_frame(run, frame, path);
     }
-    if (run->request->is_sequence) {
-        const glint_progress_frame shown = {.number = frame->number,
-                                            .file = path != NULL ? path : "",
-                                            .outcome = outcome,
-                                            .trace_ms = frame->trace_ms,
-                                            .write_ms = frame->write_ms};
-        glint_progress_through(&run->display, &shown);
-    }
+    const glint_progress_frame shown = {.number = frame->number,
+                                        .file = path != NULL ? path : "",
+                                        .outcome = outcome,
+                                        .trace_ms = frame->trace_ms,
+                                        .write_ms = frame->write_ms};
+    show_frame(run, &shown);
     free(path);
     free(frame->own);
     return run->failure.code == GLINT_OK;
@@ -439,11 +473,14 @@ glint_status render_run_frames(render_run *run, glint_error *error)
         return status;
     }
     begin_display(run);
-    const size_t writers = glint_sequence_writers(settings->width, settings->height);
+    const double values = settings->aovs != 0 ? 4 + 6 : 4; // of a pixel, with all layers
+    const size_t room =
+        glint_sequence_writers(values * sizeof(float) * settings->width * settings->height);
+    const size_t writers = run->frames < room ? (size_t)run->frames : room;
     const glint_sequence sequence = {
         .renderer = run->renderer,
         .with_layers = settings->aovs != 0,
-        .writers = run->frames < writers ? (size_t)run->frames : writers,
+        .writers = writers,
         .next = next_frame,
         .traced = frame_is_traced,
         .write = write_frame,
@@ -451,13 +488,18 @@ glint_status render_run_frames(render_run *run, glint_error *error)
         .progress = {step, &run->display},
         .context = run,
     };
-    // Frames that are written side by side keep the cores busy; a single one takes all of them.
-    glint_image_use_threads(run->frames > 1 ? 1 : 0);
+    // Frames that are written side by side share the cores.
+    const int threads = glint_usable_cores() / (int)writers;
+    glint_image_use_threads(threads > 1 ? threads : 1);
     glint_signals_cooperate(true);
     status = glint_sequence_run(&sequence, error);
     glint_signals_cooperate(false);
     glint_progress_clear(&run->display);
-    if (status == GLINT_OK && run->failure.code != GLINT_OK) {
+    if (run->failure.code != GLINT_OK) {
+        if (status != GLINT_OK) {
+            glint_say_error(error); // what came first decides
+            glint_error_free(error);
+        }
         *error = run->failure;
         run->failure = (glint_error){.code = error->code};
         return error->code;
@@ -475,7 +517,7 @@ glint_status render_run_verdict(const render_run *run, glint_error *error)
         return GLINT_OK;
     }
     char list[GLINT_MESSAGE_CAPACITY / 2];
-    glint_frame_list_print(totals->failed_frames, totals->failed, list, sizeof list);
+    glint_frame_list_print(totals->failed_frames, totals->failed_known, list, sizeof list);
     return glint_fail(error, GLINT_FRAMES_FAILED,
                       "%s: %zu of %llu frames failed: %s (mend the cause, then run this again with "
                       "--skip-existing)",

@@ -18,8 +18,9 @@ typedef struct render_spread {
 // What came of the frames that are through.
 typedef struct render_totals {
     uint64_t rendered, skipped;
-    size_t failed, failed_capacity;
-    int *failed_frames; // owned; in the order in which they failed
+    size_t failed;
+    size_t failed_known, failed_capacity;
+    int *failed_frames; // owned; in the order in which they failed, as many as found memory
     glint_ray_counts rays;
     render_spread build, trace, write; // build: the scene at its time, its tree
     glint_frame_report worst; // the one with the most truncated weight, with the largest of the
@@ -42,6 +43,7 @@ typedef struct render_run {
     glint_frame_cursor cursor;
     uint64_t frames; // of this run's shard
     glint_stats_log *stats;
+    bool stats_failed;
     render_totals totals;
     glint_frame_report last;   // of the last frame that was rendered
     double rendering_begun_ms; // since the display began

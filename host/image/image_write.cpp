@@ -394,7 +394,6 @@ std::string cause_of(const ImageOutput &output)
 glint_status encode(const char *path, const char *plugin, const Encoded &made,
                     OIIO::Filesystem::IOVecOutput &file, glint_error *error)
 {
-    std::shared_lock<std::shared_mutex> inside(glint::gate());
     std::unique_ptr<ImageOutput> output = ImageOutput::create(plugin);
     if (output == nullptr) {
         return glint_fail(error, GLINT_OUTPUT_FAILED,
@@ -415,9 +414,13 @@ glint_status write(const char *path, const glint_image &image, const glint_write
                    glint_error *error)
 {
     const Extension *extension = extension_of(path);
-    Encoded made = prepare(image, extension->format, options);
     OIIO::Filesystem::IOVecOutput file;
-    glint_status status = encode(path, extension->plugin, made, file, error);
+    glint_status status;
+    {
+        std::shared_lock<std::shared_mutex> inside(glint::gate());
+        Encoded made = prepare(image, extension->format, options);
+        status = encode(path, extension->plugin, made, file, error);
+    }
     if (status != GLINT_OK) {
         return status;
     }

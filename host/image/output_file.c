@@ -23,7 +23,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define SLOTS 32
+#define SLOTS (GLINT_OUTPUT_FILES_AT_ONCE + 8)
 #define SLOT_PATH 1024
 
 // ---- Temporaries in flight ----------------------------------------------------------------------
@@ -232,22 +232,33 @@ static void temporary_parts(const place *where, char before[NAME_MAX], char afte
     snprintf(after, NAME_MAX, ".tmp%s", extension);
 }
 
-// True for the temporary of a process that is gone, or of an earlier one that had our number.
+// The last ".tmp" in a name; NULL where there is none.
+static const char *find_ending(const char *name)
+{
+    const char *found = NULL;
+    for (const char *at = strstr(name, ".tmp"); at != NULL; at = strstr(at + 1, ".tmp")) {
+        found = at;
+    }
+    return found;
+}
+
+// True for the temporary, of whatever output, of a process that is gone, or of an earlier one that
+// had our number.
 static bool is_stale(const place *where, const char *name)
 {
-    char before[NAME_MAX], after[NAME_MAX];
-    temporary_parts(where, before, after);
-    size_t before_length = strlen(before), after_length = strlen(after), length = strlen(name);
-    if (length < before_length + after_length || strncmp(name, before, before_length) != 0 ||
-        strcmp(name + length - after_length, after) != 0) {
+    const char *ending = find_ending(name);
+    char head[NAME_MAX + 1];
+    if (ending == NULL || strlen(name) > NAME_MAX) {
         return false;
     }
+    snprintf(head, sizeof head, "%.*s", (int)(ending - name), name);
+    const char *numbers = strrchr(head, '.');
     long process = 0;
     unsigned host = 0, number = 0;
     int used = 0;
-    if (sscanf(name + before_length, "%ld-%8x-%u%n", &process, &host, &number, &used) != 3 ||
-        before_length + (size_t)used + after_length != length || host != host_hash() ||
-        process < 1 || process > INT_MAX) {
+    if (numbers == NULL || numbers == head ||
+        sscanf(numbers + 1, "%ld-%8x-%u%n", &process, &host, &number, &used) != 3 ||
+        numbers[1 + used] != '\0' || host != host_hash() || process < 1 || process > INT_MAX) {
         return false;
     }
     if (process != (long)getpid()) {
@@ -258,11 +269,24 @@ static bool is_stale(const place *where, const char *name)
     return printed > 0 && (size_t)printed < sizeof path && !slot_holds(path);
 }
 
+// Whether this process has looked through the folder before. Looking at it for every file of a long
+// sequence would take longer than writing them.
+static bool was_swept(const place *where)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    static char last[PATH_MAX];
+    pthread_mutex_lock(&lock);
+    const bool was = strcmp(last, where->folder) == 0;
+    snprintf(last, sizeof last, "%s", where->folder);
+    pthread_mutex_unlock(&lock);
+    return was;
+}
+
 static void remove_stale(const place *where)
 {
-    DIR *folder = opendir(where->folder);
+    DIR *folder = was_swept(where) ? NULL : opendir(where->folder);
     if (folder == NULL) {
-        return; // a folder that may be written but not listed
+        return; // also a folder that may be written but not listed
     }
     for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
         if (entry->d_name[0] == '.' && is_stale(where, entry->d_name)) {

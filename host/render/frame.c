@@ -226,7 +226,6 @@ static glint_status prepare(const glint_renderer_inputs *in, glint_renderer *r,
     return status;
 }
 
-// Puts the tree and the materials in the place of those that there were.
 static glint_status upload_geometry(const glint_renderer_inputs *in, glint_renderer *r,
                                     glint_bvh *bvh, glint_error *error)
 {
@@ -236,7 +235,6 @@ static glint_status upload_geometry(const glint_renderer_inputs *in, glint_rende
     glint_geometry_memory fresh;
     glint_status status = glint_geometry_upload(&inputs, &fresh, error);
     if (status == GLINT_OK) {
-        glint_geometry_memory_free(&r->geometry);
         r->geometry = fresh;
         r->space = glint_stored_space_of(in->scene);
     }
@@ -340,6 +338,8 @@ glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scen
     glint_renderer_inputs in = r->inputs;
     in.scene = scene;
     glint_bvh bvh = {0};
+    glint_geometry_memory_free(&r->geometry); // memory for one scene is enough
+    r->has_failed = true;
     glint_status status = prepare(&in, r, &before, &bvh, error);
     if (status != GLINT_OK) {
         r->plan = before;
@@ -355,6 +355,7 @@ glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scen
         }
     }
     glint_bvh_free(&bvh);
+    r->has_failed = status != GLINT_OK;
     return status;
 }
 
@@ -508,7 +509,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     glint_frame_report own_report = {0};
     report = report != NULL ? report : &own_report;
     *report = (glint_frame_report){0};
-    if (r->kernel == NULL) {
+    if (r->kernel == NULL || r->has_failed) {
         glint_image_free(image);
         return glint_fail(error, GLINT_USAGE, "the renderer was made without frames, or failed");
     }

@@ -174,16 +174,6 @@ bool glint_frame_list_holds(const glint_frame_list *list, int frame)
     return came_before(list, list->range_count, frame);
 }
 
-int glint_frame_list_lowest(const glint_frame_list *list)
-{
-    int64_t lowest = GLINT_FRAME_MAX;
-    for (size_t i = 0; i < list->range_count; i++) {
-        const int64_t own = lowest_of(&list->ranges[i]);
-        lowest = own < lowest ? own : lowest;
-    }
-    return (int)lowest;
-}
-
 int glint_frame_list_highest(const glint_frame_list *list)
 {
     int64_t highest = -GLINT_FRAME_MAX;

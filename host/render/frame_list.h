@@ -37,8 +37,7 @@ void glint_frame_list_free(glint_frame_list *list);
 
 bool glint_frame_list_holds(const glint_frame_list *list, int frame);
 
-// The lowest and the highest frame of a list that is not empty.
-int glint_frame_list_lowest(const glint_frame_list *list);
+// The highest frame of a list that is not empty.
 int glint_frame_list_highest(const glint_frame_list *list);
 
 // Part `index` of `count`, counted from 1: of the list's frames every count-th, so that neighbours,

@@ -22,6 +22,7 @@ struct glint_renderer {
     glint_pixels pixels;
     cl_mem counters, layers;
     size_t pixel_count;
+    bool has_failed;     // to take another scene
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };
 

@@ -9,8 +9,10 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "image/output_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,12 +65,10 @@ static slot *pop(queue *q)
     return s;
 }
 
-size_t glint_sequence_writers(int width, int height)
+size_t glint_sequence_writers(double frame_bytes)
 {
-    const double bytes = 4.0 * sizeof(float) * width * height;
-    const double room = MEMORY_IN_FLIGHT / bytes - 2;
-    const size_t cores = (size_t)glint_usable_cores();
-    return room < 1 ? 1 : room < (double)cores ? (size_t)room : cores;
+    const double room = fmin(MEMORY_IN_FLIGHT / frame_bytes - 2, GLINT_OUTPUT_FILES_AT_ONCE);
+    return (size_t)fmax(1, fmin(room, glint_usable_cores()));
 }
 
 // ---- Writers -----------------------------------------------------------------------------------
@@ -224,9 +224,15 @@ static glint_status feed(pipeline *p, glint_error *error)
         }
         // The image's memory serves again.
         s->frame = (glint_sequence_frame){.image = s->frame.image};
-        if (!p->sequence->next(p->sequence->context, &s->frame)) {
+        const glint_sequence_next next = p->sequence->next(p->sequence->context, &s->frame);
+        if (next != GLINT_NEXT_FRAME) {
             push(&p->idle, s);
+        }
+        if (next == GLINT_NEXT_NONE) {
             return GLINT_OK;
+        }
+        if (next == GLINT_NEXT_AGAIN) {
+            continue;
         }
         status = trace(p, s, error);
         if (status == GLINT_OK) {

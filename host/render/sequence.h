@@ -25,12 +25,19 @@ typedef struct glint_sequence_frame {
     void *own;           // the caller's: set by `traced`, released by `done`
 } glint_sequence_frame;
 
+// What `next` has to say.
+typedef enum glint_sequence_next {
+    GLINT_NEXT_FRAME,
+    GLINT_NEXT_AGAIN, // this one needs no rendering: ask once more, after a look at the others
+    GLINT_NEXT_NONE,
+} glint_sequence_next;
+
 typedef struct glint_sequence {
     glint_renderer *renderer;
     bool with_layers; // the renderer's settings ask for some
     size_t writers;   // threads that write; at least 1
-    // Sets the next frame's number and camera; false: there is none left.
-    bool (*next)(void *context, glint_sequence_frame *frame);
+    // Sets the next frame's number and camera, if there is one.
+    glint_sequence_next (*next)(void *context, glint_sequence_frame *frame);
     // A frame has been traced, and is about to be queued.
     void (*traced)(void *context, glint_sequence_frame *frame);
     // Brings a frame to where it belongs. Called from the writing threads, for several frames at
@@ -44,8 +51,8 @@ typedef struct glint_sequence {
 } glint_sequence;
 
 // How many writers keep up with the device: one for each core, but no more than keep the frames in
-// flight within a gigabyte.
-size_t glint_sequence_writers(int width, int height);
+// flight, of `frame_bytes` each, within a gigabyte, and one at least.
+size_t glint_sequence_writers(double frame_bytes);
 
 // Runs until `next` has no more, until `done` or `progress` asks for an end, or until the device
 // fails; what has been traced by then is written all the same. All but `write` is called on the

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <xxhash.h>
 
 // Where files say what they say of themselves: headers come first, but for TIFF's, which may stand
@@ -82,11 +83,11 @@ static void add_settings(XXH3_state_t *state, const glint_settings *s)
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
 }
 
-// What is chosen for the device, and not for the scene.
+// What else decides bits: widths and tiles do not, and texels are chosen for the environment.
 static void add_plan(XXH3_state_t *state, const glint_plan *plan)
 {
-    const double numbers[] = {plan->kernel_width, plan->tiles ? 1 : 0, plan->half_texels ? 1 : 0};
-    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+    const double half = plan->half_texels ? 1 : 0;
+    add_numbers(state, &half, 1);
 }
 
 static void add_encoding(XXH3_state_t *state, const char *path, const glint_write_options *options)
@@ -195,7 +196,9 @@ static bool find_in(const char *bytes, size_t size, char text[GLINT_FINGERPRINT_
 void glint_fingerprint_find(const char *path, char text[GLINT_FINGERPRINT_TEXT])
 {
     text[0] = '\0';
-    FILE *file = fopen(path, "rbe");
+    struct stat facts;
+    const bool is_file = stat(path, &facts) == 0 && S_ISREG(facts.st_mode); // a pipe would wait
+    FILE *file = is_file ? fopen(path, "rbe") : NULL;
     char *bytes = malloc(SEARCHED);
     if (file != NULL && bytes != NULL) {
         const size_t first = fread(bytes, 1, SEARCHED, file);

@@ -16,8 +16,8 @@ typedef struct glint_fingerprint {
 #define GLINT_FINGERPRINT_TEXT 33 // 32 hexadecimal digits and the end
 
 // Of what the frames of a run share: the program's version and its kernels, the environment, the
-// settings, what the plan takes from the device, and how a file is encoded; not of the device, nor
-// of the names of files. `subject`: environment, settings and plan are needed. `path` names the
+// settings, the kind of texels, and how a file is encoded; not of the device, nor of the names of
+// files. `subject`: environment, settings and plan are needed. `path` names the
 // format by its extension. Reads every texel once. Errors: GLINT_DEVICE_FAILED (memory).
 glint_status glint_fingerprint_run(const glint_subject *subject, const char *path,
                                    const glint_write_options *options,

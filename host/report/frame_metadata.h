@@ -28,7 +28,7 @@ typedef struct glint_frame_metadata {
 } glint_frame_metadata;
 
 // `subject`: scene, environment, camera, settings, device and plan are needed, and must outlive
-// `metadata`. `frame` counts from 1.
+// `metadata`. `frame` is its number.
 void glint_frame_metadata_fill(const glint_subject *subject, int frame, double exposure,
                                double render_ms, glint_frame_metadata *metadata);
 

@@ -1,6 +1,7 @@
 // Keyframes. See animation.h.
 #include "scene/animation.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -101,9 +102,10 @@ static size_t find_key(const glint_curve *curve, double time)
     return low;
 }
 
-void glint_curve_sample(const glint_curve *curve, double time, double *value)
+void glint_curve_sample(const glint_curve *curve, double exact_time, double *value)
 {
     const double *times = curve->times;
+    const double time = exact_time * (1 + 2 * (double)FLT_EPSILON);
     const size_t last = curve->key_count - 1;
     if (!(time > times[0])) {
         take_key(curve, 0, value);
@@ -115,7 +117,7 @@ void glint_curve_sample(const glint_curve *curve, double time, double *value)
     }
     const size_t key = find_key(curve, time);
     const double seconds = times[key + 1] - times[key];
-    const double share = (time - times[key]) / seconds;
+    const double share = fmax(0, (exact_time - times[key]) / seconds);
     if (curve->interpolation == GLINT_INTERPOLATION_STEP) {
         take_key(curve, key, value);
     } else if (curve->interpolation == GLINT_INTERPOLATION_CUBIC) {

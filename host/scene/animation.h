@@ -26,7 +26,9 @@ typedef struct glint_curve {
 } glint_curve;
 
 // The value at a time, of 3 numbers, or 4 of a unit quaternion. Before the first key its value
-// holds, after the last key the last's.
+// holds, after the last key the last's. Times in files are floats: one that is earlier than a key
+// by no more than a float's rounding is the key's, or a STEP at frame n would come at frame n + 1
+// where n frames are rounded up.
 void glint_curve_sample(const glint_curve *curve, double time, double *value);
 
 // Whether the value ever changes.

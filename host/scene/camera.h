@@ -15,6 +15,7 @@ extern "C" {
 // camera looks along −back. The node's scale is ignored. Near and far planes do not clip.
 typedef struct glint_camera {
     char *name;        // the node's name, else the camera's, else NULL; owned
+    bool is_lost;      // its node has no direction at this time of an animation: not to be used
     bool orthographic; // else perspective
     double yfov;       // perspective: the whole vertical angle, radians, in (0, π)
     double ymag;       // orthographic: half the vertical extent, metres, > 0

@@ -49,6 +49,23 @@ struct CameraScene {
     }
 };
 
+// Whatever a walk adds to a tally, which the next walk adds again, is taken back.
+class Said
+{
+  public:
+    explicit Said(Tally &tally) : tally_(tally), before_(tally) {}
+    Said(const Said &) = delete;
+    Said &operator=(const Said &) = delete;
+    ~Said()
+    {
+        std::swap(tally_, before_);
+    }
+
+  private:
+    Tally &tally_;
+    Tally before_;
+};
+
 // ---- Over time ---------------------------------------------------------------------------------
 
 // Between so many times of a clip what moves is taken to stay near where it is at both.
@@ -150,13 +167,12 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     source.has_name = options.scene != nullptr;
     source.name = source.has_name ? options.scene : "";
     // The first walk tells what moves.
+    Said said(load.tally);
     CameraScene first;
-    Tally said = load.tally;
     walk_scene(load, source.scene_name(), 0, first.scene);
     if (load.moves_triangles) {
         source.swept = sweep(load, source.scene_name());
     }
-    load.tally = said;
     source.motion = {load.moves_triangles, load.moves_cameras, load.clips.duration,
                      load.clips.name.empty() ? nullptr : load.clips.name.c_str()};
 }
@@ -201,12 +217,11 @@ glint_status glint_scene_at(glint_scene_source *source, double time, glint_scene
 {
     *scene = {};
     const char *path = source->load.document.path.c_str();
-    glint::Tally said = source->load.tally;
     glint_status status = glint::guard(path, error, [&] {
+        glint::Said said(source->load.tally);
         glint::fill(*source, time, *scene);
         glint::report(source->load, *scene, warnings);
     });
-    source->load.tally = said;
     if (status != GLINT_OK) {
         glint_scene_free(scene);
     }
@@ -216,15 +231,13 @@ glint_status glint_scene_at(glint_scene_source *source, double time, glint_scene
 glint_status glint_scene_cameras_at(glint_scene_source *source, double time, glint_scene *scene,
                                     glint_error *error)
 {
-    glint::Tally said = source->load.tally;
-    glint_status status = glint::guard(source->load.document.path.c_str(), error, [&] {
+    return glint::guard(source->load.document.path.c_str(), error, [&] {
+        glint::Said said(source->load.tally);
         glint::CameraScene at;
         glint::walk_scene(source->load, source->scene_name(), time, at.scene);
         std::swap(at.scene.cameras, scene->cameras);
         std::swap(at.scene.camera_count, scene->camera_count);
     });
-    source->load.tally = said;
-    return status;
 }
 
 const glint_motion *glint_scene_motion(const glint_scene_source *source)

@@ -169,45 +169,52 @@ Curve read_curve(const Document &document, const tinygltf::Model &model, const j
     return curve;
 }
 
-void read_channel(const Document &document, const tinygltf::Model &model, const json &animation,
-                  const Place &place, std::size_t number, Clips &clips, Tally &tally)
+// What clips are read from and into.
+struct Reading {
+    const Document &document;
+    const tinygltf::Model &model;
+    Clips &clips;
+    Tally &tally;
+};
+
+void read_channel(Reading &reading, const json &animation, const Place &place, std::size_t number)
 {
     const json &channel = animation["channels"][number];
     const json &target = channel["target"];
     std::string where = (place / "channels")[number].text();
     auto path = target["path"].get<std::string>();
     if (path == "weights") {
-        tally.add("morph targets are not modelled, their animation is left out", where);
+        reading.tally.add("morph targets are not modelled, their animation is left out", where);
         return;
     }
     if (!is_modelled(path) || member(target, "node") == nullptr) {
-        tally.add("only translation, rotation and scale of nodes are animated, this is left out",
-                  where);
+        reading.tally.add(
+            "only translation, rotation and scale of nodes are animated, this is left out", where);
         return;
     }
     auto node = target["node"].get<std::size_t>();
-    if (!model.nodes[node].matrix.empty()) {
-        tally.add("the node has a matrix, which cannot be animated, and stays where it is", where);
+    if (!reading.model.nodes[node].matrix.empty()) {
+        reading.tally.add("the node has a matrix, which cannot be animated, and stays where it is",
+                          where);
         return;
     }
     auto sampler = channel["sampler"].get<std::size_t>();
     Property property = path == "translation" ? translation : path == "rotation" ? rotation : scale;
-    Curve curve = read_curve(document, model, animation["samplers"][sampler],
+    Curve curve = read_curve(reading.document, reading.model, animation["samplers"][sampler],
                              (place / "samplers")[sampler], property == rotation);
-    clips.duration = std::max(clips.duration, curve.times.back());
-    clips.nodes[node].of[property] = std::move(curve);
+    reading.clips.duration = std::max(reading.clips.duration, curve.times.back());
+    reading.clips.nodes[node].of[property] = std::move(curve);
 }
 
-void read_clip(const Document &document, const tinygltf::Model &model, std::size_t index,
-               Clips &clips, Tally &tally)
+void read_clip(Reading &reading, std::size_t index)
 {
-    const json &animation = objects_of(document.root, "animations")[index];
+    const json &animation = objects_of(reading.document.root, "animations")[index];
     Place place = (Place() / "animations")[index];
     for (std::size_t k = 0; k < animation["channels"].size(); k++) {
-        read_channel(document, model, animation, place, k, clips, tally);
+        read_channel(reading, animation, place, k);
     }
-    if (clips.name.empty()) {
-        clips.name = optional_text(animation, place, "name");
+    if (reading.clips.name.empty()) {
+        reading.clips.name = optional_text(animation, place, "name");
     }
 }
 
@@ -253,12 +260,13 @@ Clips read_clips(const Document &document, const tinygltf::Model &model, const c
 {
     const json &animations = objects_of(document.root, "animations");
     Clips clips;
+    Reading reading{document, model, clips, tally};
     if (name != nullptr && std::strcmp(name, "none") == 0) {
         return clips;
     }
     if (name != nullptr && std::strcmp(name, "all") == 0) {
         for (std::size_t i = 0; i < animations.size(); i++) {
-            read_clip(document, model, i, clips, tally);
+            read_clip(reading, i);
         }
         return clips;
     }
@@ -271,7 +279,7 @@ Clips read_clips(const Document &document, const tinygltf::Model &model, const c
                       " animations is shown (--animation names another, or all)",
                   "animations[0]" + (first.empty() ? "" : " " + in_quotes(first)));
     }
-    read_clip(document, model, name == nullptr ? 0 : find_clip(animations, name), clips, tally);
+    read_clip(reading, name == nullptr ? 0 : find_clip(animations, name));
     return clips;
 }
 

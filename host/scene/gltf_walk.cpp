@@ -257,7 +257,9 @@ void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world,
     auto index = static_cast<std::size_t>(load.model.nodes[node].camera);
     const tinygltf::Camera &source = load.model.cameras[index];
     glint_camera camera = {};
-    if (!glint_camera_from_matrix(&to_world, &camera)) {
+    // One that is lost for a while keeps its place in the list.
+    camera.is_lost = !glint_camera_from_matrix(&to_world, &camera);
+    if (camera.is_lost && load.clips.nodes.empty()) {
         load.tally.add(
             "the camera has no direction (its scale is 0, or not finite) and is left out",
             node_where(load, node));

@@ -94,6 +94,20 @@ static const glint_camera *find_camera(const glint_scene *scene, const char *nam
     return found ? &scene->cameras[index] : NULL;
 }
 
+// A camera as it was found.
+static glint_status take_camera(const glint_scene *scene, const glint_camera *found,
+                                glint_camera *camera, glint_error *error)
+{
+    if (found->is_lost) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: camera %d has no direction at this time (its scale is 0, or not "
+                          "finite)",
+                          scene->path, (int)(found - scene->cameras));
+    }
+    *camera = *found;
+    return GLINT_OK;
+}
+
 glint_status glint_scene_camera(const glint_scene *scene, const char *name, glint_camera *camera,
                                 glint_error *error)
 {
@@ -103,15 +117,13 @@ glint_status glint_scene_camera(const glint_scene *scene, const char *name, glin
             glint_vec3 low, high;
             glint_scene_shown_bounds(scene, &low, &high);
             glint_camera_frame_bounds(low, high, camera);
-        } else {
-            *camera = scene->cameras[0];
+            return GLINT_OK;
         }
-        return GLINT_OK;
+        return take_camera(scene, &scene->cameras[0], camera, error);
     }
     const glint_camera *found = find_camera(scene, name);
     if (found != NULL) {
-        *camera = *found;
-        return GLINT_OK;
+        return take_camera(scene, found, camera, error);
     }
     const char *path = scene->path ? scene->path : "scene";
     if (scene->camera_count == 0) {
