@@ -92,6 +92,9 @@ static const glint_option output_options[] = {
     {GLINT_OPTION_CHOICE, .name = "exr-type", .argument = "TYPE",
      .help = "The picture's channels in an EXR: half or float.", .fallback = "half",
      .offset = offsetof(render_request, exr_type), .choices = EXR_TYPES},
+    {GLINT_OPTION_FLAG, .name = "preview",
+     .help = "Write a PNG beside each EXR, of the same name, with --exposure and the sRGB curve.",
+     .offset = offsetof(render_request, preview)},
     {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
      .help = "Layers that tell what became of each pixel's paths, as further channels of the EXR: "
              "depth (surfaces that the longest met), tir (total reflections), truncated (weight "
@@ -155,6 +158,20 @@ glint_write_options render_write_options(const render_request *request)
 
 // ---- Checks ------------------------------------------------------------------------------------
 
+// The preview's path is the image's with another extension.
+static glint_status name_preview(render_request *request, glint_error *error)
+{
+    if (!request->preview) {
+        return GLINT_OK;
+    }
+    const int stem = (int)strlen(request->output) - (int)strlen(".exr");
+    if (asprintf(&request->preview_path, "%.*s.png", stem, request->output) < 0) {
+        request->preview_path = NULL;
+        return glint_fail_memory(error, "a file name");
+    }
+    return glint_frame_name_parse(request->preview_path, &request->preview_name, error);
+}
+
 // The frame whose file would have that path, if there is one: the path's last part without what
 // stands before and behind the number's place.
 static bool number_of(const glint_frame_name *name, const char *path, int *frame)
@@ -181,29 +198,35 @@ static bool number_of(const glint_frame_name *name, const char *path, int *frame
     return true;
 }
 
-static bool is_frame(const render_request *request, const char *path)
+static bool is_frame(const render_request *request, const glint_frame_name *name, const char *path)
 {
     int frame;
-    if (path == NULL || !number_of(&request->name, path, &frame) ||
+    if (path == NULL || !number_of(name, path, &frame) ||
         !glint_frame_list_holds(&request->frames, frame)) {
         return false;
     }
-    char *output = glint_frame_name_make(&request->name, frame);
+    char *output = glint_frame_name_make(name, frame);
     const bool same = glint_same_file(output, path);
     free(output);
     return same;
 }
 
-// Whether `path`, or the file that it leads to, is one that the output replaces.
-static bool is_output(const render_request *request, const char *path)
+// Whether `path`, or the file that it leads to, is one that files of that name replace.
+static bool is_named(const render_request *request, const glint_frame_name *name, const char *path)
 {
-    if (path == NULL || request->name.length == 0) {
-        return glint_same_file(request->output, path);
+    if (path == NULL || name->length == 0) {
+        return glint_same_file(name->path, path);
     }
     char *target = realpath(path, NULL);
-    const bool is = is_frame(request, path) || is_frame(request, target);
+    const bool is = is_frame(request, name, path) || is_frame(request, name, target);
     free(target);
     return is;
+}
+
+static bool is_output(const render_request *request, const char *path)
+{
+    return is_named(request, &request->name, path) ||
+           is_named(request, &request->preview_name, path);
 }
 
 // An output that would replace an input, or another output.
@@ -239,6 +262,10 @@ static glint_status check_format(const render_request *request, glint_error *err
     if (status == GLINT_OK && request->inputs.settings.aovs != 0 && !is_exr) {
         return glint_fail(error, GLINT_USAGE, "--aov: %s is no EXR, which alone holds layers",
                           output);
+    }
+    if (status == GLINT_OK && request->preview && !is_exr) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--preview: %s is no EXR, beside which it would stand", output);
     }
     if (status == GLINT_OK && request->skip_existing && glint_has_extension(output, ".hdr")) {
         return glint_fail(error, GLINT_USAGE,
@@ -286,6 +313,9 @@ static glint_status check_place(const render_request *request, glint_error *erro
     glint_status status = request->is_sequence
                               ? glint_output_file_check_folder(request->output, error)
                               : glint_output_file_check(request->output, error);
+    if (status == GLINT_OK && request->preview && !request->is_sequence) {
+        status = glint_output_file_check(request->preview_path, error);
+    }
     if (status == GLINT_OK && request->stats != NULL) {
         status = glint_output_file_check(request->stats, error);
     }
@@ -300,6 +330,9 @@ glint_status render_request_finish(render_request *request, glint_error *error)
     glint_status status = check_format(request, error);
     if (status == GLINT_OK) {
         status = glint_input_request_finish(&request->inputs, error);
+    }
+    if (status == GLINT_OK) {
+        status = name_preview(request, error);
     }
     if (status == GLINT_OK) {
         status = find_frames(request, error);
@@ -364,6 +397,7 @@ glint_status render_request_settle(render_request *request, const glint_motion *
 void render_request_free(render_request *request)
 {
     glint_frame_list_free(&request->frames);
+    free(request->preview_path);
 }
 
 // What the chosen format cannot keep.
@@ -372,7 +406,8 @@ static void warn_of_format(const render_request *request, glint_warnings *warnin
     const char *output = request->output;
     bool is_hdr = glint_has_extension(output, ".hdr");
     bool is_jpeg = glint_has_extension(output, ".jpg") || glint_has_extension(output, ".jpeg");
-    if (request->exposure != 0 && (is_hdr || glint_has_extension(output, ".exr"))) {
+    if (request->exposure != 0 && !request->preview &&
+        (is_hdr || glint_has_extension(output, ".exr"))) {
         glint_warn(warnings, "%s: --exposure is left out, this format stays linear", output);
     }
     if (request->inputs.settings.transparent && (is_hdr || is_jpeg)) {

@@ -17,6 +17,7 @@ typedef struct render_request {
     const char *compression;
     int exr_type; // index of the choices
     double exposure;
+    bool preview; // a PNG beside the EXR
     int progress; // a glint_progress_mode
     const char *frames_text;
     int turntable; // frames of a whole turn; 0: the camera stays
@@ -26,6 +27,8 @@ typedef struct render_request {
     glint_frame_list frames;
     glint_shard shard;
     glint_frame_name name;
+    char *preview_path;            // NULL without previews; owned
+    glint_frame_name preview_name; // of preview_path
 } render_request;
 
 extern const glint_option *const render_option_groups[];

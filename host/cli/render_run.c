@@ -152,6 +152,17 @@ static const char *why_again(const render_run *run, int frame, const char *path)
     if (strcmp(wanted, found) != 0) {
         return "made from another scene, environment or settings, or by another version";
     }
+    if (run->request->preview) {
+        char *preview = glint_frame_name_make(&run->request->preview_name, frame);
+        found[0] = '\0';
+        if (preview != NULL) {
+            glint_fingerprint_find(preview, found);
+        }
+        free(preview);
+        if (strcmp(wanted, found) != 0) {
+            return "its preview is missing, or another's";
+        }
+    }
     glint_image image = {0};
     glint_error error = {0};
     const bool is_whole = glint_image_read(path, &image, NULL, &error) == GLINT_OK;
@@ -325,7 +336,24 @@ static void frame_is_traced(void *context, glint_sequence_frame *frame)
     }
 }
 
+static glint_status write_preview(const render_request *request, const glint_sequence_frame *frame,
+                                  glint_error *error)
+{
+    const parcel *along = frame->own;
+    char *path = glint_frame_name_make(&request->preview_name, frame->number);
+    if (path == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    const glint_write_options options = {.exposure = (float)request->exposure,
+                                         .metadata = along->metadata.entries,
+                                         .metadata_count = along->metadata.count};
+    glint_status status = glint_image_write(path, &frame->image, &options, error);
+    free(path);
+    return status;
+}
+
 // On a writer's thread: nothing of the run changes here, and nothing is read that does elsewhere.
+// The preview comes first, so that a frame that is there has one.
 static void write_frame(void *context, glint_sequence_frame *frame)
 {
     const render_run *run = context;
@@ -342,7 +370,12 @@ static void write_frame(void *context, glint_sequence_frame *frame)
     options.metadata_count = along->metadata.count;
     options.channels = frame->layers.channels;
     options.channel_count = frame->layers.count;
-    frame->status = glint_image_write(path, &frame->image, &options, &frame->error);
+    if (request->preview) {
+        frame->status = write_preview(request, frame, &frame->error);
+    }
+    if (frame->status == GLINT_OK) {
+        frame->status = glint_image_write(path, &frame->image, &options, &frame->error);
+    }
     free(path);
 }
 
@@ -383,19 +416,26 @@ static void count_rendered(render_totals *totals, const glint_sequence_frame *fr
     totals->rendered++;
 }
 
-// Whether a frame that could not be written tells nothing of the next one: its own name is taken by
-// something that cannot be replaced, while the folder is as it should be.
-static bool concerns_one_frame(const render_run *run, const char *path)
+// Whether a frame that could not be written tells nothing of the next one: its own name, or its
+// preview's, is taken by something that cannot be replaced, while the folder is as it should be.
+static bool concerns_one_frame(const render_run *run, int frame, const char *path)
 {
-    return run->request->is_sequence && path != NULL &&
-           glint_output_file_check(path, NULL) != GLINT_OK &&
-           glint_output_file_check_folder(path, NULL) == GLINT_OK;
+    if (!run->request->is_sequence || path == NULL ||
+        glint_output_file_check_folder(path, NULL) != GLINT_OK) {
+        return false;
+    }
+    char *preview =
+        run->request->preview ? glint_frame_name_make(&run->request->preview_name, frame) : NULL;
+    const bool is_taken = glint_output_file_check(path, NULL) != GLINT_OK ||
+                          (preview != NULL && glint_output_file_check(preview, NULL) != GLINT_OK);
+    free(preview);
+    return is_taken;
 }
 
 static void fail_frame(render_run *run, glint_sequence_frame *frame, const char *path)
 {
     count_failed(&run->totals, frame->number);
-    if (concerns_one_frame(run, path)) {
+    if (concerns_one_frame(run, frame->number, path)) {
         glint_progress_clear(&run->display);
         glint_say_error(&frame->error);
     } else {

@@ -59,7 +59,7 @@ mkdir in/folder.gltf in/empty
 
 # ---- help ---------------------------------------------------------------------------------------
 
-render_options='output exposure compression exr-type aov stats progress frames turntable
+render_options='output exposure compression exr-type preview aov stats progress frames turntable
     fps skip-existing shard env env-layout env-rotate camera animation
     scene size samples depth min-weight background precision fresnel texels filter device
     kernel-width kernel-tile kernel-dir help'

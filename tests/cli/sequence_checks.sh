@@ -137,6 +137,28 @@ for extension in png tif jpg; do
     clean
 done
 
+# ---- previews -----------------------------------------------------------------------------------
+
+refuses 2 'is no EXR' render "$scene" --preview -o out/f.png
+sequence --frames 2 -o in/f.####.png
+refuses 2 'this is an input' render "$scene" --env in/f.0002.png --preview --frames 1-3 -o in/f.####.exr
+sequence --frames 1-2 --preview --exposure 1 -o out/f.####.exr
+check 'previews: beside the frames' \
+    test "$(files out)" = 'f.0001.exr f.0001.png f.0002.exr f.0002.png '
+check 'previews: exposure is theirs' test "$status" -eq 0 -a ! -s stderr
+mv out/f.0002.png preview.png
+sequence --frames 2 --exposure 1 -o out/f.####.png
+check 'previews: what a PNG of the frame is' same_pixels out/f.0002.png preview.png
+rm out/f.0002.png
+sequence --frames 1-2 --preview --exposure 1 -o out/f.####.exr --skip-existing
+check 'previews: a missing one is made again' \
+    test "$(grep -c 'rendered again: its preview is missing' stderr)" -eq 1 -a -s out/f.0002.png
+rm out/*.png
+mkdir out/f.0001.png
+sequence --frames 1-2 --preview -o out/f.####.exr
+check 'previews: a name that is taken is one bad frame' test "$status" -eq 6 -a -s out/f.0002.png
+clean
+
 # Killed at any moment, a run leaves whole frames alone, and the next one completes them.
 large=(--turntable 8 --size 400x300 -o)
 mkdir undisturbed
