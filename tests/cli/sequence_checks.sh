@@ -330,6 +330,20 @@ if [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=64k tmpfs disk 2>/dev/null; th
 else
     skip 'a disk that fills up' 'no small file system can be mounted'
 fi
+mkdir sealed
+chmod 555 sealed
+chmod 755 "$work"
+if [ "$(id -u)" -ne 0 ]; then
+    refuses 5 'its folder is not writable' render "$scene" --frames 1-3 -o sealed/f.#.exr
+elif command -v setpriv >/dev/null && setpriv --reuid 65534 --clear-groups test -x "$glint"; then
+    setpriv --reuid 65534 --clear-groups "$glint" render "$scene" --frames 1-3 -o sealed/f.#.exr \
+        >stdout 2>stderr
+    check 'a folder without permission: exit status 5' test $? -eq 5
+    check 'a folder without permission: one line, why' \
+        test "$(wc -l <stderr)" -eq 1 -a "$(grep -c 'its folder is not writable' stderr)" -eq 1
+else
+    skip 'a folder without permission' 'nobody here to try it as'
+fi
 mkdir out/gone
 "$glint" render "$scene" --turntable 100000 --size 480x320 --progress none -o out/gone/f.######.exr \
     >stdout 2>stderr &
