@@ -394,16 +394,17 @@ static void bounds_are_those_of_the_whole_clip(void **state)
     assert_int_equal(glint_scene_at(source, 0, &scene, NULL, NULL), GLINT_OK);
     glint_vec3 low, high;
     glint_scene_shown_bounds(&scene, &low, &high);
-    for (int step = 0; step <= 64; step++) {
+    for (int step = 0; step <= 60; step++) { // which are not the times that were looked at
         glint_scene then;
-        assert_int_equal(glint_scene_at(source, step / 32.0, &then, NULL, NULL), GLINT_OK);
+        assert_int_equal(glint_scene_at(source, step / 30.0, &then, NULL, NULL), GLINT_OK);
         glint_vec3 same_low, same_high;
         glint_scene_shown_bounds(&then, &same_low, &same_high);
         assert_memory_equal(&low, &same_low, sizeof low);
         assert_memory_equal(&high, &same_high, sizeof high);
-        assert_true(then.low.x >= low.x - 1e-6 && then.high.x <= high.x + 1e-6);
-        assert_true(then.low.y >= low.y - 1e-6 && then.high.y <= high.y + 1e-6);
-        assert_true(then.low.z >= low.z - 1e-6 && then.high.z <= high.z + 1e-6);
+        const double near = 0.1; // what moves between two looks, of lengths of 2 to 6
+        assert_true(then.low.x >= low.x - near && then.high.x <= high.x + near);
+        assert_true(then.low.y >= low.y - near && then.high.y <= high.y + near);
+        assert_true(then.low.z >= low.z - near && then.high.z <= high.z + near);
         glint_scene_free(&then);
     }
     assert_true(high.x < 4 + 1 + 2 + 1e-6 && low.x > -4); // and not much more

@@ -8,11 +8,13 @@
 #include "scene/gltf_flatten.hpp"
 #include "scene/gltf_walk.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace glint
 {
@@ -68,8 +70,32 @@ class Said
 
 // ---- Over time ---------------------------------------------------------------------------------
 
-// Between so many times of a clip what moves is taken to stay near where it is at both.
+// A clip is looked at at so many times evenly apart, and at its keys, where things turn back.
+// Between those what moves is taken to stay near where it is at both.
 constexpr int sweep_steps = 64;
+constexpr std::size_t most_sweep_keys = 4096;
+
+std::vector<double> sweep_times(const Clips &clips)
+{
+    std::vector<double> times;
+    for (const auto &node : clips.nodes) {
+        for (const Curve &curve : node.second.of) {
+            times.insert(times.end(), curve.times.begin(), curve.times.end());
+        }
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    // Of more keys than that, which lie close, every so many-th.
+    const std::size_t stride = times.size() / most_sweep_keys + 1;
+    for (std::size_t i = 0; i * stride < times.size(); i++) {
+        times[i] = times[i * stride];
+    }
+    times.resize((times.size() + stride - 1) / stride);
+    for (int step = 0; step <= sweep_steps; step++) {
+        times.push_back(clips.duration * step / sweep_steps);
+    }
+    return times;
+}
 
 struct Box {
     glint_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
@@ -102,9 +128,9 @@ Box sweep(Load &load, const char *name)
         boxes.push_back(box_of(primitive));
     }
     Box all;
-    for (int step = 0; step <= sweep_steps; step++) {
+    for (double time : sweep_times(load.clips)) {
         CameraScene nothing;
-        walk_scene(load, name, load.clips.duration * step / sweep_steps, nothing.scene);
+        walk_scene(load, name, time, nothing.scene);
         for (const Draw &draw : load.draws) {
             const Box &box =
                 boxes[static_cast<std::size_t>(draw.primitive - load.primitives.all.data())];
