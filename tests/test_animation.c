@@ -401,7 +401,10 @@ static void bounds_are_those_of_the_whole_clip(void **state)
         glint_scene_shown_bounds(&then, &same_low, &same_high);
         assert_memory_equal(&low, &same_low, sizeof low);
         assert_memory_equal(&high, &same_high, sizeof high);
-        const double near = 0.1; // what moves between two looks, of lengths of 2 to 6
+        // Between two looks 1/32 s apart a point leaves the line between both by at most a/8/32²:
+        // it is 3.5 m from the axis at most, turns by 1.6/s and grows by 2 m/s, so that a is under
+        // 3.5 · 1.6² + 2 · 2 · 1.6 = 15.4 m/s².
+        const double near = 15.4 / 8 / 1024;
         assert_true(then.low.x >= low.x - near && then.high.x <= high.x + near);
         assert_true(then.low.y >= low.y - near && then.high.y <= high.y + near);
         assert_true(then.low.z >= low.z - near && then.high.z <= high.z + near);

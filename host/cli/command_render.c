@@ -172,15 +172,19 @@ static glint_status prepare(render_run *run, render_request *request, glint_erro
     glint_warnings *warnings = &run->inputs.warnings;
     glint_status status = render_run_load(run, error);
     glint_progress_clear(&run->display);
-    if (status == GLINT_OK) {
-        status = render_request_settle(request, &run->inputs.motion, warnings, error);
+    if (status != GLINT_OK) {
+        return status;
     }
+    // Those of loading first: they say why nothing moves, where nothing does.
+    glint_say_warnings(warnings, 0);
+    const size_t said = warnings->count;
+    status = render_request_settle(request, &run->inputs.motion, warnings, error);
     if (status != GLINT_OK) {
         return status;
     }
     run->frames = glint_shard_size(request->shard, request->frames.count);
     render_request_warn(request, &run->inputs.scene, warnings);
-    glint_say_warnings(warnings, 0);
+    glint_say_warnings(warnings, said);
     run->warnings_said = warnings->count;
     if (run->frames == 0) {
         glint_say("--shard: none of the %llu frames is in part %u of %u",

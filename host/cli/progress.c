@@ -6,6 +6,7 @@
 #include "report/json.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,7 +130,7 @@ static stand stand_of(const glint_progress_display *display, double frame_share)
     const double frames = display->frames > 0 ? (double)display->frames : 1;
     const double past = (double)display->past + frame_share;
     const double traced = (double)display->traced + frame_share;
-    const double elapsed = glint_now_ms() - display->render_begun - display->passing_ms;
+    const double elapsed = fmax(1e-3, glint_now_ms() - display->render_begun - display->passing_ms);
     return (stand){
         .share = past < frames ? past / frames : 1,
         .frames_a_ms = traced / elapsed,

@@ -37,6 +37,10 @@ static glint_status stand(render_run *run, int frame, glint_error *error)
     const glint_motion *motion = &inputs->motion;
     const double time = render_request_time(run->request, frame);
     glint_status status = GLINT_OK;
+    if (inputs->source == NULL || (run->stands && time == run->time)) {
+        return GLINT_OK;
+    }
+    run->stands = false;
     if (motion->moves_triangles) {
         glint_scene scene;
         status = glint_scene_at(inputs->source, time, &scene, NULL, error);
@@ -48,10 +52,12 @@ static glint_status stand(render_run *run, int frame, glint_error *error)
     } else if (motion->moves_cameras) {
         status = glint_scene_cameras_at(inputs->source, time, &inputs->scene, error);
     }
-    if (status == GLINT_OK && inputs->source != NULL) {
+    if (status == GLINT_OK) {
         status =
             glint_scene_camera(&inputs->scene, run->request->inputs.camera, &inputs->camera, error);
     }
+    run->stands = status == GLINT_OK;
+    run->time = time;
     return status;
 }
 
@@ -99,6 +105,7 @@ glint_status render_run_load(render_run *run, glint_error *error)
         const char *name = run->inputs.camera.name;
         run->label.path = run->inputs.scene.path != NULL ? strdup(run->inputs.scene.path) : NULL;
         run->camera_name = name != NULL ? strdup(name) : NULL;
+        run->stands = true; // at time 0
     }
     return status;
 }

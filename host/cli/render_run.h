@@ -39,6 +39,8 @@ typedef struct render_run {
     glint_fingerprint renderer_shows; // of the renderer's
     glint_scene label;                // the scene's path, which outlives scenes of other times
     char *camera_name;                // likewise; owned
+    bool stands;                      // inputs.scene and inputs.camera are those of `time`
+    double time;                      // seconds of the animation
     double build_ms;                  // of the frame that is traced
     glint_frame_cursor cursor;
     uint64_t frames; // of this run's shard

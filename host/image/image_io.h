@@ -94,8 +94,8 @@ glint_status glint_image_check_place(const char *path, glint_error *error);
 glint_status glint_image_write(const char *path, const glint_image *image,
                                const glint_write_options *options, glint_error *error);
 
-// How many threads each read or write may use beside the caller's: 0, one for each core (as it
-// begins), or 1, none, for callers that encode several images side by side.
+// How many threads each read or write may use: 0 is one for each core, as it begins; 1 the caller's
+// alone, for those who encode several images side by side.
 void glint_image_use_threads(int count);
 
 // Unlinks the temporary files that writes of other threads have in flight, and lets no further one

@@ -52,13 +52,13 @@ struct CameraScene {
 };
 
 // Whatever a walk adds to a tally, which the next walk adds again, is taken back.
-class Said
+class TallyRestorer
 {
   public:
-    explicit Said(Tally &tally) : tally_(tally), before_(tally) {}
-    Said(const Said &) = delete;
-    Said &operator=(const Said &) = delete;
-    ~Said()
+    explicit TallyRestorer(Tally &tally) : tally_(tally), before_(tally) {}
+    TallyRestorer(const TallyRestorer &) = delete;
+    TallyRestorer &operator=(const TallyRestorer &) = delete;
+    ~TallyRestorer()
     {
         std::swap(tally_, before_);
     }
@@ -193,7 +193,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     source.has_name = options.scene != nullptr;
     source.name = source.has_name ? options.scene : "";
     // The first walk tells what moves.
-    Said said(load.tally);
+    TallyRestorer restorer(load.tally);
     CameraScene first;
     walk_scene(load, source.scene_name(), 0, first.scene);
     if (load.moves_triangles) {
@@ -244,7 +244,7 @@ glint_status glint_scene_at(glint_scene_source *source, double time, glint_scene
     *scene = {};
     const char *path = source->load.document.path.c_str();
     glint_status status = glint::guard(path, error, [&] {
-        glint::Said said(source->load.tally);
+        glint::TallyRestorer restorer(source->load.tally);
         glint::fill(*source, time, *scene);
         glint::report(source->load, *scene, warnings);
     });
@@ -258,7 +258,7 @@ glint_status glint_scene_cameras_at(glint_scene_source *source, double time, gli
                                     glint_error *error)
 {
     return glint::guard(source->load.document.path.c_str(), error, [&] {
-        glint::Said said(source->load.tally);
+        glint::TallyRestorer restorer(source->load.tally);
         glint::CameraScene at;
         glint::walk_scene(source->load, source->scene_name(), time, at.scene);
         std::swap(at.scene.cameras, scene->cameras);

@@ -218,39 +218,14 @@ void read_clip(Reading &reading, std::size_t index)
     }
 }
 
-std::string name_of(const json &animations, std::size_t index)
+std::vector<std::string> names_of(const json &animations)
 {
-    return optional_text(animations[index], Place(), "name");
-}
-
-std::string list_of(const json &animations)
-{
-    std::string list;
-    constexpr std::size_t most = 20;
-    for (std::size_t i = 0; i < animations.size() && i < most; i++) {
-        std::string name = name_of(animations, i);
-        list +=
-            (i == 0 ? "" : ", ") + std::to_string(i) + (name.empty() ? "" : " " + in_quotes(name));
+    std::vector<std::string> names;
+    names.reserve(animations.size());
+    for (const json &animation : animations) {
+        names.push_back(optional_text(animation, Place(), "name"));
     }
-    return list + (animations.size() > most ? ", ..." : "");
-}
-
-std::size_t find_clip(const json &animations, const char *name)
-{
-    for (std::size_t i = 0; i < animations.size(); i++) {
-        if (name_of(animations, i) == name) {
-            return i;
-        }
-    }
-    char *end = nullptr;
-    unsigned long index = std::strtoul(name, &end, 10);
-    bool is_index = name[0] >= '0' && name[0] <= '9' && *end == '\0';
-    if (!is_index || index >= animations.size()) {
-        throw refusal("there is no animation " + in_quotes(name) +
-                      (animations.empty() ? " (the file has none)"
-                                          : " (there is " + list_of(animations) + ")"));
-    }
-    return index;
+    return names;
 }
 
 } // namespace
@@ -274,12 +249,12 @@ Clips read_clips(const Document &document, const tinygltf::Model &model, const c
         return clips;
     }
     if (name == nullptr && animations.size() > 1) {
-        std::string first = name_of(animations, 0);
+        std::string first = names_of(animations)[0];
         tally.add("the first of " + std::to_string(animations.size()) +
                       " animations is shown (--animation names another, or all)",
                   "animations[0]" + (first.empty() ? "" : " " + in_quotes(first)));
     }
-    read_clip(reading, name == nullptr ? 0 : find_clip(animations, name));
+    read_clip(reading, name == nullptr ? 0 : find_named(names_of(animations), name, "animation"));
     return clips;
 }
 

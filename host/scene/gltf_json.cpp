@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace glint
 {
@@ -86,6 +87,37 @@ static std::string described(const json &value)
     default:
         return value.is_number_float() ? shown(value.get<double>()) : value.dump();
     }
+}
+
+// 0 "main", 1, 2 "top" and so on, some of them.
+static std::string list_of(const std::vector<std::string> &names)
+{
+    std::string list;
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < names.size() && i < most; i++) {
+        list += (i == 0 ? "" : ", ") + std::to_string(i) +
+                (names[i].empty() ? "" : " " + in_quotes(names[i]));
+    }
+    return list + (names.size() > most ? ", ..." : "");
+}
+
+std::size_t find_named(const std::vector<std::string> &names, const char *name, const char *noun)
+{
+    for (std::size_t i = 0; i < names.size(); i++) {
+        if (names[i] == name) {
+            return i;
+        }
+    }
+    // strtoul would take a sign and spaces, too.
+    char *end = nullptr;
+    unsigned long index = std::strtoul(name, &end, 10);
+    bool is_index = name[0] >= '0' && name[0] <= '9' && *end == '\0';
+    if (!is_index || index >= names.size()) {
+        throw refusal(
+            "there is no " + std::string(noun) + " " + in_quotes(name) +
+            (names.empty() ? " (the file has none)" : " (there is " + list_of(names) + ")"));
+    }
+    return index;
 }
 
 const json *member(const json &object, const char *key)

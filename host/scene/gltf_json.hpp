@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace glint
 {
@@ -49,6 +50,10 @@ std::string in_quotes(const std::string &text);
 // A number as a short text; counted("node", 2) is "2 nodes".
 std::string shown(double value);
 std::string counted(std::size_t count, const char *noun);
+
+// The thing of that name among those with these, or else of that index ("0"). Refuses what is
+// neither, with a list of what there is; `noun` is what such a thing is called.
+std::size_t find_named(const std::vector<std::string> &names, const char *name, const char *noun);
 
 // NULL where the object has no such member.
 const json *member(const json &object, const char *key);

@@ -280,41 +280,21 @@ void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world,
     cameras.back().name = copy_text(name.empty() ? source.name : name);
 }
 
-std::string scene_list(const tinygltf::Model &model)
+std::vector<std::string> names_of(const std::vector<tinygltf::Scene> &scenes)
 {
-    std::string list;
-    constexpr std::size_t most = 20;
-    for (std::size_t i = 0; i < model.scenes.size() && i < most; i++) {
-        const std::string &name = model.scenes[i].name;
-        list +=
-            (i == 0 ? "" : ", ") + std::to_string(i) + (name.empty() ? "" : " " + in_quotes(name));
+    std::vector<std::string> names;
+    names.reserve(scenes.size());
+    for (const tinygltf::Scene &scene : scenes) {
+        names.push_back(scene.name);
     }
-    return list + (model.scenes.size() > most ? ", ..." : "");
-}
-
-std::size_t find_scene(const tinygltf::Model &model, const char *name)
-{
-    for (std::size_t i = 0; i < model.scenes.size(); i++) {
-        if (model.scenes[i].name == name) {
-            return i;
-        }
-    }
-    char *end = nullptr;
-    unsigned long index = std::strtoul(name, &end, 10);
-    bool is_index = name[0] >= '0' && name[0] <= '9' && *end == '\0';
-    if (!is_index || index >= model.scenes.size()) {
-        throw refusal("there is no scene " + in_quotes(name) +
-                      (model.scenes.empty() ? " (the file has none)"
-                                            : " (there is " + scene_list(model) + ")"));
-    }
-    return index;
+    return names;
 }
 
 std::vector<int> find_roots(Load &load, const char *name)
 {
     const tinygltf::Model &model = load.model;
     if (name != nullptr || !model.scenes.empty()) {
-        std::size_t scene = name != nullptr           ? find_scene(model, name)
+        std::size_t scene = name != nullptr ? find_named(names_of(model.scenes), name, "scene")
                             : model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene)
                                                       : 0;
         return model.scenes[scene].nodes;
