@@ -241,8 +241,9 @@ static void writers_are_bounded_by_memory(void **state)
 static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
 {
     shot *s = *state;
-    static const double times[] = {0, 0.3, 1.1, 2, 0.3};
+    static const double times[] = {0, 0.01, 0.3, 1.1, 2, 0.3};
     glint_error error = {0};
+    int refitted = 0;
     glint_scene_source *source;
     const char *path = GLINT_SOURCE_DIR "/scenes/clockwork.gltf";
     assert_int_equal(glint_scene_open(path, NULL, &source, &error), GLINT_OK);
@@ -261,6 +262,7 @@ static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
         inputs.scene = &scene;
         assert_int_equal(glint_renderer_create(&inputs, &fresh, &error), GLINT_OK);
         assert_int_equal(glint_renderer_set_scene(moved, &scene, &error), GLINT_OK);
+        refitted += glint_renderer_bvh(moved)->is_refitted;
         const glint_camera *camera = &scene.cameras[0];
         assert_int_equal(glint_renderer_frame(moved, camera, NULL, &here, NULL, &error), GLINT_OK);
         assert_int_equal(glint_renderer_frame(fresh, camera, NULL, &there, NULL, &error), GLINT_OK);
@@ -270,6 +272,7 @@ static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
         glint_image_free(&there);
         glint_scene_free(&scene);
     }
+    assert_in_range(refitted, 1, sizeof times / sizeof *times - 1); // trees of both kinds
     glint_renderer_free(moved);
     glint_scene_close(source);
 }

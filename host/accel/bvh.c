@@ -45,7 +45,7 @@ static bool make_empty_root(glint_bvh *bvh)
 glint_status glint_bvh_build(const glint_bvh_inputs *in, glint_bvh *bvh, glint_error *error)
 {
     const size_t count = in->triangle_count;
-    *bvh = (glint_bvh){.width = in->width};
+    *bvh = (glint_bvh){.width = in->width, .input_count = count};
     if (count == 0) {
         return GLINT_OK;
     }

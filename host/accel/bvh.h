@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "kernels/layout.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -26,13 +27,15 @@ typedef struct glint_bvh_report {
     double fill;     // share of the clusters' lanes that hold a triangle
     size_t bytes;    // of all arrays
     double bytes_per_triangle;
-    int stack_need; // entries that a traversal may have waiting
+    bool is_refitted; // to triangles that had moved, since it was built
+    int stack_need;   // entries that a traversal may have waiting
 } glint_bvh_report;
 
 // Zero is valid: a tree without triangles. All arrays are aligned to 64 bytes.
 typedef struct glint_bvh {
     int width; // children of a node: 8 or 16
     size_t node_count, cluster_count;
+    size_t input_count; // triangles that it was made from, those without area too
     // [node_count][7 × width] 32-bit values, see kernels/layout.h; node 0 is the root. Boxes are
     // widened a little beyond their triangles, so that rounding in the tests of boxes and triangles
     // never leaves a gap between them.
@@ -60,5 +63,12 @@ typedef struct glint_bvh_inputs {
 // GLINT_BAD_INPUT (too many triangles for the layout).
 glint_status glint_bvh_build(const glint_bvh_inputs *inputs, glint_bvh *bvh, glint_error *error);
 void glint_bvh_free(glint_bvh *bvh);
+
+// Fits a tree to the same triangles at other places, which takes a fraction of the time: what rays
+// hit is the same as in a tree that is built anew, but report.sah_cost tells how much longer they
+// take to find it. False where the tree does not serve (another number of triangles, or of those
+// with an area; triangles that shared a vertex came apart; too little memory): it is then to be
+// freed.
+bool glint_bvh_refit(const glint_bvh_inputs *inputs, glint_bvh *bvh);
 
 #endif

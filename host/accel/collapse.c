@@ -4,18 +4,12 @@
 #include "accel/collapse.h"
 
 #include "accel/cluster.h"
+#include "accel/wide_box.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static double area_of(glint_box b)
-{
-    glint_float4 size = b.high + b.low_negated;
-    double x = (double)size[0], y = (double)size[1], z = (double)size[2];
-    return x * y + y * z + z * x;
-}
 
 // ---- Costs -------------------------------------------------------------------------------------
 
@@ -59,7 +53,7 @@ glint_wide_costs glint_wide_costs_join(glint_binary_node *node, int width,
     sharing children = share(costs.most, left, right);
     node->leaf = NULL;
     node->shares[0] = children.left;
-    costs.cost[1] = area_of(node->bounds) + children.cost;
+    costs.cost[1] = glint_wide_area(node->bounds) + children.cost;
     costs.nodes[1] = 1 + children.nodes;
     for (int trees = 2; trees <= costs.most; trees++) {
         sharing best = share(trees, left, right);
@@ -112,17 +106,6 @@ static family family_of(const glint_binary_node *node, int width)
     return f;
 }
 
-// A child's box, wider by a few roundings of its own size: a large triangle's sheared vertices (see
-// kernels/intersect.cl) are off by rounding errors of that order.
-static void store_box(float *node, int width, int child, glint_box bounds)
-{
-    float margin = glint_box_extent(bounds) * 0x1p-21f;
-    for (int k = 0; k < 3; k++) {
-        node[k * width + child] = nextafterf(-bounds.low_negated[k] - margin, -INFINITY);
-        node[(3 + k) * width + child] = nextafterf(bounds.high[k] + margin, INFINITY);
-    }
-}
-
 // A wide node that is to be written. Its index is its place in the list of them.
 typedef struct wide_node {
     const glint_binary_node *root; // the binary node that it stands for
@@ -144,10 +127,10 @@ static void note_node(const wide_node *at, const family *f, double root_area,
     int need = at->waiting + f->count;
     report->depth = at->depth + 1;
     report->stack_need = need > report->stack_need ? need : report->stack_need;
-    report->sah_cost += area_of(at->root->bounds) / root_area;
+    report->sah_cost += glint_wide_area(at->root->bounds) / root_area;
     for (int i = 0; i < f->count; i++) {
         if (f->children[i]->children == NULL) {
-            report->sah_cost += area_of(f->children[i]->bounds) / root_area;
+            report->sah_cost += glint_wide_area(f->children[i]->bounds) / root_area;
         }
     }
 }
@@ -156,7 +139,7 @@ static void note_node(const wide_node *at, const family *f, double root_area,
 static void list_nodes(const glint_binary_node *root, int width, wide_node *list,
                        glint_bvh_report *report)
 {
-    const double root_area = fmax(area_of(root->bounds), 1e-300);
+    const double root_area = fmax(glint_wide_area(root->bounds), 1e-300);
     uint32_t count = 1;
     list[0] = (wide_node){.root = root};
     for (uint32_t index = 0; index < count; index++) {
@@ -191,7 +174,7 @@ static void write_node(const collapse *c, size_t index)
         int32_t value = 0;
         if (i < f.count) {
             const glint_binary_node *child = f.children[i];
-            store_box(node, width, i, child->bounds);
+            glint_wide_store_box(node, width, i, child->bounds);
             if (child->children == NULL) {
                 glint_cluster_fill(c->in, child->leaf, c->bvh, cluster);
                 value = ~(int32_t)cluster;

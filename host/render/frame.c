@@ -3,15 +3,11 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "device/program.h"
-#include "environment/irradiance.h"
 #include "kernels/layout.h"
 #include "render/renderer.h"
-#include "scene/topology.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 // Launches are made long enough to keep a device busy and short enough for progress and signals.
 #define LAUNCH_MS 100.0
@@ -21,88 +17,6 @@
 // still in the caches. One where so many rows would be a long launch by themselves.
 #define BAND_ROWS 4
 #define BAND_SAMPLES 2e6
-
-static size_t scalar_bytes(const glint_renderer *r)
-{
-    return r->plan.precision == GLINT_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
-}
-
-static size_t layers_bytes(const glint_renderer *r)
-{
-    return r->settings.aovs != 0 ? r->pixel_count * sizeof(glint_layers_record) : 0;
-}
-
-// ---- Creation ----------------------------------------------------------------------------------
-
-static bool has_solids(const glint_scene *scene)
-{
-    for (size_t i = 0; i < scene->material_count; i++) {
-        if (glint_material_is_solid(&scene->materials[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// The topology is found only where the plan asks for it: millions of triangles take seconds.
-static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r,
-                            const glint_plan *before, glint_error *error)
-{
-    glint_topology topology = {0};
-    const bool wanted = has_solids(in->scene) && !in->scene->moves;
-    glint_status status = wanted ? glint_topology_find(in->scene, &topology, error) : GLINT_OK;
-    if (status == GLINT_OK) {
-        const glint_plan_inputs inputs = {
-            .scene = in->scene,
-            .topology = &topology,
-            .environment = &in->environment->radiance,
-            .device = glint_device_capabilities(in->device),
-            .settings = in->settings,
-            .before = before,
-        };
-        status = glint_plan_make(&inputs, &r->plan, error);
-    }
-    glint_topology_free(&topology);
-    return status;
-}
-
-static bool needs_irradiance(const glint_plan *plan)
-{
-    return plan->features[GLINT_FEATURE_PAINT].compiled ||
-           plan->features[GLINT_FEATURE_BLEND].compiled;
-}
-
-static glint_status set_argument(const glint_renderer *r, cl_uint index, size_t size,
-                                 const void *value, glint_error *error)
-{
-    cl_int code = clSetKernelArg(r->kernel, index, size, value);
-    return code == CL_SUCCESS
-               ? GLINT_OK
-               : glint_fail_opencl(error, r->device, "setting a kernel's argument", code);
-}
-
-static glint_status set_buffers(const glint_renderer *r, glint_error *error)
-{
-    const cl_mem buffers[] = {r->geometry.nodes,
-                              r->geometry.clusters,
-                              r->geometry.normals,
-                              r->geometry.numbers,
-                              r->geometry.materials,
-                              r->geometry.media,
-                              r->light.environment,
-                              r->light.irradiance,
-                              r->pixels.own,
-                              r->counters,
-                              r->layers};
-    glint_status status = GLINT_OK;
-    for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
-        status = set_argument(r, i, sizeof buffers[i], &buffers[i], error);
-    }
-    return status;
-}
-
-#define PIXELS_ARGUMENT 8 // see set_buffers
-#define FRAME_ARGUMENT 11
 
 // Where a packet is one ray, the rays of 8 × 8 pixels share a work-group; a wider packet is a
 // work-group's worth by itself.
@@ -124,11 +38,12 @@ static size_t round_up(size_t value, size_t multiple)
 }
 
 // Renders `bands` bands of tiles from `first` on, and waits for the end.
-static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t first,
-                           size_t bands, glint_error *error)
+glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record, size_t first,
+                                   size_t bands, glint_error *error)
 {
     record->first_band = (int)first;
-    glint_status status = set_argument(r, FRAME_ARGUMENT, sizeof *record, record, error);
+    glint_status status =
+        glint_renderer_set_argument(r, GLINT_FRAME_ARGUMENT, sizeof *record, record, error);
     if (status != GLINT_OK) {
         return status;
     }
@@ -147,258 +62,6 @@ static glint_status launch(glint_renderer *r, glint_frame_record *record, size_t
     return code == CL_SUCCESS ? GLINT_OK
                               : glint_fail_opencl(error, r->device, "running the kernel", code);
 }
-
-// Compiles, and launches once over an image without pixels: drivers put off a part of the
-// compilation to the first launch.
-static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer *r,
-                                 glint_error *error)
-{
-    char options[4096];
-    glint_plan_build_options(&r->plan, options, sizeof options);
-    const glint_program_request request = {.kernel_dir = in->kernel_dir, .options = options};
-    cl_program program;
-    glint_status status = glint_program_build(r->device, &request, &program, error);
-    if (status == GLINT_OK) {
-        status = glint_program_kernel(r->device, program, "render_tiles", &r->kernel, error);
-        clReleaseProgram(program);
-    }
-    if (status == GLINT_OK) {
-        status = set_buffers(r, error);
-    }
-    if (status == GLINT_OK) {
-        // No pixel is written, so that a device that writes into images needs none yet.
-        glint_frame_record nothing = {.band = 1};
-        status = launch(r, &nothing, 0, 1, error);
-    }
-    return status;
-}
-
-static glint_status create_outputs(glint_renderer *r, glint_error *error)
-{
-    glint_status status = glint_pixels_create(r->device, r->settings.width, r->settings.height,
-                                              scalar_bytes(r), &r->pixels, error);
-    if (status == GLINT_OK) {
-        const size_t counters = GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2 * sizeof(cl_uint);
-        status =
-            glint_buffer_create(r->device, "the counters", counters, NULL, &r->counters, error);
-    }
-    if (status == GLINT_OK) {
-        status =
-            glint_buffer_create(r->device, "the layers", layers_bytes(r), NULL, &r->layers, error);
-    }
-    return status;
-}
-
-// The smallest power of two that is no smaller than the tree needs, so that few sizes are compiled.
-static int traversal_stack(int need)
-{
-    int size = 64;
-    while (size < need) {
-        size *= 2;
-    }
-    return size;
-}
-
-// Plan and tree of the scene, and whether the device can hold them.
-static glint_status prepare(const glint_renderer_inputs *in, glint_renderer *r,
-                            const glint_plan *before, glint_bvh *bvh, glint_error *error)
-{
-    double clock = glint_now_ms();
-    glint_upload_sizes sizes = {0};
-    glint_status status = analyse(in, r, before, error);
-    if (status == GLINT_OK) {
-        status = glint_pixels_size(r->settings.width, r->settings.height, scalar_bytes(r),
-                                   &sizes.frame, error);
-        r->pixel_count = sizes.frame / (4 * scalar_bytes(r));
-        sizes.layers = layers_bytes(r);
-        sizes.environment = r->plan.environment_bytes;
-    }
-    if (status == GLINT_OK) {
-        status = glint_upload_check(in->device, in->scene, &sizes, error);
-    }
-    r->phases.analysis = glint_lap_ms(&clock);
-    if (status == GLINT_OK) {
-        status = glint_plan_build_tree(&r->plan, in->scene, bvh, error);
-        r->bvh = bvh->report;
-        r->plan.traversal_stack = traversal_stack(bvh->report.stack_need);
-        r->phases.bvh = glint_lap_ms(&clock);
-    }
-    return status;
-}
-
-static glint_status upload_geometry(const glint_renderer_inputs *in, glint_renderer *r,
-                                    glint_bvh *bvh, glint_error *error)
-{
-    const glint_upload_inputs inputs = {
-        .device = in->device, .scene = in->scene, .bvh = bvh, .plan = &r->plan};
-    double clock = glint_now_ms();
-    glint_geometry_memory fresh;
-    glint_status status = glint_geometry_upload(&inputs, &fresh, error);
-    if (status == GLINT_OK) {
-        r->geometry = fresh;
-        r->space = glint_stored_space_of(in->scene);
-    }
-    r->phases.upload = glint_lap_ms(&clock);
-    return status;
-}
-
-static glint_status upload_light(const glint_renderer_inputs *in, glint_renderer *r,
-                                 glint_error *error)
-{
-    double clock = glint_now_ms();
-    glint_cube irradiance = {0};
-    glint_status status = GLINT_OK;
-    if (needs_irradiance(&r->plan) && !in->without_frames) {
-        status = glint_irradiance_map(&in->environment->radiance, GLINT_IRRADIANCE_EDGE,
-                                      &irradiance, error);
-        r->phases.irradiance = glint_lap_ms(&clock);
-    }
-    if (status == GLINT_OK) {
-        const glint_upload_inputs inputs = {
-            .device = in->device,
-            .plan = &r->plan,
-            .environment = &in->environment->radiance,
-            .irradiance = &irradiance,
-        };
-        status = glint_light_upload(&inputs, &r->light, error);
-        r->environment_edge = in->environment->radiance.edge;
-        r->irradiance_edge = irradiance.edge;
-        r->phases.upload += glint_lap_ms(&clock);
-    }
-    glint_cube_free(&irradiance);
-    return status;
-}
-
-// All that a plan is put to work with.
-static glint_status set_up(const glint_renderer_inputs *in, glint_renderer *r, glint_bvh *bvh,
-                           glint_error *error)
-{
-    glint_status status = upload_geometry(in, r, bvh, error);
-    if (status == GLINT_OK) {
-        status = upload_light(in, r, error);
-    }
-    double clock = glint_now_ms();
-    if (status == GLINT_OK) {
-        status = create_outputs(r, error);
-        r->phases.upload += glint_lap_ms(&clock);
-    }
-    if (status == GLINT_OK && !in->without_frames) {
-        status = build_kernel(in, r, error);
-        r->phases.kernel_build = glint_lap_ms(&clock);
-    }
-    return status;
-}
-
-static void tear_down(glint_renderer *r)
-{
-    glint_geometry_memory_free(&r->geometry);
-    glint_light_memory_free(&r->light);
-    glint_pixels_free(&r->pixels);
-    glint_buffer_release(r->counters);
-    glint_buffer_release(r->layers);
-    r->counters = r->layers = NULL;
-    if (r->kernel != NULL) {
-        clReleaseKernel(r->kernel);
-        r->kernel = NULL;
-    }
-}
-
-glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
-                                   glint_error *error)
-{
-    *renderer = NULL;
-    glint_renderer *r = calloc(1, sizeof *r);
-    if (r == NULL) {
-        return glint_fail_memory(error, "the renderer");
-    }
-    r->device = inputs->device;
-    r->settings = *inputs->settings;
-    r->inputs = *inputs;
-    r->inputs.settings = &r->settings;
-    glint_bvh bvh = {0};
-    glint_status status = prepare(inputs, r, NULL, &bvh, error);
-    if (status == GLINT_OK) {
-        status = set_up(inputs, r, &bvh, error);
-    }
-    glint_bvh_free(&bvh);
-    if (status != GLINT_OK) {
-        glint_renderer_free(r);
-        return status;
-    }
-    *renderer = r;
-    return GLINT_OK;
-}
-
-glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scene,
-                                      glint_error *error)
-{
-    const glint_plan before = r->plan;
-    char old_options[4096], options[4096];
-    glint_plan_build_options(&before, old_options, sizeof old_options);
-    glint_renderer_inputs in = r->inputs;
-    in.scene = scene;
-    glint_bvh bvh = {0};
-    glint_geometry_memory_free(&r->geometry); // memory for one scene is enough
-    r->has_failed = true;
-    glint_status status = prepare(&in, r, &before, &bvh, error);
-    if (status != GLINT_OK) {
-        r->plan = before;
-    } else {
-        glint_plan_build_options(&r->plan, options, sizeof options);
-        if (strcmp(options, old_options) == 0 && r->kernel != NULL) {
-            status = upload_geometry(&in, r, &bvh, error);
-            status = status == GLINT_OK ? set_buffers(r, error) : status;
-        } else {
-            // Other kernels, and what they read.
-            tear_down(r);
-            status = set_up(&in, r, &bvh, error);
-        }
-    }
-    glint_bvh_free(&bvh);
-    r->has_failed = status != GLINT_OK;
-    return status;
-}
-
-const glint_plan *glint_renderer_plan(const glint_renderer *renderer)
-{
-    return &renderer->plan;
-}
-
-const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer)
-{
-    return &renderer->bvh;
-}
-
-const glint_phases *glint_renderer_phases(const glint_renderer *renderer)
-{
-    return &renderer->phases;
-}
-
-glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
-{
-    const glint_geometry_memory *geometry = &renderer->geometry;
-    const glint_light_memory *light = &renderer->light;
-    return (glint_device_bytes){
-        .scene = glint_buffer_bytes(geometry->clusters) + glint_buffer_bytes(geometry->normals) +
-                 glint_buffer_bytes(geometry->numbers) + glint_buffer_bytes(geometry->materials) +
-                 glint_buffer_bytes(geometry->media),
-        .tree = glint_buffer_bytes(geometry->nodes),
-        .environment =
-            glint_buffer_bytes(light->environment) + glint_buffer_bytes(light->irradiance),
-        .frame = glint_pixels_bytes(&renderer->pixels) + layers_bytes(renderer),
-    };
-}
-
-void glint_renderer_free(glint_renderer *renderer)
-{
-    if (renderer == NULL) {
-        return;
-    }
-    tear_down(renderer);
-    free(renderer);
-}
-
-// ---- A frame -----------------------------------------------------------------------------------
 
 static glint_status clear_counters(const glint_renderer *r, glint_error *error)
 {
@@ -475,7 +138,7 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
     for (size_t first = 0; first < bands;) {
         size_t count = first + step < bands ? step : bands - first;
         double clock = glint_now_ms();
-        glint_status status = launch(r, record, first, count, error);
+        glint_status status = glint_renderer_launch(r, record, first, count, error);
         if (status != GLINT_OK) {
             return status;
         }
@@ -520,7 +183,8 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     cl_mem target = NULL;
     glint_status status = glint_pixels_begin(&r->pixels, image, &target, error);
     if (status == GLINT_OK) {
-        status = set_argument(r, PIXELS_ARGUMENT, sizeof target, &target, error);
+        status =
+            glint_renderer_set_argument(r, GLINT_PIXELS_ARGUMENT, sizeof target, &target, error);
     }
     double clock = glint_now_ms();
     if (status == GLINT_OK) {
@@ -574,12 +238,13 @@ glint_status glint_renderer_layers(glint_renderer *renderer, glint_layers *layer
     if (settings->aovs == 0) {
         return glint_fail(error, GLINT_USAGE, "no layers were asked for");
     }
-    glint_layers_record *records = malloc(layers_bytes(renderer));
+    glint_layers_record *records = malloc(glint_renderer_layers_bytes(renderer));
     if (records == NULL) {
         return glint_fail_memory(error, "the layers");
     }
-    cl_int code = clEnqueueReadBuffer(renderer->device->queue, renderer->layers, CL_TRUE, 0,
-                                      layers_bytes(renderer), records, 0, NULL, NULL);
+    cl_int code =
+        clEnqueueReadBuffer(renderer->device->queue, renderer->layers, CL_TRUE, 0,
+                            glint_renderer_layers_bytes(renderer), records, 0, NULL, NULL);
     glint_status status =
         code == CL_SUCCESS
             ? glint_layers_make(records, renderer->pixel_count,

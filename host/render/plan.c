@@ -482,17 +482,28 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     return choose_texels(in, plan, error);
 }
 
-glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
-                                   glint_error *error)
+static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *scene)
 {
-    const glint_bvh_inputs inputs = {
+    return (glint_bvh_inputs){
         .positions = scene->positions,
         .normals = scene->normals,
         .material_of = scene->material_of,
         .triangle_count = scene->triangle_count,
         .width = plan->bvh_width,
     };
+}
+
+glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
+                                   glint_error *error)
+{
+    const glint_bvh_inputs inputs = tree_inputs(plan, scene);
     return glint_bvh_build(&inputs, bvh, error);
+}
+
+bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh)
+{
+    const glint_bvh_inputs inputs = tree_inputs(plan, scene);
+    return glint_bvh_refit(&inputs, bvh);
 }
 
 int glint_plan_feature_count(const glint_plan *plan)

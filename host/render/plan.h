@@ -143,6 +143,10 @@ glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, 
 glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
                                    glint_error *error);
 
+// Fits a tree of the same scene at another time. False where it does not serve, see
+// glint_bvh_refit.
+bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh);
+
 // The number of features compiled.
 int glint_plan_feature_count(const glint_plan *plan);
 

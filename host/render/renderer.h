@@ -13,6 +13,8 @@ struct glint_renderer {
     glint_settings settings;
     glint_plan plan;
     glint_bvh_report bvh;
+    glint_bvh tree;    // of a scene that moves, less the arrays that the device has; else empty
+    double built_cost; // the tree's expected cost when it was last built
     glint_phases phases;
     glint_stored_space space;
     glint_geometry_memory geometry;
@@ -25,5 +27,22 @@ struct glint_renderer {
     bool has_failed;     // to take another scene
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };
+
+// The kernel's arguments that change from frame to frame; the others are the renderer's buffers, in
+// the order of set_buffers.
+#define GLINT_PIXELS_ARGUMENT 8
+#define GLINT_FRAME_ARGUMENT 11
+
+static inline size_t glint_renderer_layers_bytes(const glint_renderer *r)
+{
+    return r->settings.aovs != 0 ? r->pixel_count * sizeof(glint_layers_record) : 0;
+}
+
+glint_status glint_renderer_set_argument(const glint_renderer *r, cl_uint index, size_t size,
+                                         const void *value, glint_error *error);
+
+// Renders `bands` bands of tiles from `first` on, and waits for the end.
+glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record, size_t first,
+                                   size_t bands, glint_error *error);
 
 #endif

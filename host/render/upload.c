@@ -97,12 +97,11 @@ size_t glint_buffer_bytes(cl_mem buffer)
 }
 
 // A buffer that holds *data: a copy or, on a device that shares the host's memory, *data itself,
-// which is then kept, and *data NULL.
+// which then is *kept, and *data NULL.
 static glint_status hand_over(const struct glint_device *device, const char *what, size_t bytes,
-                              void **data, glint_kept *kept, cl_mem *buffer, glint_error *error)
+                              void **data, void **kept, cl_mem *buffer, glint_error *error)
 {
-    if (!device->capabilities.shares_memory || bytes < LEAST_BYTES ||
-        kept->count == GLINT_KEPT_MAX) {
+    if (!device->capabilities.shares_memory || bytes < LEAST_BYTES) {
         return glint_buffer_create(device, what, bytes, *data, buffer, error);
     }
     glint_status status = check_size(device, what, bytes, error);
@@ -115,7 +114,7 @@ static glint_status hand_over(const struct glint_device *device, const char *wha
     if (code != CL_SUCCESS) {
         return glint_fail_opencl(error, device, what, code);
     }
-    kept->data[kept->count++] = *data;
+    *kept = *data;
     *data = NULL;
     return GLINT_OK;
 }
@@ -127,7 +126,7 @@ static glint_status upload_tree(const glint_upload_inputs *in, glint_geometry_me
     glint_bvh *bvh = in->bvh;
     const size_t node_bytes = GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float);
     const size_t normals = bvh->normals != NULL ? GLINT_CLUSTER_NORMALS * sizeof(float) : 0;
-    void *data[] = {bvh->nodes, bvh->clusters, bvh->normals, bvh->numbers};
+    void *data[GLINT_TREE_ARRAYS] = {bvh->nodes, bvh->clusters, bvh->normals, bvh->numbers};
     const struct {
         const char *what;
         size_t bytes;
@@ -141,7 +140,7 @@ static glint_status upload_tree(const glint_upload_inputs *in, glint_geometry_me
     };
     glint_status status = GLINT_OK;
     for (size_t i = 0; status == GLINT_OK && i < sizeof arrays / sizeof *arrays; i++) {
-        status = hand_over(in->device, arrays[i].what, arrays[i].bytes, &data[i], &memory->kept,
+        status = hand_over(in->device, arrays[i].what, arrays[i].bytes, &data[i], &memory->kept[i],
                            arrays[i].buffer, error);
     }
     bvh->nodes = data[0];
@@ -334,14 +333,7 @@ void glint_buffer_release(cl_mem buffer)
     }
 }
 
-static void kept_free(glint_kept *kept)
-{
-    for (int i = 0; i < kept->count; i++) {
-        free(kept->data[i]);
-    }
-}
-
-void glint_geometry_memory_free(glint_geometry_memory *memory)
+static void release_buffers(glint_geometry_memory *memory)
 {
     glint_buffer_release(memory->nodes);
     glint_buffer_release(memory->clusters);
@@ -349,7 +341,25 @@ void glint_geometry_memory_free(glint_geometry_memory *memory)
     glint_buffer_release(memory->numbers);
     glint_buffer_release(memory->materials);
     glint_buffer_release(memory->media);
-    kept_free(&memory->kept);
+}
+
+void glint_geometry_memory_free(glint_geometry_memory *memory)
+{
+    release_buffers(memory);
+    for (int i = 0; i < GLINT_TREE_ARRAYS; i++) {
+        free(memory->kept[i]);
+    }
+    *memory = (glint_geometry_memory){0};
+}
+
+void glint_geometry_take_back(glint_geometry_memory *memory, glint_bvh *bvh)
+{
+    release_buffers(memory);
+    void *const *kept = memory->kept;
+    bvh->nodes = kept[0] != NULL ? kept[0] : bvh->nodes;
+    bvh->clusters = kept[1] != NULL ? kept[1] : bvh->clusters;
+    bvh->normals = kept[2] != NULL ? kept[2] : bvh->normals;
+    bvh->numbers = kept[3] != NULL ? kept[3] : bvh->numbers;
     *memory = (glint_geometry_memory){0};
 }
 
@@ -357,6 +367,6 @@ void glint_light_memory_free(glint_light_memory *memory)
 {
     glint_buffer_release(memory->environment);
     glint_buffer_release(memory->irradiance);
-    kept_free(&memory->kept);
+    free(memory->kept);
     *memory = (glint_light_memory){0};
 }

@@ -9,24 +9,19 @@
 #include "render/plan.h"
 #include "scene/scene.h"
 
-#define GLINT_KEPT_MAX 4
-
-// The host's memory that buffers lie in, on devices that share it.
-typedef struct glint_kept {
-    void *data[GLINT_KEPT_MAX];
-    int count;
-} glint_kept;
+#define GLINT_TREE_ARRAYS 4 // nodes, clusters, normals, numbers
 
 // Zero is valid: no buffers. Each is described in kernels/layout.h; those that the plan does not
-// need are a few bytes long, as a kernel's arguments cannot be left out.
+// need are a few bytes long, as a kernel's arguments cannot be left out. `kept` is the host's
+// memory that buffers lie in, on devices that share it; owned.
 typedef struct glint_geometry_memory {
     cl_mem nodes, clusters, normals, numbers, materials, media;
-    glint_kept kept;
+    void *kept[GLINT_TREE_ARRAYS]; // NULL where the tree's array was copied
 } glint_geometry_memory;
 
 typedef struct glint_light_memory {
     cl_mem environment, irradiance;
-    glint_kept kept;
+    void *kept; // what the environment lies in
 } glint_light_memory;
 
 // Everything that is uploaded. Pointers are borrowed; `irradiance` may be an empty cube. A device
@@ -57,6 +52,9 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
 glint_status glint_geometry_upload(const glint_upload_inputs *inputs, glint_geometry_memory *memory,
                                    glint_error *error);
 void glint_geometry_memory_free(glint_geometry_memory *memory);
+
+// Frees the buffers and gives the tree the arrays back that were taken over.
+void glint_geometry_take_back(glint_geometry_memory *memory, glint_bvh *bvh);
 
 // The cubes. Errors likewise.
 glint_status glint_light_upload(const glint_upload_inputs *inputs, glint_light_memory *memory,

@@ -1,0 +1,167 @@
+// Fits a tree to triangles that have moved: its clusters keep their triangles, its nodes their
+// children, and every box is made anew from the leaves up. See bvh.h.
+#include "accel/bvh.h"
+
+#include "accel/box.h"
+#include "accel/wide_box.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/vector.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct refit {
+    const glint_bvh_inputs *in;
+    const glint_bvh *bvh;
+    glint_box *boxes;     // [cluster_count], then [node_count]
+    atomic_bool has_torn; // some cluster's triangles no longer belong together
+} refit;
+
+// Whether each triangle of a cluster still has an area and the cluster's material.
+static bool is_whole(const glint_bvh_inputs *in, const glint_cluster *cluster,
+                     const int32_t *numbers)
+{
+    for (int k = 0; k < cluster->count; k++) {
+        const size_t number = (size_t)numbers[k];
+        if (in->material_of[number] != (uint32_t)cluster->material ||
+            !glint_triangle_has_area(in->positions + 9 * number)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool have_same_bits(float a, float b)
+{
+    uint32_t bits[2];
+    memcpy(&bits[0], &a, sizeof a);
+    memcpy(&bits[1], &b, sizeof b);
+    return bits[0] == bits[1];
+}
+
+// Writes values[axis][lane] of each vertex from its triangles. False where two triangles that
+// shared a vertex have come apart; what was written is then of no use.
+static bool gather(const float *from, const glint_cluster *cluster, const int32_t *numbers,
+                   float *values)
+{
+    bool is_set[GLINT_CLUSTER_LANES] = {false};
+    for (int k = 0; k < cluster->count; k++) {
+        for (int corner = 0; corner < 3; corner++) {
+            const int lane = cluster->corners[corner][k];
+            const float *v = from + 9 * (size_t)numbers[k] + 3 * corner;
+            for (int axis = 0; axis < 3; axis++) {
+                float *value = &values[axis * GLINT_CLUSTER_LANES + lane];
+                if (is_set[lane] && !have_same_bits(*value, v[axis])) {
+                    return false;
+                }
+                *value = v[axis];
+            }
+            is_set[lane] = true;
+        }
+    }
+    // Lanes past the last vertex repeat the first.
+    for (int lane = 1; lane < GLINT_CLUSTER_LANES; lane++) {
+        for (int axis = 0; axis < 3 && !is_set[lane]; axis++) {
+            values[axis * GLINT_CLUSTER_LANES + lane] = values[axis * GLINT_CLUSTER_LANES];
+        }
+    }
+    return is_set[0];
+}
+
+static glint_box cluster_box(const glint_cluster *cluster)
+{
+    glint_box box = glint_box_empty();
+    for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {
+        const glint_float4 point = {cluster->positions[0][lane], cluster->positions[1][lane],
+                                    cluster->positions[2][lane], 0};
+        box = glint_box_union(box, glint_box_of(point));
+    }
+    return box;
+}
+
+#define CLUSTERS_PER_TASK 256
+
+static void refit_some(size_t task, void *context)
+{
+    refit *r = context;
+    const glint_bvh *bvh = r->bvh;
+    const size_t first = task * CLUSTERS_PER_TASK;
+    for (size_t i = first; i < first + CLUSTERS_PER_TASK && i < bvh->cluster_count; i++) {
+        glint_cluster *cluster = &bvh->clusters[i];
+        const int32_t *numbers = bvh->numbers + i * GLINT_CLUSTER_LANES;
+        if (!is_whole(r->in, cluster, numbers) ||
+            !gather(r->in->positions, cluster, numbers, cluster->positions[0]) ||
+            (bvh->normals != NULL &&
+             !gather(r->in->normals, cluster, numbers, bvh->normals + i * GLINT_CLUSTER_NORMALS))) {
+            atomic_store(&r->has_torn, true);
+            return;
+        }
+        r->boxes[i] = cluster_box(cluster);
+    }
+}
+
+// A node's children stand behind it, so that the last node comes first.
+static void refit_nodes(const refit *r, glint_bvh *bvh)
+{
+    const int width = bvh->width;
+    glint_box *nodes = r->boxes + bvh->cluster_count;
+    double areas = 0;
+    for (size_t index = bvh->node_count; index-- > 0;) {
+        float *node = bvh->nodes + index * GLINT_NODE_VALUES * (size_t)width;
+        glint_box bounds = glint_box_empty();
+        for (int i = 0; i < width; i++) {
+            int32_t child;
+            memcpy(&child, node + 6 * width + i, sizeof child);
+            if (child == 0) { // there is none; the root is nobody's child
+                continue;
+            }
+            const glint_box box = child < 0 ? r->boxes[~child] : nodes[child];
+            glint_wide_store_box(node, width, i, box);
+            bounds = glint_box_union(bounds, box);
+            areas += child < 0 ? glint_wide_area(box) : 0;
+        }
+        nodes[index] = bounds;
+        areas += glint_wide_area(bounds);
+    }
+    bvh->report.is_refitted = true;
+    bvh->report.sah_cost = areas / fmax(glint_wide_area(nodes[0]), 1e-300);
+}
+
+static size_t count_with_area(const glint_bvh_inputs *in)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < in->triangle_count; i++) {
+        count += glint_triangle_has_area(in->positions + 9 * i);
+    }
+    return count;
+}
+
+bool glint_bvh_refit(const glint_bvh_inputs *in, glint_bvh *bvh)
+{
+    if (bvh->cluster_count == 0 || in->width != bvh->width ||
+        in->triangle_count != bvh->input_count || (in->normals != NULL) != (bvh->normals != NULL)) {
+        return false;
+    }
+    // Those in clusters are looked at there.
+    if (bvh->report.triangle_count != in->triangle_count &&
+        bvh->report.triangle_count != count_with_area(in)) {
+        return false;
+    }
+    refit r = {.in = in,
+               .bvh = bvh,
+               .boxes =
+                   glint_allocate_unset(bvh->cluster_count + bvh->node_count, sizeof *r.boxes)};
+    if (r.boxes == NULL) {
+        return false;
+    }
+    const size_t tasks = (bvh->cluster_count + CLUSTERS_PER_TASK - 1) / CLUSTERS_PER_TASK;
+    glint_parallel_for_on(in->threads, tasks, refit_some, &r);
+    const bool fits = !atomic_load(&r.has_torn);
+    if (fits) {
+        refit_nodes(&r, bvh);
+    }
+    free(r.boxes);
+    return fits;
+}

@@ -1,0 +1,352 @@
+// Making renderers, and giving them other scenes. See frame.h.
+#include "render/frame.h"
+
+#include "base/clock.h"
+#include "device/program.h"
+#include "environment/irradiance.h"
+#include "kernels/layout.h"
+#include "render/renderer.h"
+#include "scene/topology.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static size_t scalar_bytes(const glint_renderer *r)
+{
+    return r->plan.precision == GLINT_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
+}
+
+static bool has_solids(const glint_scene *scene)
+{
+    for (size_t i = 0; i < scene->material_count; i++) {
+        if (glint_material_is_solid(&scene->materials[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The topology is found only where the plan asks for it: millions of triangles take seconds.
+static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r,
+                            const glint_plan *before, glint_error *error)
+{
+    glint_topology topology = {0};
+    const bool wanted = has_solids(in->scene) && !in->scene->moves;
+    glint_status status = wanted ? glint_topology_find(in->scene, &topology, error) : GLINT_OK;
+    if (status == GLINT_OK) {
+        const glint_plan_inputs inputs = {
+            .scene = in->scene,
+            .topology = &topology,
+            .environment = &in->environment->radiance,
+            .device = glint_device_capabilities(in->device),
+            .settings = in->settings,
+            .before = before,
+        };
+        status = glint_plan_make(&inputs, &r->plan, error);
+    }
+    glint_topology_free(&topology);
+    return status;
+}
+
+static bool needs_irradiance(const glint_plan *plan)
+{
+    return plan->features[GLINT_FEATURE_PAINT].compiled ||
+           plan->features[GLINT_FEATURE_BLEND].compiled;
+}
+
+glint_status glint_renderer_set_argument(const glint_renderer *r, cl_uint index, size_t size,
+                                         const void *value, glint_error *error)
+{
+    cl_int code = clSetKernelArg(r->kernel, index, size, value);
+    return code == CL_SUCCESS
+               ? GLINT_OK
+               : glint_fail_opencl(error, r->device, "setting a kernel's argument", code);
+}
+
+static glint_status set_buffers(const glint_renderer *r, glint_error *error)
+{
+    const cl_mem buffers[] = {r->geometry.nodes,
+                              r->geometry.clusters,
+                              r->geometry.normals,
+                              r->geometry.numbers,
+                              r->geometry.materials,
+                              r->geometry.media,
+                              r->light.environment,
+                              r->light.irradiance,
+                              r->pixels.own,
+                              r->counters,
+                              r->layers};
+    glint_status status = GLINT_OK;
+    for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
+        status = glint_renderer_set_argument(r, i, sizeof buffers[i], &buffers[i], error);
+    }
+    return status;
+}
+
+// Compiles, and launches once over an image without pixels: drivers put off a part of the
+// compilation to the first launch.
+static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer *r,
+                                 glint_error *error)
+{
+    char options[4096];
+    glint_plan_build_options(&r->plan, options, sizeof options);
+    const glint_program_request request = {.kernel_dir = in->kernel_dir, .options = options};
+    cl_program program;
+    glint_status status = glint_program_build(r->device, &request, &program, error);
+    if (status == GLINT_OK) {
+        status = glint_program_kernel(r->device, program, "render_tiles", &r->kernel, error);
+        clReleaseProgram(program);
+    }
+    if (status == GLINT_OK) {
+        status = set_buffers(r, error);
+    }
+    if (status == GLINT_OK) {
+        // No pixel is written, so that a device that writes into images needs none yet.
+        glint_frame_record nothing = {.band = 1};
+        status = glint_renderer_launch(r, &nothing, 0, 1, error);
+    }
+    return status;
+}
+
+static glint_status create_outputs(glint_renderer *r, glint_error *error)
+{
+    glint_status status = glint_pixels_create(r->device, r->settings.width, r->settings.height,
+                                              scalar_bytes(r), &r->pixels, error);
+    if (status == GLINT_OK) {
+        const size_t counters = GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2 * sizeof(cl_uint);
+        status =
+            glint_buffer_create(r->device, "the counters", counters, NULL, &r->counters, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_buffer_create(r->device, "the layers", glint_renderer_layers_bytes(r), NULL,
+                                     &r->layers, error);
+    }
+    return status;
+}
+
+// The smallest power of two that is no smaller than the tree needs, so that few sizes are compiled.
+static int traversal_stack(int need)
+{
+    int size = 64;
+    while (size < need) {
+        size *= 2;
+    }
+    return size;
+}
+
+// A tree that is fitted to triangles that moved is worse than one that is built anew: where rays
+// would take so much longer, it is.
+#define REFIT_COST 1.5
+
+// The last frame's tree, fitted, or a new one.
+static glint_status make_tree(const glint_scene *scene, glint_renderer *r, glint_error *error)
+{
+    glint_bvh *tree = &r->tree;
+    glint_status status = GLINT_OK;
+    if (!glint_plan_refit_tree(&r->plan, scene, tree) ||
+        tree->report.sah_cost > REFIT_COST * r->built_cost) {
+        glint_bvh_free(tree);
+        status = glint_plan_build_tree(&r->plan, scene, tree, error);
+        r->built_cost = tree->report.sah_cost;
+    }
+    r->bvh = tree->report;
+    r->plan.traversal_stack = traversal_stack(tree->report.stack_need);
+    return status;
+}
+
+// Plan and tree of the scene, and whether the device can hold them.
+static glint_status prepare(const glint_renderer_inputs *in, glint_renderer *r,
+                            const glint_plan *before, glint_error *error)
+{
+    double clock = glint_now_ms();
+    glint_upload_sizes sizes = {0};
+    glint_status status = analyse(in, r, before, error);
+    if (status == GLINT_OK) {
+        status = glint_pixels_size(r->settings.width, r->settings.height, scalar_bytes(r),
+                                   &sizes.frame, error);
+        r->pixel_count = sizes.frame / (4 * scalar_bytes(r));
+        sizes.layers = glint_renderer_layers_bytes(r);
+        sizes.environment = r->plan.environment_bytes;
+    }
+    if (status == GLINT_OK) {
+        status = glint_upload_check(in->device, in->scene, &sizes, error);
+    }
+    r->phases.analysis = glint_lap_ms(&clock);
+    if (status == GLINT_OK) {
+        status = make_tree(in->scene, r, error);
+        r->phases.bvh = glint_lap_ms(&clock);
+    }
+    return status;
+}
+
+// Only the tree of a scene that moves is needed again.
+static glint_status upload_geometry(const glint_renderer_inputs *in, glint_renderer *r,
+                                    glint_error *error)
+{
+    const glint_upload_inputs inputs = {
+        .device = in->device, .scene = in->scene, .bvh = &r->tree, .plan = &r->plan};
+    double clock = glint_now_ms();
+    glint_geometry_memory fresh;
+    glint_status status = glint_geometry_upload(&inputs, &fresh, error);
+    if (status == GLINT_OK) {
+        r->geometry = fresh;
+        r->space = glint_stored_space_of(in->scene);
+    }
+    if (status != GLINT_OK || !in->scene->moves) {
+        glint_bvh_free(&r->tree);
+    }
+    r->phases.upload = glint_lap_ms(&clock);
+    return status;
+}
+
+static glint_status upload_light(const glint_renderer_inputs *in, glint_renderer *r,
+                                 glint_error *error)
+{
+    double clock = glint_now_ms();
+    glint_cube irradiance = {0};
+    glint_status status = GLINT_OK;
+    if (needs_irradiance(&r->plan) && !in->without_frames) {
+        status = glint_irradiance_map(&in->environment->radiance, GLINT_IRRADIANCE_EDGE,
+                                      &irradiance, error);
+        r->phases.irradiance = glint_lap_ms(&clock);
+    }
+    if (status == GLINT_OK) {
+        const glint_upload_inputs inputs = {
+            .device = in->device,
+            .plan = &r->plan,
+            .environment = &in->environment->radiance,
+            .irradiance = &irradiance,
+        };
+        status = glint_light_upload(&inputs, &r->light, error);
+        r->environment_edge = in->environment->radiance.edge;
+        r->irradiance_edge = irradiance.edge;
+        r->phases.upload += glint_lap_ms(&clock);
+    }
+    glint_cube_free(&irradiance);
+    return status;
+}
+
+// All that a plan is put to work with.
+static glint_status set_up(const glint_renderer_inputs *in, glint_renderer *r, glint_error *error)
+{
+    glint_status status = upload_geometry(in, r, error);
+    if (status == GLINT_OK) {
+        status = upload_light(in, r, error);
+    }
+    double clock = glint_now_ms();
+    if (status == GLINT_OK) {
+        status = create_outputs(r, error);
+        r->phases.upload += glint_lap_ms(&clock);
+    }
+    if (status == GLINT_OK && !in->without_frames) {
+        status = build_kernel(in, r, error);
+        r->phases.kernel_build = glint_lap_ms(&clock);
+    }
+    return status;
+}
+
+static void tear_down(glint_renderer *r)
+{
+    glint_geometry_memory_free(&r->geometry);
+    glint_light_memory_free(&r->light);
+    glint_pixels_free(&r->pixels);
+    glint_buffer_release(r->counters);
+    glint_buffer_release(r->layers);
+    r->counters = r->layers = NULL;
+    if (r->kernel != NULL) {
+        clReleaseKernel(r->kernel);
+        r->kernel = NULL;
+    }
+}
+
+glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
+                                   glint_error *error)
+{
+    *renderer = NULL;
+    glint_renderer *r = calloc(1, sizeof *r);
+    if (r == NULL) {
+        return glint_fail_memory(error, "the renderer");
+    }
+    r->device = inputs->device;
+    r->settings = *inputs->settings;
+    r->inputs = *inputs;
+    r->inputs.settings = &r->settings;
+    glint_status status = prepare(inputs, r, NULL, error);
+    if (status == GLINT_OK) {
+        status = set_up(inputs, r, error);
+    }
+    if (status != GLINT_OK) {
+        glint_renderer_free(r);
+        return status;
+    }
+    *renderer = r;
+    return GLINT_OK;
+}
+
+glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scene,
+                                      glint_error *error)
+{
+    const glint_plan before = r->plan;
+    char old_options[4096], options[4096];
+    glint_plan_build_options(&before, old_options, sizeof old_options);
+    glint_renderer_inputs in = r->inputs;
+    in.scene = scene;
+    glint_geometry_take_back(&r->geometry, &r->tree);
+    r->has_failed = true;
+    glint_status status = prepare(&in, r, &before, error);
+    if (status != GLINT_OK) {
+        r->plan = before;
+    } else {
+        glint_plan_build_options(&r->plan, options, sizeof options);
+        if (strcmp(options, old_options) == 0 && r->kernel != NULL) {
+            status = upload_geometry(&in, r, error);
+            status = status == GLINT_OK ? set_buffers(r, error) : status;
+        } else {
+            // Other kernels, and what they read.
+            tear_down(r);
+            status = set_up(&in, r, error);
+        }
+    }
+    r->has_failed = status != GLINT_OK;
+    return status;
+}
+
+const glint_plan *glint_renderer_plan(const glint_renderer *renderer)
+{
+    return &renderer->plan;
+}
+
+const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer)
+{
+    return &renderer->bvh;
+}
+
+const glint_phases *glint_renderer_phases(const glint_renderer *renderer)
+{
+    return &renderer->phases;
+}
+
+glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
+{
+    const glint_geometry_memory *geometry = &renderer->geometry;
+    const glint_light_memory *light = &renderer->light;
+    return (glint_device_bytes){
+        .scene = glint_buffer_bytes(geometry->clusters) + glint_buffer_bytes(geometry->normals) +
+                 glint_buffer_bytes(geometry->numbers) + glint_buffer_bytes(geometry->materials) +
+                 glint_buffer_bytes(geometry->media),
+        .tree = glint_buffer_bytes(geometry->nodes),
+        .environment =
+            glint_buffer_bytes(light->environment) + glint_buffer_bytes(light->irradiance),
+        .frame = glint_pixels_bytes(&renderer->pixels) + glint_renderer_layers_bytes(renderer),
+    };
+}
+
+void glint_renderer_free(glint_renderer *renderer)
+{
+    if (renderer == NULL) {
+        return;
+    }
+    tear_down(renderer);
+    glint_bvh_free(&renderer->tree);
+    free(renderer);
+}

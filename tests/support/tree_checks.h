@@ -1,0 +1,52 @@
+// Triangles to build trees from, and what must be true of every tree.
+#ifndef GLINT_TESTS_TREE_CHECKS_H
+#define GLINT_TESTS_TREE_CHECKS_H
+
+#include "accel/bvh.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct test_soup {
+    float *positions, *normals; // [count][3][3]
+    uint32_t *material_of;
+    size_t count;
+    const bool *flat; // which of them have no area; NULL: none
+    size_t flat_count;
+} test_soup;
+
+typedef struct test_walk {
+    const test_soup *soup;
+    const glint_bvh *bvh;
+    unsigned char *seen; // by triangle
+    size_t nodes, clusters;
+    int depth, stack_need;
+    double area; // of the boxes of nodes and clusters
+} test_walk;
+
+// Numbers within [0, 1), the same on every machine.
+double test_random(void);
+
+// Without positions yet; one material, and one normal for all vertices.
+test_soup test_soup_empty(size_t count);
+// Small triangles whose size and place span many orders of magnitude when `spread` is large.
+test_soup test_soup_random(size_t count, double spread);
+// A wavy sheet of 2 × edge² triangles that share their vertices.
+test_soup test_soup_sheet(size_t edge);
+// Puts the triangles in an order that has nothing to do with where they are.
+void test_soup_shuffle(test_soup *s);
+void test_soup_free(test_soup *s);
+
+glint_bvh_inputs test_tree_inputs(const test_soup *s, int width);
+glint_bvh test_tree_build(const test_soup *s, int width);
+int32_t test_tree_child(const glint_bvh *bvh, size_t node, int child);
+
+// Half of the surface area of a box.
+double test_half_area(const float low[3], const float high[3]);
+
+// Every triangle that has an area is in one cluster, inside every box above it, and the report is
+// true.
+test_walk test_tree_check(const test_soup *s, const glint_bvh *bvh);
+
+#endif
