@@ -20,7 +20,9 @@ packages_to_bench='
 
 packages_to_plot='jq/jq gnuplot-nox/gnuplot util-linux/taskset'
 
-packages_to_test_fully='qemu-user/qemu-x86_64'
+packages_to_test_fully='
+    qemu-user/qemu-x86_64
+    slurmctld slurmd slurm-client munge procps/pkill'
 
 needs_in_words="CMake 3.25, a C11 and C++17 compiler, pkg-config, an OpenCL ICD loader with its \
 headers, PoCL or another OpenCL 1.2 driver, OpenImageIO, tinygltf, nlohmann-json, jansson and xxHash"

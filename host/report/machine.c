@@ -38,6 +38,7 @@ void glint_machine_describe(glint_machine *machine)
     if (uname(&names) == 0) {
         snprintf(machine->system, sizeof machine->system, "%s %s %s", names.sysname, names.release,
                  names.machine);
+        snprintf(machine->host, sizeof machine->host, "%s", names.nodename);
     }
     double load;
     if (getloadavg(&load, 1) == 1) {

@@ -7,6 +7,7 @@
 typedef struct glint_machine {
     char cpu[128];    // the model's name; "" where it is not known
     char system[256]; // "Linux 6.1.0 x86_64"
+    char host[65];    // its name in the network; "" where it is not known
     int cores;        // that this process may use
     double load;      // processes that ran or waited to, mean of the last minute; NaN: not known
     char date[32];    // UTC, ISO 8601: "2024-05-01T12:00:00Z"

@@ -135,6 +135,10 @@ static glint_status add_run(glint_stats_log *log, const glint_stats *run, uint64
 {
     json_t *root = event_object("run");
     put_run(root, run);
+    glint_machine machine;
+    glint_machine_describe(&machine);
+    glint_json_put_text(root, "host", machine.host);
+    glint_json_put_text(root, "date", machine.date);
     glint_json_put_count(root, "frames", frames);
     glint_json_put(root, "milliseconds", preparation_object(run));
     put_subject(root, run->subject);

@@ -67,6 +67,10 @@ clean() {
     rm -rf out/* out/.[!.]*
 }
 
+same_pixels() { # A B
+    "$glint" compare "$1" "$2" --fail-above max=0 --fail-above nan=0
+}
+
 begins_with() { # FILE HEX
     [ "$(od -An -tx1 -N $((${#2} / 2)) "$1" | tr -d ' \n')" = "$2" ]
 }

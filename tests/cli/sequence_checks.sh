@@ -21,10 +21,6 @@ files() { # FOLDER: its files on one line
     (cd "$1" && find . -mindepth 1 -printf '%P\n' | sort | tr '\n' ' ')
 }
 
-same_pixels() { # A B
-    "$glint" compare "$1" "$2" --fail-above max=0 --fail-above nan=0
-}
-
 eight='f.0001.exr f.0002.exr f.0003.exr f.0004.exr f.0005.exr f.0006.exr f.0007.exr f.0008.exr '
 
 # ---- mistakes -----------------------------------------------------------------------------------

@@ -1,0 +1,279 @@
+// Array jobs of Slurm. See farm_slurm.h.
+#include "cli/farm_slurm.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+// ---- Texts within scripts ----------------------------------------------------------------------
+
+// As one word of the shell.
+static void put_word(FILE *out, const char *word)
+{
+    fputc('\'', out);
+    for (; *word != '\0'; word++) {
+        if (*word == '\'') {
+            fputs("'\\''", out);
+        } else {
+            fputc(*word, out);
+        }
+    }
+    fputc('\'', out);
+}
+
+// As the value of an option in an #SBATCH line. In names of files % begins a pattern.
+static void put_value(FILE *out, const char *value, bool is_pattern)
+{
+    fputc('"', out);
+    for (; *value != '\0'; value++) {
+        if (*value == '"' || *value == '\\') {
+            fputc('\\', out);
+        } else if (*value == '%' && is_pattern) {
+            fputc('%', out);
+        }
+        fputc(*value, out);
+    }
+    fputc('"', out);
+}
+
+static glint_status check_text(const char *what, const char *text, glint_error *error)
+{
+    for (; text != NULL && *text != '\0'; text++) {
+        if (iscntrl((unsigned char)*text)) {
+            return glint_fail(error, GLINT_USAGE,
+                              "%s: a control character cannot stand in a job's script", what);
+        }
+    }
+    return GLINT_OK;
+}
+
+static glint_status check_texts(const farm_slurm *slurm, glint_error *error)
+{
+    const char *const texts[][2] = {
+        {"--folder", slurm->folder},   {"the working directory", slurm->directory},
+        {"--program", slurm->program}, {"--name", slurm->name},
+        {"--time", slurm->time},       {"--partition", slurm->partition},
+        {"--sbatch", slurm->further},
+    };
+    glint_status status = GLINT_OK;
+    for (size_t i = 0; status == GLINT_OK && i < sizeof texts / sizeof *texts; i++) {
+        status = check_text(texts[i][0], texts[i][1], error);
+    }
+    for (int i = 0; status == GLINT_OK && i < slurm->argument_count; i++) {
+        status = check_text("the arguments of glint render", slurm->arguments[i], error);
+    }
+    return status;
+}
+
+// ---- The scripts -------------------------------------------------------------------------------
+
+static void put_options(FILE *out, const farm_slurm *slurm, const char *name_suffix,
+                        const char *log)
+{
+    fputs("#SBATCH --job-name=", out);
+    char *name = NULL;
+    if (asprintf(&name, "%s%s", slurm->name, name_suffix) >= 0) {
+        put_value(out, name, false);
+        free(name);
+    }
+    fputs("\n#SBATCH --chdir=", out);
+    put_value(out, slurm->directory, false);
+    fputs("\n#SBATCH --output=", out);
+    put_value(out, slurm->folder, true);
+    fprintf(out, "/%s\n", log);
+    fputs("#SBATCH --open-mode=append\n#SBATCH --requeue\n#SBATCH --nodes=1 --ntasks=1\n", out);
+    if (slurm->partition != NULL) {
+        fputs("#SBATCH --partition=", out);
+        put_value(out, slurm->partition, false);
+        fputc('\n', out);
+    }
+    if (slurm->further != NULL) {
+        fprintf(out, "#SBATCH %s\n", slurm->further);
+    }
+}
+
+static void put_part_options(FILE *out, const farm_slurm *slurm)
+{
+    fprintf(out, "#SBATCH --array=1-%d", slurm->parts);
+    if (slurm->at_once > 0) {
+        fprintf(out, "%%%d", slurm->at_once);
+    }
+    fputc('\n', out);
+    if (slurm->cpus > 0) {
+        fprintf(out, "#SBATCH --cpus-per-task=%d\n", slurm->cpus);
+    }
+    if (slurm->time != NULL) {
+        fputs("#SBATCH --time=", out);
+        put_value(out, slurm->time, false);
+        fputc('\n', out);
+    }
+    put_options(out, slurm, "", "%A_%a.log");
+}
+
+// A part that was killed or lost its device goes back into the queue, likely to another node. Where
+// it was told to stop it stays ended, and what no other node does better is not tried again.
+static const char retry[] =
+    "status=$?\n"
+    "case $status in\n"
+    "130 | 143) ;; # told to stop\n"
+    "4 | 12[89] | 13[0-9] | 14[0-9] | 15[0-9])\n"
+    "    if [ \"$attempt\" -lt \"$retries\" ]; then\n"
+    "        echo \"part $part ended with status $status: it goes back into the queue\" >&2\n"
+    "        scontrol requeue \"${SLURM_ARRAY_JOB_ID}_$part\"\n"
+    "    fi\n"
+    "    ;;\n"
+    "esac\n"
+    "exit \"$status\"\n";
+
+static void put_part_body(FILE *out, const farm_slurm *slurm)
+{
+    fprintf(out,
+            "part=${SLURM_ARRAY_TASK_ID:?}\n"
+            "attempt=${SLURM_RESTART_COUNT:-0}\n"
+            "retries=%d\n"
+            "# PoCL takes every core it sees, where Slurm counts them but binds nothing.\n"
+            "if [ -n \"${SLURM_CPUS_PER_TASK:-}\" ]; then\n"
+            "    export POCL_MAX_PTHREAD_COUNT=\"$SLURM_CPUS_PER_TASK\"\n"
+            "fi\n"
+            "# Slurm tells the shell and glint to stop; the shell waits until glint has.\n"
+            "trap : TERM INT\n"
+            "echo \"part $part of %d, attempt $attempt, on ${SLURMD_NODENAME:-?}\" >&2\n",
+            slurm->retries, slurm->parts);
+    put_word(out, slurm->program);
+    fprintf(out, " render --skip-existing --shard \"$part/%d\" \\\n    --stats ", slurm->parts);
+    put_word(out, slurm->folder);
+    fputs("\"/${SLURM_ARRAY_JOB_ID}_$part.$attempt.jsonl\" \\\n   ", out);
+    for (int i = 0; i < slurm->argument_count; i++) {
+        fputc(' ', out);
+        put_word(out, slurm->arguments[i]);
+    }
+    fputc('\n', out);
+    fputs(retry, out);
+}
+
+static glint_status finish(FILE *out, char **script, glint_error *error)
+{
+    const bool is_whole = ferror(out) == 0;
+    if (fclose(out) != 0 || !is_whole) {
+        free(*script);
+        *script = NULL;
+        return glint_fail_memory(error, "a job's script");
+    }
+    return GLINT_OK;
+}
+
+glint_status farm_slurm_script(const farm_slurm *slurm, char **script, glint_error *error)
+{
+    *script = NULL;
+    glint_status status = check_texts(slurm, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    size_t size;
+    FILE *out = open_memstream(script, &size);
+    if (out == NULL) {
+        return glint_fail_memory(error, "a job's script");
+    }
+    fputs("#!/bin/sh\n# A part of a sequence, by glint " GLINT_VERSION " farm slurm.\n", out);
+    put_part_options(out, slurm);
+    put_part_body(out, slurm);
+    return finish(out, script, error);
+}
+
+glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, char **script,
+                                      glint_error *error)
+{
+    *script = NULL;
+    size_t size;
+    FILE *out = open_memstream(script, &size);
+    if (out == NULL) {
+        return glint_fail_memory(error, "a job's script");
+    }
+    fputs("#!/bin/sh\n# What became of the sequence, by glint " GLINT_VERSION " farm slurm.\n",
+          out);
+    char log[96];
+    snprintf(log, sizeof log, "%s_report.txt", job);
+    put_options(out, slurm, "-report", log);
+    fputs("exec ", out);
+    put_word(out, slurm->program);
+    fputs(" farm report ", out);
+    put_word(out, slurm->folder);
+    fputc('\n', out);
+    return finish(out, script, error);
+}
+
+// ---- Handing in --------------------------------------------------------------------------------
+
+// What the program prints on stdout, cut to the buffer; its exit status, or −1.
+static int run_program(char *const *words, char *output, size_t capacity, int *cause)
+{
+    int ends[2];
+    output[0] = '\0';
+    if (pipe2(ends, O_CLOEXEC) != 0) {
+        *cause = errno;
+        return -1;
+    }
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    pid_t process;
+    *cause = posix_spawnp(&process, words[0], &actions, NULL, words, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    int how = -1;
+    if (*cause == 0) {
+        size_t length = 0;
+        char rest[256];
+        ssize_t got;
+        do {
+            const bool fits = length + 1 < capacity;
+            got = fits ? read(ends[0], output + length, capacity - 1 - length)
+                       : read(ends[0], rest, sizeof rest);
+            length += fits && got > 0 ? (size_t)got : 0;
+        } while (got > 0 || (got < 0 && errno == EINTR));
+        output[length] = '\0';
+        while (waitpid(process, &how, 0) < 0 && errno == EINTR) {
+        }
+    }
+    close(ends[0]);
+    return *cause == 0 && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+}
+
+glint_status farm_slurm_submit(const char *path, const char *after, bool wait, char id[64],
+                               glint_error *error)
+{
+    char dependency[96];
+    snprintf(dependency, sizeof dependency, "--dependency=afterany:%s", after != NULL ? after : "");
+    char *words[6] = {"sbatch", "--parsable"};
+    int count = 2;
+    if (after != NULL) {
+        words[count++] = dependency;
+    }
+    if (wait) {
+        words[count++] = "--wait";
+    }
+    words[count] = (char *)path;
+    int cause = 0;
+    const int status = run_program(words, id, 64, &cause);
+    id[strcspn(id, ";\r\n")] = '\0'; // the cluster's name may follow
+    if (cause != 0) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "sbatch: %s (install Slurm's client, or see the script with --dry-run)",
+                          strerror(cause));
+    }
+    if (id[0] == '\0' || strspn(id, "0123456789") != strlen(id)) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "%s: sbatch did not take it (its own words stand above)", path);
+    }
+    return status == 0 ? GLINT_OK
+                       : glint_fail(error, wait ? GLINT_FRAMES_FAILED : GLINT_OUTPUT_FAILED,
+                                    "%s: sbatch ended with status %d", path, status);
+}

@@ -1,0 +1,353 @@
+// The sum of what a farm's parts did. See farm_report.h.
+#include "report/farm_report.h"
+
+#include "report/json.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FORMAT "glint farm"
+
+// ---- The job -----------------------------------------------------------------------------------
+
+void glint_farm_job_free(glint_farm_job *job)
+{
+    free(job->output);
+    *job = (glint_farm_job){0};
+}
+
+static char *file_in(const char *folder, const char *name)
+{
+    char *path = NULL;
+    return asprintf(&path, "%s/%s", folder, name) < 0 ? NULL : path;
+}
+
+glint_status glint_farm_job_write(const char *folder, const glint_farm_job *job, glint_error *error)
+{
+    char *path = file_in(folder, "farm.json");
+    if (path == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    json_t *root = json_object();
+    glint_json_put_text(root, "format", FORMAT);
+    glint_json_put_text(root, "glint", GLINT_VERSION);
+    glint_json_put_text(root, "job", job->id);
+    glint_json_put_text(root, "output", job->output);
+    glint_json_put_count(root, "frames", job->frames);
+    glint_json_put_count(root, "parts", (uint64_t)job->parts);
+    glint_status status = glint_json_write(path, root, error);
+    free(path);
+    return status;
+}
+
+static glint_status take_job(const json_t *root, const char *path, glint_farm_job *job,
+                             glint_error *error)
+{
+    const char *format = glint_json_text_at(root, "format");
+    const char *id = glint_json_text_at(root, "job");
+    const char *output = glint_json_text_at(root, "output");
+    const json_int_t frames = json_integer_value(json_object_get(root, "frames"));
+    const json_int_t parts = json_integer_value(json_object_get(root, "parts"));
+    if (format == NULL || strcmp(format, FORMAT) != 0 || id == NULL || id[0] == '\0' ||
+        strlen(id) >= sizeof job->id || strchr(id, '/') != NULL || output == NULL || frames < 1 ||
+        parts < 1 || parts > GLINT_FARM_PARTS_MAX) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: not what glint farm writes (submit anew)",
+                          path);
+    }
+    snprintf(job->id, sizeof job->id, "%s", id);
+    job->frames = (uint64_t)frames;
+    job->parts = (int)parts;
+    job->output = strdup(output);
+    return job->output != NULL ? GLINT_OK : glint_fail_memory(error, "the report");
+}
+
+static glint_status read_job(const char *folder, glint_farm_job *job, glint_error *error)
+{
+    char *path = file_in(folder, "farm.json");
+    if (path == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    glint_status status;
+    json_error_t cause;
+    json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &cause);
+    if (root != NULL) {
+        status = take_job(root, path, job, error);
+    } else if (cause.line > 0) {
+        status =
+            glint_fail(error, GLINT_BAD_INPUT, "%s: line %d: %s", path, cause.line, cause.text);
+    } else {
+        status =
+            glint_fail(error, GLINT_BAD_INPUT,
+                       "%s: no folder of a job (name the one that glint farm slurm made)", folder);
+    }
+    json_decref(root);
+    free(path);
+    return status;
+}
+
+// ---- The lines ---------------------------------------------------------------------------------
+
+typedef enum frame_state { FRAME_FAILED, FRAME_SKIPPED, FRAME_RENDERED } frame_state;
+
+// A frame's line in the statistics of some attempt.
+typedef struct frame_line {
+    int64_t number;
+    frame_state state;
+    char *failure; // owned; NULL unless it failed
+} frame_line;
+
+typedef struct part_lines {
+    frame_line *lines;
+    size_t count, capacity;
+} part_lines;
+
+static void free_lines(part_lines *lines)
+{
+    for (size_t i = 0; i < lines->count; i++) {
+        free(lines->lines[i].failure);
+    }
+    free(lines->lines);
+}
+
+static frame_line *add_line(part_lines *lines)
+{
+    if (lines->count == lines->capacity) {
+        const size_t capacity = 2 * lines->capacity + 64;
+        frame_line *grown = realloc(lines->lines, capacity * sizeof *grown);
+        if (grown == NULL) {
+            return NULL;
+        }
+        lines->lines = grown;
+        lines->capacity = capacity;
+    }
+    frame_line *line = &lines->lines[lines->count++];
+    *line = (frame_line){0};
+    return line;
+}
+
+static frame_state state_of(const char *outcome)
+{
+    if (outcome != NULL && strcmp(outcome, "rendered") == 0) {
+        return FRAME_RENDERED;
+    }
+    return outcome != NULL && strcmp(outcome, "skipped") == 0 ? FRAME_SKIPPED : FRAME_FAILED;
+}
+
+static glint_status take_frame(const json_t *root, glint_farm_part *part, part_lines *lines,
+                               glint_error *error)
+{
+    const json_t *number = json_object_get(root, "frame");
+    if (!json_is_integer(number)) {
+        return GLINT_OK;
+    }
+    frame_line *line = add_line(lines);
+    if (line == NULL) {
+        return glint_fail_memory(error, "the report");
+    }
+    line->number = json_integer_value(number);
+    line->state = state_of(glint_json_text_at(root, "outcome"));
+    if (line->state == FRAME_RENDERED) {
+        part->trace_ms += glint_json_real_at(root, "milliseconds.trace");
+        part->write_ms += glint_json_real_at(root, "milliseconds.write");
+        part->traced++;
+    }
+    const char *failure = glint_json_text_at(root, "error");
+    if (line->state == FRAME_FAILED && failure != NULL) {
+        line->failure = strdup(failure);
+    }
+    return GLINT_OK;
+}
+
+static void take_run(const json_t *root, glint_farm_part *part)
+{
+    const char *host = glint_json_text_at(root, "host");
+    snprintf(part->host, sizeof part->host, "%s", host != NULL ? host : "");
+    const json_int_t frames = json_integer_value(json_object_get(root, "frames"));
+    part->frames = frames > 0 ? (uint64_t)frames : part->frames;
+}
+
+// The last line of an attempt that was killed may be cut: what is no object is left out.
+static glint_status take_line(const char *text, glint_farm_part *part, part_lines *lines,
+                              glint_error *error)
+{
+    json_t *root = json_loads(text, 0, NULL);
+    const char *event = glint_json_text_at(root, "event");
+    glint_status status = GLINT_OK;
+    if (event != NULL && strcmp(event, "run") == 0) {
+        take_run(root, part);
+    } else if (event != NULL && strcmp(event, "frame") == 0) {
+        status = take_frame(root, part, lines, error);
+    }
+    json_decref(root);
+    return status;
+}
+
+// An attempt's statistics; `began` is false where there are none.
+static glint_status read_attempt(const char *path, glint_farm_part *part, part_lines *lines,
+                                 bool *began, glint_error *error)
+{
+    FILE *file = fopen(path, "re");
+    *began = file != NULL;
+    if (file == NULL) {
+        return errno == ENOENT ? GLINT_OK
+                               : glint_fail(error, GLINT_BAD_INPUT, "%s: could not be read: %s",
+                                            path, strerror(errno));
+    }
+    char *text = NULL;
+    size_t capacity = 0;
+    glint_status status = GLINT_OK;
+    while (status == GLINT_OK && getline(&text, &capacity, file) >= 0) {
+        status = take_line(text, part, lines, error);
+    }
+    free(text);
+    fclose(file);
+    return status;
+}
+
+// ---- The sums ----------------------------------------------------------------------------------
+
+static int by_number_best_first(const void *a, const void *b)
+{
+    const frame_line *first = a, *second = b;
+    if (first->number != second->number) {
+        return first->number < second->number ? -1 : 1;
+    }
+    return (first->state < second->state) - (first->state > second->state);
+}
+
+static void count_frames(part_lines *lines, glint_farm_part *part, glint_farm_report *report)
+{
+    if (lines->count > 0) {
+        qsort(lines->lines, lines->count, sizeof *lines->lines, by_number_best_first);
+    }
+    for (size_t i = 0; i < lines->count; i++) {
+        const frame_line *line = &lines->lines[i];
+        if (i > 0 && line->number == lines->lines[i - 1].number) {
+            report->again += line->state == FRAME_RENDERED;
+            continue;
+        }
+        part->rendered += line->state == FRAME_RENDERED;
+        part->skipped += line->state == FRAME_SKIPPED;
+        part->failed += line->state == FRAME_FAILED;
+        if (line->state == FRAME_FAILED) {
+            glint_warn(&report->failures, "%s",
+                       line->failure != NULL ? line->failure : "a frame failed");
+        }
+    }
+}
+
+// A node that was lost before it wrote a line leaves a gap among the attempts: no more than that.
+static glint_status read_part(const char *folder, glint_farm_report *report, int index,
+                              glint_error *error)
+{
+    enum { GAP = 8 };
+    glint_farm_part *part = &report->parts[index];
+    part_lines lines = {0};
+    // Part I of N has every N-th frame.
+    const uint64_t parts = (uint64_t)report->job.parts;
+    part->number = index + 1;
+    part->frames = (report->job.frames + parts - 1 - (uint64_t)index) / parts;
+    glint_status status = GLINT_OK;
+    for (int attempt = 0, last = -1; status == GLINT_OK && attempt <= last + GAP; attempt++) {
+        char *path = NULL;
+        if (asprintf(&path, "%s/%s_%d.%d.jsonl", folder, report->job.id, part->number, attempt) <
+            0) {
+            status = glint_fail_memory(error, "a file name");
+            break;
+        }
+        bool began = false;
+        status = read_attempt(path, part, &lines, &began, error);
+        if (began) {
+            part->attempts++;
+            last = attempt;
+        }
+        free(path);
+    }
+    count_frames(&lines, part, report);
+    free_lines(&lines);
+    return status;
+}
+
+glint_status glint_farm_report_read(const char *folder, glint_farm_report *report,
+                                    glint_error *error)
+{
+    *report = (glint_farm_report){0};
+    glint_status status = read_job(folder, &report->job, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    report->parts = calloc((size_t)report->job.parts, sizeof *report->parts);
+    if (report->parts == NULL) {
+        return glint_fail_memory(error, "the report");
+    }
+    for (int i = 0; status == GLINT_OK && i < report->job.parts; i++) {
+        status = read_part(folder, report, i, error);
+        const glint_farm_part *part = &report->parts[i];
+        report->rendered += part->rendered;
+        report->skipped += part->skipped;
+        report->failed += part->failed;
+        report->trace_ms += part->trace_ms;
+        report->write_ms += part->write_ms;
+        report->traced += part->traced;
+    }
+    const uint64_t known = report->rendered + report->skipped + report->failed;
+    report->missing = known < report->job.frames ? report->job.frames - known : 0;
+    return status;
+}
+
+void glint_farm_report_free(glint_farm_report *report)
+{
+    glint_farm_job_free(&report->job);
+    glint_warnings_free(&report->failures);
+    free(report->parts);
+    *report = (glint_farm_report){0};
+}
+
+// ---- For programs ------------------------------------------------------------------------------
+
+static void put_work(json_t *object, double trace_ms, double write_ms, uint64_t traced)
+{
+    json_t *milliseconds = json_object();
+    glint_json_put_real(milliseconds, "trace", trace_ms);
+    glint_json_put_real(milliseconds, "write", write_ms);
+    glint_json_put(object, "milliseconds", milliseconds);
+    glint_json_put_count(object, "renderings", traced);
+}
+
+static json_t *part_object(const glint_farm_part *part)
+{
+    json_t *object = json_object();
+    glint_json_put_count(object, "part", (uint64_t)part->number);
+    glint_json_put_text(object, "host", part->attempts > 0 ? part->host : NULL);
+    glint_json_put_count(object, "attempts", (uint64_t)part->attempts);
+    glint_json_put_count(object, "frames", part->frames);
+    glint_json_put_count(object, "rendered", part->rendered);
+    glint_json_put_count(object, "skipped", part->skipped);
+    glint_json_put_count(object, "failed", part->failed);
+    put_work(object, part->trace_ms, part->write_ms, part->traced);
+    return object;
+}
+
+json_t *glint_farm_report_json(const glint_farm_report *report)
+{
+    json_t *root = json_object();
+    glint_json_put_text(root, "format", "glint farm report");
+    glint_json_put_text(root, "job", report->job.id);
+    glint_json_put_text(root, "output", report->job.output);
+    glint_json_put_count(root, "frames", report->job.frames);
+    glint_json_put_count(root, "rendered", report->rendered);
+    glint_json_put_count(root, "skipped", report->skipped);
+    glint_json_put_count(root, "failed", report->failed);
+    glint_json_put_count(root, "missing", report->missing);
+    glint_json_put_count(root, "rendered_again", report->again);
+    put_work(root, report->trace_ms, report->write_ms, report->traced);
+    json_t *parts = json_array();
+    for (int i = 0; i < report->job.parts; i++) {
+        (void)json_array_append_new(parts, part_object(&report->parts[i]));
+    }
+    glint_json_put(root, "parts", parts);
+    glint_json_put(root, "failures", glint_json_warnings(&report->failures));
+    return root;
+}

@@ -1,0 +1,180 @@
+#!/usr/bin/env bash
+# Command-line tests of glint farm, with stand-ins for sbatch and scontrol that write down what they
+# were given. tests/slurm is the same with the real ones.
+# farm_checks.sh GLINT JSON_GET SCENES
+scenes=$(readlink -f -- "$3")
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+cp "$scenes/mirror_sphere.gltf" in/scene.gltf
+cp "$scenes/mirror_sphere.bin" "$scenes/clockwork.gltf" "$scenes/clockwork.bin" in/
+scene=in/scene.gltf
+small=(--size 48x32 --progress none)
+mkdir bin
+cat >bin/sbatch <<'SBATCH'
+#!/bin/sh
+printf '%s\n' "$*" >>"$CALLS"
+printf '4711;cluster\n'
+SBATCH
+cat >bin/scontrol <<'SCONTROL'
+#!/bin/sh
+printf 'scontrol %s\n' "$*" >>"$CALLS"
+SCONTROL
+chmod +x bin/*
+export CALLS=$work/calls
+touch "$CALLS"
+real_path=$PATH
+PATH=$work/bin:$PATH
+
+# part NUMBER ATTEMPT SCRIPT: as Slurm would run it.
+part() {
+    SLURM_ARRAY_JOB_ID=4711 SLURM_ARRAY_TASK_ID=$1 SLURM_RESTART_COUNT=$2 sh "$3" >part.log 2>&1
+    status=$?
+}
+
+check 'farm --help tells every option' help_mentions farm parts at-once cpus time partition sbatch \
+    retries name folder program dry-run wait json help
+
+# ---- mistakes -----------------------------------------------------------------------------------
+
+refuses 2 'farm: what?' farm
+refuses 2 'farm slrum' farm slrum
+refuses 2 'no sequence' farm slurm --parts 3
+refuses 2 'one frame alone' farm slurm -- "$scene" -o out/f.exr
+refuses 2 'which frames?' farm slurm -- "$scene" -o out/f.####.exr
+refuses 2 '--shard' farm slurm -- "$scene" --turntable 8 --shard 1/2 -o out/f.####.exr
+refuses 2 '--stats' farm slurm -- "$scene" --turntable 8 --stats out/s.json -o out/f.####.exr
+refuses 2 'does not say how it was made' farm slurm -- "$scene" --turntable 8 -o out/f.####.hdr
+refuses 2 'unknown option --turntabel' farm slurm -- "$scene" --turntabel 8 -o out/f.####.exr
+refuses 2 '--help is no sequence' farm slurm -- --help
+refuses 3 'in/none.gltf' farm slurm -- in/none.gltf --turntable 8 -o out/f.####.exr
+refuses 5 'out/none' farm slurm -- "$scene" --turntable 8 -o out/none/f.####.exr
+refuses 2 'a control character' farm slurm --name $'a\nb' -- "$scene" --turntable 8 -o out/f.####.exr
+refuses 2 'nothing to wait for' farm slurm --dry-run --wait -- "$scene" --turntable 8 -o out/f.####.exr
+refuses 2 '--parts 0' farm slurm --parts 0 -- "$scene" --turntable 8 -o out/f.####.exr
+refuses 5 'no/such/folder' farm slurm --folder no/such/folder -- "$scene" --turntable 8 -o out/f.####.exr
+refuses 2 'the folder of one job' farm report
+refuses 3 'no folder of a job' farm report in
+printf '{"format": "something"}' >in/farm.json
+refuses 3 'not what glint farm writes' farm report in
+check 'mistakes: nothing was submitted' test ! -s "$CALLS"
+
+# ---- submitting ---------------------------------------------------------------------------------
+
+run farm slurm --dry-run --parts 3 --at-once 2 --cpus 4 --time 1:00:00 --partition short \
+    --sbatch '--gres=gpu:1 --account=film' -- "$scene" --turntable 8 -o out/f.####.exr
+check 'a dry run: exit status 0' test "$status" -eq 0 -a ! -s stderr
+check 'a dry run: nothing is made' test -z "$(ls -A out)" -a ! -s "$CALLS"
+cp stdout script
+for line in '--array=1-3%2' '--cpus-per-task=4' '--time="1:00:00"' '--partition="short"' \
+    '--gres=gpu:1 --account=film' '--requeue' '--job-name="f"' "--output=\"$work/out/f.farm\"/%A_%a.log"; do
+    check "a dry run: $line" grep -qFx -- "#SBATCH $line" script
+done
+check 'a dry run: a script of the shell' sh -n script
+run farm slurm --dry-run --parts 9 -- "$scene" --turntable 8 -o out/f.####.exr
+check 'no part without a frame' grep -qFx '#SBATCH --array=1-8' stdout
+check 'no part without a frame: said' grep -q '^glint: --parts 9: there are 8 frames' stderr
+run farm slurm --dry-run -- in/clockwork.gltf -o out/####.exr
+check 'the frames of an animation' grep -qFx '#SBATCH --array=1-8' stdout
+check 'frames without a name' grep -qFx '#SBATCH --job-name="frames"' stdout
+PATH=$real_path
+if ! command -v sbatch >/dev/null; then
+    run farm slurm -- "$scene" --turntable 8 -o out/f.####.exr
+    check 'without Slurm: exit status 5' test "$status" -eq 5
+    check 'without Slurm: said' grep -q '^glint: sbatch: No such file' stderr
+    clean
+else
+    skip 'without Slurm' 'it is installed'
+fi
+PATH=$work/bin:$PATH
+printf '#!/bin/sh\necho no partition >&2\nexit 1\n' >bin/refusing
+chmod +x bin/refusing
+mkdir refusing && mv bin/refusing refusing/sbatch
+PATH=$work/refusing:$PATH run farm slurm -- "$scene" --turntable 8 -o out/f.####.exr
+check 'refused by Slurm: exit status 5' test "$status" -eq 5
+check 'refused by Slurm: its words and ours' test "$(wc -l <stderr)" -eq 2
+check 'refused by Slurm: no job' test ! -e out/f.farm/farm.json
+clean
+
+# ---- the parts ----------------------------------------------------------------------------------
+
+# A name that the shell and Slurm read in their own ways.
+odd="out/it's 5% \"odd\" \$HOME.####.exr"
+run farm slurm --parts 3 --folder 'out/a job' -- "$scene" --turntable 8 "${small[@]}" -o "$odd"
+check 'submitted: exit status 0' test "$status" -eq 0 -a ! -s stdout
+check 'submitted: the job, said' grep -q '^glint: job 4711: 8 frames in 3 parts' stderr
+check 'submitted: what sbatch was given' test "$(cat "$CALLS")" = "--parsable $work/out/a job/job.sh
+--parsable --dependency=afterany:4711 $work/out/a job/report.sh"
+job="$work/out/a job/job.sh"
+run farm report 'out/a job'
+check 'before its parts ran: exit status 6' test "$status" -eq 6
+check 'before its parts ran: all are missing' grep -q '^0 of 8 frames are there, 0 failed, 8 are missing' stdout
+(cd / && part 1 0 "$job")
+check 'from elsewhere a part finds no scene' test ! -e 'out/a job/4711_1.0.jsonl'
+for k in 1 3; do
+    part $k 0 "$job"
+    check "part $k: exit status 0" test "$status" -eq 0
+done
+run farm report 'out/a job' --json report.json
+check 'one part missing: exit status 6' test "$status" -eq 6
+check 'one part missing: three frames' grep -q '^5 of 8 frames are there, 0 failed, 3 are missing' stdout
+check 'one part missing: as JSON' test "$("$json_get" report.json missing)" -eq 3
+part 2 0 "$job"
+run farm report 'out/a job' --json -
+cp stdout report.json
+check 'all parts: exit status 0' test "$status" -eq 0 -a ! -s stderr
+check 'all parts: as JSON alone' test "$("$json_get" report.json rendered)" -eq 8
+check 'all parts: every frame' test "$(find out -maxdepth 1 -name '*.exr' | wc -l)" -eq 8
+check 'all parts: the name is as it was given' test -s "out/it's 5% \"odd\" \$HOME.0008.exr"
+part 2 1 "$job"
+check 'a second attempt: exit status 0' test "$status" -eq 0
+printf '{"event": "frame", "fra' >>'out/a job/4711_2.1.jsonl'
+run farm report 'out/a job' --json report.json
+check 'a second attempt: nothing is counted twice' test "$("$json_get" report.json rendered)" -eq 8
+check 'a second attempt: nothing was rendered again' test "$("$json_get" report.json rendered_again)" -eq 0
+check 'a second attempt: counted' grep -qE '^ +2 +[^ ]+ +2 +3 +3 +0 +0 ' stdout
+check 'the machine is named' grep -q "^ *1  $(uname -n | cut -c 1-20)" stdout
+clean
+mkdir "$work/out/f.0003.exr"
+run farm slurm --parts 2 -- "$scene" --turntable 4 "${small[@]}" -o out/f.####.exr
+part 1 0 out/f.farm/job.sh
+check 'a frame fails: its part too' test "$status" -eq 6
+part 2 0 out/f.farm/job.sh
+run farm report out/f.farm
+check 'a frame fails: exit status 6' test "$status" -eq 6
+check 'a frame fails: named' grep -q '^failed: out/f.0003.exr: ' stdout
+rmdir out/f.0003.exr
+part 1 1 out/f.farm/job.sh
+run farm report out/f.farm
+check 'a frame that failed once is there: exit status 0' test "$status" -eq 0 -a ! -s stderr
+clean
+
+# ---- parts that end badly -----------------------------------------------------------------------
+
+# ends_with ATTEMPT COMMAND: a part whose program does this.
+ends_with() {
+    printf '#!/bin/sh\n%s\n' "$2" >program
+    chmod +x program
+    run farm slurm --dry-run --program "$work/program" --parts 2 --retries 2 -- "$scene" \
+        --turntable 4 -o out/f.####.exr
+    cp stdout script
+    : >"$CALLS"
+    part 2 "$1" script
+}
+
+# shellcheck disable=SC2016 # for the other shell
+for how in 'kill -9 $$' 'kill -SEGV $$' 'exit 4'; do
+    ends_with 0 "$how"
+    check "$how: it goes back into the queue" test "$(cat "$CALLS")" = 'scontrol requeue 4711_2'
+    ends_with 2 "$how"
+    check "$how: but not for ever" test ! -s "$CALLS" -a "$status" -ne 0
+done
+# shellcheck disable=SC2016
+for how in 'kill -TERM $$' 'kill -INT $$' 'exit 143' 'exit 2' 'exit 3' 'exit 5' 'exit 6' 'exit 0'; do
+    ends_with 0 "$how"
+    check "$how: it stays ended" test ! -s "$CALLS"
+done
+ends_with 0 'exit 6'
+check 'its exit status is the program'"'"'s' test "$status" -eq 6
+
+finish
