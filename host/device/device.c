@@ -273,6 +273,20 @@ static glint_status choose(const found_device *devices, size_t count, const char
                       names);
 }
 
+static cl_int create_queues(glint_device *device)
+{
+    cl_command_queue_properties can = 0;
+    cl_int code = clGetDeviceInfo(device->id, CL_DEVICE_QUEUE_PROPERTIES, sizeof can, &can, NULL);
+    if (code == CL_SUCCESS) {
+        device->queue = clCreateCommandQueue(device->context, device->id, 0, &code);
+    }
+    if (code == CL_SUCCESS) {
+        device->launches = clCreateCommandQueue(
+            device->context, device->id, can & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &code);
+    }
+    return code;
+}
+
 glint_status glint_device_open(const char *selector, glint_device **device, glint_error *error)
 {
     *device = NULL;
@@ -300,7 +314,7 @@ glint_status glint_device_open(const char *selector, glint_device **device, glin
         status = glint_fail_opencl(error, opened, "creating a context", code);
         goto cleanup;
     }
-    opened->queue = clCreateCommandQueue(opened->context, opened->id, 0, &code);
+    code = create_queues(opened);
     if (code != CL_SUCCESS) {
         status = glint_fail_opencl(error, opened, "creating a queue", code);
         goto cleanup;
@@ -324,6 +338,9 @@ void glint_device_close(glint_device *device)
         return;
     }
     glint_programs_forget(device);
+    if (device->launches != NULL) {
+        clReleaseCommandQueue(device->launches);
+    }
     if (device->queue != NULL) {
         clReleaseCommandQueue(device->queue);
     }

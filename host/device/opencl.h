@@ -13,7 +13,9 @@ struct glint_built_program;
 struct glint_device {
     cl_device_id id;
     cl_context context;
-    cl_command_queue queue; // in order
+    cl_command_queue queue;    // in order
+    cl_command_queue launches; // out of order where the device can, for launches that do not depend
+                               // on each other; whoever uses it waits for what went before
     glint_capabilities capabilities;
     struct glint_built_program *programs; // owned
 };

@@ -8,9 +8,11 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // Launches are made long enough to keep a device busy and short enough for progress and signals.
 #define LAUNCH_MS 100.0
+#define LAUNCHES_AT_ONCE 2
 // The first frame's first one tells the speed.
 #define FIRST_LAUNCH_SAMPLES 32768.0
 // Rows of tiles that are rendered side by side: what neighbours have fetched from memory is then
@@ -37,9 +39,8 @@ static size_t round_up(size_t value, size_t multiple)
     return (value + multiple - 1) / multiple * multiple;
 }
 
-// Renders `bands` bands of tiles from `first` on, and waits for the end.
 glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record, size_t first,
-                                   size_t bands, glint_error *error)
+                                   size_t bands, cl_event *done, glint_error *error)
 {
     record->first_band = (int)first;
     glint_status status =
@@ -54,11 +55,22 @@ glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record
     size_t columns = ((size_t)r->settings.width + (size_t)tile_width - 1) / (size_t)tile_width;
     const size_t across = columns * (size_t)record->band;
     const size_t global[2] = {round_up(across, local[0]), round_up(bands, local[1])};
-    cl_int code =
-        clEnqueueNDRangeKernel(r->device->queue, r->kernel, 2, NULL, global, local, 0, NULL, NULL);
+    cl_command_queue queue = r->device->launches;
+    cl_int code = clEnqueueNDRangeKernel(queue, r->kernel, 2, NULL, global, local, 0, NULL, done);
     if (code == CL_SUCCESS) {
-        code = clFinish(r->device->queue);
+        code = clFlush(queue);
+        if (code != CL_SUCCESS) {
+            clReleaseEvent(*done);
+        }
     }
+    return code == CL_SUCCESS ? GLINT_OK
+                              : glint_fail_opencl(error, r->device, "running the kernel", code);
+}
+
+glint_status glint_renderer_wait(const glint_renderer *r, cl_event done, glint_error *error)
+{
+    const cl_int code = clWaitForEvents(1, &done);
+    clReleaseEvent(done);
     return code == CL_SUCCESS ? GLINT_OK
                               : glint_fail_opencl(error, r->device, "running the kernel", code);
 }
@@ -118,9 +130,69 @@ static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
     return round_up((size_t)wanted, multiple);
 }
 
+// A frame's launches, of which a few are under way at once: what is left of one by the time that
+// some of the device's cores find nothing more in it is rendered beside the next.
+typedef struct launches {
+    glint_renderer *renderer;
+    glint_frame_record *record;
+    size_t bands, begun, done; // of the frame; in launches that were begun, that have ended
+    size_t step;               // bands of the next launch
+    int under_way;
+    struct {
+        cl_event end;
+        size_t bands;
+    } queue[LAUNCHES_AT_ONCE]; // the oldest first
+} launches;
+
+static glint_status begin_launch(launches *l, glint_error *error)
+{
+    const size_t left = l->bands - l->begun, bands = l->step < left ? l->step : left;
+    l->queue[l->under_way].bands = bands;
+    glint_status status = glint_renderer_launch(l->renderer, l->record, l->begun, bands,
+                                                &l->queue[l->under_way].end, error);
+    l->begun += bands;
+    l->under_way += status == GLINT_OK;
+    return status;
+}
+
+static glint_status end_launch(launches *l, glint_error *error)
+{
+    cl_event end = l->queue[0].end;
+    l->done += l->queue[0].bands;
+    l->under_way--;
+    memmove(l->queue, l->queue + 1, (size_t)l->under_way * sizeof *l->queue);
+    return glint_renderer_wait(l->renderer, end, error);
+}
+
 // Bands of tiles, in launches of about LAUNCH_MS; asks `progress` between them.
-static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
-                                 const glint_progress *progress, glint_error *error)
+static glint_status run_launches(launches *l, const glint_progress *progress, glint_error *error)
+{
+    size_t local[2];
+    local_size(&l->renderer->plan, local);
+    double clock = glint_now_ms();
+    glint_status status = GLINT_OK;
+    while (status == GLINT_OK && l->done < l->bands) {
+        while (status == GLINT_OK && l->begun < l->bands && l->under_way < LAUNCHES_AT_ONCE) {
+            status = begin_launch(l, error);
+        }
+        const size_t bands = l->queue[0].bands;
+        if (status == GLINT_OK) {
+            status = end_launch(l, error);
+            l->step = next_step(bands, glint_lap_ms(&clock), local[1]);
+        }
+        if (status == GLINT_OK && progress != NULL &&
+            !progress->step(progress->context, l->done, l->bands)) {
+            status = glint_fail(error, GLINT_INTERRUPTED, "stopped");
+        }
+    }
+    while (l->under_way > 0) {
+        end_launch(l, NULL);
+    }
+    return status;
+}
+
+static glint_status run_frame(glint_renderer *r, glint_frame_record *record,
+                              const glint_progress *progress, glint_error *error)
 {
     int tile_width, tile_height;
     tile_size(&r->plan, &tile_width, &tile_height);
@@ -130,26 +202,20 @@ static glint_status run_launches(glint_renderer *r, glint_frame_record *record,
         (double)record->width * tile_height * record->samples_per_axis * record->samples_per_axis;
     record->band = r->plan.tiles && BAND_ROWS * row_samples <= BAND_SAMPLES ? BAND_ROWS : 1;
     const int band_height = tile_height * record->band;
-    size_t bands = ((size_t)record->height + (size_t)band_height - 1) / (size_t)band_height;
     double first_step = r->bands_per_ms > 0 ? r->bands_per_ms * LAUNCH_MS
                                             : FIRST_LAUNCH_SAMPLES / (row_samples * record->band);
-    size_t step = round_up((size_t)fmax(1, first_step), local[1]);
-    double begin = glint_now_ms();
-    for (size_t first = 0; first < bands;) {
-        size_t count = first + step < bands ? step : bands - first;
-        double clock = glint_now_ms();
-        glint_status status = glint_renderer_launch(r, record, first, count, error);
-        if (status != GLINT_OK) {
-            return status;
-        }
-        first += count;
-        step = next_step(step, glint_lap_ms(&clock), local[1]);
-        if (progress != NULL && !progress->step(progress->context, first, bands)) {
-            return glint_fail(error, GLINT_INTERRUPTED, "stopped");
-        }
+    launches l = {
+        .renderer = r,
+        .record = record,
+        .bands = ((size_t)record->height + (size_t)band_height - 1) / (size_t)band_height,
+        .step = round_up((size_t)fmax(1, first_step), local[1]),
+    };
+    const double begun = glint_now_ms();
+    glint_status status = run_launches(&l, progress, error);
+    if (status == GLINT_OK) {
+        r->bands_per_ms = (double)l.bands / fmax(glint_now_ms() - begun, 1e-3);
     }
-    r->bands_per_ms = (double)bands / fmax(glint_now_ms() - begin, 1e-3);
-    return GLINT_OK;
+    return status;
 }
 
 static uint64_t count_nonfinite(const glint_image *image)
@@ -191,7 +257,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
         status = clear_counters(r, error);
     }
     if (status == GLINT_OK) {
-        status = run_launches(r, &record, progress, error);
+        status = run_frame(r, &record, progress, error);
         report->kernel_ms = glint_lap_ms(&clock);
     }
     glint_status ended =

@@ -103,7 +103,9 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
     if (status == GLINT_OK) {
         // No pixel is written, so that a device that writes into images needs none yet.
         glint_frame_record nothing = {.band = 1};
-        status = glint_renderer_launch(r, &nothing, 0, 1, error);
+        cl_event done;
+        status = glint_renderer_launch(r, &nothing, 0, 1, &done, error);
+        status = status == GLINT_OK ? glint_renderer_wait(r, done, error) : status;
     }
     return status;
 }

@@ -41,8 +41,10 @@ static inline size_t glint_renderer_layers_bytes(const glint_renderer *r)
 glint_status glint_renderer_set_argument(const glint_renderer *r, cl_uint index, size_t size,
                                          const void *value, glint_error *error);
 
-// Renders `bands` bands of tiles from `first` on, and waits for the end.
+// Begins to render `bands` bands of tiles from `first` on. glint_renderer_wait waits for the end,
+// and takes `done`.
 glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record, size_t first,
-                                   size_t bands, glint_error *error);
+                                   size_t bands, cl_event *done, glint_error *error);
+glint_status glint_renderer_wait(const glint_renderer *r, cl_event done, glint_error *error);
 
 #endif
