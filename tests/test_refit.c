@@ -117,6 +117,7 @@ static void the_cost_tells_when_to_build_anew(void **state)
     test_tree_check(&s, &fitted);
     glint_bvh built = test_tree_build(&s, 8);
     assert_true(fitted.report.sah_cost > 2 * built.report.sah_cost);
+    assert_true(fitted.report.root_area == built.report.root_area);
     glint_bvh_free(&built);
     glint_bvh_free(&fitted);
     test_soup_free(&s);

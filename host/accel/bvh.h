@@ -21,11 +21,12 @@ typedef struct glint_bvh_report {
     size_t triangle_count; // that have an area
     size_t node_count;
     size_t cluster_count;
-    int depth;       // nodes on the longest way down
-    double sah_cost; // nodes and clusters that a random ray through the root's box may be expected
-                     // to meet (surface area heuristic)
-    double fill;     // share of the clusters' lanes that hold a triangle
-    size_t bytes;    // of all arrays
+    int depth;        // nodes on the longest way down
+    double sah_cost;  // nodes and clusters that a random ray through the root's box may be expected
+                      // to meet (surface area heuristic)
+    double root_area; // half of the surface area of the root's box, stored units squared
+    double fill;      // share of the clusters' lanes that hold a triangle
+    size_t bytes;     // of all arrays
     double bytes_per_triangle;
     bool is_refitted; // to triangles that had moved, since it was built
     int stack_need;   // entries that a traversal may have waiting

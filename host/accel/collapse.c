@@ -140,6 +140,7 @@ static void list_nodes(const glint_binary_node *root, int width, wide_node *list
                        glint_bvh_report *report)
 {
     const double root_area = fmax(glint_wide_area(root->bounds), 1e-300);
+    report->root_area = glint_wide_area(root->bounds);
     uint32_t count = 1;
     list[0] = (wide_node){.root = root};
     for (uint32_t index = 0; index < count; index++) {

@@ -126,7 +126,8 @@ static void refit_nodes(const refit *r, glint_bvh *bvh)
         areas += glint_wide_area(bounds);
     }
     bvh->report.is_refitted = true;
-    bvh->report.sah_cost = areas / fmax(glint_wide_area(nodes[0]), 1e-300);
+    bvh->report.root_area = glint_wide_area(nodes[0]);
+    bvh->report.sah_cost = areas / fmax(bvh->report.root_area, 1e-300);
 }
 
 static size_t count_with_area(const glint_bvh_inputs *in)

@@ -16,7 +16,7 @@
 
 typedef struct farm_request {
     int parts, at_once, cpus, retries;
-    const char *folder, *name, *time, *partition, *further, *program, *json;
+    const char *folder, *name, *time, *partition, *further, *report_further, *program, *json, *job;
     bool dry_run, wait;
 } farm_request;
 
@@ -41,6 +41,10 @@ static const glint_option slurm_options[] = {
     {GLINT_OPTION_TEXT, .name = "sbatch", .argument = "OPTIONS",
      .help = "Further options of sbatch: '--gres=gpu:1 --account=film'.",
      .offset = offsetof(farm_request, further)},
+    {GLINT_OPTION_TEXT, .name = "report-sbatch", .argument = "OPTIONS",
+     .help = "The same for the job that sums up at the end; it needs no more than a minute of one "
+             "core.",
+     .offset = offsetof(farm_request, report_further)},
     {GLINT_OPTION_INT, .name = "retries", .argument = "N",
      .help = "How often a part goes back into the queue that was killed or whose device failed. "
              "(Slurm itself puts those back that lost their node.)",
@@ -62,8 +66,10 @@ static const glint_option slurm_options[] = {
      .offset = offsetof(farm_request, wait)},
     {GLINT_OPTION_HEADING, .help = "glint farm report"},
     {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE",
-     .help = "Write the report as JSON; - is stdout, in place of the table.",
+     .help = "Write the report as JSON, with --wait too; - is stdout, in place of the table.",
      .offset = offsetof(farm_request, json)},
+    {GLINT_OPTION_TEXT, .name = "job", .argument = "N", .help = "Which of the folder's jobs.",
+     .fallback = "the last one", .offset = offsetof(farm_request, job)},
     GLINT_OPTION_END,
 };
 
@@ -76,22 +82,30 @@ static double mean(double sum, uint64_t count)
     return count > 0 ? sum / (double)count : 0;
 }
 
+static void print_part(const glint_farm_part *part)
+{
+    char status[16] = "-";
+    if (part->status >= 0) {
+        snprintf(status, sizeof status, "%d", part->status);
+    }
+    printf("%6d  %-20s %8d %6s %7llu %9llu %8llu %7llu %9.1f %9.1f\n", part->number,
+           part->attempts > 0 ? part->node : "-", part->attempts, status,
+           (unsigned long long)part->frames, (unsigned long long)part->rendered,
+           (unsigned long long)part->skipped, (unsigned long long)part->failed,
+           mean(part->trace_ms, part->traced), mean(part->write_ms, part->traced));
+}
+
 static void print_report(const glint_farm_report *report)
 {
     const glint_farm_job *job = &report->job;
     printf("%s: job %s, %llu frames in %d parts\n\n", job->output, job->id,
            (unsigned long long)job->frames, job->parts);
-    printf("%6s  %-20s %8s %7s %9s %8s %7s %11s %11s\n", "part", "node", "attempts", "frames",
-           "rendered", "skipped", "failed", "trace ms", "write ms");
+    printf("%6s  %-20s %8s %6s %7s %9s %8s %7s %9s %9s\n", "part", "node", "attempts", "status",
+           "frames", "rendered", "skipped", "failed", "trace ms", "write ms");
     for (int i = 0; i < job->parts; i++) {
-        const glint_farm_part *part = &report->parts[i];
-        printf("%6d  %-20s %8d %7llu %9llu %8llu %7llu %11.1f %11.1f\n", part->number,
-               part->attempts > 0 ? part->host : "-", part->attempts,
-               (unsigned long long)part->frames, (unsigned long long)part->rendered,
-               (unsigned long long)part->skipped, (unsigned long long)part->failed,
-               mean(part->trace_ms, part->traced), mean(part->write_ms, part->traced));
+        print_part(&report->parts[i]);
     }
-    printf("%6s  %-20s %8s %7llu %9llu %8llu %7llu %11.1f %11.1f\n\n", "all", "", "",
+    printf("%6s  %-20s %8s %6s %7llu %9llu %8llu %7llu %9.1f %9.1f\n\n", "all", "", "", "",
            (unsigned long long)job->frames, (unsigned long long)report->rendered,
            (unsigned long long)report->skipped, (unsigned long long)report->failed,
            mean(report->trace_ms, report->traced), mean(report->write_ms, report->traced));
@@ -117,10 +131,11 @@ static glint_status verdict(const glint_farm_report *report, glint_error *error)
                                     (unsigned long long)report->job.frames);
 }
 
-static glint_status give_report(const char *folder, const char *json, glint_error *error)
+static glint_status give_report(const char *folder, const char *job, const char *json,
+                                glint_error *error)
 {
     glint_farm_report report;
-    glint_status status = glint_farm_report_read(folder, &report, error);
+    glint_status status = glint_farm_report_read(folder, job, &report, error);
     if (status == GLINT_OK && !glint_is_stdout(json)) {
         print_report(&report);
     }
@@ -157,7 +172,7 @@ static glint_status check_subject(const render_request *request, glint_error *er
                           "%s: one frame alone (a sequence is named frame.####.exr)",
                           request->output);
     }
-    if (request->shard.count > 1 || request->stats != NULL) {
+    if (request->shard.count > 0 || request->stats != NULL) {
         return glint_fail(error, GLINT_USAGE,
                           "%s: each part gets its own from glint farm (leave it out)",
                           request->stats != NULL ? "--stats" : "--shard");
@@ -178,6 +193,7 @@ static glint_status read_subject(char *const *arguments, int count, farm_subject
     subject->count = count + 2;
     render_request *request = &subject->request;
     glint_command_render.set_defaults(request);
+    request->shard = (glint_shard){0}; // to see whether one is given
     glint_arguments found;
     glint_status status = glint_options_parse(&glint_command_render, subject->count, subject->words,
                                               request, &found, error);
@@ -198,12 +214,14 @@ static glint_status load_subject(farm_subject *subject, glint_error *error)
     glint_progress_display display = {0};
     glint_progress_begin(&display, GLINT_PROGRESS_NONE);
     glint_status status = glint_inputs_load(&subject->request.inputs, &display, &inputs, error);
+    glint_say_warnings(&inputs.warnings, 0);
+    const size_t said = inputs.warnings.count;
     if (status == GLINT_OK) {
         status = render_request_settle(&subject->request, &inputs.motion, &inputs.warnings, error);
     }
     if (status == GLINT_OK) {
         render_request_warn(&subject->request, &inputs.scene, &inputs.warnings);
-        glint_say_warnings(&inputs.warnings, 0);
+        glint_say_warnings(&inputs.warnings, said);
     }
     glint_inputs_free(&inputs);
     return status;
@@ -215,7 +233,7 @@ static glint_status load_subject(farm_subject *subject, glint_error *error)
 typedef struct farm_job {
     farm_slurm slurm;
     char *stem; // "out/jewel" of "out/jewel.####.exr"
-    char *directory, *program, *folder;
+    char *directory, *program, *folder, *name;
 } farm_job;
 
 static void free_job(farm_job *job)
@@ -224,6 +242,7 @@ static void free_job(farm_job *job)
     free(job->directory);
     free(job->program);
     free(job->folder);
+    free(job->name);
 }
 
 // The frames' name up to the number's place, without what sets the number off.
@@ -243,31 +262,29 @@ static char *stem_of(const glint_frame_name *name)
 static glint_status find_place(const farm_request *request, const render_request *render,
                                farm_job *job, glint_error *error)
 {
-    job->stem = stem_of(&render->name);
     job->directory = getcwd(NULL, 0);
+    if (job->directory == NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "the working directory: %s (go elsewhere)",
+                          strerror(errno));
+    }
     job->program =
         request->program != NULL ? strdup(request->program) : realpath("/proc/self/exe", NULL);
-    char *folder = request->folder != NULL ? strdup(request->folder) : NULL;
-    if (request->folder == NULL && asprintf(&folder, "%s.farm", job->stem) < 0) {
-        folder = NULL;
+    if (job->program == NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "where this program is: %s (say where it is on the nodes: --program)",
+                          strerror(errno));
     }
-    if (job->directory == NULL || job->program == NULL || job->stem == NULL || folder == NULL) {
-        free(folder);
-        glint_fail(error, GLINT_OUTPUT_FAILED, "the working directory: %s (go elsewhere)",
-                   strerror(errno));
-        return GLINT_OUTPUT_FAILED;
+    job->stem = stem_of(&render->name);
+    if (job->stem == NULL) {
+        return glint_fail_memory(error, "a file name");
     }
-    if (folder[0] == '/') {
-        job->folder = folder;
-        return GLINT_OK;
-    }
-    if (asprintf(&job->folder, "%s/%s", job->directory, folder) < 0) {
+    const char *folder = request->folder != NULL ? request->folder : job->stem;
+    const int made =
+        asprintf(&job->folder, "%s%s%s%s", folder[0] == '/' ? "" : job->directory,
+                 folder[0] == '/' ? "" : "/", folder, request->folder != NULL ? "" : ".farm");
+    if (made < 0) {
         job->folder = NULL;
-    }
-    free(folder);
-    if (job->folder == NULL) {
-        glint_fail_memory(error, "a file name");
-        return GLINT_DEVICE_FAILED;
+        return glint_fail_memory(error, "a file name");
     }
     return GLINT_OK;
 }
@@ -286,21 +303,35 @@ static int count_parts(const farm_request *request, uint64_t frames)
     return (int)frames;
 }
 
+// The name that was asked for, or the frames' without what Slurm cannot write.
+static char *name_of(const farm_request *request, const char *stem)
+{
+    const char *slash = strrchr(stem, '/');
+    char *name = strdup(request->name != NULL ? request->name : slash != NULL ? slash + 1 : stem);
+    for (char *c = name; c != NULL && request->name == NULL && *c != '\0'; c++) {
+        if (*c == '"' || *c == '\\') {
+            *c = '_';
+        }
+    }
+    return name;
+}
+
 static glint_status describe_job(const farm_request *request, const farm_subject *subject,
                                  farm_job *job, glint_error *error)
 {
     glint_status status = find_place(request, &subject->request, job, error);
-    if (status != GLINT_OK) {
+    if (status != GLINT_OK || job->stem == NULL || job->folder == NULL) {
         return status;
     }
-    const char *slash = strrchr(job->stem, '/');
+    job->name = name_of(request, job->stem);
+    if (job->name == NULL) {
+        return glint_fail_memory(error, "a job's name");
+    }
     job->slurm = (farm_slurm){
         .folder = job->folder,
         .directory = job->directory,
         .program = job->program,
-        .name = request->name != NULL ? request->name
-                : slash != NULL       ? slash + 1
-                                      : job->stem,
+        .name = job->name,
         .arguments = subject->words + 2,
         .argument_count = subject->count - 2,
         .parts = count_parts(request, subject->request.frames.count),
@@ -310,6 +341,7 @@ static glint_status describe_job(const farm_request *request, const farm_subject
         .time = request->time,
         .partition = request->partition,
         .further = request->further,
+        .report_further = request->report_further,
     };
     return GLINT_OK;
 }
@@ -325,53 +357,81 @@ static glint_status make_folder(const char *folder, glint_error *error)
                       folder, strerror(errno));
 }
 
-// Writes a script into the job's folder and hands it in.
-static glint_status submit_script(const farm_job *job, const char *name, const char *script,
-                                  const char *after, bool wait, char id[64], glint_error *error)
+// Writes a script into the job's folder.
+static glint_status put_script(const farm_job *job, const char *name, const char *script,
+                               char **path, glint_error *error)
 {
-    char *path = NULL;
-    if (asprintf(&path, "%s/%s", job->folder, name) < 0) {
+    if (asprintf(path, "%s/%s", job->folder, name) < 0) {
+        *path = NULL;
         return glint_fail_memory(error, "a file name");
     }
-    glint_status status = glint_output_file_write(path, script, strlen(script), error);
+    return glint_output_file_write(*path, script, strlen(script), error);
+}
+
+static glint_status submit_parts(const farm_job *job, const char *script, char id[FARM_ID_CAPACITY],
+                                 glint_error *error)
+{
+    char *path = NULL;
+    glint_status status = make_folder(job->folder, error);
     if (status == GLINT_OK) {
-        status = farm_slurm_submit(path, after, wait, id, error);
+        status = put_script(job, "job.sh", script, &path, error);
+    }
+    if (status == GLINT_OK) {
+        status = farm_slurm_submit(path, NULL, false, id, error);
     }
     free(path);
     return status;
 }
 
-// The parts, and after them the report. Where that is waited for, its failure is told by the report
-// itself.
+static glint_status submit_report(const farm_job *job, const char *after, bool wait,
+                                  glint_error *error)
+{
+    char *script = NULL, *path = NULL, id[FARM_ID_CAPACITY];
+    glint_status status = farm_slurm_report_script(&job->slurm, after, &script, error);
+    if (status == GLINT_OK) {
+        status = put_script(job, "report.sh", script, &path, error);
+    }
+    if (status == GLINT_OK) {
+        status = farm_slurm_submit(path, after, wait, id, error);
+    }
+    free(script);
+    free(path);
+    return status;
+}
+
+// The parts, and after them the report. Once the parts are in the queue all is well: what fails of
+// the report is a warning, unless somebody waits for it.
 static glint_status submit(const farm_request *request, const farm_subject *subject,
                            const farm_job *job, const char *script, glint_error *error)
 {
     glint_farm_job facts = {.output = (char *)subject->request.output,
                             .frames = subject->request.frames.count,
                             .parts = job->slurm.parts};
-    glint_status status = make_folder(job->folder, error);
-    if (status == GLINT_OK) {
-        status = submit_script(job, "job.sh", script, NULL, false, facts.id, error);
+    glint_status status = submit_parts(job, script, facts.id, error);
+    if (status != GLINT_OK) {
+        return status;
     }
-    if (status == GLINT_OK) {
-        status = glint_farm_job_write(job->folder, &facts, error);
+    glint_say("job %s: %llu frames in %d parts; logs, statistics and, at the end, the report in %s",
+              facts.id, (unsigned long long)facts.frames, facts.parts, job->folder);
+    if (!request->wait) {
+        printf("%s\n", facts.id);
     }
-    char *report = NULL;
+    status = glint_farm_job_write(job->folder, &facts, error);
     if (status == GLINT_OK) {
-        glint_say("job %s: %llu frames in %d parts; logs, statistics and, at the end, the report "
-                  "in %s",
-                  facts.id, (unsigned long long)facts.frames, facts.parts, job->folder);
-        status = farm_slurm_report_script(&job->slurm, facts.id, &report, error);
+        status = submit_report(job, facts.id, request->wait, error);
     }
-    if (status == GLINT_OK) {
-        char id[64];
-        status = submit_script(job, "report.sh", report, facts.id, request->wait, id, error);
-    }
-    free(report);
     if (request->wait && (status == GLINT_OK || status == GLINT_FRAMES_FAILED)) {
+        // Whatever became of the job that made it, the report tells.
         glint_error_free(error);
         *error = (glint_error){0};
-        status = give_report(job->folder, NULL, error);
+        return give_report(job->folder, facts.id, request->json, error);
+    }
+    if (status != GLINT_OK && !request->wait) {
+        glint_say("warning: %s", error->message);
+        glint_say("warning: job %s goes on; there will be no report of it", facts.id);
+        glint_error_free(error);
+        *error = (glint_error){0};
+        return GLINT_OK;
     }
     return status;
 }
@@ -409,6 +469,10 @@ static glint_status run_slurm(const farm_request *request, char *const *argument
         return glint_fail(error, GLINT_USAGE,
                           "--wait: with --dry-run there is nothing to wait for");
     }
+    if ((request->json != NULL && !request->wait) || request->job != NULL) {
+        return glint_fail(error, GLINT_USAGE, "--%s: this is for the report (leave it out)",
+                          request->job != NULL ? "job" : "json");
+    }
     farm_subject subject = {0};
     glint_status status = read_subject(arguments, count, &subject, error);
     if (status == GLINT_OK) {
@@ -430,7 +494,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
         return run_slurm(request, words + 1, count - 1, error);
     }
     if (count > 0 && strcmp(words[0], "report") == 0) {
-        return count == 2 ? give_report(words[1], request->json, error)
+        return count == 2 ? give_report(words[1], request->job, request->json, error)
                           : glint_fail(error, GLINT_USAGE,
                                        "report: the folder of one job is expected (glint farm "
                                        "report out/jewel.farm)");
@@ -451,11 +515,12 @@ const glint_command glint_command_farm = {
     .name = "farm",
     .summary = "render a sequence on the machines of a cluster",
     .synopsis = "slurm [options] -- SCENE -o OUT [options of glint render]\n"
-                "       glint farm report DIR [--json FILE]",
+                "       glint farm report DIR [--job N] [--json FILE]",
     .description =
         "slurm submits a sequence to Slurm as an array job: each part renders its frames with "
         "--skip-existing, so that whatever ended it, a part goes on where it stopped. A last job "
-        "sums up what they did. The scene is loaded first, here: mistakes are found before "
+        "sums up what they did. stdout gets the job's number. The scene is loaded first, here: "
+        "mistakes are found before "
         "anything is submitted.\n"
         "report sums up a job's folder, at any time.",
     .examples = "  glint farm slurm --parts 16 --cpus 8 --time 1:00:00 -- \\\n"

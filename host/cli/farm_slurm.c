@@ -11,8 +11,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
-
 // ---- Texts within scripts ----------------------------------------------------------------------
 
 // As one word of the shell.
@@ -34,9 +32,7 @@ static void put_value(FILE *out, const char *value, bool is_pattern)
 {
     fputc('"', out);
     for (; *value != '\0'; value++) {
-        if (*value == '"' || *value == '\\') {
-            fputc('\\', out);
-        } else if (*value == '%' && is_pattern) {
+        if (*value == '%' && is_pattern) {
             fputc('%', out);
         }
         fputc(*value, out);
@@ -44,31 +40,41 @@ static void put_value(FILE *out, const char *value, bool is_pattern)
     fputc('"', out);
 }
 
-static glint_status check_text(const char *what, const char *text, glint_error *error)
+static glint_status check_text(const char *what, const char *text, const char *forbidden,
+                               glint_error *error)
 {
     for (; text != NULL && *text != '\0'; text++) {
         if (iscntrl((unsigned char)*text)) {
             return glint_fail(error, GLINT_USAGE,
                               "%s: a control character cannot stand in a job's script", what);
         }
+        if (strchr(forbidden, *text) != NULL) {
+            return glint_fail(error, GLINT_USAGE, "%s: Slurm has no way to write a %c (%s)", what,
+                              *text, "use another name");
+        }
     }
     return GLINT_OK;
 }
 
+// Slurm reads quotes and backslashes in names of its own way, and differently from place to place.
 static glint_status check_texts(const farm_slurm *slurm, glint_error *error)
 {
-    const char *const texts[][2] = {
-        {"--folder", slurm->folder},   {"the working directory", slurm->directory},
-        {"--program", slurm->program}, {"--name", slurm->name},
-        {"--time", slurm->time},       {"--partition", slurm->partition},
-        {"--sbatch", slurm->further},
+    const char *const texts[][3] = {
+        {"--folder", slurm->folder, "\"\\"},
+        {"the working directory", slurm->directory, "\"\\"},
+        {"--name", slurm->name, "\"\\"},
+        {"--time", slurm->time, "\"\\"},
+        {"--partition", slurm->partition, "\"\\"},
+        {"--program", slurm->program, ""},
+        {"--sbatch", slurm->further, ""},
+        {"--report-sbatch", slurm->report_further, ""},
     };
     glint_status status = GLINT_OK;
-    for (size_t i = 0; status == GLINT_OK && i < sizeof texts / sizeof *texts; i++) {
-        status = check_text(texts[i][0], texts[i][1], error);
-    }
     for (int i = 0; status == GLINT_OK && i < slurm->argument_count; i++) {
-        status = check_text("the arguments of glint render", slurm->arguments[i], error);
+        status = check_text("the arguments of glint render", slurm->arguments[i], "", error);
+    }
+    for (size_t i = 0; status == GLINT_OK && i < sizeof texts / sizeof *texts; i++) {
+        status = check_text(texts[i][0], texts[i][1], texts[i][2], error);
     }
     return status;
 }
@@ -76,7 +82,7 @@ static glint_status check_texts(const farm_slurm *slurm, glint_error *error)
 // ---- The scripts -------------------------------------------------------------------------------
 
 static void put_options(FILE *out, const farm_slurm *slurm, const char *name_suffix,
-                        const char *log)
+                        const char *log, const char *further)
 {
     fputs("#SBATCH --job-name=", out);
     char *name = NULL;
@@ -95,8 +101,8 @@ static void put_options(FILE *out, const farm_slurm *slurm, const char *name_suf
         put_value(out, slurm->partition, false);
         fputc('\n', out);
     }
-    if (slurm->further != NULL) {
-        fprintf(out, "#SBATCH %s\n", slurm->further);
+    if (further != NULL) {
+        fprintf(out, "#SBATCH %s\n", further);
     }
 }
 
@@ -115,18 +121,36 @@ static void put_part_options(FILE *out, const farm_slurm *slurm)
         put_value(out, slurm->time, false);
         fputc('\n', out);
     }
-    put_options(out, slurm, "", "%A_%a.log");
+    put_options(out, slurm, "", "%A_%a.log", slurm->further);
 }
 
-// A part that was killed or lost its device goes back into the queue, likely to another node. Where
-// it was told to stop it stays ended, and what no other node does better is not tried again.
-static const char retry[] =
+// The part's own account of its attempts, which the report reads: see report/farm_report.h.
+static const char begin_attempt[] =
+    "part=${SLURM_ARRAY_TASK_ID:?}\n"
+    "attempt=${SLURM_RESTART_COUNT:-0}\n"
+    "account=$folder/${SLURM_ARRAY_JOB_ID}_$part\n"
+    "echo \"part $part, attempt $attempt, on ${SLURMD_NODENAME:-?}\" >&2\n"
+    "echo \"begin $attempt ${SLURMD_NODENAME:-?}\" >>\"$account.attempts\"\n"
+    "# PoCL takes every core it sees, where Slurm counts them but binds nothing.\n"
+    "cores=${SLURM_CPUS_PER_TASK:-${SLURM_CPUS_ON_NODE:-}}\n"
+    "[ -z \"$cores\" ] || export POCL_MAX_PTHREAD_COUNT=\"$cores\"\n"
+    "# Slurm tells the shell and glint to stop; the shell waits until glint has.\n"
+    "stopped=\n"
+    "trap 'stopped=yes' TERM INT\n";
+
+// A part that was killed, lost its device or found no program goes back into the queue: another
+// node, or another time, may do better. Where it was told to stop it stays ended, and mistakes, bad
+// input, full disks and bad frames are the same everywhere.
+static const char end_attempt[] =
     "status=$?\n"
+    "echo \"end $attempt $status\" >>\"$account.attempts\"\n"
+    "[ -z \"$stopped\" ] || exit \"$status\"\n"
     "case $status in\n"
     "130 | 143) ;; # told to stop\n"
-    "4 | 12[89] | 13[0-9] | 14[0-9] | 15[0-9])\n"
-    "    if [ \"$attempt\" -lt \"$retries\" ]; then\n"
+    "4 | 12[6-9] | 13[0-9] | 14[0-9] | 15[0-9])\n"
+    "    if [ \"$(grep -c '^retry' \"$account.attempts\")\" -lt \"$retries\" ]; then\n"
     "        echo \"part $part ended with status $status: it goes back into the queue\" >&2\n"
+    "        echo \"retry $attempt\" >>\"$account.attempts\"\n"
     "        scontrol requeue \"${SLURM_ARRAY_JOB_ID}_$part\"\n"
     "    fi\n"
     "    ;;\n"
@@ -135,28 +159,20 @@ static const char retry[] =
 
 static void put_part_body(FILE *out, const farm_slurm *slurm)
 {
-    fprintf(out,
-            "part=${SLURM_ARRAY_TASK_ID:?}\n"
-            "attempt=${SLURM_RESTART_COUNT:-0}\n"
-            "retries=%d\n"
-            "# PoCL takes every core it sees, where Slurm counts them but binds nothing.\n"
-            "if [ -n \"${SLURM_CPUS_PER_TASK:-}\" ]; then\n"
-            "    export POCL_MAX_PTHREAD_COUNT=\"$SLURM_CPUS_PER_TASK\"\n"
-            "fi\n"
-            "# Slurm tells the shell and glint to stop; the shell waits until glint has.\n"
-            "trap : TERM INT\n"
-            "echo \"part $part of %d, attempt $attempt, on ${SLURMD_NODENAME:-?}\" >&2\n",
-            slurm->retries, slurm->parts);
-    put_word(out, slurm->program);
-    fprintf(out, " render --skip-existing --shard \"$part/%d\" \\\n    --stats ", slurm->parts);
+    fputs("folder=", out);
     put_word(out, slurm->folder);
-    fputs("\"/${SLURM_ARRAY_JOB_ID}_$part.$attempt.jsonl\" \\\n   ", out);
+    fprintf(out, "\nretries=%d\n%s[ -n \"$stopped\" ] ||\n    ", slurm->retries, begin_attempt);
+    put_word(out, slurm->program);
+    fprintf(out,
+            " render --skip-existing --shard \"$part/%d\" \\\n"
+            "        --stats \"$account.$attempt.jsonl\" \\\n       ",
+            slurm->parts);
     for (int i = 0; i < slurm->argument_count; i++) {
         fputc(' ', out);
         put_word(out, slurm->arguments[i]);
     }
     fputc('\n', out);
-    fputs(retry, out);
+    fputs(end_attempt, out);
 }
 
 static glint_status finish(FILE *out, char **script, glint_error *error)
@@ -201,16 +217,30 @@ glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, 
           out);
     char log[96];
     snprintf(log, sizeof log, "%s_report.txt", job);
-    put_options(out, slurm, "-report", log);
+    put_options(out, slurm, "-report", log, slurm->report_further);
     fputs("exec ", out);
     put_word(out, slurm->program);
-    fputs(" farm report ", out);
+    fprintf(out, " farm report --job %s ", job);
     put_word(out, slurm->folder);
     fputc('\n', out);
     return finish(out, script, error);
 }
 
 // ---- Handing in --------------------------------------------------------------------------------
+
+// The environment beats what stands in a script: what the script says must hold, and a job that is
+// submitted from within another is not that one's next attempt.
+static void clear_environment(void)
+{
+    static const char *const names[] = {
+        "SBATCH_ARRAY_INX",    "SBATCH_NO_REQUEUE",   "SBATCH_REQUEUE",     "SBATCH_OPEN_MODE",
+        "SBATCH_OUTPUT",       "SBATCH_JOB_NAME",     "SBATCH_WAIT",        "SLURM_RESTART_COUNT",
+        "SLURM_CPUS_PER_TASK", "SLURM_CPUS_ON_NODE",  "SLURM_ARRAY_JOB_ID", "SLURM_ARRAY_TASK_ID",
+        "SBATCH_DEPENDENCY",   "SLURM_JOB_DEPENDENCY"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        unsetenv(names[i]);
+    }
+}
 
 // What the program prints on stdout, cut to the buffer; its exit status, or −1.
 static int run_program(char *const *words, char *output, size_t capacity, int *cause)
@@ -247,8 +277,8 @@ static int run_program(char *const *words, char *output, size_t capacity, int *c
     return *cause == 0 && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
 }
 
-glint_status farm_slurm_submit(const char *path, const char *after, bool wait, char id[64],
-                               glint_error *error)
+glint_status farm_slurm_submit(const char *path, const char *after, bool wait,
+                               char id[FARM_ID_CAPACITY], glint_error *error)
 {
     char dependency[96];
     snprintf(dependency, sizeof dependency, "--dependency=afterany:%s", after != NULL ? after : "");
@@ -261,8 +291,9 @@ glint_status farm_slurm_submit(const char *path, const char *after, bool wait, c
         words[count++] = "--wait";
     }
     words[count] = (char *)path;
+    clear_environment();
     int cause = 0;
-    const int status = run_program(words, id, 64, &cause);
+    const int status = run_program(words, id, FARM_ID_CAPACITY, &cause);
     id[strcspn(id, ";\r\n")] = '\0'; // the cluster's name may follow
     if (cause != 0) {
         return glint_fail(error, GLINT_OUTPUT_FAILED,

@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define FARM_ID_CAPACITY 64
+
 // All texts are borrowed; NULL where nothing was asked for.
 typedef struct farm_slurm {
     const char *folder;     // the job's, absolute
@@ -18,7 +20,8 @@ typedef struct farm_slurm {
     int parts, at_once; // at_once 0: as many as the cluster likes
     int cpus, retries;  // cpus 0: the cluster's default
     const char *time, *partition;
-    const char *further; // options of sbatch as a script has them
+    // Options of sbatch as a script has them: of the parts, of the report.
+    const char *further, *report_further;
 } farm_slurm;
 
 // The scripts of the parts and of the report, malloc'd. Errors: GLINT_USAGE (a text that cannot
@@ -30,7 +33,7 @@ glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, 
 // Hands the script in that stands at `path`, as job `id`; with `after`, once that job's parts have
 // ended, however they did; with `wait`, returns once it has ended. sbatch's own messages go to
 // stderr. Errors: GLINT_OUTPUT_FAILED; GLINT_FRAMES_FAILED if it was waited for and failed.
-glint_status farm_slurm_submit(const char *path, const char *after, bool wait, char id[64],
-                               glint_error *error);
+glint_status farm_slurm_submit(const char *path, const char *after, bool wait,
+                               char id[FARM_ID_CAPACITY], glint_error *error);
 
 #endif

@@ -78,10 +78,11 @@ typedef struct glint_renderer_inputs {
 glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
                                    glint_error *error);
 
-// Another scene in the place of the one that there was, for the frames that follow: its plan and
-// its tree are made, and uploaded; kernels are compiled only where the plan has changed, the
-// environment stays. The scene is borrowed during the call. Errors as above; a renderer that failed
-// may be given another scene, and renders no frame until then.
+// Another scene in the place of the one that there was, for the frames that follow: its plan is
+// made, its tree too or fitted from the last one's (see accel/bvh.h), and uploaded; kernels are
+// compiled only where the plan has changed, the environment stays. The scene is borrowed during the
+// call. Errors as above; a renderer that failed may be given another scene, and renders no frame
+// until then.
 glint_status glint_renderer_set_scene(glint_renderer *renderer, const glint_scene *scene,
                                       glint_error *error);
 

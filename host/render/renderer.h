@@ -13,8 +13,8 @@ struct glint_renderer {
     glint_settings settings;
     glint_plan plan;
     glint_bvh_report bvh;
-    glint_bvh tree;    // of a scene that moves, less the arrays that the device has; else empty
-    double built_cost; // the tree's expected cost when it was last built
+    glint_bvh tree; // of a scene that moves, less the arrays that the device has; else empty
+    double built_cost, built_area; // the tree's when it was last built, see make_tree
     glint_phases phases;
     glint_stored_space space;
     glint_geometry_memory geometry;

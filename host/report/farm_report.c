@@ -3,12 +3,14 @@
 
 #include "report/json.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define FORMAT "glint farm"
+#define FAILURES_MAX 40 // that are named
 
 // ---- The job -----------------------------------------------------------------------------------
 
@@ -18,15 +20,15 @@ void glint_farm_job_free(glint_farm_job *job)
     *job = (glint_farm_job){0};
 }
 
-static char *file_in(const char *folder, const char *name)
+static char *file_of(const char *folder, const char *job, const char *rest)
 {
     char *path = NULL;
-    return asprintf(&path, "%s/%s", folder, name) < 0 ? NULL : path;
+    return asprintf(&path, "%s/%s%s", folder, job, rest) < 0 ? NULL : path;
 }
 
 glint_status glint_farm_job_write(const char *folder, const glint_farm_job *job, glint_error *error)
 {
-    char *path = file_in(folder, "farm.json");
+    char *path = file_of(folder, job->id, ".json");
     if (path == NULL) {
         return glint_fail_memory(error, "a file name");
     }
@@ -42,6 +44,35 @@ glint_status glint_farm_job_write(const char *folder, const glint_farm_job *job,
     return status;
 }
 
+// The number in the name of a job's file, "1234.json"; 0 of other names.
+static unsigned long long job_in_name(const char *name)
+{
+    const size_t digits = strspn(name, "0123456789");
+    return digits > 0 && digits < 19 && strcmp(name + digits, ".json") == 0
+               ? strtoull(name, NULL, 10)
+               : 0;
+}
+
+static glint_status find_latest(const char *folder, char id[64], glint_error *error)
+{
+    unsigned long long latest = 0;
+    DIR *list = opendir(folder);
+    for (const struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;) {
+        const unsigned long long found = job_in_name(entry->d_name);
+        latest = found > latest ? found : latest;
+    }
+    if (list != NULL) {
+        closedir(list);
+    }
+    if (latest == 0) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: no folder of a job (name the one that glint farm slurm made)",
+                          folder);
+    }
+    snprintf(id, 64, "%llu", latest);
+    return GLINT_OK;
+}
+
 static glint_status take_job(const json_t *root, const char *path, glint_farm_job *job,
                              glint_error *error)
 {
@@ -50,13 +81,11 @@ static glint_status take_job(const json_t *root, const char *path, glint_farm_jo
     const char *output = glint_json_text_at(root, "output");
     const json_int_t frames = json_integer_value(json_object_get(root, "frames"));
     const json_int_t parts = json_integer_value(json_object_get(root, "parts"));
-    if (format == NULL || strcmp(format, FORMAT) != 0 || id == NULL || id[0] == '\0' ||
-        strlen(id) >= sizeof job->id || strchr(id, '/') != NULL || output == NULL || frames < 1 ||
-        parts < 1 || parts > GLINT_FARM_PARTS_MAX) {
+    if (format == NULL || strcmp(format, FORMAT) != 0 || id == NULL || strcmp(id, job->id) != 0 ||
+        output == NULL || frames < 1 || parts < 1 || parts > GLINT_FARM_PARTS_MAX) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: not what glint farm writes (submit anew)",
                           path);
     }
-    snprintf(job->id, sizeof job->id, "%s", id);
     job->frames = (uint64_t)frames;
     job->parts = (int)parts;
     job->output = strdup(output);
@@ -65,7 +94,7 @@ static glint_status take_job(const json_t *root, const char *path, glint_farm_jo
 
 static glint_status read_job(const char *folder, glint_farm_job *job, glint_error *error)
 {
-    char *path = file_in(folder, "farm.json");
+    char *path = file_of(folder, job->id, ".json");
     if (path == NULL) {
         return glint_fail_memory(error, "a file name");
     }
@@ -78,9 +107,7 @@ static glint_status read_job(const char *folder, glint_farm_job *job, glint_erro
         status =
             glint_fail(error, GLINT_BAD_INPUT, "%s: line %d: %s", path, cause.line, cause.text);
     } else {
-        status =
-            glint_fail(error, GLINT_BAD_INPUT,
-                       "%s: no folder of a job (name the one that glint farm slurm made)", folder);
+        status = glint_fail(error, GLINT_BAD_INPUT, "%s (it is no job of that folder)", cause.text);
     }
     json_decref(root);
     free(path);
@@ -101,6 +128,7 @@ typedef struct frame_line {
 typedef struct part_lines {
     frame_line *lines;
     size_t count, capacity;
+    int last_attempt; // −1: none began
 } part_lines;
 
 static void free_lines(part_lines *lines)
@@ -160,14 +188,6 @@ static glint_status take_frame(const json_t *root, glint_farm_part *part, part_l
     return GLINT_OK;
 }
 
-static void take_run(const json_t *root, glint_farm_part *part)
-{
-    const char *host = glint_json_text_at(root, "host");
-    snprintf(part->host, sizeof part->host, "%s", host != NULL ? host : "");
-    const json_int_t frames = json_integer_value(json_object_get(root, "frames"));
-    part->frames = frames > 0 ? (uint64_t)frames : part->frames;
-}
-
 // The last line of an attempt that was killed may be cut: what is no object is left out.
 static glint_status take_line(const char *text, glint_farm_part *part, part_lines *lines,
                               glint_error *error)
@@ -175,21 +195,20 @@ static glint_status take_line(const char *text, glint_farm_part *part, part_line
     json_t *root = json_loads(text, 0, NULL);
     const char *event = glint_json_text_at(root, "event");
     glint_status status = GLINT_OK;
-    if (event != NULL && strcmp(event, "run") == 0) {
-        take_run(root, part);
-    } else if (event != NULL && strcmp(event, "frame") == 0) {
+    if (event != NULL && strcmp(event, "frame") == 0) {
         status = take_frame(root, part, lines, error);
     }
     json_decref(root);
     return status;
 }
 
-// An attempt's statistics; `began` is false where there are none.
-static glint_status read_attempt(const char *path, glint_farm_part *part, part_lines *lines,
-                                 bool *began, glint_error *error)
+// Hands each line of a file to `take`. A file that is not there has none.
+static glint_status read_lines(const char *path, glint_farm_part *part, part_lines *lines,
+                               glint_status (*take)(const char *text, glint_farm_part *part,
+                                                    part_lines *lines, glint_error *error),
+                               glint_error *error)
 {
     FILE *file = fopen(path, "re");
-    *began = file != NULL;
     if (file == NULL) {
         return errno == ENOENT ? GLINT_OK
                                : glint_fail(error, GLINT_BAD_INPUT, "%s: could not be read: %s",
@@ -199,11 +218,29 @@ static glint_status read_attempt(const char *path, glint_farm_part *part, part_l
     size_t capacity = 0;
     glint_status status = GLINT_OK;
     while (status == GLINT_OK && getline(&text, &capacity, file) >= 0) {
-        status = take_line(text, part, lines, error);
+        status = take(text, part, lines, error);
     }
     free(text);
     fclose(file);
     return status;
+}
+
+// A line of the part's account.
+static glint_status take_account(const char *text, glint_farm_part *part, part_lines *lines,
+                                 glint_error *error)
+{
+    (void)error;
+    int attempt, status;
+    char node[sizeof part->node];
+    if (sscanf(text, "begin %d %64s", &attempt, node) == 2 && attempt >= 0) {
+        memcpy(part->node, node, sizeof node);
+        part->attempts++;
+        part->status = -1;
+        lines->last_attempt = attempt > lines->last_attempt ? attempt : lines->last_attempt;
+    } else if (sscanf(text, "end %d %d", &attempt, &status) == 2) {
+        part->status = status;
+    }
+    return GLINT_OK;
 }
 
 // ---- The sums ----------------------------------------------------------------------------------
@@ -231,38 +268,39 @@ static void count_frames(part_lines *lines, glint_farm_part *part, glint_farm_re
         part->rendered += line->state == FRAME_RENDERED;
         part->skipped += line->state == FRAME_SKIPPED;
         part->failed += line->state == FRAME_FAILED;
-        if (line->state == FRAME_FAILED) {
-            glint_warn(&report->failures, "%s",
-                       line->failure != NULL ? line->failure : "a frame failed");
+        if (line->state == FRAME_FAILED && report->failures.count < FAILURES_MAX) {
+            glint_warn(&report->failures, "frame %lld: %s", (long long)line->number,
+                       line->failure != NULL ? line->failure : "it failed");
         }
     }
 }
 
-// A node that was lost before it wrote a line leaves a gap among the attempts: no more than that.
+// Part I of N has every N-th frame.
+static uint64_t frames_of(const glint_farm_job *job, int index)
+{
+    const uint64_t parts = (uint64_t)job->parts;
+    return (job->frames + parts - 1 - (uint64_t)index) / parts;
+}
+
 static glint_status read_part(const char *folder, glint_farm_report *report, int index,
                               glint_error *error)
 {
-    enum { GAP = 8 };
     glint_farm_part *part = &report->parts[index];
-    part_lines lines = {0};
-    // Part I of N has every N-th frame.
-    const uint64_t parts = (uint64_t)report->job.parts;
+    part_lines lines = {.last_attempt = -1};
     part->number = index + 1;
-    part->frames = (report->job.frames + parts - 1 - (uint64_t)index) / parts;
-    glint_status status = GLINT_OK;
-    for (int attempt = 0, last = -1; status == GLINT_OK && attempt <= last + GAP; attempt++) {
-        char *path = NULL;
-        if (asprintf(&path, "%s/%s_%d.%d.jsonl", folder, report->job.id, part->number, attempt) <
-            0) {
-            status = glint_fail_memory(error, "a file name");
-            break;
-        }
-        bool began = false;
-        status = read_attempt(path, part, &lines, &began, error);
-        if (began) {
-            part->attempts++;
-            last = attempt;
-        }
+    part->status = -1;
+    part->frames = frames_of(&report->job, index);
+    char rest[64];
+    snprintf(rest, sizeof rest, "_%d.attempts", part->number);
+    char *path = file_of(folder, report->job.id, rest);
+    glint_status status = path != NULL ? read_lines(path, part, &lines, take_account, error)
+                                       : glint_fail_memory(error, "a file name");
+    free(path);
+    for (int attempt = 0; status == GLINT_OK && attempt <= lines.last_attempt; attempt++) {
+        snprintf(rest, sizeof rest, "_%d.%d.jsonl", part->number, attempt);
+        path = file_of(folder, report->job.id, rest);
+        status = path != NULL ? read_lines(path, part, &lines, take_line, error)
+                              : glint_fail_memory(error, "a file name");
         free(path);
     }
     count_frames(&lines, part, report);
@@ -270,11 +308,22 @@ static glint_status read_part(const char *folder, glint_farm_report *report, int
     return status;
 }
 
-glint_status glint_farm_report_read(const char *folder, glint_farm_report *report,
+glint_status glint_farm_report_read(const char *folder, const char *job, glint_farm_report *report,
                                     glint_error *error)
 {
     *report = (glint_farm_report){0};
-    glint_status status = read_job(folder, &report->job, error);
+    char *id = report->job.id;
+    glint_status status = GLINT_OK;
+    if (job == NULL) {
+        status = find_latest(folder, id, error);
+    } else if (strlen(job) < sizeof report->job.id && strspn(job, "0123456789") == strlen(job)) {
+        memcpy(id, job, strlen(job) + 1);
+    } else {
+        status = glint_fail(error, GLINT_USAGE, "--job %s: a number is expected", job);
+    }
+    if (status == GLINT_OK) {
+        status = read_job(folder, &report->job, error);
+    }
     if (status != GLINT_OK) {
         return status;
     }
@@ -320,8 +369,9 @@ static json_t *part_object(const glint_farm_part *part)
 {
     json_t *object = json_object();
     glint_json_put_count(object, "part", (uint64_t)part->number);
-    glint_json_put_text(object, "host", part->attempts > 0 ? part->host : NULL);
+    glint_json_put_text(object, "node", part->attempts > 0 ? part->node : NULL);
     glint_json_put_count(object, "attempts", (uint64_t)part->attempts);
+    glint_json_put(object, "status", part->status >= 0 ? json_integer(part->status) : json_null());
     glint_json_put_count(object, "frames", part->frames);
     glint_json_put_count(object, "rendered", part->rendered);
     glint_json_put_count(object, "skipped", part->skipped);

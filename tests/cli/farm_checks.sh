@@ -28,12 +28,12 @@ PATH=$work/bin:$PATH
 
 # part NUMBER ATTEMPT SCRIPT: as Slurm would run it.
 part() {
-    SLURM_ARRAY_JOB_ID=4711 SLURM_ARRAY_TASK_ID=$1 SLURM_RESTART_COUNT=$2 sh "$3" >part.log 2>&1
+    SLURM_ARRAY_JOB_ID=4711 SLURM_ARRAY_TASK_ID=$1 SLURM_RESTART_COUNT=$2 SLURMD_NODENAME=node7 sh "$3" >part.log 2>&1
     status=$?
 }
 
 check 'farm --help tells every option' help_mentions farm parts at-once cpus time partition sbatch \
-    retries name folder program dry-run wait json help
+    report-sbatch retries name folder program dry-run wait json job help
 
 # ---- mistakes -----------------------------------------------------------------------------------
 
@@ -43,6 +43,7 @@ refuses 2 'no sequence' farm slurm --parts 3
 refuses 2 'one frame alone' farm slurm -- "$scene" -o out/f.exr
 refuses 2 'which frames?' farm slurm -- "$scene" -o out/f.####.exr
 refuses 2 '--shard' farm slurm -- "$scene" --turntable 8 --shard 1/2 -o out/f.####.exr
+refuses 2 '--shard' farm slurm -- "$scene" --turntable 8 --shard 1/1 -o out/f.####.exr
 refuses 2 '--stats' farm slurm -- "$scene" --turntable 8 --stats out/s.json -o out/f.####.exr
 refuses 2 'does not say how it was made' farm slurm -- "$scene" --turntable 8 -o out/f.####.hdr
 refuses 2 'unknown option --turntabel' farm slurm -- "$scene" --turntabel 8 -o out/f.####.exr
@@ -50,13 +51,17 @@ refuses 2 '--help is no sequence' farm slurm -- --help
 refuses 3 'in/none.gltf' farm slurm -- in/none.gltf --turntable 8 -o out/f.####.exr
 refuses 5 'out/none' farm slurm -- "$scene" --turntable 8 -o out/none/f.####.exr
 refuses 2 'a control character' farm slurm --name $'a\nb' -- "$scene" --turntable 8 -o out/f.####.exr
+refuses 2 'Slurm has no way to write' farm slurm --folder 'out/a"b' -- "$scene" --turntable 8 -o out/f.####.exr
+refuses 2 '--json: this is for the report' farm slurm --json - -- "$scene" --turntable 8 -o out/f.####.exr
 refuses 2 'nothing to wait for' farm slurm --dry-run --wait -- "$scene" --turntable 8 -o out/f.####.exr
 refuses 2 '--parts 0' farm slurm --parts 0 -- "$scene" --turntable 8 -o out/f.####.exr
 refuses 5 'no/such/folder' farm slurm --folder no/such/folder -- "$scene" --turntable 8 -o out/f.####.exr
 refuses 2 'the folder of one job' farm report
 refuses 3 'no folder of a job' farm report in
-printf '{"format": "something"}' >in/farm.json
+printf '{"format": "something"}' >in/7.json
 refuses 3 'not what glint farm writes' farm report in
+refuses 3 'it is no job of that folder' farm report in --job 8
+refuses 2 '--job' farm report in --job ../7
 check 'mistakes: nothing was submitted' test ! -s "$CALLS"
 
 # ---- submitting ---------------------------------------------------------------------------------
@@ -93,7 +98,7 @@ mkdir refusing && mv bin/refusing refusing/sbatch
 PATH=$work/refusing:$PATH run farm slurm -- "$scene" --turntable 8 -o out/f.####.exr
 check 'refused by Slurm: exit status 5' test "$status" -eq 5
 check 'refused by Slurm: its words and ours' test "$(wc -l <stderr)" -eq 2
-check 'refused by Slurm: no job' test ! -e out/f.farm/farm.json
+check 'refused by Slurm: no job' test -z "$(find out/f.farm -name '*.json')"
 clean
 
 # ---- the parts ----------------------------------------------------------------------------------
@@ -101,7 +106,7 @@ clean
 # A name that the shell and Slurm read in their own ways.
 odd="out/it's 5% \"odd\" \$HOME.####.exr"
 run farm slurm --parts 3 --folder 'out/a job' -- "$scene" --turntable 8 "${small[@]}" -o "$odd"
-check 'submitted: exit status 0' test "$status" -eq 0 -a ! -s stdout
+check 'submitted: exit status 0, the number on stdout' test "$status" -eq 0 -a "$(cat stdout)" = 4711
 check 'submitted: the job, said' grep -q '^glint: job 4711: 8 frames in 3 parts' stderr
 check 'submitted: what sbatch was given' test "$(cat "$CALLS")" = "--parsable $work/out/a job/job.sh
 --parsable --dependency=afterany:4711 $work/out/a job/report.sh"
@@ -109,10 +114,16 @@ job="$work/out/a job/job.sh"
 run farm report 'out/a job'
 check 'before its parts ran: exit status 6' test "$status" -eq 6
 check 'before its parts ran: all are missing' grep -q '^0 of 8 frames are there, 0 failed, 8 are missing' stdout
-(cd / && part 1 0 "$job")
-check 'from elsewhere a part finds no scene' test ! -e 'out/a job/4711_1.0.jsonl'
+mkdir elsewhere
+here=$PWD
+cd elsewhere || exit 1
+part 1 0 "$job"
+cd "$here" || exit 1
+check 'from elsewhere a part finds no folder' test "$status" -eq 5
+run farm report 'out/a job'
+check 'a part that found no folder: its status' grep -qE '^ +1 +[^ ]+ +1 +5 +3 +0 +0 +0 ' stdout
 for k in 1 3; do
-    part $k 0 "$job"
+    part $k 1 "$job"
     check "part $k: exit status 0" test "$status" -eq 0
 done
 run farm report 'out/a job' --json report.json
@@ -132,8 +143,21 @@ printf '{"event": "frame", "fra' >>'out/a job/4711_2.1.jsonl'
 run farm report 'out/a job' --json report.json
 check 'a second attempt: nothing is counted twice' test "$("$json_get" report.json rendered)" -eq 8
 check 'a second attempt: nothing was rendered again' test "$("$json_get" report.json rendered_again)" -eq 0
-check 'a second attempt: counted' grep -qE '^ +2 +[^ ]+ +2 +3 +3 +0 +0 ' stdout
-check 'the machine is named' grep -q "^ *1  $(uname -n | cut -c 1-20)" stdout
+check 'a second attempt: counted' grep -qE '^ +2 +[^ ]+ +2 +0 +3 +3 +0 +0 ' stdout
+check 'the node is named' grep -qE '^ +2 +node7 ' stdout
+part 1 99 "$job"
+run farm report 'out/a job' --job 4711
+check 'an attempt after many that left nothing' test "$status" -eq 0
+printf '#!/bin/sh\nprintf "4712\\n"\n' >refusing/sbatch
+PATH=$work/refusing:$PATH run farm slurm --folder 'out/a job' -- "$scene" --turntable 2 "${small[@]}" -o out/g.##.exr
+run farm report 'out/a job'
+check 'a second job in the folder: its report' grep -q 'job 4712, 2 frames' stdout
+run farm report 'out/a job' --job 4711
+check 'a second job in the folder: the first ones report' test "$status" -eq 0
+printf '#!/bin/sh\ncase $* in *depend*) exit 1 ;; esac\necho 4713\n' >refusing/sbatch
+PATH=$work/refusing:$PATH run farm slurm -- "$scene" --turntable 2 "${small[@]}" -o out/g.##.exr
+check 'a report that is refused: exit status 0' test "$status" -eq 0 -a "$(cat stdout)" = 4713
+check 'a report that is refused: said' grep -q '^glint: warning: job 4713 goes on' stderr
 clean
 mkdir "$work/out/f.0003.exr"
 run farm slurm --parts 2 -- "$scene" --turntable 4 "${small[@]}" -o out/f.####.exr
@@ -142,7 +166,7 @@ check 'a frame fails: its part too' test "$status" -eq 6
 part 2 0 out/f.farm/job.sh
 run farm report out/f.farm
 check 'a frame fails: exit status 6' test "$status" -eq 6
-check 'a frame fails: named' grep -q '^failed: out/f.0003.exr: ' stdout
+check 'a frame fails: named' grep -q '^failed: frame 3: out/f.0003.exr: ' stdout
 rmdir out/f.0003.exr
 part 1 1 out/f.farm/job.sh
 run farm report out/f.farm
@@ -151,20 +175,25 @@ clean
 
 # ---- parts that end badly -----------------------------------------------------------------------
 
-# ends_with ATTEMPT COMMAND: a part whose program does this.
+# ends_with RETRIES COMMAND: a part whose program does this, after so many retries.
 ends_with() {
     printf '#!/bin/sh\n%s\n' "$2" >program
     chmod +x program
+    rm -rf out/f.farm
+    mkdir out/f.farm
     run farm slurm --dry-run --program "$work/program" --parts 2 --retries 2 -- "$scene" \
         --turntable 4 -o out/f.####.exr
     cp stdout script
     : >"$CALLS"
-    part 2 "$1" script
+    for retry in $(seq "$1"); do
+        echo "retry $retry" >>out/f.farm/4711_2.attempts
+    done
+    part 2 7 script
 }
 
 # shellcheck disable=SC2016 # for the other shell
-for how in 'kill -9 $$' 'kill -SEGV $$' 'exit 4'; do
-    ends_with 0 "$how"
+for how in 'kill -9 $$' 'kill -SEGV $$' 'exit 4' 'exit 127'; do
+    ends_with 1 "$how"
     check "$how: it goes back into the queue" test "$(cat "$CALLS")" = 'scontrol requeue 4711_2'
     ends_with 2 "$how"
     check "$how: but not for ever" test ! -s "$CALLS" -a "$status" -ne 0
@@ -174,6 +203,9 @@ for how in 'kill -TERM $$' 'kill -INT $$' 'exit 143' 'exit 2' 'exit 3' 'exit 5' 
     ends_with 0 "$how"
     check "$how: it stays ended" test ! -s "$CALLS"
 done
+# shellcheck disable=SC2016
+ends_with 0 'kill -TERM $PPID; exit 4'
+check 'told to stop while it fails: it stays ended' test ! -s "$CALLS" -a "$status" -eq 4
 ends_with 0 'exit 6'
 check 'its exit status is the program'"'"'s' test "$status" -eq 6
 
