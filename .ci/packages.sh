@@ -18,6 +18,8 @@ packages_to_bench='
     libembree-dev
     libepoxy-dev libegl-dev libegl1 libegl-mesa0 libopengl0 libgl1 libgl1-mesa-dri'
 
+packages_of_renderers='blender/blender povray/povray python3-numpy jq/jq'
+
 packages_to_plot='jq/jq gnuplot-nox/gnuplot util-linux/taskset'
 
 packages_to_test_fully='

@@ -1,6 +1,7 @@
-// bench_sequence SCENE [FRAMES [ROUNDS [FOLDER]]]: frames of a turntable on the disk a second, for
-// each way to encode them, against what the cores allow: tracing alone takes all of them for a
-// while, encoding alone takes one for a while, and the two together can take no less than both.
+// bench_sequence SCENE [FRAMES [ROUNDS [FOLDER [ENCODING]]]]: frames of a turntable on the disk a
+// second, for each way to encode them or for one ("exr zip"), against what the
+// cores allow: tracing alone takes all of them for a while, encoding alone takes one for a while,
+// and the two together can take no less than both.
 #include "render/sequence.h"
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -42,6 +43,7 @@ typedef struct bench {
     glint_camera camera;
     glint_image sample; // the frame that is encoded alone
     const char *folder;
+    const char *chosen; // the name of the one encoding that is measured; NULL: all
     int frames, rounds, cores;
     const encoding *kind; // in use
     int next;
@@ -56,6 +58,19 @@ static glint_camera camera_of(const bench *b, int frame)
 {
     const glint_vec3 centre = glint_vec3_scale(glint_vec3_add(b->scene.low, b->scene.high), 0.5);
     return glint_camera_orbit(&b->camera, centre, frame, b->frames);
+}
+
+static void name_of(const encoding *kind, char name[32])
+{
+    snprintf(name, 32, "%s%s%s%s", kind->extension, kind->compression != NULL ? " " : "",
+             kind->compression != NULL ? kind->compression : "", kind->exr_float ? " float" : "");
+}
+
+static bool is_chosen(const bench *b, const encoding *kind)
+{
+    char name[32];
+    name_of(kind, name);
+    return b->chosen == NULL || strcmp(name, b->chosen) == 0;
 }
 
 static glint_write_options options_of(const encoding *kind)
@@ -208,8 +223,12 @@ static glint_status measure(bench *b, glint_error *error)
         status = trace_alone(b, round, error);
         for (int i = 0; status == GLINT_OK && i < ENCODINGS; i++) {
             b->kind = &encodings[i];
-            fprintf(stderr, "round %d of %d: %s %s\n", round + 1, b->rounds, b->kind->extension,
-                    b->kind->compression != NULL ? b->kind->compression : "");
+            if (!is_chosen(b, b->kind)) {
+                continue;
+            }
+            char name[32];
+            name_of(b->kind, name);
+            fprintf(stderr, "round %d of %d: %s\n", round + 1, b->rounds, name);
             status = encode_alone(b, i, round, error);
             if (status == GLINT_OK) {
                 status = run_sequence(b, i, round, error);
@@ -238,11 +257,11 @@ static void report(bench *b)
     printf("%-16s %9s %12s %10s %22s\n", "encoding", "MiB", "core-ms", "frames/s",
            "of what cores allow");
     for (int i = 0; i < ENCODINGS; i++) {
-        const encoding *kind = &encodings[i];
+        if (!is_chosen(b, &encodings[i])) {
+            continue;
+        }
         char name[32];
-        snprintf(name, sizeof name, "%s %s%s", kind->extension,
-                 kind->compression != NULL ? kind->compression : "",
-                 kind->exr_float ? " float" : "");
+        name_of(&encodings[i], name);
         const glint_summary shares = glint_summarize(share[i], rounds);
         printf("%-16s %9.2f %12.1f %10.2f %7.0f%% (%.0f to %.0f)\n", name, b->bytes[i] / 0x1p20,
                glint_summarize(b->encode_ms[i], rounds).median,
@@ -253,13 +272,14 @@ static void report(bench *b)
 
 int main(int argc, char **argv)
 {
-    if (argc < 2 || argc > 5) {
-        fprintf(stderr, "usage: bench_sequence SCENE [FRAMES [ROUNDS [FOLDER]]]\n");
+    if (argc < 2 || argc > 6) {
+        fprintf(stderr, "usage: bench_sequence SCENE [FRAMES [ROUNDS [FOLDER [ENCODING]]]]\n");
         return GLINT_USAGE;
     }
     char own[] = "/tmp/bench_sequence_XXXXXX";
     bench b = {.frames = argc > 2 ? atoi(argv[2]) : 24, .rounds = argc > 3 ? atoi(argv[3]) : 3};
     b.folder = argc > 4 ? argv[4] : mkdtemp(own);
+    b.chosen = argc > 5 ? argv[5] : NULL;
     if (b.frames < 1 || b.rounds < 1 || b.rounds > ROUNDS_MAX || b.folder == NULL) {
         fprintf(stderr,
                 "bench_sequence: frames from 1, rounds from 1 to %d, a folder to write to\n",

@@ -1,0 +1,198 @@
+// bench_export SCENE WIDTHxHEIGHT FOLDER: the built-in studio and a scene for other renderers.
+// FOLDER gets studio.hdr, a lat-long picture with OpenEXR's conventions, and scene.pov for POV-Ray,
+// with the triangles as glint stores them.
+#include "environment/environment.h"
+#include "image/image_io.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STUDIO_HEIGHT = 1024 };
+
+// ---- The studio --------------------------------------------------------------------------------
+
+static glint_status write_studio(const char *folder, glint_error *error)
+{
+    const int height = STUDIO_HEIGHT, width = 2 * height;
+    glint_environment studio = {0};
+    glint_image image = {0};
+    char path[4096];
+    snprintf(path, sizeof path, "%s/studio.hdr", folder);
+    glint_status status = glint_environment_studio(&studio, error);
+    if (status == GLINT_OK) {
+        status = glint_image_create(width, height, 4, &image, error);
+    }
+    for (int y = 0; status == GLINT_OK && y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            // Longitude from π on the left to −π, 0 at +Z; latitude from π/2 at the top.
+            const double longitude = M_PI * (1 - 2 * (x + 0.5) / width);
+            const double latitude = M_PI * (0.5 - (y + 0.5) / height);
+            const glint_vec3 direction = {cos(latitude) * sin(longitude), sin(latitude),
+                                          cos(latitude) * cos(longitude)};
+            double rgb[3];
+            glint_cube_sample(&studio.radiance, direction, rgb);
+            float *pixel = image.pixels + 4 * ((size_t)y * (size_t)width + (size_t)x);
+            for (int k = 0; k < 3; k++) {
+                pixel[k] = (float)rgb[k];
+            }
+            pixel[3] = 1;
+        }
+    }
+    if (status == GLINT_OK) {
+        status = glint_image_write(path, &image, &(glint_write_options){0}, error);
+    }
+    glint_image_free(&image);
+    glint_environment_free(&studio);
+    return status;
+}
+
+// ---- The scene for POV-Ray ---------------------------------------------------------------------
+// POV-Ray's space is left-handed: z is turned round.
+
+static void put_vector(FILE *out, glint_vec3 v)
+{
+    fprintf(out, "<%.9g, %.9g, %.9g>", v.x, v.y, -v.z);
+}
+
+static void put_camera(FILE *out, const glint_camera *camera, int width, int height)
+{
+    const double half = tan(camera->yfov / 2);
+    fputs("camera {\n  perspective\n  location ", out);
+    put_vector(out, camera->eye);
+    fputs("\n  right ", out);
+    put_vector(out, glint_vec3_scale(camera->right, 2 * half * width / height));
+    fputs("\n  up ", out);
+    put_vector(out, glint_vec3_scale(camera->up, 2 * half));
+    fputs("\n  direction ", out);
+    put_vector(out, glint_vec3_scale(camera->back, -1));
+    fputs("\n}\n", out);
+}
+
+// Metal and thin walls by Schlick's approximation, as POV-Ray's variable reflection is; solids by
+// Fresnel's equations. Paint gets its reflection alone: light from an image reaches its matte part
+// in POV-Ray by radiosity only, which is an estimate.
+static void put_texture(FILE *out, const glint_material *m)
+{
+    const float *c = m->base_color;
+    if (m->metallic > 0.5f) {
+        fprintf(out,
+                "  texture { pigment { rgb 0 } finish { ambient 0 diffuse 0 reflection { "
+                "rgb <%.9g, %.9g, %.9g>, rgb 1 falloff 5 } } }\n",
+                (double)c[0], (double)c[1], (double)c[2]);
+        return;
+    }
+    const double f0 = pow(((double)m->ior - 1) / ((double)m->ior + 1), 2);
+    if (!glint_material_is_solid(m)) {
+        fprintf(out,
+                "  texture { pigment { rgbt <1, 1, 1, %d> } finish { ambient 0 diffuse 0 "
+                "reflection { rgb %.9g, rgb 1 falloff 5 } conserve_energy } }\n",
+                m->transmission > 0 ? 1 : 0, m->roughness > 0 ? 0.0 : f0);
+        return;
+    }
+    fputs("  texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 reflection { rgb 0, rgb 1 "
+          "fresnel on } conserve_energy } }\n",
+          out);
+    fprintf(out, "  interior { ior %.9g", (double)m->ior);
+    if (isfinite(m->attenuation_distance)) {
+        const float *a = m->attenuation_color;
+        // POV-Ray: exp(−(1 − colour)·d/distance).
+        fprintf(out, " fade_power 1001 fade_distance %.9g fade_color <%.9g, %.9g, %.9g>",
+                (double)m->attenuation_distance, 1 + log((double)a[0]), 1 + log((double)a[1]),
+                1 + log((double)a[2]));
+    }
+    fputs(" }\n", out);
+}
+
+// Triangles do not share vertices here, as they do not in a scene.
+static void put_mesh(FILE *out, const glint_scene *scene, uint32_t material)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        count += scene->material_of[i] == material;
+    }
+    fprintf(out, "mesh2 {\n  vertex_vectors {\n    %zu", 3 * count);
+    for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
+        if (scene->material_of[i / 3] == material) {
+            const float *p = scene->positions + 3 * i;
+            const glint_vec3 stored = {(double)p[0], (double)p[1], (double)p[2]};
+            fputs(",\n    ", out);
+            put_vector(out, glint_vec3_add(scene->origin, glint_vec3_scale(stored, scene->unit)));
+        }
+    }
+    fputs("\n  }\n", out);
+    if (scene->normals != NULL) {
+        fprintf(out, "  normal_vectors {\n    %zu", 3 * count);
+        for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
+            if (scene->material_of[i / 3] == material) {
+                const float *n = scene->normals + 3 * i;
+                fputs(",\n    ", out);
+                put_vector(out, (glint_vec3){(double)n[0], (double)n[1], (double)n[2]});
+            }
+        }
+        fputs("\n  }\n", out);
+    }
+    fprintf(out, "  face_indices {\n    %zu", count);
+    for (size_t i = 0; i < count; i++) {
+        fprintf(out, ",\n    <%zu, %zu, %zu>", 3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    // What is inside a closed mesh is on no side of a direction that hits its surface once.
+    fputs("\n  }\n  inside_vector <0.3, 1, 0.2>\n", out);
+    put_texture(out, &scene->materials[material]);
+    fputs("}\n", out);
+}
+
+static glint_status write_scene(const char *path, int width, int height, const char *folder,
+                                glint_error *error)
+{
+    glint_scene scene = {0};
+    glint_camera camera;
+    char name[4096];
+    snprintf(name, sizeof name, "%s/scene.pov", folder);
+    glint_status status = glint_scene_load(path, NULL, &scene, NULL, error);
+    if (status == GLINT_OK) {
+        status = glint_scene_camera(&scene, NULL, &camera, error);
+    }
+    FILE *out = status == GLINT_OK ? fopen(name, "w") : NULL;
+    if (status == GLINT_OK && out == NULL) {
+        status = glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be written", name);
+    }
+    if (out != NULL) {
+        fputs("#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 12 adc_bailout "
+              "0.00390625 }\n",
+              out);
+        put_camera(out, &camera, width, height);
+        fputs("sky_sphere { pigment { image_map { hdr \"studio.hdr\" gamma 1 map_type 1 "
+              "interpolate 2 } scale <-1, 1, 1> rotate 90*y } }\n",
+              out);
+        for (size_t i = 0; i < scene.material_count; i++) {
+            put_mesh(out, &scene, (uint32_t)i);
+        }
+        status = fclose(out) == 0
+                     ? status
+                     : glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be written", name);
+    }
+    glint_scene_free(&scene);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    int width = 0, height = 0;
+    if (argc != 4 || sscanf(argv[2], "%dx%d", &width, &height) != 2 || width < 1 || height < 1) {
+        fprintf(stderr, "usage: bench_export SCENE WIDTHxHEIGHT FOLDER\n");
+        return GLINT_USAGE;
+    }
+    glint_error error = {0};
+    glint_status status = write_studio(argv[3], &error);
+    if (status == GLINT_OK) {
+        status = write_scene(argv[1], width, height, argv[3], &error);
+    }
+    if (status != GLINT_OK) {
+        fprintf(stderr, "bench_export: %s\n", error.message);
+    }
+    glint_error_free(&error);
+    return (int)status;
+}
