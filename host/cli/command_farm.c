@@ -352,9 +352,8 @@ static glint_status make_folder(const char *folder, glint_error *error)
         return GLINT_OK;
     }
     return glint_fail(error, GLINT_OUTPUT_FAILED,
-                      "%s: could not be made: %s (name another: "
-                      "--folder)",
-                      folder, strerror(errno));
+                      "%s: could not be made: %s (name another: --folder)", folder,
+                      strerror(errno));
 }
 
 // Writes a script into the job's folder.
@@ -377,7 +376,7 @@ static glint_status submit_parts(const farm_job *job, const char *script, char i
         status = put_script(job, "job.sh", script, &path, error);
     }
     if (status == GLINT_OK) {
-        status = farm_slurm_submit(path, NULL, false, id, error);
+        status = farm_slurm_submit(&job->slurm, path, NULL, false, id, error);
     }
     free(path);
     return status;
@@ -392,7 +391,7 @@ static glint_status submit_report(const farm_job *job, const char *after, bool w
         status = put_script(job, "report.sh", script, &path, error);
     }
     if (status == GLINT_OK) {
-        status = farm_slurm_submit(path, after, wait, id, error);
+        status = farm_slurm_submit(&job->slurm, path, after, wait, id, error);
     }
     free(script);
     free(path);
@@ -520,8 +519,7 @@ const glint_command glint_command_farm = {
         "slurm submits a sequence to Slurm as an array job: each part renders its frames with "
         "--skip-existing, so that whatever ended it, a part goes on where it stopped. A last job "
         "sums up what they did. stdout gets the job's number. The scene is loaded first, here: "
-        "mistakes are found before "
-        "anything is submitted.\n"
+        "mistakes are found before anything is submitted.\n"
         "report sums up a job's folder, at any time.",
     .examples = "  glint farm slurm --parts 16 --cpus 8 --time 1:00:00 -- \\\n"
                 "      jewel.glb --turntable 240 --size 1920x1080 -o out/jewel.####.exr\n"

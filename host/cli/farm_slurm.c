@@ -49,8 +49,8 @@ static glint_status check_text(const char *what, const char *text, const char *f
                               "%s: a control character cannot stand in a job's script", what);
         }
         if (strchr(forbidden, *text) != NULL) {
-            return glint_fail(error, GLINT_USAGE, "%s: Slurm has no way to write a %c (%s)", what,
-                              *text, "use another name");
+            return glint_fail(error, GLINT_USAGE,
+                              "%s: Slurm has no way to write a %c (use another name)", what, *text);
         }
     }
     return GLINT_OK;
@@ -142,7 +142,6 @@ static const char begin_attempt[] =
 // node, or another time, may do better. Where it was told to stop it stays ended, and mistakes, bad
 // input, full disks and bad frames are the same everywhere.
 static const char end_attempt[] =
-    "status=$?\n"
     "echo \"end $attempt $status\" >>\"$account.attempts\"\n"
     "[ -z \"$stopped\" ] || exit \"$status\"\n"
     "case $status in\n"
@@ -161,7 +160,8 @@ static void put_part_body(FILE *out, const farm_slurm *slurm)
 {
     fputs("folder=", out);
     put_word(out, slurm->folder);
-    fprintf(out, "\nretries=%d\n%s[ -n \"$stopped\" ] ||\n    ", slurm->retries, begin_attempt);
+    fprintf(out, "\nretries=%d\n%sstatus=143\n[ -n \"$stopped\" ] || {\n    ", slurm->retries,
+            begin_attempt);
     put_word(out, slurm->program);
     fprintf(out,
             " render --skip-existing --shard \"$part/%d\" \\\n"
@@ -171,7 +171,7 @@ static void put_part_body(FILE *out, const farm_slurm *slurm)
         fputc(' ', out);
         put_word(out, slurm->arguments[i]);
     }
-    fputc('\n', out);
+    fputs("\n    status=$?\n}\n", out);
     fputs(end_attempt, out);
 }
 
@@ -230,15 +230,21 @@ glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, 
 
 // The environment beats what stands in a script: what the script says must hold, and a job that is
 // submitted from within another is not that one's next attempt.
-static void clear_environment(void)
+static void clear_environment(const farm_slurm *slurm)
 {
     static const char *const names[] = {
-        "SBATCH_ARRAY_INX",    "SBATCH_NO_REQUEUE",   "SBATCH_REQUEUE",     "SBATCH_OPEN_MODE",
-        "SBATCH_OUTPUT",       "SBATCH_JOB_NAME",     "SBATCH_WAIT",        "SLURM_RESTART_COUNT",
-        "SLURM_CPUS_PER_TASK", "SLURM_CPUS_ON_NODE",  "SLURM_ARRAY_JOB_ID", "SLURM_ARRAY_TASK_ID",
-        "SBATCH_DEPENDENCY",   "SLURM_JOB_DEPENDENCY"};
+        "SBATCH_ARRAY_INX",   "SBATCH_ERROR",        "SBATCH_JOB_NAME",     "SBATCH_NO_REQUEUE",
+        "SBATCH_OPEN_MODE",   "SBATCH_OUTPUT",       "SBATCH_REQUEUE",      "SBATCH_WAIT",
+        "SLURM_ARRAY_JOB_ID", "SLURM_ARRAY_TASK_ID", "SLURM_CPUS_PER_TASK", "SLURM_CPUS_ON_NODE",
+        "SLURM_RESTART_COUNT"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         unsetenv(names[i]);
+    }
+    if (slurm->partition != NULL) {
+        unsetenv("SBATCH_PARTITION");
+    }
+    if (slurm->time != NULL) {
+        unsetenv("SBATCH_TIMELIMIT");
     }
 }
 
@@ -277,8 +283,8 @@ static int run_program(char *const *words, char *output, size_t capacity, int *c
     return *cause == 0 && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
 }
 
-glint_status farm_slurm_submit(const char *path, const char *after, bool wait,
-                               char id[FARM_ID_CAPACITY], glint_error *error)
+glint_status farm_slurm_submit(const farm_slurm *slurm, const char *path, const char *after,
+                               bool wait, char id[FARM_ID_CAPACITY], glint_error *error)
 {
     char dependency[96];
     snprintf(dependency, sizeof dependency, "--dependency=afterany:%s", after != NULL ? after : "");
@@ -291,7 +297,7 @@ glint_status farm_slurm_submit(const char *path, const char *after, bool wait,
         words[count++] = "--wait";
     }
     words[count] = (char *)path;
-    clear_environment();
+    clear_environment(slurm);
     int cause = 0;
     const int status = run_program(words, id, FARM_ID_CAPACITY, &cause);
     id[strcspn(id, ";\r\n")] = '\0'; // the cluster's name may follow

@@ -5,12 +5,14 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define FORMAT "glint farm"
-#define FAILURES_MAX 40 // that are named
+#define FAILURES_MAX 40     // that are named
+#define ATTEMPTS_MAX 100000 // a number beyond is none that a farm gave
 
 // ---- The job -----------------------------------------------------------------------------------
 
@@ -57,13 +59,16 @@ static glint_status find_latest(const char *folder, char id[64], glint_error *er
 {
     unsigned long long latest = 0;
     DIR *list = opendir(folder);
-    for (const struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;) {
+    if (list == NULL) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: could not be read: %s (name a folder that glint farm slurm made)",
+                          folder, strerror(errno));
+    }
+    for (const struct dirent *entry; (entry = readdir(list)) != NULL;) {
         const unsigned long long found = job_in_name(entry->d_name);
         latest = found > latest ? found : latest;
     }
-    if (list != NULL) {
-        closedir(list);
-    }
+    closedir(list);
     if (latest == 0) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: no folder of a job (name the one that glint farm slurm made)",
@@ -177,9 +182,13 @@ static glint_status take_frame(const json_t *root, glint_farm_part *part, part_l
     line->number = json_integer_value(number);
     line->state = state_of(glint_json_text_at(root, "outcome"));
     if (line->state == FRAME_RENDERED) {
-        part->trace_ms += glint_json_real_at(root, "milliseconds.trace");
-        part->write_ms += glint_json_real_at(root, "milliseconds.write");
-        part->traced++;
+        const double trace_ms = glint_json_real_at(root, "milliseconds.trace");
+        const double write_ms = glint_json_real_at(root, "milliseconds.write");
+        if (isfinite(trace_ms) && isfinite(write_ms)) {
+            part->trace_ms += trace_ms;
+            part->write_ms += write_ms;
+            part->traced++;
+        }
     }
     const char *failure = glint_json_text_at(root, "error");
     if (line->state == FRAME_FAILED && failure != NULL) {
@@ -232,7 +241,8 @@ static glint_status take_account(const char *text, glint_farm_part *part, part_l
     (void)error;
     int attempt, status;
     char node[sizeof part->node];
-    if (sscanf(text, "begin %d %64s", &attempt, node) == 2 && attempt >= 0) {
+    if (sscanf(text, "begin %d %64s", &attempt, node) == 2 && attempt >= 0 &&
+        attempt < ATTEMPTS_MAX) {
         memcpy(part->node, node, sizeof node);
         part->attempts++;
         part->status = -1;

@@ -14,6 +14,7 @@ mkdir bin
 cat >bin/sbatch <<'SBATCH'
 #!/bin/sh
 printf '%s\n' "$*" >>"$CALLS"
+env | grep -E '^(SBATCH|SLURM)_' >"$CALLS.environment"
 printf '4711;cluster\n'
 SBATCH
 cat >bin/scontrol <<'SCONTROL'
@@ -60,6 +61,7 @@ refuses 2 'the folder of one job' farm report
 refuses 3 'no folder of a job' farm report in
 printf '{"format": "something"}' >in/7.json
 refuses 3 'not what glint farm writes' farm report in
+refuses 3 'could not be read' farm report in/none
 refuses 3 'it is no job of that folder' farm report in --job 8
 refuses 2 '--job' farm report in --job ../7
 check 'mistakes: nothing was submitted' test ! -s "$CALLS"
@@ -105,12 +107,15 @@ clean
 
 # A name that the shell and Slurm read in their own ways.
 odd="out/it's 5% \"odd\" \$HOME.####.exr"
-run farm slurm --parts 3 --folder 'out/a job' -- "$scene" --turntable 8 "${small[@]}" -o "$odd"
+SBATCH_PARTITION=debug SBATCH_NO_REQUEUE=1 SLURM_RESTART_COUNT=7 SBATCH_ACCOUNT=film \
+    run farm slurm --parts 3 --partition short --folder 'out/a job' -- "$scene" --turntable 8 "${small[@]}" -o "$odd"
 check 'submitted: exit status 0, the number on stdout' test "$status" -eq 0 -a "$(cat stdout)" = 4711
 check 'submitted: the job, said' grep -q '^glint: job 4711: 8 frames in 3 parts' stderr
 check 'submitted: what sbatch was given' test "$(cat "$CALLS")" = "--parsable $work/out/a job/job.sh
 --parsable --dependency=afterany:4711 $work/out/a job/report.sh"
 job="$work/out/a job/job.sh"
+check 'submitted: what the environment would change is not there, the rest is' \
+    test "$(cat "$CALLS.environment")" = SBATCH_ACCOUNT=film
 run farm report 'out/a job'
 check 'before its parts ran: exit status 6' test "$status" -eq 6
 check 'before its parts ran: all are missing' grep -q '^0 of 8 frames are there, 0 failed, 8 are missing' stdout
@@ -145,6 +150,7 @@ check 'a second attempt: nothing is counted twice' test "$("$json_get" report.js
 check 'a second attempt: nothing was rendered again' test "$("$json_get" report.json rendered_again)" -eq 0
 check 'a second attempt: counted' grep -qE '^ +2 +[^ ]+ +2 +0 +3 +3 +0 +0 ' stdout
 check 'the node is named' grep -qE '^ +2 +node7 ' stdout
+echo 'begin 2000000000 node7' >>'out/a job/4711_1.attempts' # no attempt of ours
 part 1 99 "$job"
 run farm report 'out/a job' --job 4711
 check 'an attempt after many that left nothing' test "$status" -eq 0
@@ -206,6 +212,11 @@ done
 # shellcheck disable=SC2016
 ends_with 0 'kill -TERM $PPID; exit 4'
 check 'told to stop while it fails: it stays ended' test ! -s "$CALLS" -a "$status" -eq 4
+# A signal that comes while the shell starts.
+sed 's/^status=143$/kill -TERM $$\nstatus=143/' script >early
+: >"$CALLS"
+part 2 8 early
+check 'told to stop before glint begins: it does not begin' test "$status" -eq 143 -a ! -s "$CALLS"
 ends_with 0 'exit 6'
 check 'its exit status is the program'"'"'s' test "$status" -eq 6
 
