@@ -2,6 +2,7 @@
 // no more are in flight than was promised, and it ends when it is told to.
 #include "render/sequence.h"
 
+#include "device/opencl.h"
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -277,6 +278,129 @@ static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
     glint_scene_close(source);
 }
 
+// A scene that was made ready on another thread, while a frame of the one before was rendered,
+// gives the same pixels as one that was not, and so does the frame meanwhile; on devices that share
+// the host's memory and on those that get copies.
+typedef struct preparation {
+    glint_renderer *renderer;
+    const glint_scene *scene;
+    glint_status status;
+} preparation;
+
+static void *prepare(void *context)
+{
+    preparation *p = context;
+    glint_error error = {0};
+    p->status = glint_renderer_prepare(p->renderer, p->scene, &error);
+    glint_error_free(&error);
+    return NULL;
+}
+
+static void render_into(glint_renderer *renderer, const glint_scene *scene, glint_image *image)
+{
+    glint_error error = {0};
+    const glint_camera *camera = &scene->cameras[0];
+    assert_int_equal(glint_renderer_frame(renderer, camera, NULL, image, NULL, &error), GLINT_OK);
+}
+
+enum { TIMES = 6 };
+
+// A moving scene at some times, and its frames by renderers of their own.
+static void render_alone(const glint_renderer_inputs *inputs, glint_scene *scenes,
+                         glint_image *images)
+{
+    static const double times[TIMES] = {0, 0.01, 0.02, 0.03, 2, 0.3};
+    const char *path = GLINT_SOURCE_DIR "/scenes/clockwork.gltf";
+    glint_scene_source *source;
+    glint_error error = {0};
+    assert_int_equal(glint_scene_open(path, NULL, &source, &error), GLINT_OK);
+    for (int i = 0; i < TIMES; i++) {
+        assert_int_equal(glint_scene_at(source, times[i], &scenes[i], NULL, &error), GLINT_OK);
+        glint_renderer_inputs its = *inputs;
+        its.scene = &scenes[i];
+        glint_renderer *fresh;
+        assert_int_equal(glint_renderer_create(&its, &fresh, &error), GLINT_OK);
+        render_into(fresh, &scenes[i], &images[i]);
+        glint_renderer_free(fresh);
+    }
+    glint_scene_close(source);
+}
+
+static void follow_ahead(const glint_environment *environment)
+{
+    glint_error error = {0};
+    glint_scene scenes[TIMES];
+    glint_image alone[TIMES] = {0}, image = {0};
+    glint_settings settings = test_small_frame(0);
+    glint_renderer_inputs inputs = {.device = test_device(),
+                                    .scene = &scenes[0],
+                                    .environment = environment,
+                                    .settings = &settings};
+    render_alone(&inputs, scenes, alone);
+    glint_renderer *renderer;
+    int refitted = 0;
+    assert_int_equal(glint_renderer_create(&inputs, &renderer, &error), GLINT_OK);
+    for (int i = 0; i + 1 < TIMES; i++) {
+        preparation ahead = {.renderer = renderer, .scene = &scenes[i + 1]};
+        pthread_t thread;
+        assert_int_equal(pthread_create(&thread, NULL, prepare, &ahead), 0);
+        render_into(renderer, &scenes[i], &image);
+        assert_int_equal(pthread_join(thread, NULL), 0);
+        assert_int_equal(test_count_different(&image, &alone[i]), 0);
+        assert_int_equal(ahead.status, GLINT_OK);
+        assert_int_equal(glint_renderer_set_prepared(renderer, &scenes[i + 1], &error), GLINT_OK);
+        refitted += glint_renderer_bvh(renderer)->is_refitted;
+    }
+    render_into(renderer, &scenes[TIMES - 1], &image);
+    assert_int_equal(test_count_different(&image, &alone[TIMES - 1]), 0);
+    assert_in_range(refitted, 1, TIMES - 2); // trees of both kinds
+    for (int i = 0; i < TIMES; i++) {
+        glint_image_free(&alone[i]);
+        glint_scene_free(&scenes[i]);
+    }
+    glint_image_free(&image);
+    glint_renderer_free(renderer);
+}
+
+static void a_scene_made_ready_meanwhile_is_the_same(void **state)
+{
+    const shot *s = *state;
+    glint_capabilities *capabilities = &test_device()->capabilities;
+    const bool shares = capabilities->shares_memory;
+    follow_ahead(&s->environment);
+    capabilities->shares_memory = false;
+    follow_ahead(&s->environment);
+    capabilities->shares_memory = shares;
+}
+
+// A scene that cannot be shown: nothing is lost of the one before where it is only prepared; where
+// it was set, no frame is rendered until another one is.
+static void a_renderer_outlives_a_scene_that_it_cannot_show(void **state)
+{
+    shot *s = *state;
+    glint_error error = {0};
+    glint_image image = {0};
+    const glint_camera camera = camera_of(s, 0);
+    const glint_scene bad = {.triangle_count = (size_t)1 << 40, .moves = true};
+    assert_int_equal(glint_renderer_prepare(s->renderer, &bad, &error), GLINT_DEVICE_FAILED);
+    glint_error_free(&error);
+    assert_int_equal(glint_renderer_set_prepared(s->renderer, &bad, &error), GLINT_USAGE);
+    glint_error_free(&error);
+    assert_int_equal(glint_renderer_frame(s->renderer, &camera, NULL, &image, NULL, &error),
+                     GLINT_OK);
+    assert_int_equal(test_count_different(&image, &s->alone[0]), 0);
+    assert_int_equal(glint_renderer_set_scene(s->renderer, &bad, &error), GLINT_DEVICE_FAILED);
+    glint_error_free(&error);
+    assert_int_equal(glint_renderer_frame(s->renderer, &camera, NULL, &image, NULL, &error),
+                     GLINT_USAGE);
+    glint_error_free(&error);
+    assert_int_equal(glint_renderer_set_scene(s->renderer, &s->scene, &error), GLINT_OK);
+    assert_int_equal(glint_renderer_frame(s->renderer, &camera, NULL, &image, NULL, &error),
+                     GLINT_OK);
+    assert_int_equal(test_count_different(&image, &s->alone[0]), 0);
+    glint_image_free(&image);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -286,6 +410,8 @@ int main(void)
         cmocka_unit_test(it_ends_when_told_to),
         cmocka_unit_test(writers_are_bounded_by_memory),
         cmocka_unit_test(a_renderer_given_a_scene_is_one_made_of_it),
+        cmocka_unit_test(a_scene_made_ready_meanwhile_is_the_same),
+        cmocka_unit_test(a_renderer_outlives_a_scene_that_it_cannot_show),
     };
     return cmocka_run_group_tests(tests, open_shot, close_shot);
 }

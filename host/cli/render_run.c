@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "cli/cli.h"
+#include "cli/render_stage.h"
 #include "image/output_file.h"
 #include "render/sequence.h"
 #include "report/frame_metadata.h"
@@ -28,129 +29,13 @@ glint_subject render_run_subject(const render_run *run)
     };
 }
 
-// ---- The scene at a frame ----------------------------------------------------------------------
-
-// Moves the run's scene and camera to a frame.
-static glint_status stand(render_run *run, int frame, glint_error *error)
-{
-    glint_inputs *inputs = &run->inputs;
-    const glint_motion *motion = &inputs->motion;
-    const double time = render_request_time(run->request, frame);
-    glint_status status = GLINT_OK;
-    if (inputs->source == NULL || (run->stands && time == run->time)) {
-        return GLINT_OK;
-    }
-    run->stands = false;
-    if (motion->moves_triangles) {
-        glint_scene scene;
-        status = glint_scene_at(inputs->source, time, &scene, NULL, error);
-        if (status == GLINT_OK) {
-            glint_scene_free(&inputs->scene);
-            inputs->scene = scene;
-            status = glint_fingerprint_scene(&scene, &run->scene_is, error);
-        }
-    } else if (motion->moves_cameras) {
-        status = glint_scene_cameras_at(inputs->source, time, &inputs->scene, error);
-    }
-    if (status == GLINT_OK) {
-        status =
-            glint_scene_camera(&inputs->scene, run->request->inputs.camera, &inputs->camera, error);
-    }
-    run->stands = status == GLINT_OK;
-    run->time = time;
-    return status;
-}
-
-// The camera of the frame that the scene stands at.
-static glint_camera camera_of(const render_run *run, int frame)
-{
-    glint_camera camera = run->inputs.camera;
-    camera.name = run->camera_name;
-    if (run->request->turntable == 0) {
-        return camera;
-    }
-    const glint_scene *scene = &run->inputs.scene;
-    glint_vec3 low, high, centre = {0, 0, 0};
-    glint_scene_shown_bounds(scene, &low, &high);
-    if (low.x <= high.x) {
-        centre = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
-    }
-    return glint_camera_orbit(&camera, centre, (int64_t)frame - 1, run->request->turntable);
-}
-
-static bool equal(glint_fingerprint a, glint_fingerprint b)
-{
-    return a.high == b.high && a.low == b.low;
-}
-
-// Gives the renderer the scene, unless it shows the same already.
-static glint_status show(render_run *run, glint_error *error)
-{
-    if (equal(run->scene_is, run->renderer_shows)) {
-        return GLINT_OK;
-    }
-    glint_status status = glint_renderer_set_scene(run->renderer, &run->inputs.scene, error);
-    run->renderer_shows = status == GLINT_OK ? run->scene_is : (glint_fingerprint){0};
-    return status;
-}
-
-glint_status render_run_load(render_run *run, glint_error *error)
-{
-    const render_request *request = run->request;
-    glint_status status = glint_inputs_load(&request->inputs, &run->display, &run->inputs, error);
-    if (status == GLINT_OK) {
-        status = glint_fingerprint_scene(&run->inputs.scene, &run->scene_is, error);
-    }
-    if (status == GLINT_OK) {
-        const char *name = run->inputs.camera.name;
-        run->label.path = run->inputs.scene.path != NULL ? strdup(run->inputs.scene.path) : NULL;
-        run->camera_name = name != NULL ? strdup(name) : NULL;
-        run->stands = true; // at time 0
-    }
-    return status;
-}
-
-glint_status render_run_prepare(render_run *run, glint_error *error)
-{
-    const glint_input_request *request = &run->request->inputs;
-    run->cursor = (glint_frame_cursor){.list = &run->request->frames, .shard = run->request->shard};
-    glint_frame_cursor first = run->cursor;
-    int frame;
-    // A frame whose scene is bad is one bad frame, and next_frame says so: the renderer begins with
-    // the first that is not.
-    glint_status status = GLINT_OK;
-    while (glint_frame_next(&first, &frame)) {
-        glint_error_free(error);
-        status = stand(run, frame, error);
-        if (status == GLINT_OK || status == GLINT_DEVICE_FAILED) {
-            break;
-        }
-    }
-    if (status == GLINT_OK) {
-        status = glint_device_open(request->device, &run->device, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
-    }
-    glint_progress_phase(&run->display, "prepare", "building the tree and the kernels");
-    const glint_renderer_inputs inputs = {
-        .device = run->device,
-        .scene = &run->inputs.scene,
-        .environment = &run->inputs.environment,
-        .settings = &request->settings,
-        .kernel_dir = request->kernel_dir,
-    };
-    run->renderer_shows = run->scene_is;
-    return glint_renderer_create(&inputs, &run->renderer, error);
-}
-
 // ---- Which frames ------------------------------------------------------------------------------
 
 // Why a file that is there is not the frame; NULL where it is.
 static const char *why_again(const render_run *run, int frame, const char *path)
 {
     char wanted[GLINT_FINGERPRINT_TEXT], found[GLINT_FINGERPRINT_TEXT];
-    const glint_camera camera = camera_of(run, frame);
+    const glint_camera camera = render_stage_camera(run, frame);
     glint_fingerprint_frame(&run->fingerprint, &run->scene_is, &camera, wanted);
     glint_fingerprint_find(path, found);
     if (found[0] == '\0') {
@@ -274,16 +159,17 @@ static void miss(render_run *run, int frame, const char *path, double ms, glint_
 // Brings scene, camera and renderer to a frame; false where its file need not be rendered.
 static bool wants(render_run *run, int frame, const char *path, glint_error *error)
 {
-    double clock = glint_now_ms();
-    glint_status status = stand(run, frame, error);
-    run->build_ms = glint_lap_ms(&clock);
+    const double begun = glint_now_ms();
+    double clock = begun;
+    run->build_ms = 0;
+    glint_status status = render_stage_set(run, frame, error);
     if (status == GLINT_OK && run->request->skip_existing && is_done(run, frame, path)) {
-        skip(run, frame, path, run->build_ms + glint_lap_ms(&clock));
+        skip(run, frame, path, glint_now_ms() - begun);
         return false;
     }
     clock = glint_now_ms();
     if (status == GLINT_OK) {
-        status = show(run, error);
+        status = render_stage_show(run, error);
     }
     run->build_ms += glint_lap_ms(&clock);
     return status == GLINT_OK;
@@ -301,7 +187,8 @@ static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame
     const bool wanted = path != NULL ? wants(run, frame->number, path, &error)
                                      : (glint_fail_memory(&error, "a file name"), false);
     if (wanted) {
-        frame->camera = camera_of(run, frame->number);
+        frame->camera = render_stage_camera(run, frame->number);
+        render_stage_look_ahead(run);
     } else if (error.code != GLINT_OK) {
         miss(run, frame->number, path, run->build_ms, &error);
     }
@@ -317,6 +204,7 @@ typedef struct parcel {
     glint_frame_metadata metadata;
     char fingerprint[GLINT_FINGERPRINT_TEXT];
     double build_ms;
+    const char *tree;
 } parcel;
 
 // Whatever may change with the next frame is taken along.
@@ -334,6 +222,8 @@ static void frame_is_traced(void *context, glint_sequence_frame *frame)
     subject.scene = &run->label;
     subject.camera = &frame->camera;
     made->build_ms = run->build_ms;
+    made->tree = run->tree;
+    run->tree = "kept";
     glint_frame_metadata_fill(&subject, frame->number, request->exposure,
                               frame->report.kernel_ms + frame->report.readback_ms, &made->metadata);
     if (request->inputs.kernel_dir == NULL) {
@@ -464,6 +354,7 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
                                      .error = is_written ? NULL : frame->error.message,
                                      .report = &frame->report,
                                      .build_ms = build_ms,
+                                     .tree = along != NULL ? along->tree : NULL,
                                      .trace_ms = frame->trace_ms,
                                      .write_ms = frame->write_ms};
     log_frame(run, &facts);
@@ -573,6 +464,10 @@ glint_status render_run_verdict(const render_run *run, glint_error *error)
 
 void render_run_free(render_run *run)
 {
+    render_pose unused = {0};
+    if (render_ahead_take(&run->ahead, run->ahead.pose.time, &unused)) {
+        glint_scene_free(&unused.scene);
+    }
     glint_stats_log_close(run->stats);
     glint_renderer_free(run->renderer);
     glint_device_close(run->device);

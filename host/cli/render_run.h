@@ -3,6 +3,7 @@
 #define GLINT_CLI_RENDER_RUN_H
 
 #include "cli/progress.h"
+#include "cli/render_ahead.h"
 #include "cli/render_request.h"
 #include "device/device.h"
 #include "render/frame.h"
@@ -22,7 +23,8 @@ typedef struct render_totals {
     size_t failed_known, failed_capacity;
     int *failed_frames; // owned; in the order in which they failed, as many as found memory
     glint_ray_counts rays;
-    render_spread build, trace, write; // build: the scene at its time, its tree
+    render_spread build, trace, write; // build: the scene at its time, its tree;
+                                       // beside the frame before
     glint_frame_report worst; // the one with the most truncated weight, with the largest of the
                               // other figures that warnings are about
 } render_totals;
@@ -41,7 +43,10 @@ typedef struct render_run {
     char *camera_name;                // likewise; owned
     bool stands;                      // inputs.scene and inputs.camera are those of `time`
     double time;                      // seconds of the animation
+    bool is_prepared;                 // the renderer, for inputs.scene
+    render_ahead ahead;               // the next frame's scene
     double build_ms;                  // of the frame that is traced
+    const char *tree;                 // what came of its tree: "kept", "fitted" or "built"
     glint_frame_cursor cursor;
     uint64_t frames; // of this run's shard
     glint_stats_log *stats;

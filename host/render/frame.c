@@ -49,9 +49,9 @@ glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record
         return status;
     }
     int tile_width, tile_height;
-    tile_size(&r->plan, &tile_width, &tile_height);
+    tile_size(&r->shown.plan, &tile_width, &tile_height);
     size_t local[2];
-    local_size(&r->plan, local);
+    local_size(&r->shown.plan, local);
     size_t columns = ((size_t)r->settings.width + (size_t)tile_width - 1) / (size_t)tile_width;
     const size_t across = columns * (size_t)record->band;
     const size_t global[2] = {round_up(across, local[0]), round_up(bands, local[1])};
@@ -105,7 +105,7 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
         return glint_fail_opencl(error, r->device, "reading the counters", code);
     }
     const int k = r->settings.samples_per_axis;
-    report->rays.primary = (uint64_t)r->pixel_count * (uint64_t)(k * k);
+    report->rays.primary = (uint64_t)glint_renderer_pixel_count(r) * (uint64_t)(k * k);
     report->rays.reflected = total_of(counters, GLINT_COUNT_REFLECTED);
     report->rays.refracted_in = total_of(counters, GLINT_COUNT_REFRACTED_IN);
     report->rays.refracted_out = total_of(counters, GLINT_COUNT_REFRACTED_OUT);
@@ -168,7 +168,7 @@ static glint_status end_launch(launches *l, glint_error *error)
 static glint_status run_launches(launches *l, const glint_progress *progress, glint_error *error)
 {
     size_t local[2];
-    local_size(&l->renderer->plan, local);
+    local_size(&l->renderer->shown.plan, local);
     double clock = glint_now_ms();
     glint_status status = GLINT_OK;
     while (status == GLINT_OK && l->done < l->bands) {
@@ -195,12 +195,12 @@ static glint_status run_frame(glint_renderer *r, glint_frame_record *record,
                               const glint_progress *progress, glint_error *error)
 {
     int tile_width, tile_height;
-    tile_size(&r->plan, &tile_width, &tile_height);
+    tile_size(&r->shown.plan, &tile_width, &tile_height);
     size_t local[2];
-    local_size(&r->plan, local);
+    local_size(&r->shown.plan, local);
     double row_samples =
         (double)record->width * tile_height * record->samples_per_axis * record->samples_per_axis;
-    record->band = r->plan.tiles && BAND_ROWS * row_samples <= BAND_SAMPLES ? BAND_ROWS : 1;
+    record->band = r->shown.plan.tiles && BAND_ROWS * row_samples <= BAND_SAMPLES ? BAND_ROWS : 1;
     const int band_height = tile_height * record->band;
     double first_step = r->bands_per_ms > 0 ? r->bands_per_ms * LAUNCH_MS
                                             : FIRST_LAUNCH_SAMPLES / (row_samples * record->band);
@@ -243,7 +243,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
         return glint_fail(error, GLINT_USAGE, "the renderer was made without frames, or failed");
     }
     glint_frame_record record;
-    glint_view_record(&r->space, camera, &r->settings, &r->plan, &record);
+    glint_view_record(&r->space, camera, &r->settings, &r->shown.plan, &record);
     record.environment_edge = r->environment_edge;
     record.irradiance_edge = r->irradiance_edge;
     cl_mem target = NULL;
@@ -281,10 +281,10 @@ glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixe
                                          glint_error *error)
 {
     *pixels = NULL;
-    if (renderer->plan.precision != GLINT_PRECISION_DOUBLE) {
+    if (renderer->shown.plan.precision != GLINT_PRECISION_DOUBLE) {
         return glint_fail(error, GLINT_USAGE, "only frames in double precision have exact pixels");
     }
-    *pixels = glint_allocate_unset(renderer->pixel_count * 4, sizeof **pixels);
+    *pixels = glint_allocate_unset(glint_renderer_pixel_count(renderer) * 4, sizeof **pixels);
     if (*pixels == NULL) {
         return glint_fail_memory(error, "the frame");
     }
@@ -313,7 +313,7 @@ glint_status glint_renderer_layers(glint_renderer *renderer, glint_layers *layer
                             glint_renderer_layers_bytes(renderer), records, 0, NULL, NULL);
     glint_status status =
         code == CL_SUCCESS
-            ? glint_layers_make(records, renderer->pixel_count,
+            ? glint_layers_make(records, glint_renderer_pixel_count(renderer),
                                 settings->samples_per_axis * settings->samples_per_axis,
                                 settings->aovs, layers, error)
             : glint_fail_opencl(error, renderer->device, "reading the layers", code);

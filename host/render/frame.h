@@ -86,6 +86,15 @@ glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_re
 glint_status glint_renderer_set_scene(glint_renderer *renderer, const glint_scene *scene,
                                       glint_error *error);
 
+// The same in two steps, the first of which may be taken on another thread while frames of the
+// scene before are rendered: what needs no device, plan and tree; and the rest. The renderer then
+// holds two trees. glint_renderer_set_prepared is given the scene that was prepared last. Where
+// preparing failed, the renderer is as it was. Errors as above.
+glint_status glint_renderer_prepare(glint_renderer *renderer, const glint_scene *scene,
+                                    glint_error *error);
+glint_status glint_renderer_set_prepared(glint_renderer *renderer, const glint_scene *scene,
+                                         glint_error *error);
+
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);
 const glint_phases *glint_renderer_phases(const glint_renderer *renderer);

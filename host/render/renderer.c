@@ -13,7 +13,7 @@
 
 static size_t scalar_bytes(const glint_renderer *r)
 {
-    return r->plan.precision == GLINT_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
+    return r->settings.precision == GLINT_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
 }
 
 static bool has_solids(const glint_scene *scene)
@@ -27,8 +27,8 @@ static bool has_solids(const glint_scene *scene)
 }
 
 // The topology is found only where the plan asks for it: millions of triangles take seconds.
-static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r,
-                            const glint_plan *before, glint_error *error)
+static glint_status analyse(const glint_renderer_inputs *in, const glint_plan *before,
+                            glint_plan *plan, glint_error *error)
 {
     glint_topology topology = {0};
     const bool wanted = has_solids(in->scene) && !in->scene->moves;
@@ -42,7 +42,7 @@ static glint_status analyse(const glint_renderer_inputs *in, glint_renderer *r,
             .settings = in->settings,
             .before = before,
         };
-        status = glint_plan_make(&inputs, &r->plan, error);
+        status = glint_plan_make(&inputs, plan, error);
     }
     glint_topology_free(&topology);
     return status;
@@ -89,7 +89,7 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
                                  glint_error *error)
 {
     char options[4096];
-    glint_plan_build_options(&r->plan, options, sizeof options);
+    glint_plan_build_options(&r->shown.plan, options, sizeof options);
     const glint_program_request request = {.kernel_dir = in->kernel_dir, .options = options};
     cl_program program;
     glint_status status = glint_program_build(r->device, &request, &program, error);
@@ -142,47 +142,50 @@ static int traversal_stack(int need)
 // turn by 45 degrees gives, could not be seen in tracing times.
 #define REFIT_GROWTH 1.5
 
-// The last frame's tree, fitted, or a new one.
-static glint_status make_tree(const glint_scene *scene, glint_renderer *r, glint_error *error)
+// The tree that there is, fitted, or a new one.
+static glint_status make_tree(const glint_scene *scene, glint_prepared_scene *p, glint_error *error)
 {
-    glint_bvh *tree = &r->tree;
+    glint_bvh *tree = &p->tree;
     const glint_bvh_report *report = &tree->report;
     const double metres = scene->unit > 0 ? scene->unit * scene->unit : 1;
     glint_status status = GLINT_OK;
-    if (!glint_plan_refit_tree(&r->plan, scene, tree) ||
-        report->sah_cost > REFIT_GROWTH * r->built_cost ||
-        report->sah_cost * report->root_area * metres > REFIT_GROWTH * r->built_area) {
+    if (!glint_plan_refit_tree(&p->plan, scene, tree) ||
+        report->sah_cost > REFIT_GROWTH * p->built_cost ||
+        report->sah_cost * report->root_area * metres > REFIT_GROWTH * p->built_area) {
         glint_bvh_free(tree);
-        status = glint_plan_build_tree(&r->plan, scene, tree, error);
-        r->built_cost = report->sah_cost;
-        r->built_area = report->sah_cost * report->root_area * metres;
+        status = glint_plan_build_tree(&p->plan, scene, tree, error);
+        p->built_cost = report->sah_cost;
+        p->built_area = report->sah_cost * report->root_area * metres;
     }
-    r->bvh = *report;
-    r->plan.traversal_stack = traversal_stack(report->stack_need);
+    p->bvh = *report;
+    p->plan.traversal_stack = traversal_stack(report->stack_need);
     return status;
 }
 
-// Plan and tree of the scene, and whether the device can hold them.
-static glint_status prepare(const glint_renderer_inputs *in, glint_renderer *r,
-                            const glint_plan *before, glint_error *error)
+// Plan and tree of the scene, and whether the device can hold them. Of the renderer nothing is
+// changed, and nothing is read that a frame changes: frames may be rendered meanwhile.
+static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
+                            const glint_plan *before, glint_prepared_scene *prepared,
+                            glint_error *error)
 {
     double clock = glint_now_ms();
+    glint_renderer_inputs in = r->inputs;
+    in.scene = scene;
     glint_upload_sizes sizes = {0};
-    glint_status status = analyse(in, r, before, error);
+    glint_status status = analyse(&in, before, &prepared->plan, error);
     if (status == GLINT_OK) {
         status = glint_pixels_size(r->settings.width, r->settings.height, scalar_bytes(r),
                                    &sizes.frame, error);
-        r->pixel_count = sizes.frame / (4 * scalar_bytes(r));
+    }
+    if (status == GLINT_OK) {
+        sizes.environment = prepared->plan.environment_bytes;
         sizes.layers = glint_renderer_layers_bytes(r);
-        sizes.environment = r->plan.environment_bytes;
+        status = glint_upload_check(r->device, scene, &sizes, error);
     }
+    prepared->analysis_ms = glint_lap_ms(&clock);
     if (status == GLINT_OK) {
-        status = glint_upload_check(in->device, in->scene, &sizes, error);
-    }
-    r->phases.analysis = glint_lap_ms(&clock);
-    if (status == GLINT_OK) {
-        status = make_tree(in->scene, r, error);
-        r->phases.bvh = glint_lap_ms(&clock);
+        status = make_tree(scene, prepared, error);
+        prepared->bvh_ms = glint_lap_ms(&clock);
     }
     return status;
 }
@@ -191,8 +194,11 @@ static glint_status prepare(const glint_renderer_inputs *in, glint_renderer *r,
 static glint_status upload_geometry(const glint_renderer_inputs *in, glint_renderer *r,
                                     glint_error *error)
 {
+    glint_prepared_scene *shown = &r->shown;
     const glint_upload_inputs inputs = {
-        .device = in->device, .scene = in->scene, .bvh = &r->tree, .plan = &r->plan};
+        .device = in->device, .scene = in->scene, .bvh = &shown->tree, .plan = &shown->plan};
+    r->phases.analysis = shown->analysis_ms;
+    r->phases.bvh = shown->bvh_ms;
     double clock = glint_now_ms();
     glint_geometry_memory fresh;
     glint_status status = glint_geometry_upload(&inputs, &fresh, error);
@@ -201,7 +207,7 @@ static glint_status upload_geometry(const glint_renderer_inputs *in, glint_rende
         r->space = glint_stored_space_of(in->scene);
     }
     if (status != GLINT_OK || !in->scene->moves) {
-        glint_bvh_free(&r->tree);
+        glint_bvh_free(&shown->tree);
     }
     r->phases.upload = glint_lap_ms(&clock);
     return status;
@@ -213,7 +219,7 @@ static glint_status upload_light(const glint_renderer_inputs *in, glint_renderer
     double clock = glint_now_ms();
     glint_cube irradiance = {0};
     glint_status status = GLINT_OK;
-    if (needs_irradiance(&r->plan) && !in->without_frames) {
+    if (needs_irradiance(&r->shown.plan) && !in->without_frames) {
         status = glint_irradiance_map(&in->environment->radiance, GLINT_IRRADIANCE_EDGE,
                                       &irradiance, error);
         r->phases.irradiance = glint_lap_ms(&clock);
@@ -221,7 +227,7 @@ static glint_status upload_light(const glint_renderer_inputs *in, glint_renderer
     if (status == GLINT_OK) {
         const glint_upload_inputs inputs = {
             .device = in->device,
-            .plan = &r->plan,
+            .plan = &r->shown.plan,
             .environment = &in->environment->radiance,
             .irradiance = &irradiance,
         };
@@ -279,7 +285,7 @@ glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_re
     r->settings = *inputs->settings;
     r->inputs = *inputs;
     r->inputs.settings = &r->settings;
-    glint_status status = prepare(inputs, r, NULL, error);
+    glint_status status = prepare(r, inputs->scene, NULL, &r->shown, error);
     if (status == GLINT_OK) {
         status = set_up(inputs, r, error);
     }
@@ -291,42 +297,71 @@ glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_re
     return GLINT_OK;
 }
 
+// What has been prepared, in the place of what was shown, whose buffers are gone and whose kernel
+// was that of the plan `before`.
+static glint_status show(glint_renderer *r, const glint_scene *scene, const glint_plan *before,
+                         glint_error *error)
+{
+    char old_options[4096], options[4096];
+    glint_plan_build_options(before, old_options, sizeof old_options);
+    glint_plan_build_options(&r->shown.plan, options, sizeof options);
+    glint_renderer_inputs in = r->inputs;
+    in.scene = scene;
+    if (strcmp(options, old_options) != 0 || r->kernel == NULL) {
+        tear_down(r); // other kernels, and what they read
+        return set_up(&in, r, error);
+    }
+    glint_status status = upload_geometry(&in, r, error);
+    return status == GLINT_OK ? set_buffers(r, error) : status;
+}
+
 glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scene,
                                       glint_error *error)
 {
-    const glint_plan before = r->plan;
-    char old_options[4096], options[4096];
-    glint_plan_build_options(&before, old_options, sizeof old_options);
-    glint_renderer_inputs in = r->inputs;
-    in.scene = scene;
-    glint_geometry_take_back(&r->geometry, &r->tree);
+    const glint_plan before = r->shown.plan;
+    glint_geometry_take_back(&r->geometry, &r->shown.tree);
     r->has_failed = true;
-    glint_status status = prepare(&in, r, &before, error);
-    if (status != GLINT_OK) {
-        r->plan = before;
+    glint_status status = prepare(r, scene, &before, &r->shown, error);
+    if (status == GLINT_OK) {
+        status = show(r, scene, &before, error);
     } else {
-        glint_plan_build_options(&r->plan, options, sizeof options);
-        if (strcmp(options, old_options) == 0 && r->kernel != NULL) {
-            status = upload_geometry(&in, r, error);
-            status = status == GLINT_OK ? set_buffers(r, error) : status;
-        } else {
-            // Other kernels, and what they read.
-            tear_down(r);
-            status = set_up(&in, r, error);
-        }
+        r->shown.plan = before;
     }
+    r->has_failed = status != GLINT_OK;
+    return status;
+}
+
+glint_status glint_renderer_prepare(glint_renderer *r, const glint_scene *scene, glint_error *error)
+{
+    glint_status status = prepare(r, scene, &r->shown.plan, &r->next, error);
+    r->is_next_ready = status == GLINT_OK;
+    return status;
+}
+
+glint_status glint_renderer_set_prepared(glint_renderer *r, const glint_scene *scene,
+                                         glint_error *error)
+{
+    if (!r->is_next_ready) {
+        return glint_fail(error, GLINT_USAGE, "no scene has been prepared");
+    }
+    const glint_prepared_scene before = r->shown;
+    r->shown = r->next;
+    r->next = before;
+    r->is_next_ready = false;
+    glint_geometry_take_back(&r->geometry, &r->next.tree);
+    glint_status status = show(r, scene, &before.plan, error);
     r->has_failed = status != GLINT_OK;
     return status;
 }
 
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer)
 {
-    return &renderer->plan;
+    return &renderer->shown.plan;
 }
 
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer)
 {
-    return &renderer->bvh;
+    return &renderer->shown.bvh;
 }
 
 const glint_phases *glint_renderer_phases(const glint_renderer *renderer)
@@ -355,6 +390,7 @@ void glint_renderer_free(glint_renderer *renderer)
         return;
     }
     tear_down(renderer);
-    glint_bvh_free(&renderer->tree);
+    glint_bvh_free(&renderer->shown.tree);
+    glint_bvh_free(&renderer->next.tree);
     free(renderer);
 }

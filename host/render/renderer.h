@@ -7,14 +7,22 @@
 #include "render/upload.h"
 #include "render/view.h"
 
+// All that a scene needs before the device comes in. Zero is valid.
+typedef struct glint_prepared_scene {
+    glint_plan plan;
+    glint_bvh tree;       // of a scene that moves, less the arrays that the device has; else empty
+    glint_bvh_report bvh; // outlives the tree
+    double built_cost, built_area; // the tree's when it was last built, see make_tree
+    double analysis_ms, bvh_ms;
+} glint_prepared_scene;
+
 struct glint_renderer {
     glint_device *device;         // borrowed
     glint_renderer_inputs inputs; // borrowed; the scene is that of the creation, and may be gone
     glint_settings settings;
-    glint_plan plan;
-    glint_bvh_report bvh;
-    glint_bvh tree; // of a scene that moves, less the arrays that the device has; else empty
-    double built_cost, built_area; // the tree's when it was last built, see make_tree
+    glint_prepared_scene shown; // whose frames are rendered
+    glint_prepared_scene next;  // made meanwhile; its tree is fitted from that of the last but one
+    bool is_next_ready;
     glint_phases phases;
     glint_stored_space space;
     glint_geometry_memory geometry;
@@ -23,7 +31,6 @@ struct glint_renderer {
     cl_kernel kernel; // NULL without frames
     glint_pixels pixels;
     cl_mem counters, layers;
-    size_t pixel_count;
     bool has_failed;     // to take another scene
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };
@@ -33,9 +40,15 @@ struct glint_renderer {
 #define GLINT_PIXELS_ARGUMENT 8
 #define GLINT_FRAME_ARGUMENT 11
 
+// Of a frame, whose size has been checked.
+static inline size_t glint_renderer_pixel_count(const glint_renderer *r)
+{
+    return (size_t)r->settings.width * (size_t)r->settings.height;
+}
+
 static inline size_t glint_renderer_layers_bytes(const glint_renderer *r)
 {
-    return r->settings.aovs != 0 ? r->pixel_count * sizeof(glint_layers_record) : 0;
+    return r->settings.aovs != 0 ? glint_renderer_pixel_count(r) * sizeof(glint_layers_record) : 0;
 }
 
 glint_status glint_renderer_set_argument(const glint_renderer *r, cl_uint index, size_t size,

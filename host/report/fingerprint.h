@@ -6,12 +6,18 @@
 #include "image/image_io.h"
 #include "report/subject.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 // Zero is valid, and nobody's.
 typedef struct glint_fingerprint {
     uint64_t high, low;
 } glint_fingerprint;
+
+static inline bool glint_fingerprints_equal(glint_fingerprint a, glint_fingerprint b)
+{
+    return a.high == b.high && a.low == b.low;
+}
 
 #define GLINT_FINGERPRINT_TEXT 33 // 32 hexadecimal digits and the end
 

@@ -187,6 +187,9 @@ glint_status glint_stats_log_frame(glint_stats_log *log, const glint_stats_frame
         glint_json_put_real(milliseconds, "trace", frame->trace_ms);
         glint_json_put_real(milliseconds, "write", frame->write_ms);
         glint_json_put(root, "milliseconds", milliseconds);
+        if (frame->tree != NULL) {
+            glint_json_put_text(root, "tree", frame->tree);
+        }
         put_frame(root, frame->report);
     }
     return add_line(log, root, error);

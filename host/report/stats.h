@@ -36,6 +36,7 @@ typedef struct glint_stats_frame {
     const char *outcome;              // "rendered", "skipped" or "failed"
     const char *error;                // what went wrong; NULL
     const glint_frame_report *report; // NULL of a skipped one
+    const char *tree;                 // "kept", "fitted" or "built"; NULL where that is not known
     double build_ms, trace_ms, write_ms;
 } glint_stats_frame;
 

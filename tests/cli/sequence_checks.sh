@@ -53,6 +53,9 @@ check 'statistics: the run' stat_is 8 frames
 sed -n 4p whole.jsonl >out/stats.json
 check 'statistics: a frame' stat_is_positive rays primary
 check 'statistics: its outcome' stat_is rendered outcome
+trees() { grep -o '"tree": "[a-z]*"' "$1" | sort | uniq -c | tr -s ' \n' '  '; }
+check 'statistics: a tree for all frames' \
+    test "$(trees whole.jsonl)" = ' 1 "tree": "built" 7 "tree": "kept" '
 tail -n 1 whole.jsonl >out/stats.json
 check 'statistics: the total' stat_is 8 rendered
 check 'statistics: not stopped' stat_is false stopped
@@ -193,6 +196,9 @@ moving=(in/clockwork.gltf "${small[@]}")
 run render "${moving[@]}" --fps 4 -o out/m.##.hdr --stats moving.jsonl
 check 'an animation: as long as it is' \
     test "$(files out)" = 'm.01.hdr m.02.hdr m.03.hdr m.04.hdr m.05.hdr m.06.hdr m.07.hdr m.08.hdr m.09.hdr '
+check 'an animation: trees of all frames, one or another built' \
+    test "$(grep -c '"tree": "built"' moving.jsonl)" -ge 1 -a "$(trees moving.jsonl | tr -cd '0-9 ' |
+        awk '{ print $1 + $2 + $3 }')" -eq 9
 tail -n 1 moving.jsonl >stats.json
 check 'an animation: what building took' \
     awk -v ms="$("$json_get" stats.json milliseconds build)" 'BEGIN { exit !(ms > 0) }'

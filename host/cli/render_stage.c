@@ -1,0 +1,149 @@
+// Scene, camera and renderer of a run. See render_stage.h.
+#include "cli/render_stage.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+// Takes the scene of a time, loaded ahead or now, in the place of the one that there is.
+static glint_status take_pose(render_run *run, double time, glint_error *error)
+{
+    glint_inputs *inputs = &run->inputs;
+    render_pose pose = {.time = time};
+    if (!render_ahead_take(&run->ahead, time, &pose)) {
+        glint_status status = render_pose_load(inputs->source, &pose, error);
+        if (status != GLINT_OK) {
+            return status;
+        }
+    }
+    glint_scene_free(&inputs->scene);
+    inputs->scene = pose.scene;
+    run->scene_is = pose.is;
+    run->is_prepared = pose.is_prepared;
+    run->build_ms += pose.ms;
+    return GLINT_OK;
+}
+
+glint_status render_stage_set(render_run *run, int frame, glint_error *error)
+{
+    glint_inputs *inputs = &run->inputs;
+    const glint_motion *motion = &inputs->motion;
+    const double time = render_request_time(run->request, frame);
+    glint_status status = GLINT_OK;
+    if (inputs->source == NULL || (run->stands && time == run->time)) {
+        return GLINT_OK;
+    }
+    run->stands = false;
+    if (motion->moves_triangles) {
+        status = take_pose(run, time, error);
+    } else if (motion->moves_cameras) {
+        status = glint_scene_cameras_at(inputs->source, time, &inputs->scene, error);
+    }
+    if (status == GLINT_OK) {
+        status =
+            glint_scene_camera(&inputs->scene, run->request->inputs.camera, &inputs->camera, error);
+    }
+    run->stands = status == GLINT_OK;
+    run->time = time;
+    return status;
+}
+
+glint_camera render_stage_camera(const render_run *run, int frame)
+{
+    glint_camera camera = run->inputs.camera;
+    camera.name = run->camera_name;
+    if (run->request->turntable == 0) {
+        return camera;
+    }
+    const glint_scene *scene = &run->inputs.scene;
+    glint_vec3 low, high, centre = {0, 0, 0};
+    glint_scene_shown_bounds(scene, &low, &high);
+    if (low.x <= high.x) {
+        centre = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
+    }
+    return glint_camera_orbit(&camera, centre, (int64_t)frame - 1, run->request->turntable);
+}
+
+glint_status render_stage_show(render_run *run, glint_error *error)
+{
+    if (glint_fingerprints_equal(run->scene_is, run->renderer_shows)) {
+        return GLINT_OK;
+    }
+    const glint_scene *scene = &run->inputs.scene;
+    glint_status status = run->is_prepared
+                              ? glint_renderer_set_prepared(run->renderer, scene, error)
+                              : glint_renderer_set_scene(run->renderer, scene, error);
+    run->is_prepared = false;
+    run->renderer_shows = status == GLINT_OK ? run->scene_is : (glint_fingerprint){0};
+    run->tree = glint_renderer_bvh(run->renderer)->is_refitted ? "fitted" : "built";
+    return status;
+}
+
+glint_status render_run_load(render_run *run, glint_error *error)
+{
+    const render_request *request = run->request;
+    glint_status status = glint_inputs_load(&request->inputs, &run->display, &run->inputs, error);
+    if (status == GLINT_OK) {
+        status = glint_fingerprint_scene(&run->inputs.scene, &run->scene_is, error);
+    }
+    if (status == GLINT_OK) {
+        const char *name = run->inputs.camera.name;
+        run->label.path = run->inputs.scene.path != NULL ? strdup(run->inputs.scene.path) : NULL;
+        run->camera_name = name != NULL ? strdup(name) : NULL;
+        run->stands = true; // at time 0
+    }
+    return status;
+}
+
+glint_status render_run_prepare(render_run *run, glint_error *error)
+{
+    const glint_input_request *request = &run->request->inputs;
+    run->cursor = (glint_frame_cursor){.list = &run->request->frames, .shard = run->request->shard};
+    glint_frame_cursor first = run->cursor;
+    int frame;
+    // A frame whose scene is bad is one bad frame, and next_frame says so: the renderer begins with
+    // the first that is not.
+    glint_status status = GLINT_OK;
+    while (glint_frame_next(&first, &frame)) {
+        glint_error_free(error);
+        status = render_stage_set(run, frame, error);
+        if (status == GLINT_OK || status == GLINT_DEVICE_FAILED) {
+            break;
+        }
+    }
+    if (status == GLINT_OK) {
+        status = glint_device_open(request->device, &run->device, error);
+    }
+    if (status != GLINT_OK) {
+        return status;
+    }
+    glint_progress_phase(&run->display, "prepare", "building the tree and the kernels");
+    const glint_renderer_inputs inputs = {
+        .device = run->device,
+        .scene = &run->inputs.scene,
+        .environment = &run->inputs.environment,
+        .settings = &request->settings,
+        .kernel_dir = request->kernel_dir,
+    };
+    run->renderer_shows = run->scene_is;
+    run->tree = "built";
+    return glint_renderer_create(&inputs, &run->renderer, error);
+}
+
+void render_stage_look_ahead(render_run *run)
+{
+    const render_request *request = run->request;
+    glint_frame_cursor after = run->cursor;
+    int frame;
+    if (!run->inputs.motion.moves_triangles || !glint_frame_next(&after, &frame) ||
+        render_request_time(request, frame) == run->time) {
+        return;
+    }
+    char *path = glint_frame_name_make(&request->name, frame);
+    run->ahead.source = run->inputs.source;
+    run->ahead.renderer = run->renderer;
+    run->ahead.shown = run->renderer_shows;
+    run->ahead.with_tree = !request->skip_existing || (path != NULL && access(path, F_OK) != 0);
+    render_ahead_begin(&run->ahead, render_request_time(request, frame));
+    free(path);
+}
