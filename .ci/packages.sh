@@ -12,7 +12,8 @@ packages_to_build='
 
 packages_to_test='
     libcmocka-dev oclgrind/oclgrind clang/clang clang-tidy/clang-tidy
-    clang-format/clang-format cppcheck/cppcheck shellcheck/shellcheck'
+    clang-format/clang-format cppcheck/cppcheck shellcheck/shellcheck
+    openexr/exrenvmap'
 
 packages_to_bench='
     libembree-dev

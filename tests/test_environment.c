@@ -36,7 +36,8 @@ static glint_environment load(const char *path, glint_layout layout, glint_warni
 {
     glint_environment environment;
     glint_error error = {0};
-    if (glint_environment_load(path, layout, &environment, warnings, &error) != GLINT_OK) {
+    const glint_layout_request request = {.layout = layout};
+    if (glint_environment_load(path, &request, &environment, warnings, &error) != GLINT_OK) {
         fail_msg("%s", error.message);
     }
     return environment;
@@ -46,7 +47,8 @@ static void refuse(const char *path, glint_layout layout, const char *said)
 {
     glint_environment environment;
     glint_error error = {0};
-    assert_int_equal(glint_environment_load(path, layout, &environment, NULL, &error),
+    const glint_layout_request request = {.layout = layout};
+    assert_int_equal(glint_environment_load(path, &request, &environment, NULL, &error),
                      GLINT_BAD_INPUT);
     assert_null(environment.name);
     assert_null(environment.radiance.texels);
@@ -104,27 +106,6 @@ static void openexr_cube_files_face_the_right_way(void **state)
         double once_more = 0.65 / ((EDGE - 1.0) * (EDGE - 1.0));
         assert_true(worst_error(&environment.radiance) <= seam_bound(EDGE) + once_more);
         glint_environment_free(&environment);
-    }
-}
-
-// OpenGL's table: the face is chosen by the major axis, s = (sc/|ma| + 1)/2, t = (tc/|ma| + 1)/2,
-// t = 0 being the picture's first row. Solved for the direction (rx, ry, rz).
-static glint_vec3 opengl_direction(int face, double s, double t)
-{
-    double sc = 2.0 * s - 1.0, tc = 2.0 * t - 1.0;
-    switch (face) {
-    case 0: // +rx: sc = −rz, tc = −ry
-        return (glint_vec3){1.0, -tc, -sc};
-    case 1: // −rx: sc = +rz, tc = −ry
-        return (glint_vec3){-1.0, -tc, sc};
-    case 2: // +ry: sc = +rx, tc = +rz
-        return (glint_vec3){sc, 1.0, tc};
-    case 3: // −ry: sc = +rx, tc = −rz
-        return (glint_vec3){sc, -1.0, -tc};
-    case 4: // +rz: sc = +rx, tc = −ry
-        return (glint_vec3){sc, -tc, 1.0};
-    default: // −rz: sc = −rx, tc = −ry
-        return (glint_vec3){-sc, -tc, -1.0};
     }
 }
 
@@ -243,13 +224,14 @@ static void shapes_that_say_too_little_are_refused_with_choices(void **state)
         glint_layout layout;
         const char *said;
     } shapes[] = {
-        {12, 9, GLINT_LAYOUT_UNKNOWN, "horizontal cross"},
-        {9, 12, GLINT_LAYOUT_UNKNOWN, "vertical cross"},
-        {24, 4, GLINT_LAYOUT_UNKNOWN, "strip of faces"},
-        {4, 24, GLINT_LAYOUT_UNKNOWN, "--env-layout cube"},
-        {8, 8, GLINT_LAYOUT_UNKNOWN, "mirror ball or angular"},
+        {4, 24, GLINT_LAYOUT_UNKNOWN, "--env-layout cube for the first, vstrip for the other"},
+        {8, 8, GLINT_LAYOUT_UNKNOWN, "--env-layout ball or angular"},
         {17, 8, GLINT_LAYOUT_UNKNOWN, "shape of no layout"},
-        {16, 8, GLINT_LAYOUT_CUBE, "six squares"},
+        {14, 7, GLINT_LAYOUT_CUBE, "not 1 × 6 squares"},
+        {16, 8, GLINT_LAYOUT_VSTRIP, "not 1 × 6 squares"},
+        {16, 8, GLINT_LAYOUT_HSTRIP, "not 6 × 1 squares"},
+        {16, 8, GLINT_LAYOUT_HCROSS, "not 4 × 3 squares"},
+        {12, 9, GLINT_LAYOUT_VCROSS, "not 3 × 4 squares"},
         {16, 8, GLINT_LAYOUT_FACES, "takes six"},
     };
     for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++) {
@@ -281,13 +263,14 @@ static void an_odd_latlong_is_taken_when_asked_and_warned_of(void **state)
 static void layout_names_are_known_both_ways(void **state)
 {
     (void)state;
-    static const char *const names[] = {"cube", "faces", "latlong", "studio"};
-    for (int k = 0; k < 4; k++) {
+    static const char *const names[] = {"cube",   "faces",   "hcross", "vcross",  "vstrip",
+                                        "hstrip", "latlong", "ball",   "angular", "studio"};
+    for (int k = 0; k < 10; k++) {
         glint_layout layout = glint_layout_from_name(names[k]);
         assert_int_not_equal(layout, GLINT_LAYOUT_UNKNOWN);
         assert_string_equal(glint_layout_name(layout), names[k]);
     }
-    assert_int_equal(glint_layout_from_name("hcross"), GLINT_LAYOUT_UNKNOWN);
+    assert_int_equal(glint_layout_from_name("cross"), GLINT_LAYOUT_UNKNOWN);
     assert_null(glint_layout_name(GLINT_LAYOUT_UNKNOWN));
 }
 

@@ -1,7 +1,7 @@
 // Cube and lat-long maps in memory: which way they face, seams, poles, and what resampling keeps.
 // The oracle is colour that encodes direction (support/direction_maps.h).
 #include "environment/environment.h"
-#include "environment/layouts.h"
+#include "environment/latlong.h"
 #include "support/direction_maps.h"
 
 #include <math.h>

@@ -23,8 +23,8 @@ static void list_layouts(char *text, size_t capacity)
     }
 }
 
-static glint_status parse_layout(const glint_option *option, const char *text, void *destination,
-                                 glint_error *error)
+glint_status glint_parse_layout(const glint_option *option, const char *text, void *destination,
+                                glint_error *error)
 {
     glint_layout layout = glint_layout_from_name(text);
     if (layout == GLINT_LAYOUT_UNKNOWN || layout == GLINT_LAYOUT_STUDIO) {
@@ -34,6 +34,54 @@ static glint_status parse_layout(const glint_option *option, const char *text, v
                           names);
     }
     *(glint_layout *)destination = layout;
+    return GLINT_OK;
+}
+
+glint_status glint_parse_circle(const glint_option *option, const char *text, void *destination,
+                                glint_error *error)
+{
+    double *circle = destination;
+    char rest;
+    if (sscanf(text, "%lf,%lf,%lf%c", &circle[0], &circle[1], &circle[2], &rest) == 3 &&
+        isfinite(circle[0]) && isfinite(circle[1]) && circle[2] > 0 && isfinite(circle[2])) {
+        return GLINT_OK;
+    }
+    return glint_fail(error, GLINT_USAGE,
+                      "--%s %s: x,y,r in pixels is expected, with a radius above 0", option->name,
+                      text);
+}
+
+glint_status glint_parse_distance(const glint_option *option, const char *text, void *destination,
+                                  glint_error *error)
+{
+    double distance;
+    if (glint_parse_real(text, &distance) && distance > 1 && distance <= 1e9) {
+        *(double *)destination = distance;
+        return GLINT_OK;
+    }
+    return glint_fail(error, GLINT_USAGE,
+                      "--%s %s: radii from the ball's centre are expected, above 1 and to 1e9",
+                      option->name, text);
+}
+
+glint_status glint_layout_request_check(const glint_layout_request *request, glint_error *error)
+{
+    const bool is_ball = request->layout == GLINT_LAYOUT_BALL;
+    if (request->circle[2] > 0 && !is_ball && request->layout != GLINT_LAYOUT_ANGULAR) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--ball-circle: it says where a disc lies (with --env-layout ball or "
+                          "angular)");
+    }
+    if ((request->ball_distance > 0 || request->ball_fov > 0) && !is_ball) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--ball-%s: it says how a ball was seen (with --env-layout ball)",
+                          request->ball_fov > 0 ? "fov" : "distance");
+    }
+    if (request->ball_distance > 0 && request->ball_fov > 0) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--ball-fov: the distance that follows from it is given by "
+                          "--ball-distance (give one)");
+    }
     return GLINT_OK;
 }
 
@@ -123,10 +171,7 @@ const glint_option glint_input_options[] = {
      .help = "The environment: an image (exr, hdr, png, tiff, dds, jpeg), a folder that holds six "
              "faces, or a pattern with %s in the place of the face's name.",
      .fallback = "a built-in studio", .offset = OFFSET(env)},
-    {GLINT_OPTION_CUSTOM, .name = "env-layout", .argument = "NAME",
-     .help = "How the environment's file holds directions, where that cannot be told: cube, faces "
-             "or latlong.",
-     .fallback = "recognised", .offset = OFFSET(env_layout), .parse = parse_layout},
+    GLINT_ENV_AS_OPTIONS(OFFSET(env_as)),
     {GLINT_OPTION_REAL, .name = "env-rotate", .argument = "DEG",
      .help = "Turn the environment about +Y by degrees, counter-clockwise seen from above.",
      .fallback = "0", .offset = OFFSET(settings.env_rotate), .minimum = -1e6, .maximum = 1e6},
@@ -207,9 +252,13 @@ void glint_input_request_default(glint_input_request *request)
 
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error)
 {
-    if (request->env_layout != GLINT_LAYOUT_UNKNOWN && request->env == NULL) {
+    if (request->env_as.layout != GLINT_LAYOUT_UNKNOWN && request->env == NULL) {
         return glint_fail(error, GLINT_USAGE,
                           "--env-layout: it says how a file is read, but no --env is given");
+    }
+    glint_status status = glint_layout_request_check(&request->env_as, error);
+    if (status != GLINT_OK) {
+        return status;
     }
     struct stat facts;
     if (request->kernel_dir != NULL &&
@@ -255,7 +304,7 @@ static glint_status load_environment(const glint_input_request *request, glint_i
     if (request->env == NULL) {
         return glint_environment_studio(&inputs->environment, error);
     }
-    return glint_environment_load(request->env, request->env_layout, &inputs->environment,
+    return glint_environment_load(request->env, &request->env_as, &inputs->environment,
                                   &inputs->warnings, error);
 }
 

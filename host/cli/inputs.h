@@ -19,7 +19,7 @@ typedef struct glint_input_request {
     const char *camera;
     const char *animation;
     const char *env;
-    glint_layout env_layout;
+    glint_layout_request env_as;
     const char *device;
     const char *kernel_dir; // NULL: the embedded kernels
     int size[2];
@@ -36,6 +36,47 @@ extern const glint_option glint_input_options[];
 extern const glint_option glint_size_options[];
 extern const glint_option glint_settings_options[];
 extern const glint_option glint_kernel_dir_options[];
+
+// Rows that say how an environment's file is read, for a request with a glint_layout_request at
+// `member`; glint_layout_request_check looks at them together.
+glint_option_parser glint_parse_layout, glint_parse_circle, glint_parse_distance;
+
+#define GLINT_ENV_AS_OPTIONS(member)                                                               \
+    {GLINT_OPTION_CUSTOM,                                                                          \
+     .name = "env-layout",                                                                         \
+     .argument = "NAME",                                                                           \
+     .help = "How the environment's file holds directions, where that cannot be told: cube "       \
+             "(OpenEXR's strip), faces, hcross, vcross, vstrip, hstrip, latlong, ball (a mirror "  \
+             "ball's picture) or angular (a light probe's).",                                      \
+     .fallback = "recognised",                                                                     \
+     .offset = (member) + offsetof(glint_layout_request, layout),                                  \
+     .parse = glint_parse_layout},                                                                 \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "ball-circle",                                                                    \
+         .argument = "X,Y,R",                                                                      \
+         .help = "Where a ball or an angular map lies in its picture: the centre, from the top "   \
+                 "left, and the radius, in pixels.",                                               \
+         .fallback = "the circle that fills the picture's middle",                                 \
+         .offset = (member) + offsetof(glint_layout_request, circle),                              \
+         .parse = glint_parse_circle},                                                             \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "ball-distance",                                                                  \
+         .argument = "RADII",                                                                      \
+         .help = "How far the camera stood from the ball's centre, in radii of the ball.",         \
+         .fallback = "far away: all of its rays are parallel",                                     \
+         .offset = (member) + offsetof(glint_layout_request, ball_distance),                       \
+         .parse = glint_parse_distance},                                                           \
+    {                                                                                              \
+        GLINT_OPTION_REAL,                                                                         \
+            .name = "ball-fov", .argument = "DEG",                                                 \
+            .help = "The camera's vertical angle of view, of the whole picture, in place of the "  \
+                    "distance, which follows from it and the circle.",                             \
+            .offset = (member) + offsetof(glint_layout_request, ball_fov), .minimum = 0.01,        \
+            .maximum = 179                                                                         \
+    }
+
+// GLINT_USAGE where a ball is described and the layout is none, or twice.
+glint_status glint_layout_request_check(const glint_layout_request *request, glint_error *error);
 
 // The heading and the row of glint_size_options, for a command with a size of its own as default.
 #define GLINT_SIZE_OPTIONS(default_size)                                                           \

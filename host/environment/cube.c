@@ -54,6 +54,15 @@ float *glint_cube_texel(const glint_cube *cube, int face, int i, int j)
     return cube->texels + ((face * pitch + row) * pitch + column) * 4;
 }
 
+void glint_cube_store(const glint_cube *cube, int face, int i, int j, const double rgb[3])
+{
+    float *texel = glint_cube_texel(cube, face, i, j);
+    for (int c = 0; c < 3; c++) {
+        texel[c] = (float)rgb[c];
+    }
+    texel[3] = 1.0f;
+}
+
 glint_vec3 glint_cube_direction(int face, double s, double t)
 {
     double d[3] = {0.0, 0.0, 0.0};
@@ -63,9 +72,7 @@ glint_vec3 glint_cube_direction(int face, double s, double t)
     return (glint_vec3){d[0], d[1], d[2]};
 }
 
-// The face that a direction meets and the point (s, t) there. On a tie of the largest components
-// the order x, y, z decides, as in ImfEnvmap.h and cubemap.cl.
-static int find_point(glint_vec3 direction, double *s, double *t)
+int glint_cube_place(glint_vec3 direction, double *s, double *t)
 {
     double d[3] = {direction.x, direction.y, direction.z};
     double x = fabs(d[0]), y = fabs(d[1]), z = fabs(d[2]);
@@ -91,7 +98,7 @@ static const float *texel_across(const glint_cube *cube, int face, int i, int j)
 {
     double n = cube->edge, s, t;
     glint_vec3 d = glint_cube_direction(face, (2.0 * i + 1.0) / n - 1.0, (2.0 * j + 1.0) / n - 1.0);
-    int neighbour = find_point(d, &s, &t);
+    int neighbour = glint_cube_place(d, &s, &t);
     int column = clamp_index((s + 1.0) * 0.5 * n, cube->edge - 1);
     int row = clamp_index((t + 1.0) * 0.5 * n, cube->edge - 1);
     return glint_cube_texel(cube, neighbour, column, row);
@@ -169,7 +176,7 @@ void glint_cube_fill_border(glint_cube *cube)
 void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[3])
 {
     double s, t, n = cube->edge;
-    int face = find_point(direction, &s, &t);
+    int face = glint_cube_place(direction, &s, &t);
     // In texels from the centre of the border's first; the last cell begins at column n.
     double column = (s + 1.0) * 0.5 * n + 0.5, row = (t + 1.0) * 0.5 * n + 0.5;
     int i = clamp_index(column, cube->edge), j = clamp_index(row, cube->edge);

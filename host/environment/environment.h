@@ -30,11 +30,18 @@ size_t glint_cube_size(const glint_cube *cube);
 // The texel of `face` at column i and row j, each in [−1, edge].
 float *glint_cube_texel(const glint_cube *cube, int face, int i, int j);
 
+// Sets that texel.
+void glint_cube_store(const glint_cube *cube, int face, int i, int j, const double rgb[3]);
+
 // Fills the border from the neighbours' texels; called once the inside is complete.
 void glint_cube_fill_border(glint_cube *cube);
 
 // The direction (not normalised) of the point (s, t) on a face, see kernels/layout.h.
 glint_vec3 glint_cube_direction(int face, double s, double t);
+
+// The face that a direction meets, and the point (s, t) there. On a tie of the largest components
+// the order x, y, z decides, as in ImfEnvmap.h and cubemap.cl.
+int glint_cube_place(glint_vec3 direction, double *s, double *t);
 
 // Bilinear look-up along a direction of any length but zero.
 void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[3]);
@@ -44,8 +51,14 @@ typedef enum glint_layout {
     GLINT_LAYOUT_UNKNOWN, // as an argument: to be recognised
     GLINT_LAYOUT_CUBE,    // OpenEXR's 1 × 6 strip
     GLINT_LAYOUT_FACES,   // six files
+    GLINT_LAYOUT_HCROSS,  // 4 × 3 faces
+    GLINT_LAYOUT_VCROSS,  // 3 × 4
+    GLINT_LAYOUT_VSTRIP,  // 1 × 6, in OpenGL's and Direct3D's order
+    GLINT_LAYOUT_HSTRIP,  // 6 × 1, likewise
     GLINT_LAYOUT_LATLONG,
-    GLINT_LAYOUT_STUDIO, // built in, no file
+    GLINT_LAYOUT_BALL,    // a mirror ball's picture
+    GLINT_LAYOUT_ANGULAR, // a disc: the angle from its middle is the distance from there
+    GLINT_LAYOUT_STUDIO,  // built in, no file
 } glint_layout;
 
 // The name on the command line ("latlong"); NULL for UNKNOWN.
@@ -53,6 +66,16 @@ const char *glint_layout_name(glint_layout layout);
 
 // UNKNOWN for a name that is none.
 glint_layout glint_layout_from_name(const char *name);
+
+// What is known of a file beside its content. Zero is valid: nothing.
+typedef struct glint_layout_request {
+    glint_layout layout;  // UNKNOWN: to be recognised
+    double circle[3];     // BALL, ANGULAR: the disc's centre and radius in pixels, (0, 0) the top
+                          // left corner; radius 0: the circle that fills the picture's middle
+    double ball_distance; // BALL: see glint_chart; 0: far away, or as ball_fov has it
+    double ball_fov;      // BALL: the camera's vertical angle of view in degrees, under 180, of the
+                          // whole picture, which tells the distance; 0: not known
+} glint_layout_request;
 
 typedef struct glint_environment {
     char *name;          // the file as given, or "studio"
@@ -64,15 +87,17 @@ typedef struct glint_environment {
 } glint_environment;
 
 // Reads `path`: a file, a folder that holds six faces, or a pattern with one %s for the face's
-// name. `layout` UNKNOWN: recognised from the envmap attribute, the name pattern and the shape; an
-// ambiguous shape is refused with the choices named. Errors: GLINT_BAD_INPUT.
-glint_status glint_environment_load(const char *path, glint_layout layout,
+// name. The layout, where `request` does not say, is recognised from the envmap attribute, the name
+// pattern and the shape; an ambiguous shape is refused with the choices named. `request` may be
+// NULL. Errors: GLINT_BAD_INPUT.
+glint_status glint_environment_load(const char *path, const glint_layout_request *request,
                                     glint_environment *environment, glint_warnings *warnings,
                                     glint_error *error);
 
 // The same from an image in memory, called `name` in messages: a single file's content. Values that
 // are no radiance are mended in it. Errors: GLINT_BAD_INPUT.
-glint_status glint_environment_from_image(const char *name, glint_image *image, glint_layout layout,
+glint_status glint_environment_from_image(const char *name, glint_image *image,
+                                          const glint_layout_request *request,
                                           glint_environment *environment, glint_warnings *warnings,
                                           glint_error *error);
 

@@ -33,6 +33,16 @@ static inline float *glint_image_pixel(const glint_image *image, int x, int y)
     return image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
 }
 
+// The colour of pixel (x, y), grey repeated.
+static inline void glint_image_rgb(const glint_image *image, int x, int y, double rgb[3])
+{
+    const float *pixel = glint_image_pixel(image, x, y);
+    const int step = image->channels >= 3;
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = (double)pixel[c * step];
+    }
+}
+
 static inline bool glint_image_has_alpha(const glint_image *image)
 {
     return image->channels == 2 || image->channels == 4;

@@ -241,8 +241,8 @@ static glint_status latlong_environment(trial *t, glint_environment *environment
         }
     }
     if (status == GLINT_OK) {
-        status = glint_environment_from_image("a lat-long map", &image, GLINT_LAYOUT_LATLONG,
-                                              environment, NULL, t->error);
+        status = glint_environment_from_image("a lat-long map", &image, NULL, environment, NULL,
+                                              t->error);
     }
     glint_image_free(&image);
     return status;
@@ -313,9 +313,10 @@ static glint_status strip_environment(trial *t, bool spoilt, glint_environment *
             glint_image_pixel(&image, bad_texels[b].column, row)[k] = bad_texels[b].value;
         }
     }
+    const glint_layout_request strip = {.layout = GLINT_LAYOUT_CUBE};
     if (status == GLINT_OK) {
-        status = glint_environment_from_image("a strip", &image, GLINT_LAYOUT_CUBE, environment,
-                                              NULL, t->error);
+        status =
+            glint_environment_from_image("a strip", &image, &strip, environment, NULL, t->error);
     }
     glint_image_free(&image);
     glint_environment_free(&linear);

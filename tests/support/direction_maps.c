@@ -132,3 +132,24 @@ double latlong_bound(int height, bool on_edges)
     double h = GLINT_PI / (on_edges ? height - 1 : height);
     return 0.125 * h * h + 1e-7;
 }
+
+// OpenGL's table: the face is chosen by the major axis, s = (sc/|ma| + 1)/2, t = (tc/|ma| + 1)/2,
+// t = 0 being the picture's first row. Solved for the direction (rx, ry, rz).
+glint_vec3 opengl_direction(int face, double s, double t)
+{
+    double sc = 2.0 * s - 1.0, tc = 2.0 * t - 1.0;
+    switch (face) {
+    case 0: // +rx: sc = −rz, tc = −ry
+        return (glint_vec3){1.0, -tc, -sc};
+    case 1: // −rx: sc = +rz, tc = −ry
+        return (glint_vec3){-1.0, -tc, sc};
+    case 2: // +ry: sc = +rx, tc = +rz
+        return (glint_vec3){sc, 1.0, tc};
+    case 3: // −ry: sc = +rx, tc = −rz
+        return (glint_vec3){sc, -1.0, -tc};
+    case 4: // +rz: sc = +rx, tc = −ry
+        return (glint_vec3){sc, -tc, 1.0};
+    default: // −rz: sc = −rx, tc = −ry
+        return (glint_vec3){-sc, -tc, -1.0};
+    }
+}

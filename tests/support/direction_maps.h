@@ -36,6 +36,11 @@ double latlong_bound(int height, bool on_edges);
 glint_vec3 openexr_cube_direction(int face, double column, double row);
 glint_vec3 latlong_direction(double u, double v);
 
+// OpenGL's table (its specification, "Cube Map Texture Selection"), posx negx posy negy posz negz:
+// the vector (rx, ry, rz) that a place in [0, 1] of a face is looked up with, t = 0 its first row.
+// The world's direction is (rx, ry, −rz).
+glint_vec3 opengl_direction(int face, double s, double t);
+
 // A lat-long map of directions, 2 height × height.
 glint_image direction_latlong(int height, bool on_edges);
 

@@ -1,0 +1,39 @@
+// An environment's picture as its files hold it, before it becomes a cube map.
+#ifndef GLINT_ENVIRONMENT_SOURCE_H
+#define GLINT_ENVIRONMENT_SOURCE_H
+
+#include "base/status.h"
+#include "environment/chart.h"
+#include "environment/environment.h"
+#include "image/image.h"
+#include "image/image_io.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Zero is valid: no picture.
+typedef struct glint_source {
+    glint_image image; // radiance; six files are one picture, of the layout FACES
+    glint_chart chart;
+    const char *reason;   // how the layout was known; static text
+    size_t mended_texels; // NaN, infinite or negative ones, replaced (see source.c)
+} glint_source;
+
+// As glint_environment_load, which makes a cube map of it.
+glint_status glint_source_load(const char *path, const glint_layout_request *request,
+                               glint_source *source, glint_warnings *warnings, glint_error *error);
+
+// The same from an image in memory, called `name` in messages: a single file's content, which is
+// taken over (and freed on failure, too).
+glint_status glint_source_take(const char *name, glint_image *image, const glint_image_facts *facts,
+                               const glint_layout_request *request, glint_source *source,
+                               glint_warnings *warnings, glint_error *error);
+
+void glint_source_free(glint_source *source);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
