@@ -170,6 +170,29 @@ check 'a ball: its distance from the angle of view' within 0.002 out/near.exr ou
 check 'a ball: near is not far' test "$(within 0.2 out/near.exr in/axes.exr >/dev/null; echo $?)" -eq 7
 clean
 
+# ---- a rendered ball ----------------------------------------------------------------------------
+
+# A mirror sphere that an orthographic camera sees is the disk map; one seen by a camera 5 radii away
+# is the map of that distance.
+sed 's/0\.972,/1,/; s/0\.96,/1,/; s/0\.915,/1,/' in/mirror_sphere.gltf >in/mirror.gltf
+sed 's/"type": "perspective"/"type": "orthographic"/; s/"perspective": {/"orthographic": {/
+    s/"aspectRatio": [0-9.]*/"xmag": 1, "ymag": 1/; s/"yfov": [0-9.]*/"zfar": 100/' in/mirror.gltf >in/flat.gltf
+ball=(--size 256x256 --samples 16 --fresnel none --background transparent --env in/axes.exr)
+run render in/flat.gltf "${ball[@]}" -o out/flat.exr
+run env in/axes.exr out/disk.exr --to ball --size 256
+check 'a sphere seen from far away is the disk map' within 0.1 out/flat.exr out/disk.exr
+run env out/flat.exr out/back.exr --env-layout ball --to latlong --size 256
+check 'and the environment can be had back from it' within 0.16 out/back.exr in/axes.exr
+run render in/mirror.gltf "${ball[@]}" -o out/near.exr
+# asin(1/5) of 30 degrees: tan 11.537 / tan 15 of half the picture.
+for how in '--ball-distance 5' '--ball-fov 30'; do
+    # shellcheck disable=SC2086 # two words
+    run env out/near.exr out/back.exr --env-layout ball --ball-circle 128,128,97.51 $how \
+        --to latlong --size 256
+    check "likewise from a sphere nearby: $how" within 0.2 out/back.exr in/axes.exr
+done
+clean
+
 # ---- OpenEXR's own tool -------------------------------------------------------------------------
 
 if command -v exrenvmap >/dev/null; then
