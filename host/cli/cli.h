@@ -14,6 +14,7 @@ extern const glint_command glint_command_bench;
 extern const glint_command glint_command_compare;
 extern const glint_command glint_command_contact;
 extern const glint_command glint_command_env;
+extern const glint_command glint_command_capture;
 extern const glint_command glint_command_farm;
 extern const glint_command glint_command_selftest;
 
