@@ -364,6 +364,29 @@ static void shrinking_takes_means(void **state)
     }
 }
 
+// One bright pixel of a map that is made very small: its light is neither lost nor more than it
+// was.
+static void a_sun_keeps_its_light(void **state)
+{
+    (void)state;
+    glint_chart source, target;
+    glint_image image, found;
+    glint_sampler sampler;
+    assert_int_equal(glint_chart_make(GLINT_LAYOUT_LATLONG, 1024, false, &source, NULL), GLINT_OK);
+    assert_int_equal(glint_chart_make(GLINT_LAYOUT_LATLONG, 4, false, &target, NULL), GLINT_OK);
+    assert_int_equal(glint_image_create(source.width, source.height, 3, &image, NULL), GLINT_OK);
+    glint_image_pixel(&image, 1000, 600)[1] = 65536; // 256² pixels become one
+    assert_int_equal(glint_sampler_of_image(&image, &source, &sampler, NULL), GLINT_OK);
+    assert_int_equal(glint_resample(&sampler, &glint_turn_none, &target, &found, NULL), GLINT_OK);
+    for (int p = 0; p < 8 * 4; p++) {
+        const float wanted = p == 2 * 8 + 3 ? 1.0f : 0.0f;
+        assert_float_equal(found.pixels[3 * p + 1], wanted, 0.01f);
+    }
+    glint_sampler_free(&sampler);
+    glint_image_free(&image);
+    glint_image_free(&found);
+}
+
 // ---- Discs --------------------------------------------------------------------------------------
 
 // The lecture's map, (s, t) = (x, y)/√(x² + y² + (z + 1)²), in long double; the form that is used
@@ -505,6 +528,7 @@ int main(void)
         cmocka_unit_test(every_pair_of_layouts_faces_the_same_way),
         cmocka_unit_test(a_layout_to_itself_is_the_same_picture),
         cmocka_unit_test(shrinking_takes_means),
+        cmocka_unit_test(a_sun_keeps_its_light),
         cmocka_unit_test(the_ball_is_the_lectures_disk),
         cmocka_unit_test(discs_are_inverted),
         cmocka_unit_test(turns_and_mirrors_are_what_they_say),

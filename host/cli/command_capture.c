@@ -70,7 +70,8 @@ typedef struct capture {
     glint_device *device;
     glint_renderer *renderer;
     glint_cube cube;
-    int face; // that is rendered
+    int face;                  // that is rendered
+    uint64_t nonfinite_pixels; // of all
 } capture;
 
 // ---- The scene ----------------------------------------------------------------------------------
@@ -133,9 +134,11 @@ static glint_status render_face(capture *work, int face, glint_error *error)
     const glint_camera camera = face_camera(face, work->at);
     const glint_progress progress = {step, work};
     glint_image image = {0};
+    glint_frame_report report;
     work->face = face;
     glint_status status =
-        glint_renderer_frame(work->renderer, &camera, &progress, &image, NULL, error);
+        glint_renderer_frame(work->renderer, &camera, &progress, &image, &report, error);
+    work->nonfinite_pixels += report.nonfinite_pixels;
     for (int k = 0; status == GLINT_OK && k < image.width * image.height; k++) {
         double rgb[3];
         glint_image_rgb(&image, k % image.width, k / image.width, rgb);
@@ -229,6 +232,21 @@ static glint_status settle(capture_request *request, const char *path, glint_err
     return status;
 }
 
+static void say_done(const capture *work, const char *path, double ms)
+{
+    const glint_chart *to = &work->output.chart;
+    if (work->nonfinite_pixels > 0) {
+        glint_say("warning: %llu pixels are not finite",
+                  (unsigned long long)work->nonfinite_pixels);
+    }
+    if (work->display.mode != GLINT_PROGRESS_NONE && work->display.mode != GLINT_PROGRESS_JSON) {
+        glint_say("%s: %s %dx%d, six views from (%g, %g, %g), %.0f ms", path,
+                  glint_layout_name(to->layout), to->width,
+                  work->output.as_faces ? to->width : to->height, work->at.x, work->at.y,
+                  work->at.z, ms);
+    }
+}
+
 static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
     capture_request *request = context;
@@ -247,8 +265,9 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     if (status == GLINT_OK) {
         status = prepare(&work, error);
     }
-    glint_say_warnings(&work.inputs.warnings, 0);
+    glint_progress_clear(&work.display);
     if (status == GLINT_OK) {
+        glint_say_warnings(&work.inputs.warnings, 0);
         status = render_faces(&work, error);
     }
     if (status == GLINT_OK) {
@@ -256,11 +275,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
         status = env_output_write(&work.output, &sampler, &glint_turn_none, error);
     }
     if (status == GLINT_OK) {
-        const glint_chart *to = &work.output.chart;
-        glint_say("%s: %s %dx%d, six views from (%g, %g, %g), %.0f ms", path,
-                  glint_layout_name(to->layout), to->width,
-                  work.output.as_faces ? to->width : to->height, work.at.x, work.at.y, work.at.z,
-                  glint_now_ms() - begun);
+        say_done(&work, path, glint_now_ms() - begun);
     }
     glint_cube_free(&work.cube);
     glint_renderer_free(work.renderer);

@@ -6,11 +6,14 @@
 #include "cli/file_names.h"
 #include "cli/inputs.h"
 #include "environment/axes.h"
+#include "environment/face_files.h"
 #include "environment/sampler.h"
 #include "environment/source.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define AXES_EDGE 512 // of --probe, where no size is given
 
@@ -94,16 +97,42 @@ static glint_status load(conversion *work, glint_error *error)
 
 // ---- The request --------------------------------------------------------------------------------
 
+// Whether one of the six files that would be written is what is read: the input, or one of its six.
+static bool is_read_too(const conversion *work)
+{
+    glint_face_files read = {0};
+    struct stat facts;
+    if (stat(work->input, &facts) == 0 && S_ISDIR(facts.st_mode)) {
+        glint_face_files_in_folder(work->input, &read, NULL);
+    } else if (env_output_is_set(work->input)) {
+        glint_face_files_by_pattern(work->input, &read, NULL);
+    }
+    bool is_found = false;
+    for (int k = 0; k < 6; k++) {
+        char *path = env_output_face_path(work->path, k);
+        is_found = is_found || glint_same_file(path, work->input);
+        for (int face = 0; face < 6; face++) {
+            is_found = is_found || glint_same_file(path, read.paths[face]);
+        }
+        free(path);
+    }
+    glint_face_files_free(&read);
+    return is_found;
+}
+
 static glint_status open_output(conversion *work, glint_error *error)
 {
-    if (work->input != NULL && glint_same_file(work->input, work->path)) {
+    const bool is_set = work->input != NULL && env_output_is_set(work->input);
+    glint_status status =
+        env_output_open(&work->request->output, work->path,
+                        is_set ? GLINT_LAYOUT_FACES : GLINT_LAYOUT_UNKNOWN, &work->output, error);
+    if (status == GLINT_OK && work->input != NULL &&
+        (glint_same_file(work->input, work->path) ||
+         (work->output.as_faces && is_read_too(work)))) {
         return glint_fail(error, GLINT_USAGE, "%s: this is the input (name another file)",
                           work->path);
     }
-    const bool is_set = work->input != NULL && env_output_is_set(work->input);
-    return env_output_open(&work->request->output, work->path,
-                           is_set ? GLINT_LAYOUT_FACES : GLINT_LAYOUT_UNKNOWN, &work->output,
-                           error);
+    return status;
 }
 
 static glint_status take_names(const glint_arguments *arguments, conversion *work,
@@ -151,8 +180,8 @@ static glint_status convert(conversion *work, glint_error *error)
         const glint_turn turn = glint_turn_of(work->request->rotate, work->request->flip);
         status = env_output_write(&work->output, &work->sampler, &turn, error);
     }
-    glint_say_warnings(&work->warnings, 0);
     if (status == GLINT_OK) {
+        glint_say_warnings(&work->warnings, 0);
         say_done(work, glint_now_ms() - begun);
     }
     return status;

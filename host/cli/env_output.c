@@ -21,8 +21,7 @@ bool env_output_is_set(const char *path)
     return stat(path, &facts) == 0 ? S_ISDIR(facts.st_mode) : strstr(path, "%s") != NULL;
 }
 
-// posx.exr in a folder, or by a pattern.
-static char *face_path(const char *output, int k)
+char *env_output_face_path(const char *output, int k)
 {
     static const char *const names[6] = {"posx", "negx", "posy", "negy", "posz", "negz"};
     const char *gap = strstr(output, "%s");
@@ -36,26 +35,63 @@ static char *face_path(const char *output, int k)
     return path;
 }
 
+static glint_status refuse_folder(const char *folder, int cause, glint_error *error)
+{
+    return glint_fail(error, GLINT_OUTPUT_FAILED,
+                      "%s: no folder could be made there: %s (name another)", folder,
+                      strerror(cause));
+}
+
 static glint_status make_folder(const char *folder, glint_error *error)
 {
     struct stat facts;
     if (mkdir(folder, 0777) == 0 || (stat(folder, &facts) == 0 && S_ISDIR(facts.st_mode))) {
         return GLINT_OK;
     }
-    return glint_fail(error, GLINT_OUTPUT_FAILED,
-                      "%s: no folder could be made there: %s (name another)", folder,
-                      strerror(errno));
+    return refuse_folder(folder, errno, error);
+}
+
+// Whether a folder could be made there: where a file could be put. It is made when there is
+// something to put into it.
+static glint_status check_new_folder(const char *folder, glint_error *error)
+{
+    struct stat facts;
+    if (stat(folder, &facts) == 0) {
+        return refuse_folder(folder, ENOTDIR, error);
+    }
+    char *name = strdup(folder);
+    if (name == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    for (size_t end = strlen(name); end > 1 && name[end - 1] == '/'; end--) {
+        name[end - 1] = '\0';
+    }
+    glint_status status = glint_output_file_check(name, error);
+    free(name);
+    return status;
 }
 
 static glint_status check_faces(const char *output, const glint_write_options *options,
                                 glint_error *error)
 {
-    glint_status status = strstr(output, "%s") == NULL ? make_folder(output, error) : GLINT_OK;
+    const bool is_there = env_output_is_set(output);
+    const char *gap = strstr(output, "%s");
+    if (gap != NULL && strstr(gap + 2, "%s") != NULL) {
+        return glint_fail(error, GLINT_USAGE, "%s: a pattern holds %%s once, for the face's name",
+                          output);
+    }
+    if (!is_there && glint_image_can_write(output)) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: one file's name, where six are written (name a folder or a pattern "
+                          "with %%s, or another layout: --to)",
+                          output);
+    }
+    glint_status status = is_there ? GLINT_OK : check_new_folder(output, error);
     for (int k = 0; status == GLINT_OK && k < 6; k++) {
-        char *path = face_path(output, k);
+        char *path = env_output_face_path(output, k);
         status = path == NULL ? glint_fail_memory(error, "a file name")
                               : glint_image_check_output(path, options, error);
-        if (status == GLINT_OK) {
+        if (status == GLINT_OK && is_there) {
             status = glint_output_file_check(path, error);
         }
         free(path);
@@ -149,10 +185,11 @@ static glint_status write_faces(const env_output *output, const glint_image *str
                                 glint_error *error)
 {
     const glint_write_options options = write_options(output, strip);
-    glint_status status = GLINT_OK;
+    glint_status status =
+        strstr(output->path, "%s") == NULL ? make_folder(output->path, error) : GLINT_OK;
     for (int k = 0; status == GLINT_OK && k < 6; k++) {
         glint_image face = {0};
-        char *path = face_path(output->path, k);
+        char *path = env_output_face_path(output->path, k);
         status = path != NULL ? cut_face(strip, k, &face, error)
                               : glint_fail_memory(error, "a file name");
         if (status == GLINT_OK) {

@@ -62,7 +62,11 @@ typedef struct env_output {
 // True for a folder, or a pattern of files that are there or are to be.
 bool env_output_is_set(const char *path);
 
-// Looks at where it goes before any work is done, and makes the folder of six files. `source` is
+// The path of the k-th of six faces, in the order of their names: posx.exr in a folder, or by a
+// pattern. malloc'd; NULL without memory.
+char *env_output_face_path(const char *output, int k);
+
+// Looks at where it goes, before any work is done; nothing is made yet. `source` is
 // the layout that is written where none is asked for; FACES of six files, UNKNOWN where it is not
 // known yet. Errors: GLINT_USAGE, GLINT_OUTPUT_FAILED.
 glint_status env_output_open(const env_output_request *request, const char *path,

@@ -37,6 +37,9 @@ static void *look_ahead(void *context)
 
 void render_ahead_begin(render_ahead *ahead, double time)
 {
+    if (ahead->is_under_way) {
+        return;
+    }
     ahead->pose = (render_pose){.time = time};
     ahead->is_under_way = pthread_create(&ahead->thread, NULL, look_ahead, ahead) == 0;
 }

@@ -37,8 +37,9 @@ typedef struct render_ahead {
 } render_ahead;
 
 // Begins on the scene at a time: loads it and, with ahead->with_tree, prepares the renderer for it,
-// unless that shows the same. Source and renderer must be set; they stay borrowed until
-// render_ahead_take, and until then the renderer is given no other scene.
+// unless that shows the same; does nothing while another is under way. Source and renderer must be
+// set; they stay borrowed until render_ahead_take, and until then the renderer is given no other
+// scene.
 void render_ahead_begin(render_ahead *ahead, double time);
 
 // Waits, and hands over what was loaded; whatever the outcome nothing is under way any more. False,

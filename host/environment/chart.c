@@ -25,7 +25,9 @@
 #include <math.h>
 #include <stddef.h>
 
-#define SIZE_MAX_PIXELS 65536 // of a side
+// As large as can be read again: 2^28 pixels.
+#define LATLONG_HEIGHT_MAX 11585
+#define DISC_SIZE_MAX 16384
 #define QUARTER (GLINT_PI / 2)
 
 // ---- Faces --------------------------------------------------------------------------------------
@@ -247,14 +249,19 @@ static bool is_disc(glint_layout layout)
     return layout == GLINT_LAYOUT_BALL || layout == GLINT_LAYOUT_ANGULAR;
 }
 
+static int largest_size(glint_layout layout)
+{
+    return is_disc(layout)                  ? DISC_SIZE_MAX
+           : layout == GLINT_LAYOUT_LATLONG ? LATLONG_HEIGHT_MAX
+                                            : GLINT_FACE_EDGE_MAX;
+}
+
 glint_status glint_chart_make(glint_layout layout, int size, bool on_edges, glint_chart *chart,
                               glint_error *error)
 {
     int across = 1, down = 1;
     const bool has_faces = glint_layout_cells(layout, &across, &down) != NULL;
-    const int side = across > down ? across : down;
-    const int least = on_edges ? 2 : 1;
-    const int most = SIZE_MAX_PIXELS / (has_faces ? side : 2);
+    const int least = on_edges ? 2 : 1, most = largest_size(layout);
     if (size < least || size > most) {
         return glint_fail(error, GLINT_USAGE, "--size %d: %d to %d for the layout %s", size, least,
                           most, glint_layout_name(layout));
@@ -323,5 +330,5 @@ int glint_chart_size_for(glint_layout layout, double quarter_turn)
     const double pixels = is_disc(layout) ? 2.0 * quarter_turn / disc_radius(&one, QUARTER)
                           : layout == GLINT_LAYOUT_LATLONG ? 2.0 * quarter_turn
                                                            : quarter_turn;
-    return (int)fmin(fmax(1.0, round(pixels)), SIZE_MAX_PIXELS);
+    return (int)fmin(fmax(1.0, round(pixels)), largest_size(layout));
 }

@@ -12,6 +12,8 @@
 extern "C" {
 #endif
 
+#define GLINT_FACE_EDGE_MAX 4096 // pixels; the cube then takes 1.6 GB
+
 // A picture of a size, and how it holds directions. Places are in pixels, (0, 0) the picture's top
 // left corner; pixel (i, j) has its centre at (i + ½, j + ½).
 typedef struct glint_chart {
@@ -56,7 +58,8 @@ double glint_chart_pixels(const glint_chart *chart, glint_vec3 direction, glint_
 // horizon, across a face, from a disc's centre. What makes charts of different layouts comparable.
 double glint_chart_quarter_turn(const glint_chart *chart);
 
-// The size, as of glint_chart_make, whose quarter turn takes so many pixels.
+// The size, as of glint_chart_make, whose quarter turn takes so many pixels; the largest there is
+// where that would be too large.
 int glint_chart_size_for(glint_layout layout, double quarter_turn);
 
 #ifdef __cplusplus

@@ -83,7 +83,7 @@ typedef struct glint_environment {
     const char *reason;  // how that was known: "envmap attribute", "shape 2:1", …; static text
     int source_width, source_height;
     glint_cube radiance;
-    size_t mended_texels; // NaN, infinite or negative ones, replaced (see environment.c)
+    size_t mended_texels; // NaN, infinite or negative ones, replaced (see source.c)
 } glint_environment;
 
 // Reads `path`: a file, a folder that holds six faces, or a pattern with one %s for the face's

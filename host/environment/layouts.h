@@ -12,8 +12,6 @@
 extern "C" {
 #endif
 
-#define GLINT_FACE_EDGE_MAX 4096 // pixels; the cube then takes 1.6 GB
-
 // What a single file is.
 typedef struct glint_recognised {
     glint_chart chart;

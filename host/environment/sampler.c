@@ -15,8 +15,10 @@
 #include <math.h>
 #include <string.h>
 
-// A cap, along each axis of a pixel, for the few at poles and rims.
-#define TAPS_MAX 64
+// Of a pixel, along both axes: every pixel of the source counts in reductions to 1:512. At poles
+// and rims, where a step may be any number of pixels long, it keeps the few that are there from
+// taking all the time.
+#define TAPS_MAX (1 << 18)
 
 const glint_turn glint_turn_none = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -172,8 +174,13 @@ static void resample_pixel(const resampling *job, int i, int j)
     if (!glint_chart_direction(job->to, i, j, 0, 0, &direction)) {
         return; // 0, as it was made
     }
-    const int columns = count_taps(job, i, j, direction, 0.5, 0);
-    const int rows = count_taps(job, i, j, direction, 0, 0.5);
+    int columns = count_taps(job, i, j, direction, 0.5, 0);
+    int rows = count_taps(job, i, j, direction, 0, 0.5);
+    if ((double)columns * rows > TAPS_MAX) {
+        const double share = sqrt(TAPS_MAX / ((double)columns * rows));
+        columns = (int)fmax(1, columns * share);
+        rows = (int)fmax(1, fmin(rows * share, (double)TAPS_MAX / columns));
+    }
     double sum[3] = {0, 0, 0};
     int count = 0;
     for (int tap = 0; tap < columns * rows; tap++) {

@@ -109,8 +109,7 @@ glint_status glint_source_take(const char *name, glint_image *image, const glint
         return status;
     }
     const glint_image *taken = &source->image;
-    if (what.chart.layout == GLINT_LAYOUT_LATLONG && taken->width != 2 * taken->height &&
-        facts->envmap != GLINT_ENVMAP_LATLONG) {
+    if (what.chart.layout == GLINT_LAYOUT_LATLONG && taken->width != 2 * taken->height) {
         glint_warn(warnings, "%s: %d × %d pixels are not 2:1: stretched over the whole sphere",
                    name, taken->width, taken->height);
     }

@@ -197,6 +197,11 @@ glint_status decode_in_child(const char *path, const char *plugin, std::uint64_t
             status = decode_within(seconds, path, plugin, file_size, decoded, &is_late, error);
         }
     }
+    if (is_late) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: the decoder was not done in two minutes (convert it to EXR or TIFF)",
+                          path);
+    }
     return status;
 }
 

@@ -36,17 +36,22 @@ refuses 2 'one of cube, faces, hcross, vcross, vstrip, hstrip, latlong, ball, an
     env in/map.exr out/a.exr --to cross
 refuses 2 'axes are expected' env in/map.exr out/a.exr --flip left
 refuses 2 '--size' env in/map.exr out/a.exr --size 0
-refuses 2 '--size 65536: 1 to 10922' env in/map.exr out/a.hdr --to hstrip --size 65536
+refuses 2 '--size 65536: 1 to 4096' env in/map.exr out/a.hdr --to hstrip --size 65536
 refuses 2 '--size 1: 2 to' env in/map.exr out/a.exr --to latlong --size 1
 refuses 2 '.txt' env in/map.exr out/a.txt
 refuses 2 'is no compression of this format' env in/map.exr out/a.png --compression zip
 refuses 5 'out/none' env in/map.exr out/none/a.exr
-refuses 5 'no folder could be made there' env in/map.exr out/none/faces --to faces
+refuses 5 'out/none/faces' env in/map.exr out/none/faces --to faces
+refuses 3 'No such file' env in/none.exr out/faces --to faces
+printf 'a file' >in/file
+refuses 5 'in/file: no folder could be made there' env in/map.exr in/file --to faces
 mkdir out/there
 run env in/map.exr out/there --to latlong
 check 'a folder is for six faces: exit status 2' test "$status" -eq 2
 check 'a folder is for six faces: said' grep -q 'a folder is for six faces' stderr
 clean
+refuses 2 'a pattern holds %s once' env in/map.exr 'out/%s_%s.exr' --to faces
+refuses 2 'one file'"'"'s name, where six are written' env in/map.exr out/a.exr --to faces
 refuses 2 'a pattern is for six faces' env in/map.exr 'out/%s.exr' --to hcross
 refuses 2 'with --env-layout ball' env in/map.exr out/a.exr --ball-fov 30
 refuses 2 'with --env-layout ball' env in/map.exr out/a.exr --env-layout angular --ball-distance 3
@@ -94,6 +99,7 @@ clean
 
 "$glint" env --probe in/axes.exr --to latlong --size 256 2>/dev/null
 "$glint" env --studio in/studio.exr --to latlong --size 256 2>/dev/null
+run render in/mirror_sphere.gltf --size 64x64 --samples 16 --env in/axes.exr -o in/sphere.exr
 for layout in $single; do
     # Sharp labels lose their edges in layouts that hold them in fewer pixels; a mistaken direction
     # gives 0.5 and more.
@@ -107,18 +113,24 @@ for layout in $single; do
     done
     run render in/mirror_sphere.gltf --size 64x64 --samples 16 --env out/axes.exr \
         --env-layout "$layout" -o "out/sphere_$layout.exr"
-    check "render, of $layout" within "$limit" "out/sphere_$layout.exr" out/sphere_cube.exr
+    check "render, of $layout" within "$limit" "out/sphere_$layout.exr" in/sphere.exr
 done
-run env in/axes.exr out/set --to faces
-check 'faces: six files in a folder' test "$(cd out/set && echo *)" = \
+run env in/axes.exr out/set/ --to faces
+check 'faces: six files in a folder, which is made' test "$(cd out/set && echo *)" = \
     'negx.exr negy.exr negz.exr posx.exr posy.exr posz.exr'
+for output in out/set 'out/set/%s.exr'; do
+    for input in out/set 'out/set/%s.exr' out/set/negz.exr; do
+        run env "$input" "$output" --size 8 --to faces
+        check "not over what is read: $input to $output" grep -q 'this is the input' stderr
+    done
+done
 run env out/set out/back.exr --to latlong --size 256
 check 'faces, and back' within 0.1 out/back.exr in/axes.exr
 run env out/set 'out/sky_%s.hdr' --size 32 --to faces
 check 'faces by a pattern' test "$(cd out && echo sky*)" = \
     'sky_negx.hdr sky_negy.hdr sky_negz.hdr sky_posx.hdr sky_posy.hdr sky_posz.hdr'
 run render in/mirror_sphere.gltf --size 64x64 --samples 16 --env out/set -o out/sphere_faces.exr
-check 'render, of faces' within 0.02 out/sphere_faces.exr out/sphere_cube.exr
+check 'render, of faces' within 0.1 out/sphere_faces.exr in/sphere.exr
 run env out/set out/again
 check 'without --to: the layout of the input' test -s out/again/negz.exr
 "$glint" env --probe out/again/posy.exr --to cube --size 8 2>/dev/null
@@ -156,8 +168,8 @@ for axis in x y z; do
 done
 "$make_exr" in/sun.exr B,G,R 0.5,0.5,0.5 0,0,15,7 0,0,15,7 5 3 1e6
 run env in/sun.exr out/sun.exr --to hcross --size 64
-run env out/sun.exr out/sun.hdr
-check 'above what half holds: kept' test "$("$glint" compare out/sun.hdr out/sun.hdr | grep -c 'infinite *0 ')" -eq 1
+run env in/sun.exr out/sun.hdr --to hcross --size 64
+check 'above what half holds: kept' within 0.05 out/sun.exr out/sun.hdr
 run env in/studio.exr out/s.png
 check 'a PNG' begins_with out/s.png 89504e47
 clean
