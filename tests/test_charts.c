@@ -167,7 +167,7 @@ static glint_image draw(const variant *v, const glint_chart *chart)
 static double radii(const glint_chart *chart, glint_vec3 d)
 {
     double place[2];
-    glint_chart_place(chart, d, place);
+    glint_disc_place(chart, d, place);
     return hypot(place[0] - chart->center[0], place[1] - chart->center[1]) / chart->radius;
 }
 
@@ -409,15 +409,15 @@ static void the_ball_is_the_lectures_disk(void **state)
                                           : 1 + (long double)d.z;
         const long double root = sqrtl(x * x + y * y + above * above);
         double place[2];
-        glint_chart_place(&chart, d, place);
+        glint_disc_place(&chart, d, place);
         assert_true(fabs(place[0] - (double)(1 + x / root)) <= 1e-14);
         assert_true(fabs(place[1] - (double)(1 - y / root)) <= 1e-14);
     }
     const glint_vec3 behind = {0, 0, -1}, minus_zero = {-0.0, 0.0, -1};
     double place[2];
-    glint_chart_place(&chart, behind, place);
+    glint_disc_place(&chart, behind, place);
     assert_true(fabs(hypot(place[0] - 1, place[1] - 1) - 1) < 1e-15); // some point of the rim
-    glint_chart_place(&chart, minus_zero, place);
+    glint_disc_place(&chart, minus_zero, place);
     assert_true(isfinite(place[0] + place[1]));
 }
 
@@ -437,7 +437,7 @@ static void discs_are_inverted(void **state)
                 continue;
             }
             double place[2];
-            glint_chart_place(&chart, d, place);
+            glint_disc_place(&chart, d, place);
             const int i = (int)floor(place[0]), j = (int)floor(place[1]);
             glint_vec3 there, oracle;
             assert_true(glint_chart_direction(&chart, i, j, place[0] - i - 0.5, place[1] - j - 0.5,

@@ -99,28 +99,6 @@ static glint_status check_faces(const char *output, const glint_write_options *o
     return status;
 }
 
-glint_status env_output_open(const env_output_request *request, const char *path,
-                             glint_layout source, env_output *output, glint_error *error)
-{
-    const glint_write_options options = {.compression = request->compression};
-    const bool is_set = env_output_is_set(path);
-    *output = (env_output){.request = request, .path = path};
-    output->as_faces =
-        request->to == GLINT_LAYOUT_FACES ||
-        (request->to == GLINT_LAYOUT_UNKNOWN && (is_set || source == GLINT_LAYOUT_FACES));
-    if (output->as_faces) {
-        return check_faces(path, &options, error);
-    }
-    if (is_set) {
-        return glint_fail(error, GLINT_USAGE,
-                          "%s: a %s is for six faces (with --to faces; the layout %s is one file)",
-                          path, strstr(path, "%s") != NULL ? "pattern" : "folder",
-                          glint_layout_name(request->to));
-    }
-    glint_status status = glint_image_check_output(path, &options, error);
-    return status == GLINT_OK ? glint_output_file_check(path, error) : status;
-}
-
 // ---- Pictures -----------------------------------------------------------------------------------
 
 // OpenEXR's attribute, which says that the outermost centres lie on the edges, is written where
@@ -154,6 +132,43 @@ static glint_status choose_chart(env_output *output, const glint_chart *from, gl
         size = on_edges && size < 2 ? 2 : size;
     }
     return glint_chart_make(to, size, on_edges, &output->chart, error);
+}
+
+// As far as it can be told before the input has been read.
+static glint_status check_size(const env_output *output, glint_error *error)
+{
+    glint_chart chart;
+    const glint_layout to = layout_to_write(output, GLINT_LAYOUT_UNKNOWN);
+    const bool on_edges = envmap_of(output->path, to) != GLINT_ENVMAP_NONE;
+    return to == GLINT_LAYOUT_UNKNOWN || output->request->size == 0
+               ? GLINT_OK
+               : glint_chart_make(to, output->request->size, on_edges, &chart, error);
+}
+
+glint_status env_output_open(const env_output_request *request, const char *path,
+                             glint_layout source, env_output *output, glint_error *error)
+{
+    const glint_write_options options = {.compression = request->compression};
+    const bool is_set = env_output_is_set(path);
+    *output = (env_output){.request = request, .path = path};
+    output->as_faces =
+        request->to == GLINT_LAYOUT_FACES ||
+        (request->to == GLINT_LAYOUT_UNKNOWN && (is_set || source == GLINT_LAYOUT_FACES));
+    if (output->as_faces) {
+        glint_status status = check_faces(path, &options, error);
+        return status == GLINT_OK ? check_size(output, error) : status;
+    }
+    if (is_set) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: a %s is for six faces (with --to faces; the layout %s is one file)",
+                          path, strstr(path, "%s") != NULL ? "pattern" : "folder",
+                          glint_layout_name(request->to));
+    }
+    glint_status status = glint_image_check_output(path, &options, error);
+    if (status == GLINT_OK) {
+        status = glint_output_file_check(path, error);
+    }
+    return status == GLINT_OK ? check_size(output, error) : status;
 }
 
 static glint_write_options write_options(const env_output *output, const glint_image *image)

@@ -43,12 +43,12 @@ glint_status glint_parse_circle(const glint_option *option, const char *text, vo
     double *circle = destination;
     char rest;
     if (sscanf(text, "%lf,%lf,%lf%c", &circle[0], &circle[1], &circle[2], &rest) == 3 &&
-        isfinite(circle[0]) && isfinite(circle[1]) && circle[2] > 0 && isfinite(circle[2])) {
+        isfinite(circle[0]) && isfinite(circle[1]) && circle[2] >= 1 && isfinite(circle[2])) {
         return GLINT_OK;
     }
     return glint_fail(error, GLINT_USAGE,
-                      "--%s %s: x,y,r in pixels is expected, with a radius above 0", option->name,
-                      text);
+                      "--%s %s: x,y,r in pixels is expected, with a radius of 1 or more",
+                      option->name, text);
 }
 
 glint_status glint_parse_distance(const glint_option *option, const char *text, void *destination,

@@ -110,16 +110,6 @@ static void latlong_direction(const glint_chart *chart, double x, double y, glin
         (glint_vec3){sin(longitude) * cos(latitude), sin(latitude), cos(longitude) * cos(latitude)};
 }
 
-static void latlong_place(const glint_chart *chart, glint_vec3 d, double place[2])
-{
-    const double across = sqrt(d.x * d.x + d.z * d.z);
-    // atan2(0, 0) is 0: at the poles every longitude is right.
-    const double u = 0.5 - atan2(d.x, d.z) / (2.0 * GLINT_PI);
-    const double v = 0.5 - atan2(d.y, across) / GLINT_PI;
-    place[0] = chart->on_edges ? u * (chart->width - 1) + 0.5 : u * chart->width;
-    place[1] = chart->on_edges ? v * (chart->height - 1) + 0.5 : v * chart->height;
-}
-
 // ---- Discs --------------------------------------------------------------------------------------
 
 // The angle from the axis at p ≤ 1 radii from the centre.
@@ -192,7 +182,7 @@ static double angle_from_axis(glint_vec3 d)
     return atan2(hypot(d.x, d.y), d.z);
 }
 
-static void disc_place(const glint_chart *chart, glint_vec3 d, double place[2])
+void glint_disc_place(const glint_chart *chart, glint_vec3 d, double place[2])
 {
     const double aside = hypot(d.x, d.y);
     const double p = disc_radius(chart, angle_from_axis(d));
@@ -288,15 +278,6 @@ bool glint_chart_direction(const glint_chart *chart, int i, int j, double dx, do
     }
     latlong_direction(chart, x, y, direction);
     return true;
-}
-
-void glint_chart_place(const glint_chart *chart, glint_vec3 direction, double place[2])
-{
-    if (is_disc(chart->layout)) {
-        disc_place(chart, direction, place);
-    } else {
-        latlong_place(chart, direction, place);
-    }
 }
 
 double glint_chart_pixels(const glint_chart *chart, glint_vec3 direction, glint_vec3 step)

@@ -46,9 +46,9 @@ const glint_face_cell *glint_layout_cells(glint_layout layout, int *across, int 
 bool glint_chart_direction(const glint_chart *chart, int i, int j, double dx, double dy,
                            glint_vec3 *direction);
 
-// The place where a lat-long map or a disc shows a direction of any length but zero. What a ball
-// hides from its viewer is on its rim.
-void glint_chart_place(const glint_chart *chart, glint_vec3 direction, double place[2]);
+// The place where a disc shows a direction of any length but zero. What a ball hides from its
+// viewer is on its rim.
+void glint_disc_place(const glint_chart *chart, glint_vec3 direction, double place[2]);
 
 // How many pixels long a small step from a direction is, in radians across it. At the poles of a
 // lat-long map and at a disc's rim there is no bound; what is said there is finite.

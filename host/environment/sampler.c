@@ -61,8 +61,8 @@ static void add_pixel(const glint_image *image, int i, int j, double weight, dou
     }
 }
 
-// Bilinear at a place in a picture; of the four pixels those count that are in it and, with `disc`,
-// have their centres inside; their weights make 1. False where none has any weight.
+// Bilinear at a place in a picture; of the four pixels those count that are in it and have their
+// centres inside the disc; their weights make 1. False where none has any weight.
 static bool mix_pixels(const glint_image *image, const glint_chart *disc, double x, double y,
                        double rgb[3])
 {
@@ -73,9 +73,8 @@ static bool mix_pixels(const glint_image *image, const glint_chart *disc, double
         const int i = left + k % 2, j = top + k / 2;
         const double weight = (k % 2 ? right : 1 - right) * (k / 2 ? down : 1 - down);
         const bool is_in = i >= 0 && j >= 0 && i < image->width && j < image->height;
-        if (!is_in || weight == 0 ||
-            (disc != NULL &&
-             hypot(i + 0.5 - disc->center[0], j + 0.5 - disc->center[1]) > disc->radius)) {
+        const double out = hypot(i + 0.5 - disc->center[0], j + 0.5 - disc->center[1]);
+        if (!is_in || weight == 0 || out > disc->radius) {
             continue;
         }
         add_pixel(image, i, j, weight, sum);
@@ -92,7 +91,7 @@ static void look_up_disc(const glint_sampler *sampler, glint_vec3 direction, dou
 {
     const glint_chart *chart = &sampler->chart;
     double place[2];
-    glint_chart_place(chart, direction, place);
+    glint_disc_place(chart, direction, place);
     const double out[2] = {place[0] - chart->center[0], place[1] - chart->center[1]};
     const double length = fmax(hypot(out[0], out[1]), 1e-9);
     for (int quarters = 0; quarters <= 4 * length + 4; quarters++) {
@@ -102,7 +101,7 @@ static void look_up_disc(const glint_sampler *sampler, glint_vec3 direction, dou
             return;
         }
     }
-    rgb[0] = rgb[1] = rgb[2] = 0; // a disc that is smaller than a pixel
+    rgb[0] = rgb[1] = rgb[2] = 0; // a disc that holds no pixel's centre
 }
 
 void glint_sampler_look_up(const glint_sampler *sampler, glint_vec3 direction, double rgb[3])

@@ -57,7 +57,7 @@ refuses 2 'with --env-layout ball' env in/map.exr out/a.exr --ball-fov 30
 refuses 2 'with --env-layout ball' env in/map.exr out/a.exr --env-layout angular --ball-distance 3
 refuses 2 'with --env-layout ball or angular' env in/map.exr out/a.exr --ball-circle 32,32,30
 refuses 2 'give one' env in/map.exr out/a.exr --env-layout ball --ball-fov 30 --ball-distance 3
-for circle in 1,2 1,2,3,4 1,2,0 1,2,-3 nan,1,1 1,1,inf x; do
+for circle in 1,2 1,2,3,4 1,2,0 1,2,0.9 1,2,-3 nan,1,1 1,1,inf x; do
     refuses 2 'x,y,r in pixels is expected' env in/map.exr out/a.exr --env-layout ball \
         --ball-circle "$circle"
 done
@@ -226,6 +226,8 @@ refuses 3 'no node "jewel" has triangles (there is 1 "mirror", 2 "red", 3 "green
 refuses 3 'no node "none" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,none
 refuses 3 'no node "9" has triangles' capture "$spheres" out/a.exr --around 9
 refuses 3 'no node "" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,
+refuses 2 '--size 1: 2 to' capture "$spheres" out/a.exr --at 0,0,0 --size 1
+refuses 2 '--size 5000: 1 to 4096' capture "$spheres" out/a.exr --at 0,0,0 --size 5000 --to cube
 refuses 5 'out/none' capture "$spheres" out/none/a.exr --around mirror
 # Without its only object a scene is its environment.
 run capture in/mirror_sphere.gltf out/all.exr --around 'mirror sphere' --env in/axes.exr --size 256 \
