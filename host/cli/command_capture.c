@@ -6,12 +6,14 @@
 #include "cli/inputs.h"
 #include "cli/progress.h"
 #include "device/device.h"
-#include "render/frame.h"
+#include "render/capture.h"
+#include "render/frame_list.h"
+#include "render/frame_name.h"
 #include "scene/subset.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
 #define FACE_EDGE 256 // where no size is given
 
@@ -20,8 +22,13 @@ typedef struct capture_request {
     env_output_request output;
     double at[3];
     bool has_at;
-    const char *around, *without;
+    const char *around;
+    const char *frames_text;
+    double fps;
     int progress;
+    bool is_sequence; // from here on set by settle
+    glint_frame_list frames;
+    glint_frame_name name;
 } capture_request;
 
 static glint_status parse_at(const glint_option *option, const char *text, void *destination,
@@ -42,11 +49,9 @@ static const glint_option capture_options[] = {
     {GLINT_OPTION_CUSTOM, .name = "at", .argument = "X,Y,Z",
      .help = "The place, in metres of the scene's world.", .parse = parse_at},
     {GLINT_OPTION_TEXT, .name = "around", .argument = "NODE",
-     .help = "The middle of a node's bounds, by its name or index; the node itself is taken away.",
+     .help = "The middle of the bounds of a node, by its name or index, or of several with commas "
+             "between; they themselves are taken away.",
      .offset = offsetof(capture_request, around)},
-    {GLINT_OPTION_TEXT, .name = "without", .argument = "NODE,…",
-     .help = "Further nodes to take away, their names or indices with commas between.",
-     .offset = offsetof(capture_request, without)},
     {GLINT_OPTION_HEADING, .help = "What is written"},
     ENV_OUTPUT_OPTIONS(offsetof(capture_request, output),
                        "latlong, or six files where OUT is for them", "256, of a lat-long map 512"),
@@ -54,6 +59,15 @@ static const glint_option capture_options[] = {
      .help = "What is shown of the work on stderr: bar, plain lines, json lines or none.",
      .fallback = "a bar on a terminal, else plain lines",
      .offset = offsetof(capture_request, progress), .choices = GLINT_PROGRESS_CHOICES},
+    {GLINT_OPTION_HEADING, .help = "Sequences"},
+    {GLINT_OPTION_TEXT, .name = "frames", .argument = "LIST",
+     .help =
+         "Capture at these frames of the scene's animation (1-24, 7, 1-48x2), into OUT with the "
+         "frame's number in it: ball.####.exr.",
+     .fallback = "the animation's beginning", .offset = offsetof(capture_request, frames_text)},
+    {GLINT_OPTION_REAL, .name = "fps", .argument = "RATE",
+     .help = "Frames a second of the animation; frame 1 is its beginning.", .fallback = "24",
+     .offset = offsetof(capture_request, fps), .minimum = 1e-3, .maximum = 1e5},
     GLINT_OPTION_END,
 };
 
@@ -64,32 +78,14 @@ static const glint_option *const groups[] = {
 typedef struct capture {
     const capture_request *request;
     glint_progress_display display;
-    env_output output;
-    glint_inputs inputs;
+    glint_inputs inputs; // the scene without what is taken away, once `at` is found
+    double time;         // at which it stands, seconds
     glint_vec3 at;
     glint_device *device;
     glint_renderer *renderer;
-    glint_cube cube;
-    int face;                  // that is rendered
-    uint64_t nonfinite_pixels; // of all
 } capture;
 
 // ---- The scene ----------------------------------------------------------------------------------
-
-static glint_status remove_listed(capture *work, glint_error *error)
-{
-    const char *rest = work->request->without;
-    glint_status status = GLINT_OK;
-    while (status == GLINT_OK && rest != NULL) {
-        const char *comma = strchr(rest, ',');
-        const size_t length = comma != NULL ? (size_t)(comma - rest) : strlen(rest);
-        char name[256];
-        snprintf(name, sizeof name, "%.*s", (int)(length < 255 ? length : 255), rest);
-        status = glint_scene_remove_node(&work->inputs.scene, name, NULL, NULL, error);
-        rest = comma != NULL ? comma + 1 : NULL;
-    }
-    return status;
-}
 
 static glint_status find_place(capture *work, glint_error *error)
 {
@@ -98,60 +94,45 @@ static glint_status find_place(capture *work, glint_error *error)
         work->at = (glint_vec3){request->at[0], request->at[1], request->at[2]};
         return GLINT_OK;
     }
-    glint_vec3 low, high;
-    glint_status status =
-        glint_scene_remove_node(&work->inputs.scene, request->around, &low, &high, error);
-    if (status == GLINT_OK) {
-        work->at = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
+    glint_scene *scene = &work->inputs.scene;
+    glint_status status = glint_scene_middle_of_nodes(scene, request->around, &work->at, error);
+    return status == GLINT_OK ? glint_scene_remove_nodes(scene, request->around, error) : status;
+}
+
+// Brings a scene that moves to a time, and gives it to the renderer.
+static glint_status set_time(capture *work, double time, glint_error *error)
+{
+    glint_inputs *inputs = &work->inputs;
+    if (!inputs->motion.moves_triangles || time == work->time) {
+        return GLINT_OK;
     }
+    glint_scene_free(&inputs->scene);
+    glint_status status = glint_scene_at(inputs->source, time, &inputs->scene, NULL, error);
+    if (status == GLINT_OK) {
+        status =
+            glint_inputs_stage(&work->request->inputs, &inputs->scene, &inputs->viewpoint, error);
+    }
+    if (status == GLINT_OK) {
+        status = find_place(work, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_renderer_set_scene(work->renderer, &inputs->scene, error);
+    }
+    work->time = time;
     return status;
 }
 
 // ---- Rendering ----------------------------------------------------------------------------------
 
-// The camera whose pixel (i, j) looks along texel (i, j) of a face: s to the right, t downwards.
-static glint_camera face_camera(int face, glint_vec3 eye)
-{
-    const glint_vec3 middle = glint_cube_direction(face, 0, 0);
-    const glint_vec3 right = glint_vec3_subtract(glint_cube_direction(face, 1, 0), middle);
-    const glint_vec3 down = glint_vec3_subtract(glint_cube_direction(face, 0, 1), middle);
-    return (glint_camera){.yfov = GLINT_PI / 2,
-                          .eye = eye,
-                          .right = right,
-                          .up = glint_vec3_scale(down, -1),
-                          .back = glint_vec3_scale(middle, -1)};
-}
-
 static bool step(void *context, uint64_t done, uint64_t total)
 {
-    capture *work = context;
-    glint_progress_step(&work->display, (uint64_t)work->face * total + done, 6 * total);
+    glint_progress_step(context, done, total);
     return !glint_stop_requested();
 }
 
-static glint_status render_face(capture *work, int face, glint_error *error)
-{
-    const glint_camera camera = face_camera(face, work->at);
-    const glint_progress progress = {step, work};
-    glint_image image = {0};
-    glint_frame_report report;
-    work->face = face;
-    glint_status status =
-        glint_renderer_frame(work->renderer, &camera, &progress, &image, &report, error);
-    work->nonfinite_pixels += report.nonfinite_pixels;
-    for (int k = 0; status == GLINT_OK && k < image.width * image.height; k++) {
-        double rgb[3];
-        glint_image_rgb(&image, k % image.width, k / image.width, rgb);
-        glint_cube_store(&work->cube, face, k % image.width, k / image.width, rgb);
-    }
-    glint_image_free(&image);
-    return status;
-}
-
-static glint_status render_faces(capture *work, glint_error *error)
+static glint_status render(capture *work, glint_cube *cube, glint_error *error)
 {
     const glint_settings *settings = &work->request->inputs.settings;
-    glint_status status = glint_cube_create(settings->width, &work->cube, error);
     char text[GLINT_MESSAGE_CAPACITY];
     snprintf(text, sizeof text, "rendering six views of %dx%d from (%g, %g, %g) on %s",
              settings->width, settings->height, work->at.x, work->at.y, work->at.z,
@@ -159,14 +140,15 @@ static glint_status render_faces(capture *work, glint_error *error)
     const double samples = (double)settings->samples_per_axis * settings->samples_per_axis;
     glint_progress_render(&work->display, 0, 6 * samples * settings->width * settings->height,
                           text);
+    const glint_progress progress = {step, &work->display};
+    glint_frame_report report = {0};
     glint_signals_cooperate(true);
-    for (int face = 0; status == GLINT_OK && face < 6; face++) {
-        status = render_face(work, face, error);
-    }
+    glint_status status = glint_capture(work->renderer, work->at, &progress, cube, &report, error);
     glint_signals_cooperate(false);
     glint_progress_clear(&work->display);
-    if (status == GLINT_OK) {
-        glint_cube_fill_border(&work->cube);
+    if (report.nonfinite_pixels > 0) {
+        glint_say("warning: %llu pixels are not finite",
+                  (unsigned long long)report.nonfinite_pixels);
     }
     return status;
 }
@@ -177,9 +159,6 @@ static glint_status prepare(capture *work, glint_error *error)
     glint_status status = glint_inputs_load(request, &work->display, &work->inputs, error);
     if (status == GLINT_OK) {
         status = find_place(work, error);
-    }
-    if (status == GLINT_OK) {
-        status = remove_listed(work, error);
     }
     if (status == GLINT_OK) {
         status = glint_device_open(request->device, &work->device, error);
@@ -205,11 +184,26 @@ static glint_status check_request(const capture_request *request, glint_error *e
                           request->has_at ? "--around: the place is given by --at (give one)"
                                           : "from where? (give --at x,y,z or --around NODE)");
     }
-    if (request->inputs.settings.transparent) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--background transparent: an environment has no holes");
-    }
     return GLINT_OK;
+}
+
+static glint_status find_frames(capture_request *request, const char *path, glint_error *error)
+{
+    glint_status status = glint_frame_name_parse(path, &request->name, error);
+    request->is_sequence = request->frames_text != NULL;
+    if (status == GLINT_OK && request->is_sequence) {
+        status = glint_frame_list_parse(request->frames_text, &request->frames, error);
+    }
+    if (status == GLINT_OK && request->frames.count > 1 && request->name.length == 0) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: %llu frames need a place for their number (as in ball.####.exr)",
+                          path, (unsigned long long)request->frames.count);
+    }
+    if (status == GLINT_OK && request->name.length > 0 && !request->is_sequence) {
+        return glint_fail(error, GLINT_USAGE, "%s: which frames? (name them with --frames 1-24)",
+                          path);
+    }
+    return status;
 }
 
 // What is rendered is as fine as what is written.
@@ -229,22 +223,78 @@ static glint_status settle(capture_request *request, const char *path, glint_err
         request->inputs.size[0] = request->inputs.size[1] = edge;
         status = glint_input_request_finish(&request->inputs, error);
     }
+    if (status == GLINT_OK && request->inputs.settings.transparent) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--background transparent: an environment has no holes");
+    }
+    return status == GLINT_OK ? find_frames(request, path, error) : status;
+}
+
+static void say_done(const capture *work, const env_output *output, double ms)
+{
+    const glint_chart *to = &output->chart;
+    if (work->display.mode != GLINT_PROGRESS_NONE && work->display.mode != GLINT_PROGRESS_JSON) {
+        glint_say("%s: %s %dx%d, six views from (%g, %g, %g), %.0f ms", output->path,
+                  glint_layout_name(to->layout), to->width,
+                  output->as_faces ? to->width : to->height, work->at.x, work->at.y, work->at.z,
+                  ms);
+    }
+}
+
+// ---- The run ------------------------------------------------------------------------------------
+
+static glint_status capture_to(capture *work, const char *path, glint_error *error)
+{
+    const env_output_request *request = &work->request->output;
+    const double begun = glint_now_ms();
+    env_output output;
+    glint_cube cube = {0};
+    glint_status status = env_output_open(request, path, request->to, &output, error);
+    if (status == GLINT_OK) {
+        status = render(work, &cube, error);
+    }
+    if (status == GLINT_OK) {
+        const glint_sampler sampler = glint_sampler_of_cube(&cube);
+        status = env_output_write(&output, &sampler, &glint_turn_none, error);
+    }
+    if (status == GLINT_OK) {
+        say_done(work, &output, glint_now_ms() - begun);
+    }
+    glint_cube_free(&cube);
     return status;
 }
 
-static void say_done(const capture *work, const char *path, double ms)
+static glint_status capture_frames(capture *work, glint_error *error)
 {
-    const glint_chart *to = &work->output.chart;
-    if (work->nonfinite_pixels > 0) {
-        glint_say("warning: %llu pixels are not finite",
-                  (unsigned long long)work->nonfinite_pixels);
+    const capture_request *request = work->request;
+    glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    glint_status status = GLINT_OK;
+    int frame;
+    while (status == GLINT_OK && glint_frame_next(&cursor, &frame)) {
+        char *path = glint_frame_name_make(&request->name, frame);
+        status = path != NULL ? set_time(work, (frame - 1) / request->fps, error)
+                              : glint_fail_memory(error, "a file name");
+        if (status == GLINT_OK) {
+            status = capture_to(work, path, error);
+        }
+        free(path);
     }
-    if (work->display.mode != GLINT_PROGRESS_NONE && work->display.mode != GLINT_PROGRESS_JSON) {
-        glint_say("%s: %s %dx%d, six views from (%g, %g, %g), %.0f ms", path,
-                  glint_layout_name(to->layout), to->width,
-                  work->output.as_faces ? to->width : to->height, work->at.x, work->at.y,
-                  work->at.z, ms);
-    }
+    return status;
+}
+
+// Looks at where the first file goes, before any work is done.
+static glint_status check_output(const capture_request *request, glint_error *error)
+{
+    glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    int frame = 1;
+    env_output output;
+    glint_frame_next(&cursor, &frame);
+    char *first = glint_frame_name_make(&request->name, frame);
+    glint_status status =
+        first != NULL ? env_output_open(&request->output, first, request->output.to, &output, error)
+                      : glint_fail_memory(error, "a file name");
+    free(first);
+    return status;
 }
 
 static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
@@ -252,7 +302,6 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     capture_request *request = context;
     const char *path = arguments->positionals[1];
     capture work = {.request = request};
-    const double begun = glint_now_ms();
     request->inputs.scene = arguments->positionals[0];
     glint_progress_begin(&work.display, (glint_progress_mode)request->progress);
     glint_status status = check_request(request, error);
@@ -260,7 +309,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
         status = settle(request, path, error);
     }
     if (status == GLINT_OK) {
-        status = env_output_open(&request->output, path, request->output.to, &work.output, error);
+        status = check_output(request, error);
     }
     if (status == GLINT_OK) {
         status = prepare(&work, error);
@@ -268,25 +317,20 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     glint_progress_clear(&work.display);
     if (status == GLINT_OK) {
         glint_say_warnings(&work.inputs.warnings, 0);
-        status = render_faces(&work, error);
+        status =
+            request->is_sequence ? capture_frames(&work, error) : capture_to(&work, path, error);
     }
-    if (status == GLINT_OK) {
-        const glint_sampler sampler = glint_sampler_of_cube(&work.cube);
-        status = env_output_write(&work.output, &sampler, &glint_turn_none, error);
-    }
-    if (status == GLINT_OK) {
-        say_done(&work, path, glint_now_ms() - begun);
-    }
-    glint_cube_free(&work.cube);
     glint_renderer_free(work.renderer);
     glint_device_close(work.device);
     glint_inputs_free(&work.inputs);
+    glint_frame_list_free(&request->frames);
     return status;
 }
 
 static void set_defaults(void *request)
 {
     glint_input_request_default(&((capture_request *)request)->inputs);
+    ((capture_request *)request)->fps = 24;
 }
 
 const glint_command glint_command_capture = {
@@ -298,7 +342,8 @@ const glint_command glint_command_capture = {
         "from there, and writes it in any layout: an environment for render --env. Around a node "
         "the node itself is taken away, so that an object can be lit by its surroundings.",
     .examples = "  glint capture room.glb room.exr --at 0,1.6,0 --size 1024 --samples 16\n"
-                "  glint capture scenes/gallery.gltf faces/ --around diamond --to faces\n",
+                "  glint capture scenes/gallery.gltf faces/ --around diamond --to faces\n"
+                "  glint capture shot.gltf ball.####.exr --around robot --to ball --frames 1-24\n",
     .groups = groups,
     .positional = "SCENE",
     .second_positional = "OUT",

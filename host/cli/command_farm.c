@@ -3,6 +3,7 @@
 
 #include "cli/farm_slurm.h"
 #include "cli/json_output.h"
+#include "cli/render_light.h"
 #include "cli/render_request.h"
 #include "image/output_file.h"
 #include "report/farm_report.h"
@@ -213,11 +214,17 @@ static glint_status load_subject(farm_subject *subject, glint_error *error)
     glint_inputs inputs = {0};
     glint_progress_display display = {0};
     glint_progress_begin(&display, GLINT_PROGRESS_NONE);
-    glint_status status = glint_inputs_load(&subject->request.inputs, &display, &inputs, error);
+    const render_request *request = &subject->request;
+    glint_status status = glint_inputs_load_scene(&request->inputs, &display, &inputs, error);
     glint_say_warnings(&inputs.warnings, 0);
     const size_t said = inputs.warnings.count;
     if (status == GLINT_OK) {
         status = render_request_settle(&subject->request, &inputs.motion, &inputs.warnings, error);
+    }
+    glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    int first = 1;
+    if (status == GLINT_OK && glint_frame_next(&cursor, &first)) {
+        status = render_light_try(request, first, &display, &inputs, error);
     }
     if (status == GLINT_OK) {
         render_request_warn(&subject->request, &inputs.scene, &inputs.warnings);

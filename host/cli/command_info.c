@@ -284,7 +284,7 @@ static glint_status print(const info_request *request, info_work *work, glint_er
         .topology = &work->topology,
         .motion = &work->inputs.motion,
         .environment = &work->inputs.environment,
-        .camera = &work->inputs.camera,
+        .camera = &work->inputs.viewpoint.camera,
         .settings = &request->inputs.settings,
         .device = work->device != NULL ? glint_device_capabilities(work->device) : NULL,
         .plan = work->has_plan ? &work->plan : NULL,

@@ -230,6 +230,7 @@ static void set_defaults(void *context)
     glint_input_request_default(&request->inputs);
     request->shard = (glint_shard){1, 1};
     request->fps = 24;
+    request->capture_size = 512;
 }
 
 static glint_status run_request(render_request *request, glint_error *error)

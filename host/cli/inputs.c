@@ -2,6 +2,7 @@
 #include "cli/inputs.h"
 
 #include "scene/built_in.h"
+#include "scene/subset.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -118,20 +119,6 @@ static glint_status parse_samples(const glint_option *option, const char *text, 
                       option->name, text, SAMPLES_MAX);
 }
 
-static glint_status parse_background(const glint_option *option, const char *text,
-                                     void *destination, glint_error *error)
-{
-    bool is_transparent = strcmp(text, "transparent") == 0;
-    if (!is_transparent && strcmp(text, "env") != 0) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--%s %s: env or transparent is expected (images behind the scene are "
-                          "not supported yet)",
-                          option->name, text);
-    }
-    *(bool *)destination = is_transparent;
-    return GLINT_OK;
-}
-
 // One of a few numbers, which end with a 0; `wanted` names them.
 static glint_status parse_one_of(const glint_option *option, const char *text, const int *numbers,
                                  const char *wanted, int *destination, glint_error *error)
@@ -184,6 +171,12 @@ const glint_option glint_input_options[] = {
     {GLINT_OPTION_TEXT, .name = "scene", .argument = "NAME|INDEX",
      .help = "Which of the file's glTF scenes.", .fallback = "the file's default",
      .offset = OFFSET(scene_name)},
+    {GLINT_OPTION_TEXT, .name = "only", .argument = "NODE,…",
+     .help = "Leave all nodes out but these, with what hangs under them: names or indices, with "
+             "commas between. Cameras and turntables stay those of the whole scene.",
+     .offset = OFFSET(only)},
+    {GLINT_OPTION_TEXT, .name = "without", .argument = "NODE,…",
+     .help = "Leave these nodes out, likewise.", .offset = OFFSET(without)},
     GLINT_OPTION_END,
 };
 
@@ -202,10 +195,11 @@ const glint_option glint_settings_options[] = {
      .help = "A branch whose weight falls under this takes the environment at once; 0 follows "
              "every branch to --depth.",
      .fallback = "1/1024", .offset = OFFSET(settings.min_weight), .minimum = 0, .maximum = 1},
-    {GLINT_OPTION_CUSTOM, .name = "background", .argument = "KIND",
-     .help = "env shows the environment behind the scene, transparent leaves it out and writes "
-             "alpha.",
-     .fallback = "env", .offset = OFFSET(settings.transparent), .parse = parse_background},
+    {GLINT_OPTION_TEXT, .name = "background", .argument = "KIND|PLATE",
+     .help = "What is behind the scene: env, the environment; transparent, nothing, and alpha says "
+             "so; for render also a picture of the frame's size, plate.exr, or one for each frame, "
+             "plate.####.exr.",
+     .fallback = "env", .offset = OFFSET(background)},
     {GLINT_OPTION_CHOICE, .name = "precision", .argument = "KIND",
      .help = "float or double arithmetic on the device.", .fallback = "float",
      .offset = OFFSET(precision), .choices = "float|double"},
@@ -250,6 +244,28 @@ void glint_input_request_default(glint_input_request *request)
     request->size[1] = glint_settings_default.height;
 }
 
+static glint_status check_background(glint_input_request *request, glint_error *error)
+{
+    static const char *const words[] = {"env", "transparent", NULL};
+    const char *background = request->background;
+    const bool is_env = background == NULL || strcmp(background, "env") == 0;
+    const bool is_plate = !is_env && strcmp(background, "transparent") != 0;
+    request->settings.transparent = !is_env;
+    if (!is_plate || (request->takes_plate && strpbrk(background, "./") != NULL)) {
+        return GLINT_OK;
+    }
+    const char *nearest = glint_nearest_word(background, words);
+    return nearest != NULL
+               ? glint_fail(error, GLINT_USAGE,
+                            "--background %s: neither env nor transparent%s (did you "
+                            "mean %s?)",
+                            background, request->takes_plate ? " nor a file" : "", nearest)
+               : glint_fail(error, GLINT_USAGE, "--background %s: env or transparent%s is expected",
+                            background,
+                            request->takes_plate ? ", or an image's file,"
+                                                 : " (pictures are for render alone)");
+}
+
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error)
 {
     if (request->env_as.layout != GLINT_LAYOUT_UNKNOWN && request->env == NULL) {
@@ -257,6 +273,9 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
                           "--env-layout: it says how a file is read, but no --env is given");
     }
     glint_status status = glint_layout_request_check(&request->env_as, error);
+    if (status == GLINT_OK) {
+        status = check_background(request, error);
+    }
     if (status != GLINT_OK) {
         return status;
     }
@@ -298,35 +317,58 @@ static glint_status load_scene(const glint_input_request *request, glint_inputs 
     return status;
 }
 
-static glint_status load_environment(const glint_input_request *request, glint_inputs *inputs,
+glint_status glint_inputs_stage(const glint_input_request *request, glint_scene *scene,
+                                glint_viewpoint *viewpoint, glint_error *error)
+{
+    glint_vec3 low, high;
+    glint_scene_shown_bounds(scene, &low, &high);
+    viewpoint->centre =
+        low.x <= high.x ? glint_vec3_scale(glint_vec3_add(low, high), 0.5) : (glint_vec3){0, 0, 0};
+    glint_status status = glint_scene_camera(scene, request->camera, &viewpoint->camera, error);
+    if (status == GLINT_OK && request->only != NULL) {
+        status = glint_scene_keep_nodes(scene, request->only, error);
+    }
+    if (status == GLINT_OK && request->without != NULL) {
+        status = glint_scene_remove_nodes(scene, request->without, error);
+    }
+    return status;
+}
+
+glint_status glint_inputs_load_scene(const glint_input_request *request,
+                                     glint_progress_display *display, glint_inputs *inputs,
                                      glint_error *error)
 {
-    if (request->env == NULL) {
-        return glint_environment_studio(&inputs->environment, error);
-    }
-    return glint_environment_load(request->env, &request->env_as, &inputs->environment,
-                                  &inputs->warnings, error);
+    *inputs = (glint_inputs){0};
+    const double begun = glint_progress_elapsed(display);
+    glint_progress_phase(display, "load_scene", "loading the scene");
+    glint_status status = load_scene(request, inputs, error);
+    inputs->scene_ms = glint_progress_elapsed(display) - begun;
+    return status == GLINT_OK
+               ? glint_inputs_stage(request, &inputs->scene, &inputs->viewpoint, error)
+               : status;
+}
+
+glint_status glint_inputs_load_environment(const glint_input_request *request,
+                                           glint_progress_display *display, glint_inputs *inputs,
+                                           glint_error *error)
+{
+    const double begun = glint_progress_elapsed(display);
+    glint_progress_phase(display, "load_environment", "loading the environment");
+    glint_status status =
+        request->env == NULL
+            ? glint_environment_studio(&inputs->environment, error)
+            : glint_environment_load(request->env, &request->env_as, &inputs->environment,
+                                     &inputs->warnings, error);
+    inputs->environment_ms = glint_progress_elapsed(display) - begun;
+    return status;
 }
 
 glint_status glint_inputs_load(const glint_input_request *request, glint_progress_display *display,
                                glint_inputs *inputs, glint_error *error)
 {
-    *inputs = (glint_inputs){0};
-    double begun = glint_progress_elapsed(display);
-    glint_progress_phase(display, "load_scene", "loading the scene");
-    glint_status status = load_scene(request, inputs, error);
-    inputs->scene_ms = glint_progress_elapsed(display) - begun;
-    if (status == GLINT_OK) {
-        status = glint_scene_camera(&inputs->scene, request->camera, &inputs->camera, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
-    }
-    begun = glint_progress_elapsed(display);
-    glint_progress_phase(display, "load_environment", "loading the environment");
-    status = load_environment(request, inputs, error);
-    inputs->environment_ms = glint_progress_elapsed(display) - begun;
-    return status;
+    glint_status status = glint_inputs_load_scene(request, display, inputs, error);
+    return status == GLINT_OK ? glint_inputs_load_environment(request, display, inputs, error)
+                              : status;
 }
 
 void glint_inputs_free(glint_inputs *inputs)

@@ -18,6 +18,9 @@ typedef struct glint_input_request {
     const char *scene_name;
     const char *camera;
     const char *animation;
+    const char *only, *without; // lists of nodes, see scene/subset.h
+    const char *background;     // NULL, "env", "transparent", or a plate's file
+    bool takes_plate;           // set by the command: such a file is its business
     const char *env;
     glint_layout_request env_as;
     const char *device;
@@ -96,19 +99,39 @@ void glint_input_request_default(glint_input_request *request);
 // settings. Errors: GLINT_USAGE; GLINT_BAD_INPUT where --kernel-dir is no folder.
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
 
+// Where a scene is seen from. It is found in the whole scene, so that pictures of its parts fit
+// together.
+typedef struct glint_viewpoint {
+    glint_camera camera; // its strings are the scene's
+    glint_vec3 centre;   // of the bounds (metres, world space): what a turntable turns about
+} glint_viewpoint;
+
+// Finds the viewpoint, and takes away the nodes that are not to be there. Errors: as
+// glint_scene_camera and glint_scene_remove_nodes.
+glint_status glint_inputs_stage(const glint_input_request *request, glint_scene *scene,
+                                glint_viewpoint *viewpoint, glint_error *error);
+
 // What was loaded. Zero is valid and empty.
 typedef struct glint_inputs {
     glint_scene scene;
     glint_environment environment;
-    glint_camera camera;        // its strings are the scene's
+    glint_viewpoint viewpoint;
     glint_scene_source *source; // where something moves, else NULL; the scene is that of time 0
     glint_motion motion;        // its clip's name is the source's
     glint_warnings warnings;
     double scene_ms, environment_ms;
 } glint_inputs;
 
-// Loads the scene, the environment and the camera. Whatever the outcome, `inputs` is for
-// glint_inputs_free.
+// Loads the scene and the viewpoint; the environment. Whatever the outcome, `inputs`, of which all
+// is set by the first, is for glint_inputs_free.
+glint_status glint_inputs_load_scene(const glint_input_request *request,
+                                     glint_progress_display *display, glint_inputs *inputs,
+                                     glint_error *error);
+glint_status glint_inputs_load_environment(const glint_input_request *request,
+                                           glint_progress_display *display, glint_inputs *inputs,
+                                           glint_error *error);
+
+// Both.
 glint_status glint_inputs_load(const glint_input_request *request, glint_progress_display *display,
                                glint_inputs *inputs, glint_error *error);
 void glint_inputs_free(glint_inputs *inputs);

@@ -3,15 +3,19 @@
 
 #include "base/clock.h"
 
-glint_status render_pose_load(glint_scene_source *source, render_pose *pose, glint_error *error)
+glint_status render_pose_load(const glint_input_request *request, glint_scene_source *source,
+                              render_pose *pose, glint_error *error)
 {
     const double begun = glint_now_ms();
     glint_status status = glint_scene_at(source, pose->time, &pose->scene, NULL, error);
     if (status == GLINT_OK) {
+        status = glint_inputs_stage(request, &pose->scene, &pose->viewpoint, error);
+    }
+    if (status == GLINT_OK) {
         status = glint_fingerprint_scene(&pose->scene, &pose->is, error);
-        if (status != GLINT_OK) {
-            glint_scene_free(&pose->scene);
-        }
+    }
+    if (status != GLINT_OK) {
+        glint_scene_free(&pose->scene);
     }
     pose->is_loaded = status == GLINT_OK;
     pose->ms = glint_now_ms() - begun;
@@ -24,7 +28,7 @@ static void *look_ahead(void *context)
     render_pose *pose = &ahead->pose;
     const double begun = glint_now_ms();
     glint_error error = {0};
-    glint_status status = render_pose_load(ahead->source, pose, &error);
+    glint_status status = render_pose_load(ahead->request, ahead->source, pose, &error);
     if (status == GLINT_OK && ahead->with_tree &&
         !glint_fingerprints_equal(pose->is, ahead->shown)) {
         status = glint_renderer_prepare(ahead->renderer, &pose->scene, &error);

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define EXR_TYPES "half|float"
 
@@ -141,13 +142,20 @@ static const glint_option sequence_options[] = {
     GLINT_OPTION_END,
 };
 
-const glint_option *const render_option_groups[] = {output_options,
-                                                    sequence_options,
-                                                    glint_input_options,
-                                                    glint_size_options,
-                                                    glint_settings_options,
-                                                    glint_kernel_dir_options,
-                                                    NULL};
+static const glint_option capture_options[] = {
+    {GLINT_OPTION_TEXT, .name = "surroundings", .argument = "FILE",
+     .help = "With --env capture:NODE, which renders a node alone in what is around it: the "
+             "environment behind all that.",
+     .fallback = "the built-in studio", .offset = offsetof(render_request, surroundings)},
+    {GLINT_OPTION_INT, .name = "capture-size", .argument = "N",
+     .help = "The edge of each of its six views, in pixels.", .fallback = "512",
+     .offset = offsetof(render_request, capture_size), .minimum = 1, .maximum = 4096},
+    GLINT_OPTION_END,
+};
+
+const glint_option *const render_option_groups[] = {
+    output_options,     sequence_options,       glint_input_options,      capture_options,
+    glint_size_options, glint_settings_options, glint_kernel_dir_options, NULL};
 
 glint_write_options render_write_options(const render_request *request)
 {
@@ -229,25 +237,55 @@ static bool is_output(const render_request *request, const char *path)
            is_named(request, &request->preview_name, path);
 }
 
-// An output that would replace an input, or another output.
-static glint_status check_distinct(const render_request *request, glint_error *error)
+// An output that would replace an input. Of inputs for each frame the first frame's is looked at:
+// names that meet in one frame meet in all.
+static glint_status check_input(const render_request *request, const char *input,
+                                glint_error *error)
 {
-    const char *const inputs[] = {request->inputs.scene, request->inputs.env};
-    for (int i = 0; i < 2; i++) {
-        if (is_output(request, inputs[i])) {
-            return glint_fail(error, GLINT_USAGE,
-                              "--output %s: this is an input (name another file)", inputs[i]);
-        }
-        if (glint_same_file(request->stats, inputs[i])) {
-            return glint_fail(error, GLINT_USAGE,
-                              "--stats %s: this is an input (name another file)", request->stats);
-        }
+    if (is_output(request, input)) {
+        return glint_fail(error, GLINT_USAGE, "--output %s: this is an input (name another file)",
+                          input);
     }
-    if (is_output(request, request->stats)) {
-        return glint_fail(error, GLINT_USAGE, "--stats %s: this is the image (name another file)",
+    if (glint_same_file(request->stats, input)) {
+        return glint_fail(error, GLINT_USAGE, "--stats %s: this is an input (name another file)",
                           request->stats);
     }
     return GLINT_OK;
+}
+
+static glint_status check_input_of_frames(const render_request *request,
+                                          const glint_frame_name *name, glint_error *error)
+{
+    glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    int frame = 1;
+    if (name->path == NULL || (request->is_sequence && !glint_frame_next(&cursor, &frame))) {
+        return GLINT_OK;
+    }
+    char *path = glint_frame_name_make(name, frame);
+    glint_status status =
+        path != NULL ? check_input(request, path, error) : glint_fail_memory(error, "a file name");
+    free(path);
+    return status;
+}
+
+// An output that would replace an input, or another output.
+static glint_status check_distinct(const render_request *request, glint_error *error)
+{
+    glint_status status = check_input(request, request->inputs.scene, error);
+    if (status == GLINT_OK) {
+        status = check_input(request, request->inputs.env, error);
+    }
+    if (status == GLINT_OK && request->env_name.length > 0) {
+        status = check_input_of_frames(request, &request->env_name, error);
+    }
+    if (status == GLINT_OK && request->plate != NULL) {
+        status = check_input_of_frames(request, &request->plate_name, error);
+    }
+    if (status == GLINT_OK && is_output(request, request->stats)) {
+        return glint_fail(error, GLINT_USAGE, "--stats %s: this is the image (name another file)",
+                          request->stats);
+    }
+    return status;
 }
 
 static glint_status check_format(const render_request *request, glint_error *error)
@@ -279,6 +317,47 @@ static glint_status check_format(const render_request *request, glint_error *err
             "one of the two)");
     }
     return status;
+}
+
+// What lights the frames: a file, one for each, or what is around a node.
+static glint_status find_light(render_request *request, glint_error *error)
+{
+    static const char capture[] = "capture:";
+    glint_input_request *inputs = &request->inputs;
+    const char *env = inputs->env;
+    if (env != NULL && strncmp(env, capture, sizeof capture - 1) == 0) {
+        request->capture = env + sizeof capture - 1;
+        inputs->env = request->surroundings;
+        inputs->only = inputs->only != NULL ? inputs->only : request->capture;
+        request->capture_rotate = inputs->settings.env_rotate;
+        inputs->settings.env_rotate = 0; // the capture is turned already
+        return request->capture[0] != '\0' ? GLINT_OK
+                                           : glint_fail(error, GLINT_USAGE,
+                                                        "--env capture: around which node? "
+                                                        "(--env capture:NODE)");
+    }
+    if (request->surroundings != NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--surroundings: they are behind what is captured (with --env "
+                          "capture:NODE)");
+    }
+    if (env == NULL || access(env, F_OK) == 0) {
+        return GLINT_OK; // a name may hold anything
+    }
+    return glint_frame_name_parse(env, &request->env_name, error);
+}
+
+static glint_status find_plate(render_request *request, glint_error *error)
+{
+    const char *background = request->inputs.background;
+    if (background == NULL || strcmp(background, "env") == 0 ||
+        strcmp(background, "transparent") == 0) {
+        return GLINT_OK;
+    }
+    request->plate = request->plate_name.path = background;
+    return access(background, F_OK) == 0
+               ? GLINT_OK
+               : glint_frame_name_parse(background, &request->plate_name, error);
 }
 
 // Which frames there are, and what their files are called.
@@ -329,7 +408,14 @@ glint_status render_request_finish(render_request *request, glint_error *error)
     }
     glint_status status = check_format(request, error);
     if (status == GLINT_OK) {
+        status = find_light(request, error);
+    }
+    if (status == GLINT_OK) {
+        request->inputs.takes_plate = true;
         status = glint_input_request_finish(&request->inputs, error);
+    }
+    if (status == GLINT_OK) {
+        status = find_plate(request, error);
     }
     if (status == GLINT_OK) {
         status = name_preview(request, error);
@@ -410,7 +496,7 @@ static void warn_of_format(const render_request *request, glint_warnings *warnin
         (is_hdr || glint_has_extension(output, ".exr"))) {
         glint_warn(warnings, "%s: --exposure is left out, this format stays linear", output);
     }
-    if (request->inputs.settings.transparent && (is_hdr || is_jpeg)) {
+    if (request->inputs.settings.transparent && request->plate == NULL && (is_hdr || is_jpeg)) {
         glint_warn(warnings, "%s: this format keeps no alpha, the background becomes black",
                    output);
     }

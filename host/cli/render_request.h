@@ -17,13 +17,21 @@ typedef struct render_request {
     const char *compression;
     int exr_type; // index of the choices
     double exposure;
-    bool preview; // a PNG beside the EXR
-    int progress; // a glint_progress_mode
+    bool preview;             // a PNG beside the EXR
+    const char *surroundings; // behind what is captured; NULL: the studio
+    int capture_size;         // of a view
+    int progress;             // a glint_progress_mode
     const char *frames_text;
     int turntable; // frames of a whole turn; 0: the camera stays
     double fps;
     bool skip_existing;
-    bool is_sequence; // from here on set by render_request_finish
+    bool is_sequence;          // from here on set by render_request_finish
+    const char *capture;       // the nodes that are lit by what is around them; NULL: a file is
+                               // taken, and inputs.env is it; else inputs.env is the surroundings'
+    double capture_rotate;     // degrees, of the surroundings
+    glint_frame_name env_name; // of files for each frame; length 0: one for all
+    const char *plate;         // NULL without one
+    glint_frame_name plate_name;
     glint_frame_list frames;
     glint_shard shard;
     glint_frame_name name;

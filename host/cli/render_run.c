@@ -4,10 +4,10 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "cli/cli.h"
+#include "cli/render_parcel.h"
 #include "cli/render_stage.h"
 #include "image/output_file.h"
 #include "render/sequence.h"
-#include "report/frame_metadata.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ glint_subject render_run_subject(const render_run *run)
     return (glint_subject){
         .scene = &run->inputs.scene,
         .environment = &run->inputs.environment,
-        .camera = &run->inputs.camera,
+        .camera = &run->inputs.viewpoint.camera,
         .settings = &run->request->inputs.settings,
         .device = glint_device_capabilities(run->device),
         .plan = glint_renderer_plan(run->renderer),
@@ -36,7 +36,7 @@ static const char *why_again(const render_run *run, int frame, const char *path)
 {
     char wanted[GLINT_FINGERPRINT_TEXT], found[GLINT_FINGERPRINT_TEXT];
     const glint_camera camera = render_stage_camera(run, frame);
-    glint_fingerprint_frame(&run->fingerprint, &run->scene_is, &camera, wanted);
+    render_stage_fingerprint(run, &camera, wanted);
     glint_fingerprint_find(path, found);
     if (found[0] == '\0') {
         return "it does not say how it was made";
@@ -163,6 +163,12 @@ static bool wants(render_run *run, int frame, const char *path, glint_error *err
     double clock = begun;
     run->build_ms = 0;
     glint_status status = render_stage_set(run, frame, error);
+    if (status == GLINT_OK) {
+        status = render_light_set(run, frame, error);
+    }
+    if (status == GLINT_OK) {
+        status = render_parcel_find_plate(run, frame, error);
+    }
     if (status == GLINT_OK && run->request->skip_existing && is_done(run, frame, path)) {
         skip(run, frame, path, glint_now_ms() - begun);
         return false;
@@ -170,6 +176,9 @@ static bool wants(render_run *run, int frame, const char *path, glint_error *err
     clock = glint_now_ms();
     if (status == GLINT_OK) {
         status = render_stage_show(run, error);
+    }
+    if (status == GLINT_OK) {
+        status = render_light_show(run, error);
     }
     run->build_ms += glint_lap_ms(&clock);
     return status == GLINT_OK;
@@ -197,83 +206,11 @@ static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame
     return wanted ? GLINT_NEXT_FRAME : GLINT_NEXT_AGAIN;
 }
 
-// ---- Writing -----------------------------------------------------------------------------------
-
-// What goes with a frame to its writer.
-typedef struct parcel {
-    glint_frame_metadata metadata;
-    char fingerprint[GLINT_FINGERPRINT_TEXT];
-    double build_ms;
-    const char *tree;
-} parcel;
-
-// Whatever may change with the next frame is taken along.
 static void frame_is_traced(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
-    const render_request *request = run->request;
     glint_progress_traced(&run->display);
-    parcel *made = calloc(1, sizeof *made);
-    frame->own = made;
-    if (made == NULL) {
-        return; // the writer says so
-    }
-    glint_subject subject = render_run_subject(run);
-    subject.scene = &run->label;
-    subject.camera = &frame->camera;
-    made->build_ms = run->build_ms;
-    made->tree = run->tree;
-    run->tree = "kept";
-    glint_frame_metadata_fill(&subject, frame->number, request->exposure,
-                              frame->report.kernel_ms + frame->report.readback_ms, &made->metadata);
-    if (request->inputs.kernel_dir == NULL) {
-        glint_fingerprint_frame(&run->fingerprint, &run->scene_is, &frame->camera,
-                                made->fingerprint);
-        glint_frame_metadata_add_text(&made->metadata, GLINT_FINGERPRINT_NAME, made->fingerprint);
-    }
-}
-
-static glint_status write_preview(const render_request *request, const glint_sequence_frame *frame,
-                                  glint_error *error)
-{
-    const parcel *along = frame->own;
-    char *path = glint_frame_name_make(&request->preview_name, frame->number);
-    if (path == NULL) {
-        return glint_fail_memory(error, "a file name");
-    }
-    const glint_write_options options = {.exposure = (float)request->exposure,
-                                         .metadata = along->metadata.entries,
-                                         .metadata_count = along->metadata.count};
-    glint_status status = glint_image_write(path, &frame->image, &options, error);
-    free(path);
-    return status;
-}
-
-// On a writer's thread: nothing of the run changes here, and nothing is read that does elsewhere.
-// The preview comes first, so that a frame that is there has one.
-static void write_frame(void *context, glint_sequence_frame *frame)
-{
-    const render_run *run = context;
-    const render_request *request = run->request;
-    const parcel *along = frame->own;
-    char *path = glint_frame_name_make(&request->name, frame->number);
-    if (path == NULL || along == NULL) {
-        frame->status = glint_fail_memory(&frame->error, "what a frame's file says of it");
-        free(path);
-        return;
-    }
-    glint_write_options options = render_write_options(request);
-    options.metadata = along->metadata.entries;
-    options.metadata_count = along->metadata.count;
-    options.channels = frame->layers.channels;
-    options.channel_count = frame->layers.count;
-    if (request->preview) {
-        frame->status = write_preview(request, frame, &frame->error);
-    }
-    if (frame->status == GLINT_OK) {
-        frame->status = glint_image_write(path, &frame->image, &options, &frame->error);
-    }
-    free(path);
+    render_parcel_make(run, frame);
 }
 
 // ---- What came of them -------------------------------------------------------------------------
@@ -292,12 +229,7 @@ static void count_rendered(render_totals *totals, const glint_sequence_frame *fr
     add_to_spread(&totals->build, totals->rendered, build_ms);
     add_to_spread(&totals->trace, totals->rendered, frame->trace_ms);
     add_to_spread(&totals->write, totals->rendered, frame->write_ms);
-    totals->rays.primary += report->rays.primary;
-    totals->rays.reflected += report->rays.reflected;
-    totals->rays.refracted_in += report->rays.refracted_in;
-    totals->rays.refracted_out += report->rays.refracted_out;
-    totals->rays.transmitted += report->rays.transmitted;
-    totals->rays.total_reflections += report->rays.total_reflections;
+    glint_ray_counts_add(&totals->rays, &report->rays);
     glint_frame_report *worst = &totals->worst;
     if (glint_stats_truncated(&report->truncation) > glint_stats_truncated(&worst->truncation)) {
         const uint64_t overflows = worst->truncation.media_overflows;
@@ -313,13 +245,19 @@ static void count_rendered(render_totals *totals, const glint_sequence_frame *fr
     totals->rendered++;
 }
 
-// Whether a frame that could not be written tells nothing of the next one: its own name, or its
-// preview's, is taken by something that cannot be replaced, while the folder is as it should be.
-static bool concerns_one_frame(const render_run *run, int frame, const char *path)
+// Whether a frame that could not be written tells nothing of the next one: its plate is bad; or its
+// own name, or its preview's, is taken by something that cannot be replaced, while the folder is as
+// it should be.
+static bool concerns_one_frame(const render_run *run, const glint_sequence_frame *traced,
+                               const char *path)
 {
+    const int frame = traced->number;
     if (!run->request->is_sequence || path == NULL ||
         glint_output_file_check_folder(path, NULL) != GLINT_OK) {
         return false;
+    }
+    if (traced->status == GLINT_BAD_INPUT) {
+        return true;
     }
     char *preview =
         run->request->preview ? glint_frame_name_make(&run->request->preview_name, frame) : NULL;
@@ -332,7 +270,7 @@ static bool concerns_one_frame(const render_run *run, int frame, const char *pat
 static void fail_frame(render_run *run, glint_sequence_frame *frame, const char *path)
 {
     count_failed(&run->totals, frame->number);
-    if (concerns_one_frame(run, frame->number, path)) {
+    if (concerns_one_frame(run, frame, path)) {
         glint_progress_clear(&run->display);
         glint_say_error(&frame->error);
     } else {
@@ -344,7 +282,7 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
     const bool is_written = frame->status == GLINT_OK;
-    const parcel *along = frame->own;
+    const render_parcel *along = frame->own;
     const double build_ms = along != NULL ? along->build_ms : 0;
     char *path = glint_frame_name_make(&run->request->name, frame->number);
     const glint_frame_outcome outcome = is_written ? GLINT_FRAME_RENDERED : GLINT_FRAME_FAILED;
@@ -371,7 +309,7 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
                                         .write_ms = frame->write_ms};
     show_frame(run, &shown);
     free(path);
-    free(frame->own);
+    render_parcel_free(frame->own);
     return run->failure.code == GLINT_OK;
 }
 
@@ -403,7 +341,10 @@ glint_status render_run_frames(render_run *run, glint_error *error)
 {
     const render_request *request = run->request;
     const glint_settings *settings = &request->inputs.settings;
-    const glint_subject subject = render_run_subject(run);
+    glint_subject subject = render_run_subject(run);
+    if (request->env_name.length > 0 || request->capture != NULL) {
+        subject.plan = NULL; // its texels are one frame's
+    }
     const glint_write_options options = render_write_options(request);
     glint_status status =
         glint_fingerprint_run(&subject, request->output, &options, &run->fingerprint, error);
@@ -421,7 +362,7 @@ glint_status render_run_frames(render_run *run, glint_error *error)
         .writers = writers,
         .next = next_frame,
         .traced = frame_is_traced,
-        .write = write_frame,
+        .write = render_parcel_write,
         .done = frame_is_through,
         .progress = {step, &run->display},
         .context = run,
@@ -468,6 +409,7 @@ void render_run_free(render_run *run)
     if (render_ahead_take(&run->ahead, run->ahead.pose.time, &unused)) {
         glint_scene_free(&unused.scene);
     }
+    render_light_free(&run->light);
     glint_stats_log_close(run->stats);
     glint_renderer_free(run->renderer);
     glint_device_close(run->device);

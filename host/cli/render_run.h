@@ -4,6 +4,7 @@
 
 #include "cli/progress.h"
 #include "cli/render_ahead.h"
+#include "cli/render_light.h"
 #include "cli/render_request.h"
 #include "device/device.h"
 #include "render/frame.h"
@@ -39,14 +40,16 @@ typedef struct render_run {
     glint_fingerprint fingerprint;    // of what all frames share
     glint_fingerprint scene_is;       // of inputs.scene
     glint_fingerprint renderer_shows; // of the renderer's
-    glint_scene label;                // the scene's path, which outlives scenes of other times
-    char *camera_name;                // likewise; owned
-    bool stands;                      // inputs.scene and inputs.camera are those of `time`
-    double time;                      // seconds of the animation
-    bool is_prepared;                 // the renderer, for inputs.scene
-    render_ahead ahead;               // the next frame's scene
-    double build_ms;                  // of the frame that is traced
-    const char *tree;                 // what came of its tree: "kept", "fitted" or "built"
+    glint_fingerprint plate_is;       // of the frame's plate; zero without
+    render_light light;
+    glint_scene label;  // the scene's path, which outlives scenes of other times
+    char *camera_name;  // likewise; owned
+    bool stands;        // inputs.scene and inputs.camera are those of `time`
+    double time;        // seconds of the animation
+    bool is_prepared;   // the renderer, for inputs.scene
+    render_ahead ahead; // the next frame's scene
+    double build_ms;    // of the frame that is traced
+    const char *tree;   // what came of its tree: "kept", "fitted" or "built"
     glint_frame_cursor cursor;
     uint64_t frames; // of this run's shard
     glint_stats_log *stats;

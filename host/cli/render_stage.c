@@ -1,6 +1,8 @@
 // Scene, camera and renderer of a run. See render_stage.h.
 #include "cli/render_stage.h"
 
+#include "cli/render_parcel.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -11,13 +13,14 @@ static glint_status take_pose(render_run *run, double time, glint_error *error)
     glint_inputs *inputs = &run->inputs;
     render_pose pose = {.time = time};
     if (!render_ahead_take(&run->ahead, time, &pose)) {
-        glint_status status = render_pose_load(inputs->source, &pose, error);
+        glint_status status = render_pose_load(&run->request->inputs, inputs->source, &pose, error);
         if (status != GLINT_OK) {
             return status;
         }
     }
     glint_scene_free(&inputs->scene);
     inputs->scene = pose.scene;
+    inputs->viewpoint = pose.viewpoint;
     run->scene_is = pose.is;
     run->is_prepared = pose.is_prepared;
     run->build_ms += pose.ms;
@@ -38,10 +41,10 @@ glint_status render_stage_set(render_run *run, int frame, glint_error *error)
         status = take_pose(run, time, error);
     } else if (motion->moves_cameras) {
         status = glint_scene_cameras_at(inputs->source, time, &inputs->scene, error);
-    }
-    if (status == GLINT_OK) {
-        status =
-            glint_scene_camera(&inputs->scene, run->request->inputs.camera, &inputs->camera, error);
+        if (status == GLINT_OK) {
+            status = glint_scene_camera(&inputs->scene, run->request->inputs.camera,
+                                        &inputs->viewpoint.camera, error);
+        }
     }
     run->stands = status == GLINT_OK;
     run->time = time;
@@ -50,18 +53,21 @@ glint_status render_stage_set(render_run *run, int frame, glint_error *error)
 
 glint_camera render_stage_camera(const render_run *run, int frame)
 {
-    glint_camera camera = run->inputs.camera;
+    const glint_viewpoint *viewpoint = &run->inputs.viewpoint;
+    glint_camera camera = viewpoint->camera;
     camera.name = run->camera_name;
-    if (run->request->turntable == 0) {
-        return camera;
-    }
-    const glint_scene *scene = &run->inputs.scene;
-    glint_vec3 low, high, centre = {0, 0, 0};
-    glint_scene_shown_bounds(scene, &low, &high);
-    if (low.x <= high.x) {
-        centre = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
-    }
-    return glint_camera_orbit(&camera, centre, (int64_t)frame - 1, run->request->turntable);
+    return run->request->turntable == 0
+               ? camera
+               : glint_camera_orbit(&camera, viewpoint->centre, (int64_t)frame - 1,
+                                    run->request->turntable);
+}
+
+void render_stage_fingerprint(const render_run *run, const glint_camera *camera,
+                              char text[GLINT_FINGERPRINT_TEXT])
+{
+    const glint_fingerprint parts[] = {run->fingerprint, run->scene_is, run->light.is,
+                                       run->plate_is};
+    glint_fingerprint_frame(parts, sizeof parts / sizeof *parts, camera, text);
 }
 
 glint_status render_stage_show(render_run *run, glint_error *error)
@@ -82,12 +88,16 @@ glint_status render_stage_show(render_run *run, glint_error *error)
 glint_status render_run_load(render_run *run, glint_error *error)
 {
     const render_request *request = run->request;
-    glint_status status = glint_inputs_load(&request->inputs, &run->display, &run->inputs, error);
+    glint_status status =
+        glint_inputs_load_scene(&request->inputs, &run->display, &run->inputs, error);
+    if (status == GLINT_OK) {
+        status = render_light_load(run, error);
+    }
     if (status == GLINT_OK) {
         status = glint_fingerprint_scene(&run->inputs.scene, &run->scene_is, error);
     }
     if (status == GLINT_OK) {
-        const char *name = run->inputs.camera.name;
+        const char *name = run->inputs.viewpoint.camera.name;
         run->label.path = run->inputs.scene.path != NULL ? strdup(run->inputs.scene.path) : NULL;
         run->camera_name = name != NULL ? strdup(name) : NULL;
         run->stands = true; // at time 0
@@ -107,12 +117,21 @@ glint_status render_run_prepare(render_run *run, glint_error *error)
     while (glint_frame_next(&first, &frame)) {
         glint_error_free(error);
         status = render_stage_set(run, frame, error);
+        if (status == GLINT_OK) {
+            status = render_light_set(run, frame, error);
+        }
+        if (status == GLINT_OK) {
+            status = render_parcel_check_plate(run, frame, error);
+        }
         if (status == GLINT_OK || status == GLINT_DEVICE_FAILED) {
             break;
         }
     }
     if (status == GLINT_OK) {
         status = glint_device_open(request->device, &run->device, error);
+    }
+    if (status == GLINT_OK) {
+        status = render_light_show(run, error);
     }
     if (status != GLINT_OK) {
         return status;
@@ -140,10 +159,13 @@ void render_stage_look_ahead(render_run *run)
         return;
     }
     char *path = glint_frame_name_make(&request->name, frame);
+    run->ahead.request = &request->inputs;
     run->ahead.source = run->inputs.source;
     run->ahead.renderer = run->renderer;
     run->ahead.shown = run->renderer_shows;
-    run->ahead.with_tree = !request->skip_existing || (path != NULL && access(path, F_OK) != 0);
+    // Another environment may change the plan.
+    run->ahead.with_tree = request->env_name.length == 0 && request->capture == NULL &&
+                           (!request->skip_existing || (path != NULL && access(path, F_OK) != 0));
     render_ahead_begin(&run->ahead, render_request_time(request, frame));
     free(path);
 }

@@ -11,6 +11,10 @@ glint_status render_stage_set(render_run *run, int frame, glint_error *error);
 // The camera of the frame that the scene stands at.
 glint_camera render_stage_camera(const render_run *run, int frame);
 
+// Of the frame that the scene stands at, as `camera` sees it.
+void render_stage_fingerprint(const render_run *run, const glint_camera *camera,
+                              char text[GLINT_FINGERPRINT_TEXT]);
+
 // Gives the renderer the scene, unless it shows the same already. Errors: as
 // glint_renderer_set_scene.
 glint_status render_stage_show(render_run *run, glint_error *error);

@@ -50,3 +50,21 @@ void glint_image_free(glint_image *image)
     free(image->pixels);
     *image = (glint_image){0};
 }
+
+void glint_image_put_behind(const glint_image *front, const glint_image *back)
+{
+    for (int y = 0; y < front->height; y++) {
+        for (int x = 0; x < front->width; x++) {
+            float *pixel = glint_image_pixel(front, x, y);
+            const float open = 1 - pixel[3];
+            double rgb[3];
+            if (open > 0) {
+                glint_image_rgb(back, x, y, rgb);
+                for (int c = 0; c < 3; c++) {
+                    pixel[c] += open * (float)rgb[c];
+                }
+            }
+            pixel[3] = 1;
+        }
+    }
+}

@@ -43,6 +43,11 @@ static inline void glint_image_rgb(const glint_image *image, int x, int y, doubl
     }
 }
 
+// Puts a picture behind one that is premultiplied: front + (1 − alpha)·back, linear, alpha 1. Where
+// the front covers all nothing of the back counts, not even what is not finite. The two have the
+// same size; the back's alpha says nothing more than its premultiplied colour does.
+void glint_image_put_behind(const glint_image *front, const glint_image *back);
+
 static inline bool glint_image_has_alpha(const glint_image *image)
 {
     return image->channels == 2 || image->channels == 4;

@@ -218,6 +218,16 @@ static glint_status run_frame(glint_renderer *r, glint_frame_record *record,
     return status;
 }
 
+void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more)
+{
+    sum->primary += more->primary;
+    sum->reflected += more->reflected;
+    sum->refracted_in += more->refracted_in;
+    sum->refracted_out += more->refracted_out;
+    sum->transmitted += more->transmitted;
+    sum->total_reflections += more->total_reflections;
+}
+
 static uint64_t count_nonfinite(const glint_image *image)
 {
     uint64_t count = 0;

@@ -35,6 +35,8 @@ typedef struct glint_ray_counts {
     uint64_t total_reflections; // of `reflected`, those by total internal reflection
 } glint_ray_counts;
 
+void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more);
+
 // Light that took the environment along its last direction without that direction being traced, as
 // a share of all weight (1 = every sample of every pixel, largest of R, G and B).
 typedef struct glint_truncation {
@@ -94,6 +96,15 @@ glint_status glint_renderer_prepare(glint_renderer *renderer, const glint_scene 
                                     glint_error *error);
 glint_status glint_renderer_set_prepared(glint_renderer *renderer, const glint_scene *scene,
                                          glint_error *error);
+
+// Another environment in the place of the one that there was, for the frames that follow; what the
+// plan says of its texels is found anew, and kernels are compiled only where that changes. It is
+// borrowed as at the creation. Not to be called while a scene is prepared, and a scene that has
+// been is prepared no more. Errors as above; a renderer that failed may be given another
+// environment, and renders no frame until then.
+glint_status glint_renderer_set_environment(glint_renderer *renderer,
+                                            const glint_environment *environment,
+                                            glint_error *error);
 
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);

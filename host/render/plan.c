@@ -350,10 +350,13 @@ static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *p
 
 // Half texels take half of the memory's time. Double precision, the reference, has them only if
 // they are asked for.
-static glint_status choose_texels(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
+glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *plan,
+                                      glint_error *error)
 {
     const glint_texels asked = in->settings->texels;
     const char *reason = NULL;
+    plan->half_texels = false;
+    plan->texels_rmse = 0;
     plan->environment_bytes = sizeof(float) * (plan->features[GLINT_FEATURE_MIP_LEVELS].compiled
                                                    ? glint_mip_levels_size(in->environment->edge)
                                                    : glint_cube_size(in->environment));
@@ -479,7 +482,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     describe_secondary_rays(plan);
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
-    return choose_texels(in, plan, error);
+    return glint_plan_choose_texels(in, plan, error);
 }
 
 static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *scene)

@@ -138,6 +138,11 @@ int glint_plan_native_width(const glint_capabilities *device, glint_precision pr
 // cl_khr_fp64).
 glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
 
+// Chooses the texels for another environment alone. Scene and topology are not read. Errors: as
+// glint_plan_make; of the plan only what concerns the texels is changed.
+glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *plan,
+                                      glint_error *error);
+
 // Builds the tree of the scene's triangles that the plan's kernels go through. Errors: as
 // glint_bvh_build.
 glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,

@@ -297,17 +297,35 @@ glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_re
     return GLINT_OK;
 }
 
+static bool has_same_options(const glint_plan *a, const glint_plan *b)
+{
+    char options[2][4096];
+    glint_plan_build_options(a, options[0], sizeof options[0]);
+    glint_plan_build_options(b, options[1], sizeof options[1]);
+    return strcmp(options[0], options[1]) == 0;
+}
+
+static glint_status replace_kernel(const glint_renderer_inputs *in, glint_renderer *r,
+                                   glint_error *error)
+{
+    double clock = glint_now_ms();
+    if (r->kernel != NULL) {
+        clReleaseKernel(r->kernel);
+        r->kernel = NULL;
+    }
+    glint_status status = build_kernel(in, r, error);
+    r->phases.kernel_build = glint_lap_ms(&clock);
+    return status;
+}
+
 // What has been prepared, in the place of what was shown, whose buffers are gone and whose kernel
 // was that of the plan `before`.
 static glint_status show(glint_renderer *r, const glint_scene *scene, const glint_plan *before,
                          glint_error *error)
 {
-    char old_options[4096], options[4096];
-    glint_plan_build_options(before, old_options, sizeof old_options);
-    glint_plan_build_options(&r->shown.plan, options, sizeof options);
     glint_renderer_inputs in = r->inputs;
     in.scene = scene;
-    if (strcmp(options, old_options) != 0 || r->kernel == NULL) {
+    if (!has_same_options(before, &r->shown.plan) || r->kernel == NULL) {
         tear_down(r); // other kernels, and what they read
         return set_up(&in, r, error);
     }
@@ -326,6 +344,31 @@ glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scen
         status = show(r, scene, &before, error);
     } else {
         r->shown.plan = before;
+    }
+    r->has_failed = status != GLINT_OK;
+    return status;
+}
+
+glint_status glint_renderer_set_environment(glint_renderer *r, const glint_environment *environment,
+                                            glint_error *error)
+{
+    const glint_plan before = r->shown.plan;
+    r->inputs.environment = environment;
+    r->has_failed = true;
+    r->is_next_ready = false; // its plan is another environment's
+    const glint_plan_inputs inputs = {.environment = &environment->radiance,
+                                      .device = glint_device_capabilities(r->device),
+                                      .settings = &r->settings};
+    glint_status status = glint_plan_choose_texels(&inputs, &r->shown.plan, error);
+    if (status != GLINT_OK) {
+        r->shown.plan = before;
+        return status;
+    }
+    const bool same_kernel = has_same_options(&before, &r->shown.plan) && r->kernel != NULL;
+    glint_light_memory_free(&r->light);
+    status = upload_light(&r->inputs, r, error);
+    if (status == GLINT_OK) {
+        status = same_kernel ? set_buffers(r, error) : replace_kernel(&r->inputs, r, error);
     }
     r->has_failed = status != GLINT_OK;
     return status;

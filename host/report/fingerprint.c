@@ -4,6 +4,7 @@
 #include "device/kernel_sources.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,10 +85,11 @@ static void add_settings(XXH3_state_t *state, const glint_settings *s)
 }
 
 // What else decides bits: widths and tiles do not, and texels are chosen for the environment.
-static void add_plan(XXH3_state_t *state, const glint_plan *plan)
+static void add_texels(XXH3_state_t *state, const glint_subject *subject)
 {
-    const double half = plan->half_texels ? 1 : 0;
-    add_numbers(state, &half, 1);
+    const double kind = subject->plan != NULL ? (subject->plan->half_texels ? 1 : 0)
+                                              : 2 + (double)subject->settings->texels;
+    add_numbers(state, &kind, 1);
 }
 
 static void add_encoding(XXH3_state_t *state, const char *path, const glint_write_options *options)
@@ -126,12 +128,51 @@ glint_status glint_fingerprint_run(const glint_subject *subject, const char *pat
         add_text(state, "glint " GLINT_VERSION);
         add_text(state, glint_kernel_source);
         add_settings(state, subject->settings);
-        add_plan(state, subject->plan);
+        add_texels(state, subject);
         add_encoding(state, path, options);
-        const glint_cube *radiance = &subject->environment->radiance;
+        *fingerprint = finish(state);
+    }
+    return status;
+}
+
+glint_status glint_fingerprint_environment(const glint_environment *environment,
+                                           glint_fingerprint *fingerprint, glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status == GLINT_OK) {
+        const glint_cube *radiance = &environment->radiance;
         add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
         *fingerprint = finish(state);
     }
+    return status;
+}
+
+glint_status glint_fingerprint_file(const char *path, glint_fingerprint *fingerprint,
+                                    glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    struct stat facts;
+    errno = 0;
+    const bool is_file = stat(path, &facts) == 0 && S_ISREG(facts.st_mode); // a pipe would wait
+    FILE *file = is_file ? fopen(path, "rbe") : NULL;
+    char bytes[16384];
+    size_t size = 0;
+    while (file != NULL && (size = fread(bytes, 1, sizeof bytes, file)) > 0) {
+        XXH3_128bits_update(state, bytes, size);
+    }
+    if (file == NULL || ferror(file) != 0) {
+        status = glint_fail(error, GLINT_BAD_INPUT, "%s: %s", path,
+                            errno != 0 ? strerror(errno) : "not a file");
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    *fingerprint = finish(state);
     return status;
 }
 
@@ -149,23 +190,39 @@ glint_status glint_fingerprint_scene(const glint_scene *scene, glint_fingerprint
 
 // ---- A frame -----------------------------------------------------------------------------------
 
-void glint_fingerprint_frame(const glint_fingerprint *run, const glint_fingerprint *scene,
+static void print(glint_fingerprint fingerprint, char text[GLINT_FINGERPRINT_TEXT])
+{
+    snprintf(text, GLINT_FINGERPRINT_TEXT, "%016llx%016llx", (unsigned long long)fingerprint.high,
+             (unsigned long long)fingerprint.low);
+}
+
+glint_fingerprint glint_fingerprint_join(const glint_fingerprint *parts, size_t count,
+                                         const char *text)
+{
+    enum { PARTS = 8 };
+    char all[PARTS * GLINT_FINGERPRINT_TEXT + 512];
+    size_t length = 0;
+    for (size_t i = 0; i < count && i < PARTS; i++) {
+        print(parts[i], all + length);
+        length += GLINT_FINGERPRINT_TEXT - 1;
+    }
+    length += (size_t)snprintf(all + length, sizeof all - length, " %s", text);
+    const XXH128_hash_t hash = XXH3_128bits(all, length < sizeof all ? length : sizeof all - 1);
+    return (glint_fingerprint){hash.high64, hash.low64};
+}
+
+void glint_fingerprint_frame(const glint_fingerprint *parts, size_t count,
                              const glint_camera *camera, char text[GLINT_FINGERPRINT_TEXT])
 {
     const glint_vec3 vectors[] = {camera->eye, camera->right, camera->up, camera->back};
     char all[512];
-    size_t length =
-        (size_t)snprintf(all, sizeof all, "%016llx%016llx %016llx%016llx %d %a",
-                         (unsigned long long)run->high, (unsigned long long)run->low,
-                         (unsigned long long)scene->high, (unsigned long long)scene->low,
-                         camera->orthographic, camera->orthographic ? camera->ymag : camera->yfov);
+    size_t length = (size_t)snprintf(all, sizeof all, "%d %a", camera->orthographic,
+                                     camera->orthographic ? camera->ymag : camera->yfov);
     for (int i = 0; i < 4; i++) {
         length += (size_t)snprintf(all + length, sizeof all - length, " %a %a %a", vectors[i].x,
                                    vectors[i].y, vectors[i].z);
     }
-    const XXH128_hash_t hash = XXH3_128bits(all, length);
-    snprintf(text, GLINT_FINGERPRINT_TEXT, "%016llx%016llx", (unsigned long long)hash.high64,
-             (unsigned long long)hash.low64);
+    print(glint_fingerprint_join(parts, count, all), text);
 }
 
 // ---- In files ----------------------------------------------------------------------------------

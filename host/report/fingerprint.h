@@ -21,10 +21,10 @@ static inline bool glint_fingerprints_equal(glint_fingerprint a, glint_fingerpri
 
 #define GLINT_FINGERPRINT_TEXT 33 // 32 hexadecimal digits and the end
 
-// Of what the frames of a run share: the program's version and its kernels, the environment, the
-// settings, the kind of texels, and how a file is encoded; not of the device, nor of the names of
-// files. `subject`: environment, settings and plan are needed. `path` names the
-// format by its extension. Reads every texel once. Errors: GLINT_DEVICE_FAILED (memory).
+// Of what the frames of a run share: the program's version and its kernels, the settings, the kind
+// of texels, and how a file is encoded; not of the device, nor of the names of files. `subject`:
+// settings are needed, and the plan unless its texels may be others in another frame. `path` names
+// the format by its extension. Errors: GLINT_DEVICE_FAILED (memory).
 glint_status glint_fingerprint_run(const glint_subject *subject, const char *path,
                                    const glint_write_options *options,
                                    glint_fingerprint *fingerprint, glint_error *error);
@@ -33,8 +33,21 @@ glint_status glint_fingerprint_run(const glint_subject *subject, const char *pat
 glint_status glint_fingerprint_scene(const glint_scene *scene, glint_fingerprint *fingerprint,
                                      glint_error *error);
 
-// Of the frame of a run in which `camera` sees a scene.
-void glint_fingerprint_frame(const glint_fingerprint *run, const glint_fingerprint *scene,
+// Of an environment's radiance, every texel of which is read once. Errors likewise.
+glint_status glint_fingerprint_environment(const glint_environment *environment,
+                                           glint_fingerprint *fingerprint, glint_error *error);
+
+// Of a file's bytes. Errors: GLINT_BAD_INPUT where it cannot be read.
+glint_status glint_fingerprint_file(const char *path, glint_fingerprint *fingerprint,
+                                    glint_error *error);
+
+// Of several things together, 8 at most, in this order, and of what `text` (under 500 bytes) says
+// beside them.
+glint_fingerprint glint_fingerprint_join(const glint_fingerprint *parts, size_t count,
+                                         const char *text);
+
+// Of a frame: what it is made of, and how `camera` sees that.
+void glint_fingerprint_frame(const glint_fingerprint *parts, size_t count,
                              const glint_camera *camera, char text[GLINT_FINGERPRINT_TEXT]);
 
 // The name of the entry that holds it in a file's metadata.

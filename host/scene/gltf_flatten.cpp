@@ -277,6 +277,30 @@ class Writer
 
 // Keeps the materials that triangles use, in the order of the file and the default one last, so
 // that nothing is compiled, and nothing said, for others.
+// The file's nodes, and the names of those that are drawn.
+void name_nodes(const tinygltf::Model &model, glint_scene &scene)
+{
+    const std::size_t count = model.nodes.size();
+    scene.nodes = static_cast<glint_node *>(glint_allocate(count, sizeof(glint_node)));
+    if (scene.nodes == nullptr) {
+        throw std::bad_alloc();
+    }
+    scene.node_count = count;
+    for (std::size_t i = 0; i < count; i++) {
+        scene.nodes[i].parent = -1;
+    }
+    for (std::size_t i = 0; i < count; i++) {
+        scene.nodes[i].name = copy_text(model.nodes[i].name);
+        for (int child : model.nodes[i].children) {
+            scene.nodes[child].parent = static_cast<int>(i);
+        }
+    }
+    for (std::size_t i = 0; i < scene.instance_count; i++) {
+        glint_instance &instance = scene.instances[i];
+        instance.node = scene.nodes[instance.node_index].name;
+    }
+}
+
 void keep_used_materials(Load &load, std::size_t default_material, glint_scene &scene)
 {
     constexpr std::uint32_t unused = 0xFFFFFFFF;
@@ -331,11 +355,7 @@ void flatten(Load &load, glint_scene &scene)
     std::size_t default_material = objects_of(load.document.root, "materials").size();
     Writer(load.draws, scene)
         .write(triangles, with_normals, static_cast<std::uint32_t>(default_material));
-    for (std::size_t i = 0; i < scene.instance_count; i++) {
-        glint_instance &instance = scene.instances[i];
-        instance.node =
-            copy_text(load.model.nodes[static_cast<std::size_t>(instance.node_index)].name);
-    }
+    name_nodes(load.model, scene);
     keep_used_materials(load, default_material, scene);
 }
 

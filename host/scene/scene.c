@@ -11,8 +11,8 @@ void glint_scene_free(glint_scene *scene)
     for (size_t i = 0; i < scene->material_count; i++) {
         free(scene->materials[i].name);
     }
-    for (size_t i = 0; i < scene->instance_count; i++) {
-        free(scene->instances[i].node);
+    for (size_t i = 0; i < scene->node_count; i++) {
+        free(scene->nodes[i].name);
     }
     for (size_t i = 0; i < scene->camera_count; i++) {
         free(scene->cameras[i].name);
@@ -22,6 +22,7 @@ void glint_scene_free(glint_scene *scene)
     free(scene->normals);
     free(scene->material_of);
     free(scene->materials);
+    free(scene->nodes);
     free(scene->instances);
     free(scene->cameras);
     *scene = (glint_scene){0};

@@ -31,9 +31,15 @@ typedef struct glint_material {
     float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
 } glint_material;
 
+// A node of the file, by its index.
+typedef struct glint_node {
+    char *name; // NULL where it has none; owned
+    int parent; // its index; −1 of a root
+} glint_node;
+
 // A primitive as it was instantiated by a node: a run of at least one triangle.
 typedef struct glint_instance {
-    char *node; // the node's name, NULL where it has none; owned
+    const char *node; // the node's name, NULL where it has none; the scene's
     int node_index;
     size_t first_triangle, triangle_count;
     uint32_t material;
@@ -60,8 +66,11 @@ typedef struct glint_scene {
     size_t material_count;     // those that triangles use, in the order of the file; glTF's default
     glint_material *materials; // material stands last where a primitive names none
 
+    size_t node_count;
+    glint_node *nodes; // all of the file; NULL of a built-in scene, which has none
+
     size_t instance_count;
-    glint_instance *instances;
+    glint_instance *instances; // in the order of their triangles
 
     size_t camera_count;
     glint_camera *cameras; // in depth-first order of their nodes

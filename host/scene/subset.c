@@ -8,27 +8,40 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool bears_name(const glint_instance *instance, const char *name)
+// Whether an instance is of a node, or of one under it: by the node's name, or by its index where
+// `name` is NULL.
+static bool stands_under(const glint_scene *scene, const glint_instance *instance, const char *name,
+                         long index)
 {
-    return instance->node != NULL && strcmp(instance->node, name) == 0;
+    int at = instance->node_index;
+    while (scene->nodes != NULL && at >= 0) {
+        const glint_node *node = &scene->nodes[at];
+        if (name == NULL ? at == index : node->name != NULL && strcmp(node->name, name) == 0) {
+            return true;
+        }
+        at = node->parent;
+    }
+    return scene->nodes == NULL && name == NULL && instance->node_index == index;
+}
+
+static bool mark_by(const glint_scene *scene, const char *name, long index, bool *is_marked)
+{
+    bool is_found = false;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const bool is_it = stands_under(scene, &scene->instances[i], name, index);
+        is_marked[i] = is_marked[i] || is_it;
+        is_found = is_found || is_it;
+    }
+    return is_found;
 }
 
 // Marks the instances of a node, by its name or else by its index. False where there is none.
 static bool mark(const glint_scene *scene, const char *node, bool *is_marked)
 {
-    bool is_found = false;
-    for (size_t i = 0; i < scene->instance_count; i++) {
-        is_marked[i] = bears_name(&scene->instances[i], node);
-        is_found = is_found || is_marked[i];
-    }
     char *rest;
     const long index = strtol(node, &rest, 10);
-    const bool is_index = !is_found && rest != node && *rest == '\0';
-    for (size_t i = 0; is_index && i < scene->instance_count; i++) {
-        is_marked[i] = scene->instances[i].node_index == index;
-        is_found = is_found || is_marked[i];
-    }
-    return is_found;
+    return mark_by(scene, node, 0, is_marked) ||
+           (rest != node && *rest == '\0' && mark_by(scene, NULL, index, is_marked));
 }
 
 static glint_status refuse(const glint_scene *scene, const char *node, glint_error *error)
@@ -53,6 +66,27 @@ static glint_status refuse(const glint_scene *scene, const char *node, glint_err
                       length > 0 ? names : "none that has");
 }
 
+// Marks the instances of all nodes of a list. The marks are for free() whatever the outcome.
+static glint_status mark_nodes(const glint_scene *scene, const char *nodes, bool **is_marked,
+                               glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    char *names = strdup(nodes);
+    *is_marked = glint_allocate(scene->instance_count + 1, sizeof **is_marked);
+    if (names == NULL || *is_marked == NULL) {
+        free(names);
+        return glint_fail_memory(error, "the scene's nodes");
+    }
+    char *rest = names, *name;
+    while (status == GLINT_OK && (name = strsep(&rest, ",")) != NULL) {
+        if (!mark(scene, name, *is_marked)) {
+            status = refuse(scene, name, error);
+        }
+    }
+    free(names);
+    return status;
+}
+
 // The bounds of some instances: of those that are marked, or of the others.
 static void find_bounds(const glint_scene *scene, const bool *is_marked, bool wanted,
                         glint_vec3 *low, glint_vec3 *high)
@@ -73,15 +107,40 @@ static void find_bounds(const glint_scene *scene, const bool *is_marked, bool wa
     }
 }
 
-// Moves what is left together. Instances stand in the order of their triangles.
-static void drop(glint_scene *scene, const bool *is_marked)
+// Keeps the materials that are left.
+static void drop_materials(glint_scene *scene, uint32_t *place)
+{
+    enum { UNUSED, USED };
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        place[scene->instances[i].material] = USED;
+    }
+    size_t kept = 0;
+    for (size_t m = 0; m < scene->material_count; m++) {
+        if (place[m] == UNUSED) {
+            free(scene->materials[m].name);
+            continue;
+        }
+        scene->materials[kept] = scene->materials[m];
+        place[m] = (uint32_t)kept++;
+    }
+    scene->material_count = kept;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        scene->instances[i].material = place[scene->instances[i].material];
+    }
+    for (size_t t = 0; t < scene->triangle_count; t++) {
+        scene->material_of[t] = place[scene->material_of[t]];
+    }
+}
+
+// Drops the instances whose mark is `unwanted`, and moves what is left together. Instances stand in
+// the order of their triangles.
+static void drop(glint_scene *scene, const bool *is_marked, bool unwanted)
 {
     size_t triangles = 0, kept = 0;
     for (size_t i = 0; i < scene->instance_count; i++) {
         glint_instance instance = scene->instances[i];
         const size_t from = instance.first_triangle, count = instance.triangle_count;
-        if (is_marked[i]) {
-            free(instance.node);
+        if (is_marked[i] == unwanted) {
             continue;
         }
         memmove(scene->positions + 9 * triangles, scene->positions + 9 * from,
@@ -100,22 +159,45 @@ static void drop(glint_scene *scene, const bool *is_marked)
     scene->triangle_count = triangles;
 }
 
-glint_status glint_scene_remove_node(glint_scene *scene, const char *node, glint_vec3 *low,
-                                     glint_vec3 *high, glint_error *error)
+// Takes away the nodes of a list, or all but those.
+static glint_status part(glint_scene *scene, const char *nodes, bool keeps, glint_error *error)
 {
-    bool *is_marked = glint_allocate(scene->instance_count + 1, sizeof *is_marked);
-    if (is_marked == NULL) {
-        return glint_fail_memory(error, "the scene's nodes");
+    uint32_t *place = glint_allocate(scene->material_count + 1, sizeof *place);
+    if (place == NULL) {
+        return glint_fail_memory(error, "the scene's materials");
     }
-    if (!mark(scene, node, is_marked)) {
-        free(is_marked);
-        return refuse(scene, node, error);
+    bool *is_marked;
+    glint_status status = mark_nodes(scene, nodes, &is_marked, error);
+    if (status == GLINT_OK) {
+        find_bounds(scene, is_marked, keeps, &scene->low, &scene->high);
+        drop(scene, is_marked, !keeps);
+        drop_materials(scene, place);
     }
-    glint_vec3 unused[2];
-    find_bounds(scene, is_marked, true, low != NULL ? low : &unused[0],
-                high != NULL ? high : &unused[1]);
-    find_bounds(scene, is_marked, false, &scene->low, &scene->high);
-    drop(scene, is_marked);
+    free(place);
     free(is_marked);
-    return GLINT_OK;
+    return status;
+}
+
+glint_status glint_scene_remove_nodes(glint_scene *scene, const char *nodes, glint_error *error)
+{
+    return part(scene, nodes, false, error);
+}
+
+glint_status glint_scene_keep_nodes(glint_scene *scene, const char *nodes, glint_error *error)
+{
+    return part(scene, nodes, true, error);
+}
+
+glint_status glint_scene_middle_of_nodes(const glint_scene *scene, const char *nodes,
+                                         glint_vec3 *middle, glint_error *error)
+{
+    bool *is_marked;
+    glint_vec3 low, high;
+    glint_status status = mark_nodes(scene, nodes, &is_marked, error);
+    if (status == GLINT_OK) {
+        find_bounds(scene, is_marked, true, &low, &high);
+        *middle = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
+    }
+    free(is_marked);
+    return status;
 }

@@ -5,11 +5,19 @@
 #include "base/status.h"
 #include "scene/scene.h"
 
-// Takes the triangles of a node away: of all instances that bear its name, else of the node with
-// that index. *low and *high (may be NULL) become their bounds (metres, world space); the scene's
-// own bounds become those of what is left, its origin and unit stay. Errors: GLINT_BAD_INPUT,
-// naming the nodes that there are; GLINT_DEVICE_FAILED (memory). The scene is then unchanged.
-glint_status glint_scene_remove_node(glint_scene *scene, const char *node, glint_vec3 *low,
-                                     glint_vec3 *high, glint_error *error);
+// `nodes` is a list with commas between: each a node's name, which stands for all nodes that bear
+// it, or else a node's index; what hangs under a node belongs to it. The scene's bounds become
+// those of what is left, its origin and unit stay, and so do its cameras. Errors, with the scene
+// unchanged: GLINT_BAD_INPUT, naming the nodes that there are; GLINT_DEVICE_FAILED (memory).
+
+// Takes the triangles of the nodes away.
+glint_status glint_scene_remove_nodes(glint_scene *scene, const char *nodes, glint_error *error);
+
+// Takes all others away.
+glint_status glint_scene_keep_nodes(glint_scene *scene, const char *nodes, glint_error *error);
+
+// The middle of their bounds (metres, world space); nothing is taken away.
+glint_status glint_scene_middle_of_nodes(const glint_scene *scene, const char *nodes,
+                                         glint_vec3 *middle, glint_error *error);
 
 #endif

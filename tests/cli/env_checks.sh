@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Command-line tests of glint env and glint capture, and of environments in every layout.
+# Command-line tests of glint env, and of environments in every layout.
 # env_checks.sh GLINT JSON_GET MAKE_EXR SCENES
 make_exr=$(readlink -f -- "$3")
 scenes=$(readlink -f -- "$4")
@@ -203,53 +203,6 @@ for how in '--ball-distance 5' '--ball-fov 30'; do
         --to latlong --size 256
     check "likewise from a sphere nearby: $how" within 0.2 out/back.exr in/axes.exr
 done
-clean
-
-# ---- capture ------------------------------------------------------------------------------------
-
-check 'capture --help tells every option' help_mentions capture at around without to size exposure \
-    compression progress env env-layout ball-circle ball-distance ball-fov env-rotate camera animation \
-    scene samples depth min-weight background precision fresnel texels filter device kernel-width \
-    kernel-tile kernel-dir help
-run --help
-check 'glint --help lists it' grep -q '^  capture ' stdout
-cp "$scenes"/lecture_example_2.* in/
-spheres=in/lecture_example_2.gltf
-refuses 2 'from where?' capture "$spheres" out/a.exr
-refuses 2 'give one' capture "$spheres" out/a.exr --at 0,0,0 --around mirror
-for at in 1,2 1,2,3,4 nan,0,0 x; do
-    refuses 2 'x,y,z in metres is expected' capture "$spheres" out/a.exr --at "$at"
-done
-refuses 2 'an environment has no holes' capture "$spheres" out/a.exr --at 0,0,0 --background transparent
-refuses 3 'no node "jewel" has triangles (there is 1 "mirror", 2 "red", 3 "green", 4 "blue", 5 "yellow")' \
-    capture "$spheres" out/a.exr --around jewel
-refuses 3 'no node "none" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,none
-refuses 3 'no node "9" has triangles' capture "$spheres" out/a.exr --around 9
-refuses 3 'no node "" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,
-refuses 2 '--size 1: 2 to' capture "$spheres" out/a.exr --at 0,0,0 --size 1
-refuses 2 '--size 5000: 1 to 4096' capture "$spheres" out/a.exr --at 0,0,0 --size 5000 --to cube
-refuses 5 'out/none' capture "$spheres" out/none/a.exr --around mirror
-# Without its only object a scene is its environment.
-run capture in/mirror_sphere.gltf out/all.exr --around 'mirror sphere' --env in/axes.exr --size 256 \
-    --samples 4
-check 'the environment around the only object' within 0.1 out/all.exr in/axes.exr
-check 'said: how large, and from where' \
-    grep -q 'out/all.exr: latlong 512x256, six views from (0, 0, 0), ' stderr
-run capture in/mirror_sphere.gltf out/index.exr --around 1 --env in/axes.exr --size 256 --samples 4
-check 'the node by its index' same_pixels out/index.exr out/all.exr
-# A mirror's picture of what is around it, by its map of it: what is far away is where it should be.
-small=(--size 96x96 --samples 4)
-run capture "$spheres" out/around.exr --around mirror --samples 4
-run render in/mirror_sphere.gltf "${small[@]}" --env out/around.exr -o out/mapped.exr
-run capture "$spheres" out/bare.exr --around mirror --without red,green,4,yellow --samples 4
-run render in/mirror_sphere.gltf "${small[@]}" --env out/bare.exr -o out/bare_mapped.exr
-run render in/mirror_sphere.gltf "${small[@]}" -o out/studio.exr
-check 'without anything else it is the studio' within 0.05 out/bare_mapped.exr out/studio.exr
-check 'with the others it is not' test "$(within 0.05 out/mapped.exr out/studio.exr >/dev/null; echo $?)" -eq 7
-run capture "$spheres" out/faces --around mirror --to faces --size 32
-check 'six files' test "$(find out/faces -name '*.exr' | wc -l)" -eq 6
-run capture "$spheres" out/cross.png --around mirror --to hcross --size 32
-check 'a cross' begins_with out/cross.png 89504e47
 clean
 
 # ---- OpenEXR's own tool -------------------------------------------------------------------------

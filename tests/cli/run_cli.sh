@@ -60,10 +60,10 @@ mkdir in/folder.gltf in/empty
 # ---- help ---------------------------------------------------------------------------------------
 
 render_options='output exposure compression exr-type preview aov stats progress frames turntable
-    fps skip-existing shard env env-layout ball-circle ball-distance ball-fov env-rotate camera animation
+    fps skip-existing shard surroundings capture-size env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without
     scene size samples depth min-weight background precision fresnel texels filter device
     kernel-width kernel-tile kernel-dir help'
-info_options='json env env-layout ball-circle ball-distance ball-fov env-rotate camera animation scene size samples depth min-weight background
+info_options='json env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without scene size samples depth min-weight background
     precision fresnel texels filter device kernel-width kernel-tile help'
 
 # shellcheck disable=SC2086 # lists of words
@@ -127,7 +127,7 @@ refuses 2 '--min-weight' render "${ok[@]}" --min-weight -0.1
 refuses 2 '--precision half' render "${ok[@]}" --precision half
 refuses 2 '--texels double' render "${ok[@]}" --texels double
 refuses 2 '--filter sharp' render "${ok[@]}" --filter sharp
-refuses 2 '--background plate.png' render "${ok[@]}" --background plate.png
+refuses 3 'plate.png' render "${ok[@]}" --background plate.png
 refuses 2 '--progress loud' render "${ok[@]}" --progress loud
 refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
 refuses 2 '--exr-type' render "${ok[@]}" --exr-type float

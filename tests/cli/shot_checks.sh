@@ -1,0 +1,220 @@
+#!/usr/bin/env bash
+# Command-line tests of glint capture, and of what renders of shots are made of: parts of scenes,
+# plates, an environment for each frame.
+# shot_checks.sh GLINT JSON_GET SCENES
+scenes=$(readlink -f -- "$3")
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+cp "$scenes"/mirror_sphere.* "$scenes"/clockwork.* in/
+"$glint" env --studio in/studio.exr --to latlong --size 128 2>/dev/null
+"$glint" env --probe in/axes.exr --to latlong --size 256 2>/dev/null
+
+# within LIMIT A B: the relative RMSE of two pictures is no more.
+within() {
+    "$glint" compare "$2" "$3" --fail-above "relative-rmse=$1" --fail-above nan=0
+}
+apart() { # LIMIT A B: it is more
+    "$glint" compare "$2" "$3" --fail-above "relative-rmse=$1"
+    [ $? -eq 7 ]
+}
+
+# ---- capture ------------------------------------------------------------------------------------
+
+check 'capture --help tells every option' help_mentions capture at around to size exposure \
+    compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without \
+    scene samples depth min-weight background precision fresnel texels filter device kernel-width \
+    kernel-tile kernel-dir help
+run --help
+check 'glint --help lists it' grep -q '^  capture ' stdout
+cp "$scenes"/lecture_example_2.* in/
+spheres=in/lecture_example_2.gltf
+refuses 2 'from where?' capture "$spheres" out/a.exr
+refuses 2 'give one' capture "$spheres" out/a.exr --at 0,0,0 --around mirror
+for at in 1,2 1,2,3,4 nan,0,0 x; do
+    refuses 2 'x,y,z in metres is expected' capture "$spheres" out/a.exr --at "$at"
+done
+refuses 2 'an environment has no holes' capture "$spheres" out/a.exr --at 0,0,0 --background transparent
+refuses 3 'no node "jewel" has triangles (there is 1 "mirror", 2 "red", 3 "green", 4 "blue", 5 "yellow")' \
+    capture "$spheres" out/a.exr --around jewel
+refuses 3 'no node "none" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,none
+refuses 3 'no node "9" has triangles' capture "$spheres" out/a.exr --around 9
+refuses 3 'no node "" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,
+refuses 2 '--size 1: 2 to' capture "$spheres" out/a.exr --at 0,0,0 --size 1
+refuses 2 '--size 5000: 1 to 4096' capture "$spheres" out/a.exr --at 0,0,0 --size 5000 --to cube
+refuses 5 'out/none' capture "$spheres" out/none/a.exr --around mirror
+# Without its only object a scene is its environment.
+run capture in/mirror_sphere.gltf out/all.exr --around 'mirror sphere' --env in/axes.exr --size 256 \
+    --samples 4
+check 'the environment around the only object' within 0.1 out/all.exr in/axes.exr
+check 'said: how large, and from where' \
+    grep -q 'out/all.exr: latlong 512x256, six views from (0, 0, 0), ' stderr
+run capture in/mirror_sphere.gltf out/index.exr --around 1 --env in/axes.exr --size 256 --samples 4
+check 'the node by its index' same_pixels out/index.exr out/all.exr
+# A mirror's picture of what is around it, by its map of it: what is far away is where it should be.
+small=(--size 96x96 --samples 4)
+run capture "$spheres" out/around.exr --around mirror --samples 4
+run render in/mirror_sphere.gltf "${small[@]}" --env out/around.exr -o out/mapped.exr
+run capture "$spheres" out/bare.exr --around mirror --without red,green,4,yellow --samples 4
+run render in/mirror_sphere.gltf "${small[@]}" --env out/bare.exr -o out/bare_mapped.exr
+run render in/mirror_sphere.gltf "${small[@]}" -o out/studio.exr
+check 'without anything else it is the studio' within 0.05 out/bare_mapped.exr out/studio.exr
+check 'with the others it is not' test "$(within 0.05 out/mapped.exr out/studio.exr >/dev/null; echo $?)" -eq 7
+run capture "$spheres" out/faces --around mirror --to faces --size 32
+check 'six files' test "$(find out/faces -name '*.exr' | wc -l)" -eq 6
+run capture "$spheres" out/cross.png --around mirror --to hcross --size 32
+check 'a cross' begins_with out/cross.png 89504e47
+clean
+
+# Of a scene that moves, at the times of frames: alone a clockwork sees its environment, and what
+# stands still is seen from where each part is.
+refuses 2 'need a place for their number' capture in/clockwork.gltf out/a.exr --at 0,0,0 --frames 1-2
+refuses 2 'which frames?' capture in/clockwork.gltf out/a.####.exr --at 0,0,0
+refuses 2 "a number from" capture in/clockwork.gltf out/a.####.exr --at 0,0,0 --frames x
+moving=$("$glint" info in/clockwork.gltf | sed -n 's/^  \(.*\) (node [0-9]*): .*/\1/p' | head -n 1)
+run capture in/clockwork.gltf out/ball.####.exr --around "$moving" --to ball --size 32 --frames 1,13
+check 'a ball for each frame' test -s out/ball.0001.exr -a -s out/ball.0013.exr
+check 'which show other times' apart 0.01 out/ball.0001.exr out/ball.0013.exr
+run capture in/clockwork.gltf out/one.exr --around "$moving" --to ball --size 32 --frames 13
+check 'a frame alone is the same' same_pixels out/one.exr out/ball.0013.exr
+run capture in/clockwork.gltf out/zero.exr --around "$moving" --to ball --size 32
+check 'without frames it is the first' same_pixels out/zero.exr out/ball.0001.exr
+clean
+
+# ---- parts of scenes ----------------------------------------------------------------------------
+
+refuses 3 'no node "jewel" has triangles (there is 1 "mirror"' \
+    render "$spheres" -o out/a.exr --only jewel
+refuses 3 'no node "jewel" has triangles' render "$spheres" -o out/a.exr --without red,jewel
+refuses 3 'no node "red" has triangles' render "$spheres" -o out/a.exr --only blue --without red
+run info "$spheres" --only mirror --json
+check 'a part: its triangles' test "$("$json_get" stdout scene triangle_count)" = 720
+check 'a part: its material alone' test "$("$json_get" stdout scene material_count)" = 1
+run render "$spheres" -o out/all.exr "${small[@]}"
+run render "$spheres" -o out/named.exr "${small[@]}" --only mirror,red,3,4,yellow
+check 'all parts are the whole' same_pixels out/all.exr out/named.exr
+run render "$spheres" -o out/left.exr "${small[@]}" --only 1,red --turntable 7 --frames 3
+run render "$spheres" -o out/right.exr "${small[@]}" --without green,blue,yellow --turntable 7 --frames 3
+check 'a part by what it is or by what it is not' same_pixels out/left.exr out/right.exr
+clean
+
+# ---- plates -------------------------------------------------------------------------------------
+
+shot=(in/mirror_sphere.gltf --size 64x48 --env in/studio.exr)
+exact=(--exr-type float)
+run render "${shot[@]}" "${exact[@]}" -o in/plate.exr --without 1
+run render "${shot[@]}" "${exact[@]}" -o out/whole.exr
+run render "${shot[@]}" "${exact[@]}" -o out/composited.exr --background in/plate.exr
+check 'in front of its own background: the whole, but for rounding' within 1e-7 out/composited.exr out/whole.exr
+run render "${shot[@]}" "${exact[@]}" -o out/whole.exr --samples 16
+run render "${shot[@]}" "${exact[@]}" -o out/composited.exr --samples 16 --background in/plate.exr
+check 'but for what its edges hide of it' within 1e-3 out/composited.exr out/whole.exr
+check 'alpha is 1' "$glint" compare out/composited.exr out/whole.exr --fail-above alpha=0
+run render "${shot[@]}" -o out/preview.exr --background in/plate.exr --preview
+run render "${shot[@]}" -o out/direct.png --background in/plate.exr
+check 'the preview has the plate, too' same_pixels out/preview.png out/direct.png
+# Eight bits and back: the curve is undone and done.
+run render "${shot[@]}" -o in/plate.png --without 1
+run render "${shot[@]}" -o out/empty.png --without 1 --background in/plate.png
+check 'a PNG comes out as it went in' same_pixels out/empty.png in/plate.png
+clean
+refuses 2 'did you mean transparent?' render "${shot[@]}" -o out/a.exr --background trasnparent
+refuses 2 'env or transparent, or an image' render "${shot[@]}" -o out/a.exr --background wall
+refuses 2 'pictures are for render alone' info in/mirror_sphere.gltf --background in/plate.exr
+refuses 3 'in/none.exr' render "${shot[@]}" -o out/a.exr --background in/none.exr
+refuses 3 'the plate has 64x48 pixels, the frame 32x32 (give --size 64x48' \
+    render in/mirror_sphere.gltf --size 32x32 -o out/a.exr --background in/plate.exr
+printf 'no picture' >in/bad.exr
+refuses 3 'in/bad.exr' render "${shot[@]}" -o out/a.exr --background in/bad.exr
+refuses 2 'this is an input' render "${shot[@]}" -o in/plate.exr --background in/plate.exr
+refuses 2 'this is an input' render "${shot[@]}" -o in/p.####.exr --background in/p.#.exr --frames 1000-1003
+
+# One for each frame; one that is missing is one bad frame.
+run render "${shot[@]}" "${exact[@]}" -o in/p.####.exr --without 1 --turntable 5
+rm in/p.0004.exr
+cp in/bad.exr in/p.0002.exr
+turn=("${shot[@]}" "${exact[@]}" --turntable 5)
+run render "${turn[@]}" -o out/whole.####.exr
+run render "${turn[@]}" -o out/f.####.exr --background in/p.####.exr
+check 'frames with bad plates fail alone: exit status 6' test "$status" -eq 6
+check 'and are named' grep -q '2 of 5 frames failed: 2,4' stderr
+for frame in 1 3 5; do
+    check "frame $frame has its plate" within 1e-7 "out/f.000$frame.exr" "out/whole.000$frame.exr"
+done
+check 'the others are not there' test ! -e out/f.0002.exr -a ! -e out/f.0004.exr
+run render "${shot[@]}" "${exact[@]}" -o in/p.####.exr --without 1 --turntable 5 --frames 2,4
+run render "${turn[@]}" -o out/f.####.exr --background in/p.####.exr --skip-existing
+check 'a restart renders those that failed' grep -q '2 rendered, 3 skipped, 0 failed' stderr
+run render "${shot[@]}" "${exact[@]}" -o in/p.####.exr --without 1 --turntable 5 --frames 3 --exposure 1 \
+    --env in/axes.exr
+run render "${turn[@]}" -o out/f.####.exr --background in/p.####.exr --skip-existing
+check 'and those whose plate has changed' grep -q '1 rendered, 4 skipped, 0 failed' stderr
+clean
+
+# ---- an environment for each frame ---------------------------------------------------------------
+
+for frame in 1 2 3; do
+    "$glint" env in/axes.exr "in/turned.000$frame.exr" --env-rotate "$((frame * 40))" --to ball \
+        --size 64 2>/dev/null
+done
+ball=(in/mirror_sphere.gltf --size 64x48 --env-layout ball --exr-type float)
+run render "${ball[@]}" --env in/turned.####.exr -o out/f.####.exr --frames 1-4
+check 'a missing one is one bad frame: exit status 6' test "$status" -eq 6
+check 'said' grep -q 'frame 4: .*in/turned.0004.exr' stderr
+for frame in 1 2 3; do
+    run render "${ball[@]}" --env "in/turned.000$frame.exr" -o out/alone.exr
+    check "frame $frame has its own" same_pixels out/alone.exr "out/f.000$frame.exr"
+done
+check 'its metadata says so' grep -aq 'in/turned.0002.exr' out/f.0002.exr
+run render "${ball[@]}" --env in/turned.####.exr -o out/f.####.exr --frames 1-3 --skip-existing
+check 'they are known again' grep -q '0 rendered, 3 skipped' stderr
+cp in/turned.0003.exr in/turned.0002.exr
+run render "${ball[@]}" --env in/turned.####.exr -o out/f.####.exr --frames 1-3 --skip-existing
+check 'and one that changed' grep -q '1 rendered, 2 skipped' stderr
+run render "${ball[@]}" --env in/turned.####.exr -o out/x.exr
+check 'one frame has the first' same_pixels out/x.exr out/f.0001.exr
+clean
+refuses 2 'this is an input' render "${ball[@]}" --env in/turned.####.exr -o in/turned.#.exr \
+    --frames 1001-1002
+# Texels that half cannot hold change the kernels: from frame to frame, there and back.
+"$glint" env in/studio.exr in/e.0001.exr --size 64 2>/dev/null
+"$glint" env in/studio.exr in/e.0003.exr --size 64 2>/dev/null
+"$glint" env in/studio.exr in/e.0002.hdr --size 128 --env-rotate 30 2>/dev/null
+mv in/e.0002.hdr in/e.0002.exr
+run render in/clockwork.gltf --size 48x48 --env in/e.####.exr -o out/m.####.exr --frames 1-3
+check 'scene and environment change together' test "$status" -eq 0
+for frame in 1 2 3; do
+    run render in/clockwork.gltf --size 48x48 --env "in/e.000$frame.exr" -o out/m.exr --frames "$frame"
+    check "frame $frame of both" same_pixels out/m.exr "out/m.000$frame.exr"
+done
+clean
+
+# ---- render --env capture:NODE -------------------------------------------------------------------
+
+refuses 2 'around which node?' render "$spheres" -o out/a.exr --env capture:
+refuses 3 'no node "jewel" has triangles' render "$spheres" -o out/a.exr --env capture:jewel
+refuses 2 'they are behind what is captured' render "$spheres" -o out/a.exr --surroundings in/axes.exr
+refuses 3 'in/none.exr' render "$spheres" -o out/a.exr --env capture:mirror --surroundings in/none.exr
+refuses 2 '--capture-size' render "$spheres" -o out/a.exr --env capture:mirror --capture-size 0
+around=("${small[@]}" --exr-type float --surroundings in/axes.exr --capture-size 64)
+run capture "$spheres" out/map --around mirror --to faces --size 64 --samples 4 --env in/axes.exr
+run render "$spheres" -o out/two.exr "${small[@]}" --exr-type float --env out/map --only mirror
+run render "$spheres" -o out/one.exr "${around[@]}" --env capture:mirror
+check 'in one go as in two, whose file is of half floats' within 0.001 out/one.exr out/two.exr
+run render "$spheres" -o out/turned.exr "${around[@]}" --env capture:mirror --env-rotate 90
+check 'the surroundings turn' apart 0.1 out/one.exr out/turned.exr
+run render "$spheres" -o out/f.####.exr "${around[@]}" --env capture:mirror --turntable 3
+check 'frames from one capture' same_pixels out/one.exr out/f.0001.exr
+run render "$spheres" -o out/f.####.exr "${around[@]}" --env capture:mirror --turntable 3 --skip-existing
+check 'are known again' grep -q '0 rendered, 3 skipped' stderr
+run render "$spheres" -o out/f.####.exr "${around[@]}" --env capture:mirror --turntable 3 \
+    --skip-existing --capture-size 32
+check 'another capture is another frame' grep -q '3 rendered, 0 skipped' stderr
+run render in/clockwork.gltf -o out/c.####.exr "${small[@]}" --env "capture:$moving" --capture-size 32 \
+    --frames 1,13 --background transparent
+run render in/clockwork.gltf -o out/c.exr "${small[@]}" --env "capture:$moving" --capture-size 32 \
+    --frames 13 --background transparent
+check 'each frame of a scene that moves from its own' same_pixels out/c.exr out/c.0013.exr
+clean
+
+finish
