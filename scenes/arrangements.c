@@ -137,3 +137,31 @@ void build_orthographic(model *scene)
     model_add_object(scene, "matte column", model_add_material(scene, &paint),
                      (glint_vec3){-1.1, 0.2, -0.2});
 }
+
+// An open surface of water, seen from above and from below: light crosses one interface, and from
+// below all of the world above lies within Snell's window, around which the surface reflects all. A
+// ball floats in it, two lie in the depth.
+void build_water(model *scene)
+{
+    model_add_perspective(scene, "above", 40, (glint_vec3){0, 2.2, 4.5}, (glint_vec3){0, -0.2, 0});
+    model_add_perspective(scene, "below", 100, (glint_vec3){0.3, -1.6, 0.9},
+                          (glint_vec3){0, 0.6, -0.6});
+    shape_sheet(model_add_geometry(scene, "surface"), 40, 40);
+    material water = material_glass("water", 1.333);
+    water.attenuation_distance = 12;
+    water.attenuation_color[0] = 0.55;
+    water.attenuation_color[1] = 0.85;
+    water.attenuation_color[2] = 0.9;
+    model_add_object(scene, "water", model_add_material(scene, &water), (glint_vec3){0, 0, 0});
+
+    shape_sphere(model_add_geometry(scene, "ball"), 0.4, 6);
+    material orange = material_paint("orange", 0.85, 0.3, 0.04, 1);
+    material white = material_paint("white", 0.8, 0.8, 0.78, 1);
+    material silver = material_metal("silver", 0.972, 0.96, 0.915);
+    model_add_object(scene, "floating ball", model_add_material(scene, &orange),
+                     (glint_vec3){-0.5, 0.1, 0});
+    model_add_object(scene, "white ball", model_add_material(scene, &white),
+                     (glint_vec3){0.9, -1, -0.5});
+    model_add_object(scene, "silver ball", model_add_material(scene, &silver),
+                     (glint_vec3){-0.9, -0.9, -0.8});
+}

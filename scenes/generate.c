@@ -25,6 +25,8 @@ static const struct {
     {"materials", build_materials},
     {"orthographic", build_orthographic},
     {"clockwork", build_clockwork},
+    {"shot", build_shot},
+    {"water", build_water},
 };
 
 static glint_status write_scenes(const char *folder, glint_error *error)

@@ -95,3 +95,63 @@ void build_clockwork(model *scene)
     hand->scale = 0.5;
     tick(scene, hand);
 }
+
+// What stands around the drop's way: columns of paint, a glossy one among them, and two balls.
+static void add_surroundings(model *scene)
+{
+    static const struct {
+        const char *name;
+        double color[3], roughness;
+        glint_vec3 place;
+    } columns[] = {
+        {"red column", {0.65, 0.06, 0.04}, 1, {-1.9, 0.8, -1.4}},
+        {"white column", {0.75, 0.74, 0.7}, 1, {-0.6, 0.8, -2}},
+        {"green column", {0.06, 0.35, 0.1}, 0, {0.8, 0.8, -1.8}},
+        {"blue column", {0.05, 0.1, 0.55}, 1, {2.1, 0.8, -1.2}},
+        {"orange column", {0.8, 0.3, 0.03}, 1, {-2.2, 0.8, 1.6}},
+        {"violet column", {0.3, 0.08, 0.45}, 1, {2.3, 0.8, 1.8}},
+    };
+    shape_chamfered_box(model_add_geometry(scene, "column"), (glint_vec3){0.25, 0.8, 0.25}, 0.04);
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
+        const double *c = columns[i].color;
+        material paint = material_paint(columns[i].name, c[0], c[1], c[2], columns[i].roughness);
+        model_add_object(scene, columns[i].name, model_add_material(scene, &paint),
+                         columns[i].place);
+    }
+}
+
+// A chrome drop that hovers past columns, turning and tilting: what is around it changes with every
+// frame, and it is seen in it. For 24 frames: as an environment map has it, against the truth.
+void build_shot(model *scene)
+{
+    const double seconds = 1;
+    scene->clip = "flight";
+    model_add_perspective(scene, "main", 38, (glint_vec3){0, 1.5, 5.2}, (glint_vec3){0, 0.75, 0});
+    shape_box(model_add_geometry(scene, "floor"), (glint_vec3){0, -0.05, 0},
+              (glint_vec3){3.2, 0.05, 3});
+    material ground = material_paint("ground", 0.42, 0.4, 0.37, 1);
+    model_add_object(scene, "floor", model_add_material(scene, &ground), (glint_vec3){0, 0, 0});
+    add_surroundings(scene);
+
+    static const double belly[3][2] = {{0.42, -0.42}, {0.42, 0.1}, {0.2, 0.35}};
+    static const double tip[3][2] = {{0.1, 0.475}, {0.06, 0.6}, {0, 0.6}};
+    profile drop = {0};
+    profile_line(&drop, 0, -0.42, 0.01, -0.42);
+    profile_curve(&drop, belly, 24);
+    profile_curve(&drop, tip, 16);
+    shape_revolve(model_add_geometry(scene, "drop"), &drop, 64);
+    material chrome = material_metal("chrome", 0.92, 0.92, 0.93);
+    node *body = model_add_object(scene, "drop", model_add_material(scene, &chrome),
+                                  (glint_vec3){-1.3, 0.85, 0.5});
+    motion *way = model_add_motion(scene, body, "translation", "LINEAR");
+    motion *tilt = model_add_motion(scene, body, "rotation", "LINEAR");
+    for (int key = 0; key <= 12; key++) {
+        const double share = key / 12.0;
+        const double place[3] = {-1.3 + 2.6 * share, 0.85 + 0.25 * sin(GLINT_PI * share),
+                                 0.5 - 0.9 * sin(GLINT_PI * share)};
+        double rotation[4];
+        rotation_about((glint_vec3){0, 0, 1}, 50 - 100 * share, rotation);
+        motion_add_key(way, seconds * share, place);
+        motion_add_key(tilt, seconds * share, rotation);
+    }
+}

@@ -22,9 +22,11 @@ void build_facing_mirrors(model *scene);
 void build_axes(model *scene);
 void build_materials(model *scene);
 void build_orthographic(model *scene);
+void build_water(model *scene);
 
 // Objects that move (motions.c).
 void build_clockwork(model *scene);
+void build_shot(model *scene);
 
 // The labelled axis environment, 1024 × 512, lat-long (axes_map.c).
 glint_status draw_axes_map(glint_image *image, glint_error *error);

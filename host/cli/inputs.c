@@ -325,11 +325,11 @@ glint_status glint_inputs_stage(const glint_input_request *request, glint_scene 
     viewpoint->centre =
         low.x <= high.x ? glint_vec3_scale(glint_vec3_add(low, high), 0.5) : (glint_vec3){0, 0, 0};
     glint_status status = glint_scene_camera(scene, request->camera, &viewpoint->camera, error);
-    if (status == GLINT_OK && request->only != NULL) {
-        status = glint_scene_keep_nodes(scene, request->only, error);
-    }
     if (status == GLINT_OK && request->without != NULL) {
         status = glint_scene_remove_nodes(scene, request->without, error);
+    }
+    if (status == GLINT_OK && request->only != NULL) {
+        status = glint_scene_keep_nodes(scene, request->only, error);
     }
     return status;
 }

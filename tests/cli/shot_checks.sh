@@ -86,7 +86,7 @@ clean
 refuses 3 'no node "jewel" has triangles (there is 1 "mirror"' \
     render "$spheres" -o out/a.exr --only jewel
 refuses 3 'no node "jewel" has triangles' render "$spheres" -o out/a.exr --without red,jewel
-refuses 3 'no node "red" has triangles' render "$spheres" -o out/a.exr --only blue --without red
+refuses 3 'no node "red" has triangles' render "$spheres" -o out/a.exr --only red --without red
 run info "$spheres" --only mirror --json
 check 'a part: its triangles' test "$("$json_get" stdout scene triangle_count)" = 720
 check 'a part: its material alone' test "$("$json_get" stdout scene material_count)" = 1
