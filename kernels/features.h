@@ -28,6 +28,7 @@
     FEATURE(SUPERSAMPLING, "several samples a pixel")                                              \
     FEATURE(TRANSPARENT, "the background is left out and alpha kept")                              \
     FEATURE(ENV_ROTATION, "the environment is turned about +Y")                                    \
+    FEATURE(IRRADIANCE_HARMONICS, "the irradiance is a polynomial of the normal and no map")       \
     FEATURE(MIP_LEVELS, "the environment is averaged over what a pixel sees of it")                \
     FEATURE(HITS, "a pixel holds what its ray met instead of a colour")                            \
     FEATURE(DIAGNOSTICS, "layers tell what became of each pixel's paths")

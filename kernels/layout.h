@@ -138,6 +138,12 @@ typedef struct glint_frame_record {
     int unused;
 } glint_frame_record;
 
+// ---- Irradiance --------------------------------------------------------------------------------
+// With GLINT_IRRADIANCE_HARMONICS the irradiance over π is no map but [GLINT_HARMONICS][4] floats,
+// R, G, B and one unused, the coefficients of these polynomials of the unit normal:
+//   1, x, y, z, x y, y z, z x, x² − y², 3 z² − 1
+#define GLINT_HARMONICS 9
+
 // ---- Layers ------------------------------------------------------------------------------------
 // With GLINT_DIAGNOSTICS: what became of a pixel's paths, [height][width]. The first three are of
 // all its samples, the others of the one in the middle: of k × k, that in column and row k/2,

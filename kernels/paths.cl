@@ -221,6 +221,37 @@ static inline void split_path(paths *all, int slot, path *reflected, path *trans
 }
 #endif
 
+#if GLINT_IRRADIANCE_HARMONICS
+// The polynomial of layout.h; where it is negative, which is a few percent of a single light's at
+// most, there is no light.
+static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wanted)
+{
+    global const float *coefficients = scene->irradiance.texels;
+    const real terms[GLINT_HARMONICS] = {real_of(1),
+                                         n.x,
+                                         n.y,
+                                         n.z,
+                                         n.x * n.y,
+                                         n.y * n.z,
+                                         n.z * n.x,
+                                         fused(n.x, n.x, -(n.y * n.y)),
+                                         fused(R(3.0) * n.z, n.z, real_of(-1))};
+    real3 sum = real3_of(real_of(0), real_of(0), real_of(0));
+    (void)wanted;
+    for (int k = 0; k < GLINT_HARMONICS; k++) {
+        global const float *c = coefficients + 4 * k;
+        sum = scale_add(real3_of(real_of(c[0]), real_of(c[1]), real_of(c[2])), terms[k], sum);
+    }
+    return real3_of(LARGER(sum.x, real_of(0)), LARGER(sum.y, real_of(0)),
+                    LARGER(sum.z, real_of(0)));
+}
+#elif NEEDS_IRRADIANCE
+static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wanted)
+{
+    return sample_cube(&scene->irradiance, n, wanted);
+}
+#endif
+
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
@@ -232,7 +263,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     real3 v = negate(ray->direction);
     real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
 #if NEEDS_IRRADIANCE
-    irradiance = sample_cube(&scene->irradiance, turn_into_environment(frame, s.normal), met);
+    irradiance = find_irradiance(scene, turn_into_environment(frame, s.normal), met);
 #endif
     mask media_lost;
     lanes_int media = ray->media;

@@ -24,6 +24,9 @@
 #endif
 
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
+#if GLINT_IRRADIANCE_HARMONICS && !NEEDS_IRRADIANCE
+#error "IRRADIANCE_HARMONICS needs PAINT or BLEND"
+#endif
 // Paths gather more than what the environment's look-ups bring.
 #define GATHERS                                                                                    \
     (!GLINT_HITS &&                                                                                \

@@ -28,7 +28,7 @@ static void format_scene(const crafted *scene, char *text, size_t capacity)
     snprintf(text, capacity,
              "{\"name\": \"%s\", \"device\": {\"name\": \"%s\", \"compute_units\": 2},"
              " \"settings\": {\"width\": %d, \"height\": 1080, \"depth\": \"auto\","
-             " \"filter\": \"bilinear\"},"
+             " \"filter\": \"bilinear\", \"irradiance\": \"exact\"},"
              " \"environment\": {\"name\": \"%s\", \"width\": 0},"
              " \"camera\": {\"eye\": [0.0, 0.0, 2.5]}, \"scene\": {\"triangle_count\": %d},"
              " \"frames\": {\"kernel\": {\"median\": %.6f, \"lower_quartile\": %.6f,"
@@ -240,25 +240,30 @@ static void a_report_that_was_written_is_read(void **state)
     json_decref(baseline);
 }
 
-// Files of before there was a choice of filters say nothing of it: all was bilinear then.
-static void a_report_from_before_filters_is_bilinear(void **state)
+// Files of before there was a choice say nothing of it: it was what is the default now.
+static void a_report_from_before_a_setting_has_its_default(void **state)
 {
     (void)state;
-    static const char member[] = ", \"filter\": \"bilinear\"";
-    char scene[1024];
-    format_scene(&plain, scene, sizeof scene);
-    char *filter = strstr(scene, member);
-    assert_non_null(filter);
-    memset(filter, ' ', strlen(member));
-    json_t *baseline = written_and_read(scene), *now = scene_of(&plain);
-    glint_comparison comparison;
-    assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
-                     GLINT_OK);
-    json_object_set_new(json_object_get(now, "settings"), "filter", json_string("mip"));
-    assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
-                     GLINT_BAD_INPUT);
-    json_decref(now);
-    json_decref(baseline);
+    static const char *const members[] = {", \"irradiance\": \"exact\"",
+                                          " \"filter\": \"bilinear\", "};
+    static const char *const others[][2] = {{"irradiance", "sh"}, {"filter", "mip"}};
+    for (int i = 0; i < 2; i++) {
+        char scene[1024];
+        format_scene(&plain, scene, sizeof scene);
+        char *member = strstr(scene, members[i]);
+        assert_non_null(member);
+        memset(member, ' ', strlen(members[i]));
+        json_t *baseline = written_and_read(scene), *now = scene_of(&plain);
+        glint_comparison comparison;
+        assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
+                         GLINT_OK);
+        json_object_set_new(json_object_get(now, "settings"), others[i][0],
+                            json_string(others[i][1]));
+        assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
+                         GLINT_BAD_INPUT);
+        json_decref(now);
+        json_decref(baseline);
+    }
 }
 
 int main(void)
@@ -274,8 +279,8 @@ int main(void)
                                         scratch_teardown),
         cmocka_unit_test_setup_teardown(a_report_that_was_written_is_read, scratch_setup,
                                         scratch_teardown),
-        cmocka_unit_test_setup_teardown(a_report_from_before_filters_is_bilinear, scratch_setup,
-                                        scratch_teardown),
+        cmocka_unit_test_setup_teardown(a_report_from_before_a_setting_has_its_default,
+                                        scratch_setup, scratch_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -424,6 +424,37 @@ static void a_kernel_that_does_not_compile_is_reported_with_its_file(void **stat
     glint_environment_free(&environment);
 }
 
+// bridge_direction_environment is of bands 0 and 1 alone, which harmonics hold whole: what is left
+// are its texels, as even squares (h²/24 of second derivatives under 4, h = 2/32), the map's
+// interpolation, of the same order, and rounding.
+static void harmonics_light_paint_as_the_map_does(void **state)
+{
+    (void)state;
+    const int widths[] = {1, 8, 16};
+    glint_settings settings = test_small_frame(2);
+    test_frame exact, by_harmonics;
+    test_render_named("lecture_example_2", &settings, &exact);
+    assert_false(exact.plan.features[GLINT_FEATURE_IRRADIANCE_HARMONICS].compiled);
+    settings.irradiance = GLINT_IRRADIANCE_SH;
+    for (int i = 0; i < 3; i++) {
+        settings.kernel_width = widths[i];
+        test_render_named("lecture_example_2", &settings, &by_harmonics);
+        assert_true(by_harmonics.plan.features[GLINT_FEATURE_IRRADIANCE_HARMONICS].compiled);
+        double worst = 0;
+        for (size_t k = 0; k < 61 * 43 * 4; k++) {
+            worst = fmax(
+                worst, fabs((double)exact.image.pixels[k] - (double)by_harmonics.image.pixels[k]));
+        }
+        assert_true(worst <= 2 * 4.0 / 32 / 32 / 24 * 4);
+        test_frame_free(&by_harmonics);
+    }
+    test_frame_free(&exact);
+    // Nothing is painted: nothing is compiled.
+    test_render_named("mirror_sphere", &settings, &by_harmonics);
+    assert_false(by_harmonics.plan.features[GLINT_FEATURE_IRRADIANCE_HARMONICS].compiled);
+    test_frame_free(&by_harmonics);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -432,6 +463,7 @@ int main(void)
         cmocka_unit_test(cones_see_what_many_samples_see),
         cmocka_unit_test(cones_are_no_wider_than_what_is_seen),
         cmocka_unit_test(cones_change_nothing_where_texels_are_wide),
+        cmocka_unit_test(harmonics_light_paint_as_the_map_does),
         cmocka_unit_test(features_that_a_scene_does_not_need_change_nothing),
         cmocka_unit_test(the_environment_turns_counter_clockwise_seen_from_above),
         cmocka_unit_test(a_sample_grid_is_the_mean_of_its_samples),

@@ -1,6 +1,8 @@
 // Irradiance against closed forms and against sums over finely divided texels.
 #include "environment/irradiance.h"
 
+#include "environment/harmonics.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -263,6 +265,109 @@ static void look_up_is_smooth_across_the_cubes_edges(void **state)
     glint_cube_free(&radiance);
 }
 
+// ---- Harmonics ----------------------------------------------------------------------------------
+
+// E(n)/π by the polynomial, as layout.h has it.
+static double by_harmonics(const float coefficients[GLINT_HARMONICS][4], glint_vec3 n, int channel)
+{
+    const double terms[GLINT_HARMONICS] = {1,
+                                           n.x,
+                                           n.y,
+                                           n.z,
+                                           n.x * n.y,
+                                           n.y * n.z,
+                                           n.z * n.x,
+                                           n.x * n.x - n.y * n.y,
+                                           3 * n.z * n.z - 1};
+    double sum = 0;
+    for (int k = 0; k < GLINT_HARMONICS; k++) {
+        sum += (double)coefficients[k][channel] * terms[k];
+    }
+    return sum;
+}
+
+// Three radiances of bands 0 to 2, one with all of each; times 1, 2/3 and 1/4 they are E/π.
+static void three_bands(glint_vec3 d, double rgb[3])
+{
+    rgb[0] = 3 + 0.5 * d.x - 0.25 * d.y + d.z;
+    rgb[1] = 2 + d.x * d.y - 0.5 * d.y * d.z + 0.3 * d.z * d.x;
+    rgb[2] = 4 + 0.5 * (d.x * d.x - d.y * d.y) + 0.4 * (3 * d.z * d.z - 1) + 0.1 * d.x;
+}
+
+static void three_bands_received(glint_vec3 n, double rgb[3])
+{
+    rgb[0] = 3 + 2.0 / 3 * (0.5 * n.x - 0.25 * n.y + n.z);
+    rgb[1] = 2 + 0.25 * (n.x * n.y - 0.5 * n.y * n.z + 0.3 * n.z * n.x);
+    rgb[2] = 4 + 0.25 * (0.5 * (n.x * n.x - n.y * n.y) + 0.4 * (3 * n.z * n.z - 1)) +
+             2.0 / 3 * 0.1 * n.x;
+}
+
+// What band 3 holds is not received at all: a radiance of that band beside another changes nothing.
+static void band_three(glint_vec3 d, double rgb[3])
+{
+    rgb[0] = 2 + d.x * d.y * d.z;
+    rgb[1] = 2 + d.x * (5 * d.z * d.z - 1);
+    rgb[2] = 2 + d.y * (3 * d.x * d.x - d.y * d.y);
+}
+
+// The texels hold the radiance at their middles, and are taken as even: h²/24 of its second
+// derivatives, under 8 for these, with h = 2/edge.
+static void harmonics_of_low_bands_are_exact(void **state)
+{
+    (void)state;
+    float coefficients[GLINT_HARMONICS][4];
+    for (int i = 0; i < 4; i++) {
+        const int edge = i < 2 ? 96 : 256; // four points a texel, and one
+        const double bound = 4.0 / edge / edge / 24 * 8 * (edge == 96 ? 1 : 2) + 8 * ROUNDING;
+        glint_cube cube = make_cube(edge, i % 2 == 0 ? three_bands : band_three);
+        assert_int_equal(glint_irradiance_harmonics(&cube, coefficients, NULL), GLINT_OK);
+        for (int k = 0; k < 500; k++) {
+            const glint_vec3 n =
+                unit(cos(k * 2.4) * sqrt(1 - (k / 250.0 - 1) * (k / 250.0 - 1)),
+                     sin(k * 2.4) * sqrt(1 - (k / 250.0 - 1) * (k / 250.0 - 1)), k / 250.0 - 1);
+            double wanted[3] = {2, 2, 2};
+            if (i % 2 == 0) {
+                three_bands_received(n, wanted);
+            }
+            for (int c = 0; c < 3; c++) {
+                assert_true(fabs(by_harmonics(coefficients, n, c) - wanted[c]) <= bound);
+            }
+        }
+        glint_cube_free(&cube);
+    }
+}
+
+// The worst there is, one bright texel: its irradiance is a clamped cosine, whose ∫cos² over the
+// half sphere is 2π/3; of that the bands 0 to 2 hold π/4·(1 + 4/3 + 5/16).
+static void harmonics_of_a_point_leave_out_what_they_must(void **state)
+{
+    (void)state;
+    enum { EDGE = 256, MAP = 48 };
+    glint_cube cube;
+    float coefficients[GLINT_HARMONICS][4];
+    assert_int_equal(glint_cube_create(EDGE, &cube, NULL), GLINT_OK);
+    const double bright[3] = {1e6, 1e6, 1e6};
+    glint_cube_store(&cube, 2, 100, 170, bright);
+    glint_cube_fill_border(&cube);
+    assert_int_equal(glint_irradiance_harmonics(&cube, coefficients, NULL), GLINT_OK);
+    glint_cube map = irradiance_of(&cube, MAP);
+    double off = 0, all = 0;
+    for (int k = 0; k < 6 * MAP * MAP; k++) {
+        const int face = k / MAP / MAP, i = k % MAP, j = k / MAP % MAP;
+        const double s = (2.0 * i + 1) / MAP - 1, t = (2.0 * j + 1) / MAP - 1;
+        const double weight = pow(1 + s * s + t * t, -1.5); // its solid angle
+        const double exact = (double)glint_cube_texel(&map, face, i, j)[0];
+        const double d = by_harmonics(coefficients, texel_direction(MAP, face, i, j), 0) - exact;
+        off += weight * d * d;
+        all += weight * exact * exact;
+    }
+    const double left_out = sqrt(off / all);
+    print_message("of a point's irradiance %.4f is left out\n", left_out);
+    assert_true(fabs(left_out - sqrt(1 - 3.0 / 8 * (1 + 4.0 / 3 + 5.0 / 16))) < 2e-3);
+    glint_cube_free(&map);
+    glint_cube_free(&cube);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +377,8 @@ int main(void)
         cmocka_unit_test(one_bright_texel_gives_a_clamped_cosine),
         cmocka_unit_test(noise_agrees_with_brute_force),
         cmocka_unit_test(look_up_is_smooth_across_the_cubes_edges),
+        cmocka_unit_test(harmonics_of_low_bands_are_exact),
+        cmocka_unit_test(harmonics_of_a_point_leave_out_what_they_must),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

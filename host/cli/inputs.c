@@ -216,6 +216,11 @@ const glint_option glint_settings_options[] = {
              "texels; mip, averaged over what a pixel sees of it, so that fine or bright detail "
              "does not sparkle in curved mirrors and glass.",
      .fallback = "bilinear", .offset = OFFSET(filter), .choices = "bilinear|mip"},
+    {GLINT_OPTION_CHOICE, .name = "irradiance", .argument = "KIND",
+     .help =
+         "What lights matte paint: exact, a map that is computed of the whole environment; sh, its "
+         "nine spherical harmonics, which take less time and are off where a light is small.",
+     .fallback = "exact", .offset = OFFSET(irradiance), .choices = "exact|sh"},
     {GLINT_OPTION_TEXT, .name = "device", .argument = "SELECTOR",
      .help = "The OpenCL device: an index of `glint devices`, cpu, gpu, or a part of a name.",
      .fallback = "the first GPU, else the CPU", .offset = OFFSET(device)},
@@ -292,6 +297,7 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
     request->settings.fresnel = request->fresnel == 0 ? GLINT_FRESNEL_EXACT : GLINT_FRESNEL_NONE;
     request->settings.texels = (glint_texels)request->texels;
     request->settings.filter = (glint_filter)request->filter;
+    request->settings.irradiance = (glint_irradiance)request->irradiance;
     return GLINT_OK;
 }
 

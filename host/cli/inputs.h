@@ -26,10 +26,11 @@ typedef struct glint_input_request {
     const char *device;
     const char *kernel_dir; // NULL: the embedded kernels
     int size[2];
-    int precision; // 0 float, 1 double
-    int fresnel;   // 0 exact, 1 none
-    int texels;    // a glint_texels, in the order of the choices
-    int filter;    // a glint_filter, likewise
+    int precision;  // 0 float, 1 double
+    int fresnel;    // 0 exact, 1 none
+    int texels;     // a glint_texels, in the order of the choices
+    int filter;     // a glint_filter, likewise
+    int irradiance; // a glint_irradiance, likewise
     glint_settings settings;
 } glint_input_request;
 

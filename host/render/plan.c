@@ -196,6 +196,13 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
     decide(plan, GLINT_FEATURE_HITS, hits, "%s", hits ? "hits were asked for" : "colour is wanted");
     bool mip = settings->filter == GLINT_FILTER_MIP && !hits;
     decide(plan, GLINT_FEATURE_MIP_LEVELS, mip, "filter %s", mip ? "mip" : "bilinear");
+    bool is_lit = plan->features[GLINT_FEATURE_PAINT].compiled ||
+                  plan->features[GLINT_FEATURE_BLEND].compiled;
+    bool harmonics = settings->irradiance == GLINT_IRRADIANCE_SH && is_lit;
+    decide(plan, GLINT_FEATURE_IRRADIANCE_HARMONICS, harmonics, "irradiance %s",
+           harmonics ? "sh"
+           : is_lit  ? "exact"
+                     : "is not needed");
     decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
            settings->aovs != 0 ? "layers were asked for" : "no layers were asked for");
     bool turned = fmod(settings->env_rotate, 360) != 0;
@@ -437,7 +444,8 @@ static void compile_everything(glint_plan *plan)
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         bool stays = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
                      i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
-                     i == GLINT_FEATURE_SMOOTH_NORMALS || i == GLINT_FEATURE_DIAGNOSTICS ||
+                     i == GLINT_FEATURE_IRRADIANCE_HARMONICS || i == GLINT_FEATURE_SMOOTH_NORMALS ||
+                     i == GLINT_FEATURE_DIAGNOSTICS ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

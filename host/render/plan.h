@@ -48,6 +48,12 @@ typedef enum glint_filter {
     GLINT_FILTER_MIP,      // from levels whose texels are as wide as what a pixel sees
 } glint_filter;
 
+// What lights matte paint.
+typedef enum glint_irradiance {
+    GLINT_IRRADIANCE_EXACT, // a map, see environment/irradiance.h
+    GLINT_IRRADIANCE_SH,    // nine spherical harmonics, see environment/harmonics.h
+} glint_irradiance;
+
 typedef enum glint_feature {
 #define GLINT_FEATURE_NAME(name, meaning) GLINT_FEATURE_##name,
     GLINT_FEATURES(GLINT_FEATURE_NAME)
@@ -72,6 +78,7 @@ typedef struct glint_settings {
     glint_output output;
     glint_texels texels;
     glint_filter filter;
+    glint_irradiance irradiance;
     uint32_t aovs;     // the set of diagnostic layers wanted, see layers.h; only beside colours
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "device/program.h"
+#include "environment/harmonics.h"
 #include "environment/irradiance.h"
 #include "kernels/layout.h"
 #include "render/renderer.h"
@@ -217,22 +218,29 @@ static glint_status upload_light(const glint_renderer_inputs *in, glint_renderer
                                  glint_error *error)
 {
     double clock = glint_now_ms();
+    const glint_cube *radiance = &in->environment->radiance;
     glint_cube irradiance = {0};
+    float harmonics[GLINT_HARMONICS][4];
+    const bool by_harmonics = r->shown.plan.features[GLINT_FEATURE_IRRADIANCE_HARMONICS].compiled;
     glint_status status = GLINT_OK;
-    if (needs_irradiance(&r->shown.plan) && !in->without_frames) {
-        status = glint_irradiance_map(&in->environment->radiance, GLINT_IRRADIANCE_EDGE,
-                                      &irradiance, error);
+    if (by_harmonics) {
+        status = glint_irradiance_harmonics(radiance, harmonics, error);
+        r->phases.irradiance = glint_lap_ms(&clock);
+    } else if (needs_irradiance(&r->shown.plan) && !in->without_frames) {
+        status = glint_irradiance_map(radiance, GLINT_IRRADIANCE_EDGE, &irradiance, error);
         r->phases.irradiance = glint_lap_ms(&clock);
     }
     if (status == GLINT_OK) {
         const glint_upload_inputs inputs = {
             .device = in->device,
             .plan = &r->shown.plan,
-            .environment = &in->environment->radiance,
-            .irradiance = &irradiance,
+            .environment = radiance,
+            .irradiance = by_harmonics ? &harmonics[0][0] : irradiance.texels,
+            .irradiance_count =
+                by_harmonics ? sizeof harmonics / sizeof(float) : glint_cube_size(&irradiance),
         };
         status = glint_light_upload(&inputs, &r->light, error);
-        r->environment_edge = in->environment->radiance.edge;
+        r->environment_edge = radiance->edge;
         r->irradiance_edge = irradiance.edge;
         r->phases.upload += glint_lap_ms(&clock);
     }

@@ -318,7 +318,9 @@ glint_status glint_light_upload(const glint_upload_inputs *in, glint_light_memor
     *memory = (glint_light_memory){0};
     glint_status status = upload_environment(in, memory, error);
     if (status == GLINT_OK) {
-        status = upload_cube(in, "the irradiance", in->irradiance, &memory->irradiance, error);
+        status = glint_buffer_create(in->device, "the irradiance",
+                                     in->irradiance_count * sizeof *in->irradiance, in->irradiance,
+                                     &memory->irradiance, error);
     }
     if (status != GLINT_OK) {
         glint_light_memory_free(memory);

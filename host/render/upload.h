@@ -24,7 +24,7 @@ typedef struct glint_light_memory {
     void *kept; // what the environment lies in
 } glint_light_memory;
 
-// Everything that is uploaded. Pointers are borrowed; `irradiance` may be an empty cube. A device
+// Everything that is uploaded. Pointers are borrowed; `irradiance` may be none. A device
 // that shares the host's memory takes the tree's arrays over instead of copying them, and leaves
 // NULL.
 typedef struct glint_upload_inputs {
@@ -33,7 +33,8 @@ typedef struct glint_upload_inputs {
     glint_bvh *bvh;
     const glint_plan *plan;
     const glint_cube *environment;
-    const glint_cube *irradiance;
+    const float *irradiance; // a map's texels, or coefficients, see kernels/layout.h
+    size_t irradiance_count; // floats
 } glint_upload_inputs;
 
 // What takes memory beside the scene.

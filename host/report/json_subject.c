@@ -152,6 +152,8 @@ json_t *glint_json_settings(const glint_settings *settings)
     glint_json_put_text(object, "texels", texels[settings->texels]);
     glint_json_put_text(object, "filter",
                         settings->filter == GLINT_FILTER_MIP ? "mip" : "bilinear");
+    glint_json_put_text(object, "irradiance",
+                        settings->irradiance == GLINT_IRRADIANCE_SH ? "sh" : "exact");
     glint_json_put(object, "kernel_width", number_or_auto(settings->kernel_width));
     glint_json_put(object, "kernel_tile", number_or_auto(settings->tile_packets));
     return object;

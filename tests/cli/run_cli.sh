@@ -61,10 +61,10 @@ mkdir in/folder.gltf in/empty
 
 render_options='output exposure compression exr-type preview aov stats progress frames turntable
     fps skip-existing shard surroundings capture-size env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without
-    scene size samples depth min-weight background precision fresnel texels filter device
+    scene size samples depth min-weight background precision fresnel texels filter irradiance device
     kernel-width kernel-tile kernel-dir help'
 info_options='json env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without scene size samples depth min-weight background
-    precision fresnel texels filter device kernel-width kernel-tile help'
+    precision fresnel texels filter irradiance device kernel-width kernel-tile help'
 
 # shellcheck disable=SC2086 # lists of words
 {

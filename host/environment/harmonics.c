@@ -1,0 +1,112 @@
+// Nine numbers for an environment's irradiance. See harmonics.h.
+#include "environment/harmonics.h"
+
+#include "base/memory.h"
+#include "base/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// The polynomials of kernels/layout.h are spherical harmonics but for a factor: Σ f²/∫f² takes what
+// of the radiance lies along f. ∫f² over the sphere; and what the cosine makes of the band, over π.
+static const double squares[GLINT_HARMONICS] = {
+    4 * GLINT_PI,      4 * GLINT_PI / 3,  4 * GLINT_PI / 3,   4 * GLINT_PI / 3, 4 * GLINT_PI / 15,
+    4 * GLINT_PI / 15, 4 * GLINT_PI / 15, 16 * GLINT_PI / 15, 16 * GLINT_PI / 5};
+static const double kept[GLINT_HARMONICS] = {1,       2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
+                                             1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
+
+// A row of texels: ∫ f L for each polynomial and channel, and the solid angle.
+typedef struct row_sum {
+    double value[GLINT_HARMONICS][3];
+    double solid_angle;
+} row_sum;
+
+typedef struct job {
+    const glint_cube *radiance;
+    row_sum *rows; // [6][edge]
+} job;
+
+static void polynomials(glint_vec3 d, double f[GLINT_HARMONICS])
+{
+    const double all[GLINT_HARMONICS] = {1,
+                                         d.x,
+                                         d.y,
+                                         d.z,
+                                         d.x * d.y,
+                                         d.y * d.z,
+                                         d.z * d.x,
+                                         d.x * d.x - d.y * d.y,
+                                         3 * d.z * d.z - 1};
+    for (int k = 0; k < GLINT_HARMONICS; k++) {
+        f[k] = all[k];
+    }
+}
+
+// Texels so small are taken as a point each: that errs by h²/24 of second derivatives, which are
+// under 8, with h = 2/edge: 2e-5. Larger ones by Gauss's rule, as four.
+#define POINT_EDGE 256
+
+// What a texel brings: its points, each weighed by the solid angle that a part of the face has
+// there.
+static void add_texel(const float *texel, int face, double s, double t, double half, row_sum *row)
+{
+    const int points = half <= 1.0 / POINT_EDGE ? 1 : 4;
+    const double aside = points == 1 ? 0 : half / sqrt(3.0), area = 4 * half * half / points;
+    double f[GLINT_HARMONICS], sum[GLINT_HARMONICS] = {0};
+    for (int point = 0; point < points; point++) {
+        const glint_vec3 at = glint_cube_direction(face, s + (point & 1 ? aside : -aside),
+                                                   t + (point & 2 ? aside : -aside));
+        const double length = glint_vec3_length(at);
+        const double weight = area / (length * length * length);
+        polynomials(glint_vec3_scale(at, 1 / length), f);
+        for (int k = 0; k < GLINT_HARMONICS; k++) {
+            sum[k] += weight * f[k];
+        }
+    }
+    for (int k = 0; k < GLINT_HARMONICS; k++) {
+        for (int c = 0; c < 3; c++) {
+            row->value[k][c] += sum[k] * (double)texel[c];
+        }
+    }
+    row->solid_angle += sum[0];
+}
+
+static void sum_row(size_t index, void *context)
+{
+    const job *work = context;
+    const int edge = work->radiance->edge;
+    const int face = (int)index / edge, j = (int)index % edge;
+    row_sum row = {0};
+    for (int i = 0; i < edge; i++) {
+        add_texel(glint_cube_texel(work->radiance, face, i, j), face, (2.0 * i + 1) / edge - 1,
+                  (2.0 * j + 1) / edge - 1, 1.0 / edge, &row);
+    }
+    work->rows[index] = row;
+}
+
+glint_status glint_irradiance_harmonics(const glint_cube *radiance,
+                                        float coefficients[GLINT_HARMONICS][4], glint_error *error)
+{
+    const size_t rows = 6 * (size_t)radiance->edge;
+    job work = {.radiance = radiance, .rows = glint_allocate(rows, sizeof *work.rows)};
+    if (work.rows == NULL) {
+        return glint_fail_memory(error, "the environment's harmonics");
+    }
+    glint_parallel_for(rows, sum_row, &work);
+    row_sum all = {0};
+    for (size_t i = 0; i < rows; i++) { // in one order, whoever summed the rows
+        all.solid_angle += work.rows[i].solid_angle;
+        for (int k = 0; k < 3 * GLINT_HARMONICS; k++) {
+            all.value[k / 3][k % 3] += work.rows[i].value[k / 3][k % 3];
+        }
+    }
+    free(work.rows);
+    for (int k = 0; k < GLINT_HARMONICS; k++) {
+        const double factor = kept[k] / squares[k] * 4 * GLINT_PI / all.solid_angle;
+        for (int c = 0; c < 3; c++) {
+            coefficients[k][c] = (float)(factor * all.value[k][c]);
+        }
+        coefficients[k][3] = 0;
+    }
+    return GLINT_OK;
+}
