@@ -165,6 +165,24 @@ PATH=$work/refusing:$PATH run farm slurm -- "$scene" --turntable 2 "${small[@]}"
 check 'a report that is refused: exit status 0' test "$status" -eq 0 -a "$(cat stdout)" = 4713
 check 'a report that is refused: said' grep -q '^glint: warning: job 4713 goes on' stderr
 clean
+# Ctrl-C while a job is waited for: everybody in the foreground gets the signal.
+printf '#!/bin/sh\ncase $* in *--wait*) touch "%s/waits"; exec sleep 60 ;; esac\necho 4714\n' "$work" \
+    >refusing/sbatch
+PATH=$work/refusing:$PATH setsid "$glint" farm slurm --wait -- "$scene" --turntable 2 "${small[@]}" \
+    -o out/g.##.exr >stdout 2>stderr &
+process=$!
+for _ in {1..200}; do
+    [ ! -e "$work/waits" ] || break
+    sleep 0.1
+done
+kill -INT -- "-$process"
+wait "$process"
+status=$?
+check 'Ctrl-C while it waits: exit status 130' test "$status" -eq 130
+check 'Ctrl-C while it waits: what becomes of the job' \
+    grep -q 'job 4714 goes on (scancel 4714 ends it)' stderr
+check 'Ctrl-C while it waits: nobody waits any more' test -z "$(pgrep -s "$process")"
+clean
 mkdir "$work/out/f.0003.exr"
 run farm slurm --parts 2 -- "$scene" --turntable 4 "${small[@]}" -o out/f.####.exr
 part 1 0 out/f.farm/job.sh
