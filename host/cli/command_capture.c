@@ -331,6 +331,7 @@ static void set_defaults(void *request)
 {
     glint_input_request_default(&((capture_request *)request)->inputs);
     ((capture_request *)request)->fps = 24;
+    ((capture_request *)request)->inputs.camera_may_wait = true; // nothing is seen through it
 }
 
 const glint_command glint_command_capture = {

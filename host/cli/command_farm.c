@@ -215,7 +215,9 @@ static glint_status load_subject(farm_subject *subject, glint_error *error)
     glint_progress_display display = {0};
     glint_progress_begin(&display, GLINT_PROGRESS_NONE);
     const render_request *request = &subject->request;
-    glint_status status = glint_inputs_load_scene(&request->inputs, &display, &inputs, error);
+    glint_input_request of_scene = request->inputs;
+    of_scene.camera_may_wait = true;
+    glint_status status = glint_inputs_load_scene(&of_scene, &display, &inputs, error);
     glint_say_warnings(&inputs.warnings, 0);
     const size_t said = inputs.warnings.count;
     if (status == GLINT_OK) {

@@ -323,6 +323,15 @@ static glint_status load_scene(const glint_input_request *request, glint_inputs 
     return status;
 }
 
+static bool has_lost_camera(const glint_scene *scene)
+{
+    bool is_lost = false;
+    for (size_t i = 0; i < scene->camera_count; i++) {
+        is_lost = is_lost || scene->cameras[i].is_lost;
+    }
+    return is_lost;
+}
+
 glint_status glint_inputs_stage(const glint_input_request *request, glint_scene *scene,
                                 glint_viewpoint *viewpoint, glint_error *error)
 {
@@ -331,6 +340,11 @@ glint_status glint_inputs_stage(const glint_input_request *request, glint_scene 
     viewpoint->centre =
         low.x <= high.x ? glint_vec3_scale(glint_vec3_add(low, high), 0.5) : (glint_vec3){0, 0, 0};
     glint_status status = glint_scene_camera(scene, request->camera, &viewpoint->camera, error);
+    if (status == GLINT_BAD_INPUT && request->camera_may_wait && has_lost_camera(scene)) {
+        viewpoint->camera = (glint_camera){.is_lost = true};
+        glint_error_free(error);
+        status = GLINT_OK;
+    }
     if (status == GLINT_OK && request->without != NULL) {
         status = glint_scene_remove_nodes(scene, request->without, error);
     }

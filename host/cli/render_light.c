@@ -17,6 +17,7 @@ static glint_status load_scene(render_run *run, glint_scene *scene, glint_error 
 {
     glint_input_request request = run->request->inputs;
     request.only = NULL;
+    request.camera_may_wait = true; // nothing is seen through it
     if (run->inputs.source != NULL) {
         glint_viewpoint unused;
         glint_status status = glint_scene_at(run->inputs.source, run->time, scene, NULL, error);

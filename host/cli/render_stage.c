@@ -27,6 +27,15 @@ static glint_status take_pose(render_run *run, double time, glint_error *error)
     return GLINT_OK;
 }
 
+// The name outlives the scene that it is from.
+static void keep_camera_name(render_run *run)
+{
+    const char *name = run->inputs.viewpoint.camera.name;
+    if (run->camera_name == NULL && name != NULL) {
+        run->camera_name = strdup(name);
+    }
+}
+
 glint_status render_stage_set(render_run *run, int frame, glint_error *error)
 {
     glint_inputs *inputs = &run->inputs;
@@ -48,6 +57,9 @@ glint_status render_stage_set(render_run *run, int frame, glint_error *error)
     }
     run->stands = status == GLINT_OK;
     run->time = time;
+    if (run->stands) {
+        keep_camera_name(run);
+    }
     return status;
 }
 
@@ -88,8 +100,9 @@ glint_status render_stage_show(render_run *run, glint_error *error)
 glint_status render_run_load(render_run *run, glint_error *error)
 {
     const render_request *request = run->request;
-    glint_status status =
-        glint_inputs_load_scene(&request->inputs, &run->display, &run->inputs, error);
+    glint_input_request inputs = request->inputs;
+    inputs.camera_may_wait = true;
+    glint_status status = glint_inputs_load_scene(&inputs, &run->display, &run->inputs, error);
     if (status == GLINT_OK) {
         status = render_light_load(run, error);
     }
@@ -97,10 +110,9 @@ glint_status render_run_load(render_run *run, glint_error *error)
         status = glint_fingerprint_scene(&run->inputs.scene, &run->scene_is, error);
     }
     if (status == GLINT_OK) {
-        const char *name = run->inputs.viewpoint.camera.name;
         run->label.path = run->inputs.scene.path != NULL ? strdup(run->inputs.scene.path) : NULL;
-        run->camera_name = name != NULL ? strdup(name) : NULL;
-        run->stands = true; // at time 0
+        run->stands = !run->inputs.viewpoint.camera.is_lost; // at time 0
+        keep_camera_name(run);
     }
     return status;
 }

@@ -274,6 +274,21 @@ check 'one frame that cannot be seen: exit status 6' test "$status" -eq 6
 check 'one frame that cannot be seen: why' grep -q '^glint: frame 3: .* camera 0 has no direction' stderr
 check 'one frame that cannot be seen: the others are there' test "$(files out)" = 's.1.hdr s.2.hdr '
 clean
+# Without one in the beginning, which need not be asked for.
+stepping 1 scale "$nothing$one" >in/late.gltf
+run render in/late.gltf "${small[@]}" --frames 3 -o out/s.#.exr
+check 'a camera that is there later: exit status 0' test "$status" -eq 0
+run render in/late.gltf "${small[@]}" --frames 1-3 -o out/s.#.exr
+check 'and before: exit status 6' test "$status" -eq 6
+check 'the frame that it sees' test "$(files out)" = 's.3.exr '
+run render in/late.gltf "${small[@]}" -o out/s.exr
+check 'one frame alone, at the beginning: exit status 3' test "$status" -eq 3
+check 'why' grep -q 'camera 0 has no direction at this time' stderr
+run info in/late.gltf
+check 'info tells of the beginning, and refuses it' test "$status" -eq 3
+run capture in/late.gltf out/around.exr --at 0,0,1 --size 16
+check 'what nothing is seen through may be so' test "$status" -eq 0
+clean
 
 # ---- signals ------------------------------------------------------------------------------------
 
