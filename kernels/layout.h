@@ -135,7 +135,7 @@ typedef struct glint_frame_record {
     // Tiles are rendered band by band, and within one column by column.
     int band;       // how many rows of tiles, 1 or more
     int first_band; // where this launch begins
-    int unused;
+    int terms;      // that a pixel keeps at most, with GLINT_TERMS
 } glint_frame_record;
 
 // ---- Irradiance --------------------------------------------------------------------------------
@@ -156,6 +156,18 @@ typedef struct glint_layers_record {
     int material;          // that triangle's, −1: none
     int face;              // of the cube map, in which the heaviest look-up fell, −1: none
 } glint_layers_record;
+
+// ---- Terms -------------------------------------------------------------------------------------
+// With GLINT_TERMS: [height][width][terms + 1][GLINT_TERM_VALUES] floats, what a pixel's R, G and B
+// are the sum of. First what does not depend on the environment: R, G, B; the sum of the weights
+// (largest of R, G, B) that found no room; how many terms follow. Then the terms, of which those are kept that weigh
+// most: a vector in the world's axes, unit but for rounding; what it is; and the weight R, G, B.
+#define GLINT_TERM_VALUES 8
+#define GLINT_TERM_VECTOR 0
+#define GLINT_TERM_KIND 3
+#define GLINT_TERM_WEIGHT 4
+#define GLINT_TERM_RADIANCE 0.0f   // the environment's radiance along the vector
+#define GLINT_TERM_IRRADIANCE 1.0f // its irradiance over π of a surface with this normal
 
 // ---- Counters ----------------------------------------------------------------------------------
 // Each counter is 64 bits in two 32-bit words (low, high). To keep work-items from waiting for each

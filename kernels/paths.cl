@@ -8,6 +8,9 @@ typedef struct tally {
 #if GLINT_DIAGNOSTICS
     layers *layers; // of the tile's pixels
 #endif
+#if GLINT_TERMS
+    terms *terms; // likewise
+#endif
 } tally;
 
 static inline tally no_tally(void)
@@ -252,6 +255,27 @@ static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wa
 }
 #endif
 
+#if GLINT_TERMS && GATHERS
+// What surfaces emit, apart from what the irradiance lights: what they would send back of one of 1
+// is more by that.
+static inline void note_emission(terms *terms, const scene_buffers *scene, const surface *s,
+                                 real3 v, const path *ray, mask met, const pixels *pixels)
+{
+    const real zero = real_of(0), one = real_of(1);
+    lanes_int media = ray->media;
+    mask media_lost;
+    const real3 emitted =
+        scatter(scene, s, v, &media, real3_of(zero, zero, zero), &media_lost).emitted;
+    note_constant(terms, pixels, met, multiply(ray->weight, emitted));
+#if NEEDS_IRRADIANCE
+    media = ray->media;
+    const real3 lit = scatter(scene, s, v, &media, real3_of(one, one, one), &media_lost).emitted;
+    note_terms(terms, pixels, met, s->normal, GLINT_TERM_IRRADIANCE,
+               multiply(ray->weight, subtract(lit, emitted)));
+#endif
+}
+#endif
+
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
@@ -274,6 +298,9 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
 #if GATHERS
     gather(all, slot, multiply(ray->weight, out.emitted), met);
+#endif
+#if GLINT_TERMS && GATHERS
+    note_emission(tally->terms, scene, &s, v, ray, met, &all->pixels[slot]);
 #endif
 #if GLINT_MIP_LEVELS
     const real width = width_after(&ray->cone, hit->t);
@@ -360,6 +387,10 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
                       escaped, &all->pixels[slot]);
 #if GLINT_DIAGNOSTICS
         note_look_ups(frame, &scene->environment, ray, escaped, &all->pixels[slot], tally->layers);
+#endif
+#if GLINT_TERMS
+        note_terms(tally->terms, &all->pixels[slot], escaped, ray->direction, GLINT_TERM_RADIANCE,
+                   ray->weight);
 #endif
     }
     active = mask_none();

@@ -52,6 +52,7 @@
 #include "stream.cl"
 #include "traverse_together.cl"
 #include "layers.cl"
+#include "terms.cl"
 #include "paths.cl"
 #include "mirrors.cl"
 
@@ -269,6 +270,7 @@ typedef struct outputs {
     global scalar *pixels;
     global uint *counters;
     global glint_layers_record *layers;
+    global float *terms;
 } outputs;
 
 // Renders the tile whose first pixel is in the given column and row.
@@ -281,6 +283,11 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     begin_layers(&layers);
     tally.layers = &layers;
 #endif
+#if GLINT_TERMS
+    terms terms;
+    begin_terms(&terms, out->terms, frame, column, row);
+    tally.terms = &terms;
+#endif
     gathered sum;
     scalar sums[TILE_GROUPS * PIXEL_VALUES];
     sample_tile(scene, frame, column, row, sums, &sum, &tally);
@@ -288,6 +295,9 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     report(&tally, out->counters);
 #if GLINT_DIAGNOSTICS
     store_layers(&layers, frame, column, row, out->layers);
+#endif
+#if GLINT_TERMS
+    store_terms(&terms);
 #endif
     const int k = SAMPLES_PER_AXIS(frame);
     scalar share = R(1.0) / (scalar)(k * k);
@@ -310,7 +320,8 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
 }
 
 // Renders one tile a work-item.
-//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width].
+//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms: see
+// layout.h.
 // counters: see layout.h. The other buffers are described in layout.h too; those that no compiled
 // feature needs may be of any size.
 kernel void render_tiles(global const float *nodes, global const float *clusters,
@@ -319,7 +330,7 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                          global const glint_medium_record *media, global const void *environment,
                          global const float *irradiance, global scalar *pixels,
                          global uint *counters, global glint_layers_record *layers,
-                         const glint_frame_record frame)
+                         global float *terms, const glint_frame_record frame)
 {
     const scene_buffers scene = {nodes,
                                  clusters,
@@ -334,6 +345,6 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
     if (column >= frame.width || row >= frame.height) {
         return;
     }
-    const outputs out = {pixels, counters, layers};
+    const outputs out = {pixels, counters, layers, terms};
     render_tile(&scene, &frame, column, row, &out);
 }

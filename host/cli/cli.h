@@ -15,6 +15,7 @@ extern const glint_command glint_command_compare;
 extern const glint_command glint_command_contact;
 extern const glint_command glint_command_env;
 extern const glint_command glint_command_capture;
+extern const glint_command glint_command_relight;
 extern const glint_command glint_command_farm;
 extern const glint_command glint_command_selftest;
 

@@ -21,8 +21,8 @@ typedef struct glint_input_request {
     const char *only, *without; // lists of nodes, see scene/subset.h
     const char *background;     // NULL, "env", "transparent", or a plate's file
     bool takes_plate;           // set by the command: such a file is its business
-    bool camera_may_wait;       // likewise: of a scene that moves, one that has no direction at time
-                                // 0 is no mistake, and viewpoint.camera.is_lost says so
+    bool camera_may_wait; // likewise: of a scene that moves, one that has no direction at time
+                          // 0 is no mistake, and viewpoint.camera.is_lost says so
     const char *env;
     glint_layout_request env_as;
     const char *device;

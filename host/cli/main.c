@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 static const glint_command *const commands[] = {
-    &glint_command_render,  &glint_command_farm,    &glint_command_contact, &glint_command_env,
-    &glint_command_capture, &glint_command_compare, &glint_command_bench,   &glint_command_selftest,
-    &glint_command_info,    &glint_command_devices};
+    &glint_command_render,   &glint_command_farm,    &glint_command_contact, &glint_command_env,
+    &glint_command_capture,  &glint_command_relight, &glint_command_compare, &glint_command_bench,
+    &glint_command_selftest, &glint_command_info,    &glint_command_devices};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 void glint_say(const char *format, ...)

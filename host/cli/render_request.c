@@ -104,6 +104,11 @@ static const glint_option output_options[] = {
              "them, or all. With several samples depth is the maximum, tir and truncated are "
              "means, the others numbers from 0, −1 for none, of the sample in the middle.",
      .offset = offsetof(render_request, inputs.settings.aovs), .parse = parse_aovs},
+    {GLINT_OPTION_INT, .name = "directions", .argument = "K",
+     .help = "Keep of each pixel the K heaviest directions that its paths leave along, with their "
+             "weights, as further channels of the EXR: for glint relight.",
+     .offset = offsetof(render_request, inputs.settings.terms), .minimum = 1,
+     .maximum = GLINT_TERMS_MAX},
     {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE.json",
      .help = "Write what the frame took and counted: phases in milliseconds, rays by kind, "
              "truncated light, the plan and the device. Of a sequence, an object a line: the run, "
@@ -299,6 +304,10 @@ static glint_status check_format(const render_request *request, glint_error *err
     }
     if (status == GLINT_OK && request->inputs.settings.aovs != 0 && !is_exr) {
         return glint_fail(error, GLINT_USAGE, "--aov: %s is no EXR, which alone holds layers",
+                          output);
+    }
+    if (status == GLINT_OK && request->inputs.settings.terms > 0 && !is_exr) {
+        return glint_fail(error, GLINT_USAGE, "--directions: %s is no EXR, which alone holds them",
                           output);
     }
     if (status == GLINT_OK && request->preview && !is_exr) {

@@ -352,13 +352,13 @@ glint_status render_run_frames(render_run *run, glint_error *error)
         return status;
     }
     begin_display(run);
-    const double values = settings->aovs != 0 ? 4 + 6 : 4; // of a pixel, with all layers
+    const double values = 4 + (settings->aovs != 0 ? 6 : 0) + 7.0 * settings->terms; // of a pixel
     const size_t room =
         glint_sequence_writers(values * sizeof(float) * settings->width * settings->height);
     const size_t writers = run->frames < room ? (size_t)run->frames : room;
     const glint_sequence sequence = {
         .renderer = run->renderer,
-        .with_layers = settings->aovs != 0,
+        .with_layers = settings->aovs != 0 || settings->terms > 0,
         .writers = writers,
         .next = next_frame,
         .traced = frame_is_traced,

@@ -34,6 +34,18 @@ typedef struct glint_image_facts {
 glint_status glint_image_read(const char *path, glint_image *image, glint_image_facts *facts,
                               glint_error *error);
 
+// All channels of an EXR, whatever their names, as they are. Zero is valid: none.
+typedef struct glint_channels {
+    int width, height, count;
+    char **names;  // [count], owned
+    float *values; // [height][width][count], owned
+} glint_channels;
+
+// Errors: GLINT_BAD_INPUT with the file's name, also for files of other formats.
+glint_status glint_image_read_channels(const char *path, glint_channels *channels,
+                                       glint_error *error);
+void glint_channels_free(glint_channels *channels);
+
 typedef enum glint_metadata_type {
     GLINT_METADATA_STRING,
     GLINT_METADATA_INT,

@@ -9,6 +9,7 @@ glint_settings glint_capture_settings(const glint_settings *settings, int edge)
     square.width = square.height = edge;
     square.transparent = false;
     square.aovs = 0;
+    square.terms = 0;
     return square;
 }
 

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "kernels/layout.h"
 #include "render/renderer.h"
+#include "render/terms.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -256,6 +257,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     glint_view_record(&r->space, camera, &r->settings, &r->shown.plan, &record);
     record.environment_edge = r->environment_edge;
     record.irradiance_edge = r->irradiance_edge;
+    record.terms = r->settings.terms;
     cl_mem target = NULL;
     glint_status status = glint_pixels_begin(&r->pixels, image, &target, error);
     if (status == GLINT_OK) {
@@ -306,27 +308,64 @@ glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixe
     return status;
 }
 
+// Reads a buffer of the device's into memory that the caller frees.
+static glint_status read_buffer(const glint_renderer *r, const char *what, cl_mem buffer,
+                                size_t bytes, void **copy, glint_error *error)
+{
+    *copy = malloc(bytes);
+    if (*copy == NULL) {
+        return glint_fail_memory(error, what);
+    }
+    cl_int code =
+        clEnqueueReadBuffer(r->device->queue, buffer, CL_TRUE, 0, bytes, *copy, 0, NULL, NULL);
+    return code == CL_SUCCESS ? GLINT_OK : glint_fail_opencl(error, r->device, what, code);
+}
+
+static glint_status read_layers(glint_renderer *r, glint_layers *layers, glint_error *error)
+{
+    const glint_settings *settings = &r->settings;
+    void *records = NULL;
+    glint_status status = read_buffer(r, "reading the layers", r->layers,
+                                      glint_renderer_layers_bytes(r), &records, error);
+    if (status == GLINT_OK) {
+        status = glint_layers_make(records, glint_renderer_pixel_count(r),
+                                   settings->samples_per_axis * settings->samples_per_axis,
+                                   settings->aovs, layers, error);
+    }
+    free(records);
+    return status;
+}
+
+static glint_status read_terms(glint_renderer *r, glint_layers *layers, glint_error *error)
+{
+    void *stored = NULL;
+    glint_status status = read_buffer(r, "reading the directions", r->terms,
+                                      glint_renderer_terms_bytes(r), &stored, error);
+    if (status == GLINT_OK) {
+        status = glint_terms_add_channels(stored, glint_renderer_pixel_count(r), r->settings.terms,
+                                          layers, error);
+    }
+    free(stored);
+    return status;
+}
+
 glint_status glint_renderer_layers(glint_renderer *renderer, glint_layers *layers,
                                    glint_error *error)
 {
     *layers = (glint_layers){0};
     const glint_settings *settings = &renderer->settings;
-    if (settings->aovs == 0) {
+    glint_status status = GLINT_OK;
+    if (settings->aovs == 0 && settings->terms == 0) {
         return glint_fail(error, GLINT_USAGE, "no layers were asked for");
     }
-    glint_layers_record *records = malloc(glint_renderer_layers_bytes(renderer));
-    if (records == NULL) {
-        return glint_fail_memory(error, "the layers");
+    if (settings->aovs != 0) {
+        status = read_layers(renderer, layers, error);
     }
-    cl_int code =
-        clEnqueueReadBuffer(renderer->device->queue, renderer->layers, CL_TRUE, 0,
-                            glint_renderer_layers_bytes(renderer), records, 0, NULL, NULL);
-    glint_status status =
-        code == CL_SUCCESS
-            ? glint_layers_make(records, glint_renderer_pixel_count(renderer),
-                                settings->samples_per_axis * settings->samples_per_axis,
-                                settings->aovs, layers, error)
-            : glint_fail_opencl(error, renderer->device, "reading the layers", code);
-    free(records);
+    if (status == GLINT_OK && settings->terms > 0) {
+        status = read_terms(renderer, layers, error);
+    }
+    if (status != GLINT_OK) {
+        glint_layers_free(layers);
+    }
     return status;
 }

@@ -27,6 +27,8 @@ const char *glint_aov_name(glint_aov aov)
 void glint_layers_free(glint_layers *layers)
 {
     free(layers->values);
+    free(layers->term_values);
+    free(layers->names);
     *layers = (glint_layers){0};
 }
 

@@ -36,11 +36,16 @@ typedef enum glint_aov {
 // The layer's name: "depth".
 const char *glint_aov_name(glint_aov aov);
 
-// Layers, in the order of glint_aov, as channels of an EXR. Zero is valid and empty.
+#define GLINT_TERMS_MAX 32 // that are kept of a pixel, see terms.h
+#define GLINT_LAYER_CHANNELS 240
+#define GLINT_LAYER_NAME 24 // bytes of a term's channel's name
+
+// Layers, in the order of glint_aov, and terms, as channels of an EXR. Zero is valid and empty.
 typedef struct glint_layers {
-    glint_channel channels[GLINT_AOV_COUNT];
+    glint_channel channels[GLINT_LAYER_CHANNELS];
     size_t count;
-    float *values; // owned; the channels point into it
+    float *values, *term_values;     // owned; the channels point into them
+    char (*names)[GLINT_LAYER_NAME]; // owned, likewise
 } glint_layers;
 
 void glint_layers_free(glint_layers *layers);

@@ -203,6 +203,12 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
            harmonics ? "sh"
            : is_lit  ? "exact"
                      : "is not needed");
+    if (settings->terms > 0) {
+        decide(plan, GLINT_FEATURE_TERMS, true, "%d directions of a pixel are kept",
+               settings->terms);
+    } else {
+        decide(plan, GLINT_FEATURE_TERMS, false, "no directions were asked for");
+    }
     decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
            settings->aovs != 0 ? "layers were asked for" : "no layers were asked for");
     bool turned = fmod(settings->env_rotate, 360) != 0;
@@ -231,6 +237,16 @@ static glint_status check_settings(const glint_plan_inputs *in, glint_error *err
     if (s->aovs > GLINT_AOV_ALL || (s->aovs != 0 && s->output == GLINT_OUTPUT_HITS)) {
         return glint_fail(error, GLINT_USAGE,
                           "--aov: only layers that there are, and none with hits");
+    }
+    if (s->terms < 0 || s->terms > GLINT_TERMS_MAX ||
+        (s->terms > 0 && s->output == GLINT_OUTPUT_HITS)) {
+        return glint_fail(error, GLINT_USAGE, "--directions: 1 to %d, and none with hits",
+                          GLINT_TERMS_MAX);
+    }
+    if (s->terms > 0 && s->filter == GLINT_FILTER_MIP) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--directions: what a pixel sees around a direction is not kept, which "
+                          "--filter mip needs (use bilinear)");
     }
     if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
         return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
@@ -445,7 +461,7 @@ static void compile_everything(glint_plan *plan)
         bool stays = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
                      i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
                      i == GLINT_FEATURE_IRRADIANCE_HARMONICS || i == GLINT_FEATURE_SMOOTH_NORMALS ||
-                     i == GLINT_FEATURE_DIAGNOSTICS ||
+                     i == GLINT_FEATURE_DIAGNOSTICS || i == GLINT_FEATURE_TERMS ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

@@ -79,6 +79,8 @@ typedef struct glint_settings {
     glint_texels texels;
     glint_filter filter;
     glint_irradiance irradiance;
+    int terms;         // of each pixel's that are kept, to light it anew, see terms.h: up to
+                       // GLINT_TERMS_MAX, 0: none; only beside colours, with the bilinear filter
     uint32_t aovs;     // the set of diagnostic layers wanted, see layers.h; only beside colours
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice

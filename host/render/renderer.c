@@ -76,7 +76,8 @@ static glint_status set_buffers(const glint_renderer *r, glint_error *error)
                               r->light.irradiance,
                               r->pixels.own,
                               r->counters,
-                              r->layers};
+                              r->layers,
+                              r->terms};
     glint_status status = GLINT_OK;
     for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
         status = glint_renderer_set_argument(r, i, sizeof buffers[i], &buffers[i], error);
@@ -123,6 +124,10 @@ static glint_status create_outputs(glint_renderer *r, glint_error *error)
     if (status == GLINT_OK) {
         status = glint_buffer_create(r->device, "the layers", glint_renderer_layers_bytes(r), NULL,
                                      &r->layers, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_buffer_create(r->device, "the directions", glint_renderer_terms_bytes(r),
+                                     NULL, &r->terms, error);
     }
     return status;
 }
@@ -181,6 +186,7 @@ static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
     if (status == GLINT_OK) {
         sizes.environment = prepared->plan.environment_bytes;
         sizes.layers = glint_renderer_layers_bytes(r);
+        sizes.terms = glint_renderer_terms_bytes(r);
         status = glint_upload_check(r->device, scene, &sizes, error);
     }
     prepared->analysis_ms = glint_lap_ms(&clock);
@@ -274,7 +280,8 @@ static void tear_down(glint_renderer *r)
     glint_pixels_free(&r->pixels);
     glint_buffer_release(r->counters);
     glint_buffer_release(r->layers);
-    r->counters = r->layers = NULL;
+    glint_buffer_release(r->terms);
+    r->counters = r->layers = r->terms = NULL;
     if (r->kernel != NULL) {
         clReleaseKernel(r->kernel);
         r->kernel = NULL;
@@ -431,7 +438,8 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
         .tree = glint_buffer_bytes(geometry->nodes),
         .environment =
             glint_buffer_bytes(light->environment) + glint_buffer_bytes(light->irradiance),
-        .frame = glint_pixels_bytes(&renderer->pixels) + glint_renderer_layers_bytes(renderer),
+        .frame = glint_pixels_bytes(&renderer->pixels) + glint_renderer_layers_bytes(renderer) +
+                 glint_renderer_terms_bytes(renderer),
     };
 }
 

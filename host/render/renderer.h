@@ -2,6 +2,7 @@
 #ifndef GLINT_RENDER_RENDERER_H
 #define GLINT_RENDER_RENDERER_H
 
+#include "kernels/layout.h"
 #include "render/frame.h"
 #include "render/pixels.h"
 #include "render/upload.h"
@@ -30,7 +31,7 @@ struct glint_renderer {
     int environment_edge, irradiance_edge;
     cl_kernel kernel; // NULL without frames
     glint_pixels pixels;
-    cl_mem counters, layers;
+    cl_mem counters, layers, terms;
     bool has_failed;     // to take another scene
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };
@@ -38,7 +39,7 @@ struct glint_renderer {
 // The kernel's arguments that change from frame to frame; the others are the renderer's buffers, in
 // the order of set_buffers.
 #define GLINT_PIXELS_ARGUMENT 8
-#define GLINT_FRAME_ARGUMENT 11
+#define GLINT_FRAME_ARGUMENT 12
 
 // Of a frame, whose size has been checked.
 static inline size_t glint_renderer_pixel_count(const glint_renderer *r)
@@ -49,6 +50,12 @@ static inline size_t glint_renderer_pixel_count(const glint_renderer *r)
 static inline size_t glint_renderer_layers_bytes(const glint_renderer *r)
 {
     return r->settings.aovs != 0 ? glint_renderer_pixel_count(r) * sizeof(glint_layers_record) : 0;
+}
+
+static inline size_t glint_renderer_terms_bytes(const glint_renderer *r)
+{
+    const size_t places = r->settings.terms > 0 ? (size_t)r->settings.terms + 1 : 0;
+    return glint_renderer_pixel_count(r) * places * GLINT_TERM_VALUES * sizeof(float);
 }
 
 glint_status glint_renderer_set_argument(const glint_renderer *r, cl_uint index, size_t size,

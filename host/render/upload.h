@@ -39,7 +39,7 @@ typedef struct glint_upload_inputs {
 
 // What takes memory beside the scene.
 typedef struct glint_upload_sizes {
-    size_t environment, frame, layers; // bytes
+    size_t environment, frame, layers, terms; // bytes
 } glint_upload_sizes;
 
 // Fails with GLINT_DEVICE_FAILED if one of the scene's buffers or of the others is larger than the

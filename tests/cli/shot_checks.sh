@@ -217,4 +217,42 @@ run render in/clockwork.gltf -o out/c.exr "${small[@]}" --env "capture:$moving" 
 check 'each frame of a scene that moves from its own' same_pixels out/c.exr out/c.0013.exr
 clean
 
+# ---- relight -------------------------------------------------------------------------------------
+
+check 'relight --help tells every option' help_mentions relight env env-layout ball-circle \
+    ball-distance ball-fov env-rotate output exposure compression exr-type progress help
+run --help
+check 'glint --help lists it' grep -q '^  relight ' stdout
+kept=("$spheres" --size 64x48 --exr-type float --texels float)
+run render "${kept[@]}" -o in/kept.exr --directions 16
+run render "${kept[@]}" -o out/wanted.exr --env in/axes.exr --env-rotate 40
+run relight in/kept.exr --env in/axes.exr --env-rotate 40 -o out/lit.exr --exr-type float
+check 'lit anew: as rendered' within 1e-5 out/lit.exr out/wanted.exr
+check 'said' grep -q 'out/lit.exr: 64x48, 16 directions a pixel' stderr
+run render "${kept[@]}" -o out/studio.exr
+run relight in/kept.exr -o out/same.exr --exr-type float
+check 'the studio, where nothing is said' within 1e-5 out/same.exr out/studio.exr
+run render "${kept[@]}" -o in/few.exr --directions 1 --samples 4
+run relight in/few.exr -o out/few.png
+check 'what is missing: said' grep -q 'warning: in/few.exr: .*% of the weight found no room in 1' stderr
+check 'a PNG' begins_with out/few.png 89504e47
+clean
+refuses 2 'no output' relight in/kept.exr
+refuses 2 'DIRECTIONS is missing' relight -o out/a.exr
+refuses 2 'this is an input' relight in/kept.exr -o in/kept.exr
+refuses 2 'this is an input' relight in/kept.exr --env in/axes.exr -o in/../in/axes.exr
+refuses 2 'is no EXR' relight in/kept.exr -o out/a.png --exr-type float
+refuses 2 'no --env is given' relight in/kept.exr -o out/a.exr --env-layout ball
+refuses 2 'with --env-layout ball' relight in/kept.exr -o out/a.exr --env in/axes.exr --ball-fov 30
+refuses 3 'it holds no directions' relight in/axes.exr -o out/a.exr
+refuses 3 'is no EXR' relight in/plate.png -o out/a.exr
+refuses 3 'is no EXR' relight in/none.exr -o out/a.exr
+refuses 3 'in/none.exr' relight in/kept.exr --env in/none.exr -o out/a.exr
+head -c 3000 in/kept.exr >in/cut.exr
+refuses 3 'in/cut.exr' relight in/cut.exr -o out/a.exr
+refuses 5 'out/none' relight in/kept.exr -o out/none/a.exr
+refuses 2 '--directions: out/a.png is no EXR' render "${kept[@]:0:3}" -o out/a.png --directions 4
+refuses 2 '--directions' render "${kept[@]}" -o out/a.exr --directions 33
+refuses 2 '--filter mip' render "${kept[@]}" -o out/a.exr --directions 4 --filter mip
+
 finish

@@ -83,7 +83,7 @@ void test_render(const glint_scene *scene, const glint_environment *environment,
     } else {
         frame->exact = exact_values(&frame->image);
     }
-    if (settings->aovs != 0) {
+    if (settings->aovs != 0 || settings->terms > 0) {
         require(glint_renderer_layers(renderer, &frame->layers, &error), &error);
     }
     glint_renderer_free(renderer);
