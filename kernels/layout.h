@@ -160,8 +160,9 @@ typedef struct glint_layers_record {
 // ---- Terms -------------------------------------------------------------------------------------
 // With GLINT_TERMS: [height][width][terms + 1][GLINT_TERM_VALUES] floats, what a pixel's R, G and B
 // are the sum of. First what does not depend on the environment: R, G, B; the sum of the weights
-// (largest of R, G, B) that found no room; how many terms follow. Then the terms, of which those are kept that weigh
-// most: a vector in the world's axes, unit but for rounding; what it is; and the weight R, G, B.
+// (largest of R, G, B) that found no room; how many terms follow. Then the terms, of which those
+// are kept that weigh most: a vector in the world's axes, unit but for rounding; what it is; and
+// the weight R, G, B.
 #define GLINT_TERM_VALUES 8
 #define GLINT_TERM_VECTOR 0
 #define GLINT_TERM_KIND 3

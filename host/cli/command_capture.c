@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "cli/env_output.h"
+#include "cli/file_names.h"
 #include "cli/inputs.h"
 #include "cli/progress.h"
 #include "device/device.h"
@@ -79,7 +80,8 @@ typedef struct capture {
     const capture_request *request;
     glint_progress_display display;
     glint_inputs inputs; // the scene without what is taken away, once `at` is found
-    double time;         // at which it stands, seconds
+    bool stands;         // it is that of `time`
+    double time;         // seconds
     glint_vec3 at;
     glint_device *device;
     glint_renderer *renderer;
@@ -99,12 +101,18 @@ static glint_status find_place(capture *work, glint_error *error)
     return status == GLINT_OK ? glint_scene_remove_nodes(scene, request->around, error) : status;
 }
 
-// Brings a scene that moves to a time, and gives it to the renderer.
+// Brings a scene that moves to a time, and gives it to the renderer, if there is one.
 static glint_status set_time(capture *work, double time, glint_error *error)
 {
     glint_inputs *inputs = &work->inputs;
-    if (!inputs->motion.moves_triangles || time == work->time) {
+    if (work->stands && (!inputs->motion.moves_triangles || time == work->time)) {
         return GLINT_OK;
+    }
+    work->stands = false;
+    work->time = time;
+    if (!inputs->motion.moves_triangles) {
+        work->stands = true;
+        return find_place(work, error);
     }
     glint_scene_free(&inputs->scene);
     glint_status status = glint_scene_at(inputs->source, time, &inputs->scene, NULL, error);
@@ -115,10 +123,10 @@ static glint_status set_time(capture *work, double time, glint_error *error)
     if (status == GLINT_OK) {
         status = find_place(work, error);
     }
-    if (status == GLINT_OK) {
+    if (status == GLINT_OK && work->renderer != NULL) {
         status = glint_renderer_set_scene(work->renderer, &inputs->scene, error);
     }
-    work->time = time;
+    work->stands = status == GLINT_OK;
     return status;
 }
 
@@ -130,7 +138,7 @@ static bool step(void *context, uint64_t done, uint64_t total)
     return !glint_stop_requested();
 }
 
-static glint_status render(capture *work, glint_cube *cube, glint_error *error)
+static glint_status render(capture *work, const char *path, glint_cube *cube, glint_error *error)
 {
     const glint_settings *settings = &work->request->inputs.settings;
     char text[GLINT_MESSAGE_CAPACITY];
@@ -147,8 +155,26 @@ static glint_status render(capture *work, glint_cube *cube, glint_error *error)
     glint_signals_cooperate(false);
     glint_progress_clear(&work->display);
     if (report.nonfinite_pixels > 0) {
-        glint_say("warning: %llu pixels are not finite",
+        glint_say("warning: %s: %llu pixels are not finite", path,
                   (unsigned long long)report.nonfinite_pixels);
+    }
+    return status;
+}
+
+// The scene and the place of the first frame that has one: the others are bad frames, or all are.
+static glint_status find_first(capture *work, glint_error *error)
+{
+    const capture_request *request = work->request;
+    glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    glint_status status = GLINT_OK;
+    int frame = 1;
+    bool is_left = !request->is_sequence || glint_frame_next(&cursor, &frame);
+    while (is_left) {
+        glint_error_free(error);
+        *error = (glint_error){0};
+        status = set_time(work, (frame - 1) / request->fps, error);
+        is_left = status == GLINT_BAD_INPUT && work->inputs.motion.moves_triangles &&
+                  request->is_sequence && glint_frame_next(&cursor, &frame);
     }
     return status;
 }
@@ -158,7 +184,7 @@ static glint_status prepare(capture *work, glint_error *error)
     const glint_input_request *request = &work->request->inputs;
     glint_status status = glint_inputs_load(request, &work->display, &work->inputs, error);
     if (status == GLINT_OK) {
-        status = find_place(work, error);
+        status = find_first(work, error);
     }
     if (status == GLINT_OK) {
         status = glint_device_open(request->device, &work->device, error);
@@ -251,7 +277,7 @@ static glint_status capture_to(capture *work, const char *path, glint_error *err
     glint_cube cube = {0};
     glint_status status = env_output_open(request, path, request->to, &output, error);
     if (status == GLINT_OK) {
-        status = render(work, &cube, error);
+        status = render(work, path, &cube, error);
     }
     if (status == GLINT_OK) {
         const glint_sampler sampler = glint_sampler_of_cube(&cube);
@@ -268,32 +294,58 @@ static glint_status capture_frames(capture *work, glint_error *error)
 {
     const capture_request *request = work->request;
     glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
-    glint_status status = GLINT_OK;
-    int frame;
-    while (status == GLINT_OK && glint_frame_next(&cursor, &frame)) {
+    unsigned long long failed = 0;
+    int frame, first_failed = 0;
+    while (glint_frame_next(&cursor, &frame)) {
         char *path = glint_frame_name_make(&request->name, frame);
-        status = path != NULL ? set_time(work, (frame - 1) / request->fps, error)
-                              : glint_fail_memory(error, "a file name");
+        glint_status status = path != NULL ? set_time(work, (frame - 1) / request->fps, error)
+                                           : glint_fail_memory(error, "a file name");
         if (status == GLINT_OK) {
             status = capture_to(work, path, error);
         }
         free(path);
+        if (status == GLINT_DEVICE_FAILED || status == GLINT_INTERRUPTED) {
+            return status;
+        }
+        if (status != GLINT_OK) { // one bad frame
+            glint_say("frame %d: %s", frame, error->message);
+            glint_error_free(error);
+            *error = (glint_error){0};
+            first_failed = failed++ == 0 ? frame : first_failed;
+        }
     }
-    return status;
+    return failed == 0 ? GLINT_OK
+                       : glint_fail(error, GLINT_FRAMES_FAILED,
+                                    "%s: %llu of %llu frames failed, the first of them %d",
+                                    request->name.path, failed,
+                                    (unsigned long long)request->frames.count, first_failed);
 }
 
-// Looks at where the first file goes, before any work is done.
-static glint_status check_output(const capture_request *request, glint_error *error)
+// Looks at where the files go, before any work is done: the first in all respects, the others to
+// see that they replace no input.
+static glint_status check_outputs(const capture_request *request, glint_error *error)
 {
     glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    glint_status status = GLINT_OK;
     int frame = 1;
-    env_output output;
-    glint_frame_next(&cursor, &frame);
-    char *first = glint_frame_name_make(&request->name, frame);
-    glint_status status =
-        first != NULL ? env_output_open(&request->output, first, request->output.to, &output, error)
-                      : glint_fail_memory(error, "a file name");
-    free(first);
+    bool is_first = true, is_left = !request->is_sequence || glint_frame_next(&cursor, &frame);
+    while (status == GLINT_OK && is_left) {
+        env_output output;
+        char *path = glint_frame_name_make(&request->name, frame);
+        if (path == NULL) {
+            return glint_fail_memory(error, "a file name");
+        }
+        if (glint_same_file(path, request->inputs.scene) ||
+            glint_same_file(path, request->inputs.env)) {
+            status =
+                glint_fail(error, GLINT_USAGE, "%s: this is an input (name another file)", path);
+        } else if (is_first) {
+            status = env_output_open(&request->output, path, request->output.to, &output, error);
+        }
+        free(path);
+        is_first = false;
+        is_left = request->is_sequence && glint_frame_next(&cursor, &frame);
+    }
     return status;
 }
 
@@ -309,13 +361,17 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
         status = settle(request, path, error);
     }
     if (status == GLINT_OK) {
-        status = check_output(request, error);
+        status = check_outputs(request, error);
     }
     if (status == GLINT_OK) {
         status = prepare(&work, error);
     }
     glint_progress_clear(&work.display);
     if (status == GLINT_OK) {
+        if (request->frames.count > 1 && !work.inputs.motion.moves_triangles) {
+            glint_warn(&work.inputs.warnings, "%s: nothing moves: all %llu frames are the same",
+                       request->inputs.scene, (unsigned long long)request->frames.count);
+        }
         glint_say_warnings(&work.inputs.warnings, 0);
         status =
             request->is_sequence ? capture_frames(&work, error) : capture_to(&work, path, error);

@@ -133,7 +133,8 @@ static void say_sequence(const render_run *run)
                   (double)totals->rendered / seconds,
                   1e-6 * (double)glint_stats_rays(&totals->rays) / seconds);
         glint_say("  %-6s %10s %10s %10s", "", "mean", "least", "most");
-        if (run->inputs.motion.moves_triangles) {
+        if (run->inputs.motion.moves_triangles || run->request->env_name.length > 0 ||
+            run->request->capture != NULL) {
             say_spread("build", &totals->build, totals->rendered);
         }
         say_spread("trace", &totals->trace, totals->rendered);
@@ -230,7 +231,6 @@ static void set_defaults(void *context)
     glint_input_request_default(&request->inputs);
     request->shard = (glint_shard){1, 1};
     request->fps = 24;
-    request->capture_size = 512;
 }
 
 static glint_status run_request(render_request *request, glint_error *error)

@@ -1,6 +1,7 @@
 // The options that commands on a scene share, and loading what they name. See inputs.h.
 #include "cli/inputs.h"
 
+#include "base/clock.h"
 #include "scene/built_in.h"
 #include "scene/subset.h"
 
@@ -155,8 +156,10 @@ static glint_status parse_kernel_tile(const glint_option *option, const char *te
 const glint_option glint_input_options[] = {
     {GLINT_OPTION_HEADING, .help = "Scene and environment"},
     {GLINT_OPTION_TEXT, .name = "env", .argument = "FILE",
-     .help = "The environment: an image (exr, hdr, png, tiff, dds, jpeg), a folder that holds six "
-             "faces, or a pattern with %s in the place of the face's name.",
+     .help =
+         "The environment: an image (exr, hdr, png, tiff, dds, jpeg), a folder that holds six "
+         "faces, or a pattern with %s in the place of the face's name. For render also one for "
+         "each frame, ball.####.exr, or capture:NODE: the node alone, lit by what is around it.",
      .fallback = "a built-in studio", .offset = OFFSET(env)},
     GLINT_ENV_AS_OPTIONS(OFFSET(env_as)),
     {GLINT_OPTION_REAL, .name = "env-rotate", .argument = "DEG",
@@ -256,7 +259,8 @@ static glint_status check_background(glint_input_request *request, glint_error *
     const bool is_env = background == NULL || strcmp(background, "env") == 0;
     const bool is_plate = !is_env && strcmp(background, "transparent") != 0;
     request->settings.transparent = !is_env;
-    if (!is_plate || (request->takes_plate && strpbrk(background, "./") != NULL)) {
+    if (!is_plate || (request->is_for_render && strpbrk(background, "./") != NULL)) {
+        request->plate = is_plate ? background : NULL;
         return GLINT_OK;
     }
     const char *nearest = glint_nearest_word(background, words);
@@ -264,16 +268,24 @@ static glint_status check_background(glint_input_request *request, glint_error *
                ? glint_fail(error, GLINT_USAGE,
                             "--background %s: neither env nor transparent%s (did you "
                             "mean %s?)",
-                            background, request->takes_plate ? " nor a file" : "", nearest)
+                            background, request->is_for_render ? " nor a file" : "", nearest)
                : glint_fail(error, GLINT_USAGE, "--background %s: env or transparent%s is expected",
                             background,
-                            request->takes_plate ? ", or an image's file,"
-                                                 : " (pictures are for render alone)");
+                            request->is_for_render ? ", or an image's file,"
+                                                   : " (pictures are for render alone)");
 }
 
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error)
 {
-    if (request->env_as.layout != GLINT_LAYOUT_UNKNOWN && request->env == NULL) {
+    if (!request->is_for_render && request->env != NULL &&
+        strncmp(request->env, "capture:", strlen("capture:")) == 0) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--env %s: only render captures (glint capture writes what is around a "
+                          "node into a file)",
+                          request->env);
+    }
+    if (!request->is_for_render && request->env_as.layout != GLINT_LAYOUT_UNKNOWN &&
+        request->env == NULL) {
         return glint_fail(error, GLINT_USAGE,
                           "--env-layout: it says how a file is read, but no --env is given");
     }
@@ -372,14 +384,16 @@ glint_status glint_inputs_load_environment(const glint_input_request *request,
                                            glint_progress_display *display, glint_inputs *inputs,
                                            glint_error *error)
 {
-    const double begun = glint_progress_elapsed(display);
-    glint_progress_phase(display, "load_environment", "loading the environment");
+    const double begun = glint_now_ms();
+    if (display != NULL) {
+        glint_progress_phase(display, "load_environment", "loading the environment");
+    }
     glint_status status =
         request->env == NULL
             ? glint_environment_studio(&inputs->environment, error)
             : glint_environment_load(request->env, &request->env_as, &inputs->environment,
                                      &inputs->warnings, error);
-    inputs->environment_ms = glint_progress_elapsed(display) - begun;
+    inputs->environment_ms = glint_now_ms() - begun;
     return status;
 }
 

@@ -20,7 +20,8 @@ typedef struct glint_input_request {
     const char *animation;
     const char *only, *without; // lists of nodes, see scene/subset.h
     const char *background;     // NULL, "env", "transparent", or a plate's file
-    bool takes_plate;           // set by the command: such a file is its business
+    bool is_for_render;         // set by the command: plates and captures are its business
+    const char *plate;          // set by glint_input_request_finish; NULL without one
     bool camera_may_wait; // likewise: of a scene that moves, one that has no direction at time
                           // 0 is no mistake, and viewpoint.camera.is_lost says so
     const char *env;
@@ -125,8 +126,8 @@ typedef struct glint_inputs {
     double scene_ms, environment_ms;
 } glint_inputs;
 
-// Loads the scene and the viewpoint; the environment. Whatever the outcome, `inputs`, of which all
-// is set by the first, is for glint_inputs_free.
+// Loads the scene and the viewpoint; the environment, of which a display (may be NULL) tells.
+// Whatever the outcome, `inputs`, of which all is set by the first, is for glint_inputs_free.
 glint_status glint_inputs_load_scene(const glint_input_request *request,
                                      glint_progress_display *display, glint_inputs *inputs,
                                      glint_error *error);

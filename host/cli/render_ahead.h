@@ -17,7 +17,7 @@ typedef struct render_pose {
     glint_scene scene; // owned
     glint_viewpoint viewpoint;
     glint_fingerprint is; // of the scene
-    bool is_loaded;       // the two are there
+    bool is_loaded;       // the three are there
     bool is_prepared;     // glint_renderer_prepare was through with it
     double ms;            // that all this took
 } render_pose;

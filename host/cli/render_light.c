@@ -1,6 +1,7 @@
 // Environments of frames. See render_light.h.
 #include "cli/render_light.h"
 
+#include "base/clock.h"
 #include "cli/cli.h"
 #include "cli/render_run.h"
 #include "render/capture.h"
@@ -37,6 +38,9 @@ static glint_status prepare_capture(render_run *run, glint_error *error)
     render_light *light = &run->light;
     if (light->stands && light->time == run->time) {
         return GLINT_OK;
+    }
+    if (run->renderer == NULL) {
+        glint_progress_phase(&run->display, "capture", "capturing what is around");
     }
     light->stands = false;
     glint_scene_free(&light->scene);
@@ -101,14 +105,16 @@ static glint_status capture(render_run *run, glint_error *error)
     glint_environment *environment = &run->inputs.environment;
     const glint_progress progress = {step, NULL};
     const int edge = run->request->capture_size;
-    glint_frame_report report = {0};
     glint_cube cube = {0};
-    char name[300];
+    char name[600];
+    const double begun = glint_now_ms();
     glint_status status = prepare_capturer(run, error);
     if (status == GLINT_OK) {
-        status = glint_capture(light->capturer, light->at, &progress, &cube, &report, error);
+        status = glint_capture(light->capturer, light->at, &progress, &cube, NULL, error);
     }
-    snprintf(name, sizeof name, "capture:%.280s", run->request->capture);
+    const render_request *request = run->request;
+    snprintf(name, sizeof name, "capture:%.200s (%d pixels, in %.200s turned by %g degrees)",
+             request->capture, edge, light->surroundings.name, request->capture_rotate);
     char *copy = status == GLINT_OK ? strdup(name) : NULL;
     if (status == GLINT_OK && copy == NULL) {
         glint_cube_free(&cube);
@@ -117,10 +123,7 @@ static glint_status capture(render_run *run, glint_error *error)
     if (status != GLINT_OK) {
         return status;
     }
-    if (report.nonfinite_pixels > 0) {
-        glint_warn(&run->inputs.warnings, "%s: %llu pixels of the captured views are not finite",
-                   name, (unsigned long long)report.nonfinite_pixels);
-    }
+    glint_cube_mend(name, &cube, &run->inputs.warnings);
     glint_environment_free(environment);
     *environment = (glint_environment){.name = copy,
                                        .layout = GLINT_LAYOUT_CUBE,
@@ -129,6 +132,12 @@ static glint_status capture(render_run *run, glint_error *error)
                                        .source_height = 6 * edge,
                                        .radiance = cube};
     light->loaded = light->is;
+    run->inputs.environment_ms += glint_now_ms() - begun;
+    if (run->inputs.source == NULL) { // that was the only one
+        glint_renderer_free(light->capturer);
+        light->capturer = NULL;
+        glint_scene_free(&light->scene);
+    }
     return GLINT_OK;
 }
 
@@ -160,7 +169,9 @@ static glint_status load_file(render_run *run, int frame, glint_error *error)
     light->has_file = false;
     light->loaded = (glint_fingerprint){0};
     glint_environment_free(&run->inputs.environment);
-    glint_status status = render_light_try(run->request, frame, &run->display, &run->inputs, error);
+    // Once frames are rendered, the display shows them.
+    glint_progress_display *display = run->renderer == NULL ? &run->display : NULL;
+    glint_status status = render_light_try(run->request, frame, display, &run->inputs, error);
     if (status == GLINT_OK) {
         status = glint_fingerprint_environment(&run->inputs.environment, &light->is, error);
     }

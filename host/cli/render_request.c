@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #define EXR_TYPES "half|float"
+#define CAPTURE_SIZE 512 // of a view, where none is given
 
 static uint32_t aov_by_name(const char *name)
 {
@@ -150,7 +151,7 @@ static const glint_option sequence_options[] = {
 static const glint_option capture_options[] = {
     {GLINT_OPTION_TEXT, .name = "surroundings", .argument = "FILE",
      .help = "With --env capture:NODE, which renders a node alone in what is around it: the "
-             "environment behind all that.",
+             "environment behind all that, which --env-layout and its like then describe.",
      .fallback = "the built-in studio", .offset = offsetof(render_request, surroundings)},
     {GLINT_OPTION_INT, .name = "capture-size", .argument = "N",
      .help = "The edge of each of its six views, in pixels.", .fallback = "512",
@@ -242,8 +243,7 @@ static bool is_output(const render_request *request, const char *path)
            is_named(request, &request->preview_name, path);
 }
 
-// An output that would replace an input. Of inputs for each frame the first frame's is looked at:
-// names that meet in one frame meet in all.
+// An output that would replace an input.
 static glint_status check_input(const render_request *request, const char *input,
                                 glint_error *error)
 {
@@ -262,14 +262,16 @@ static glint_status check_input_of_frames(const render_request *request,
                                           const glint_frame_name *name, glint_error *error)
 {
     glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    glint_status status = GLINT_OK;
     int frame = 1;
-    if (name->path == NULL || (request->is_sequence && !glint_frame_next(&cursor, &frame))) {
-        return GLINT_OK;
+    bool is_left = !request->is_sequence || glint_frame_next(&cursor, &frame);
+    while (status == GLINT_OK && is_left) {
+        char *path = glint_frame_name_make(name, frame);
+        status = path != NULL ? check_input(request, path, error)
+                              : glint_fail_memory(error, "a file name");
+        free(path);
+        is_left = request->is_sequence && glint_frame_next(&cursor, &frame);
     }
-    char *path = glint_frame_name_make(name, frame);
-    glint_status status =
-        path != NULL ? check_input(request, path, error) : glint_fail_memory(error, "a file name");
-    free(path);
     return status;
 }
 
@@ -338,17 +340,27 @@ static glint_status find_light(render_request *request, glint_error *error)
         request->capture = env + sizeof capture - 1;
         inputs->env = request->surroundings;
         inputs->only = inputs->only != NULL ? inputs->only : request->capture;
+        request->capture_size = request->capture_size != 0 ? request->capture_size : CAPTURE_SIZE;
         request->capture_rotate = inputs->settings.env_rotate;
         inputs->settings.env_rotate = 0; // the capture is turned already
+        if (inputs->env_as.layout != GLINT_LAYOUT_UNKNOWN && inputs->env == NULL) {
+            return glint_fail(error, GLINT_USAGE,
+                              "--env-layout: it says how a file is read, but no --surroundings are "
+                              "given");
+        }
         return request->capture[0] != '\0' ? GLINT_OK
                                            : glint_fail(error, GLINT_USAGE,
                                                         "--env capture: around which node? "
                                                         "(--env capture:NODE)");
     }
-    if (request->surroundings != NULL) {
+    if (request->surroundings != NULL || request->capture_size != 0) {
         return glint_fail(error, GLINT_USAGE,
-                          "--surroundings: they are behind what is captured (with --env "
-                          "capture:NODE)");
+                          "--%s: it is about what is captured (with --env capture:NODE)",
+                          request->surroundings != NULL ? "surroundings" : "capture-size");
+    }
+    if (env == NULL && inputs->env_as.layout != GLINT_LAYOUT_UNKNOWN) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--env-layout: it says how a file is read, but no --env is given");
     }
     if (env == NULL || access(env, F_OK) == 0) {
         return GLINT_OK; // a name may hold anything
@@ -358,15 +370,11 @@ static glint_status find_light(render_request *request, glint_error *error)
 
 static glint_status find_plate(render_request *request, glint_error *error)
 {
-    const char *background = request->inputs.background;
-    if (background == NULL || strcmp(background, "env") == 0 ||
-        strcmp(background, "transparent") == 0) {
-        return GLINT_OK;
-    }
-    request->plate = request->plate_name.path = background;
-    return access(background, F_OK) == 0
+    const char *plate = request->inputs.plate;
+    request->plate = request->plate_name.path = plate;
+    return plate == NULL || access(plate, F_OK) == 0
                ? GLINT_OK
-               : glint_frame_name_parse(background, &request->plate_name, error);
+               : glint_frame_name_parse(plate, &request->plate_name, error);
 }
 
 // Which frames there are, and what their files are called.
@@ -420,7 +428,7 @@ glint_status render_request_finish(render_request *request, glint_error *error)
         status = find_light(request, error);
     }
     if (status == GLINT_OK) {
-        request->inputs.takes_plate = true;
+        request->inputs.is_for_render = true;
         status = glint_input_request_finish(&request->inputs, error);
     }
     if (status == GLINT_OK) {

@@ -160,12 +160,13 @@ static void miss(render_run *run, int frame, const char *path, double ms, glint_
 static bool wants(render_run *run, int frame, const char *path, glint_error *error)
 {
     const double begun = glint_now_ms();
-    double clock = begun;
     run->build_ms = 0;
     glint_status status = render_stage_set(run, frame, error);
+    double clock = glint_now_ms();
     if (status == GLINT_OK) {
         status = render_light_set(run, frame, error);
     }
+    run->build_ms += glint_lap_ms(&clock);
     if (status == GLINT_OK) {
         status = render_parcel_find_plate(run, frame, error);
     }
@@ -198,12 +199,13 @@ static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame
     if (wanted) {
         frame->camera = render_stage_camera(run, frame->number);
         render_stage_look_ahead(run);
-    } else if (error.code != GLINT_OK) {
+    } else if (error.code != GLINT_OK && error.code != GLINT_INTERRUPTED) {
         miss(run, frame->number, path, run->build_ms, &error);
     }
+    const bool is_stopped = error.code == GLINT_INTERRUPTED; // while a capture was rendered
     glint_error_free(&error);
     free(path);
-    return wanted ? GLINT_NEXT_FRAME : GLINT_NEXT_AGAIN;
+    return wanted ? GLINT_NEXT_FRAME : is_stopped ? GLINT_NEXT_NONE : GLINT_NEXT_AGAIN;
 }
 
 static void frame_is_traced(void *context, glint_sequence_frame *frame)
@@ -352,7 +354,8 @@ glint_status render_run_frames(render_run *run, glint_error *error)
         return status;
     }
     begin_display(run);
-    const double values = 4 + (settings->aovs != 0 ? 6 : 0) + 7.0 * settings->terms; // of a pixel
+    const double values = 4 + (request->plate != NULL ? 4 : 0) + (settings->aovs != 0 ? 6 : 0) +
+                          7.0 * settings->terms; // of a pixel
     const size_t room =
         glint_sequence_writers(values * sizeof(float) * settings->width * settings->height);
     const size_t writers = run->frames < room ? (size_t)run->frames : room;

@@ -44,7 +44,7 @@ typedef struct render_run {
     render_light light;
     glint_scene label;  // the scene's path, which outlives scenes of other times
     char *camera_name;  // likewise; owned
-    bool stands;        // inputs.scene and inputs.camera are those of `time`
+    bool stands;        // inputs.scene and inputs.viewpoint are those of `time`
     double time;        // seconds of the animation
     bool is_prepared;   // the renderer, for inputs.scene
     render_ahead ahead; // the next frame's scene

@@ -117,29 +117,18 @@ glint_status render_run_load(render_run *run, glint_error *error)
     return status;
 }
 
-glint_status render_run_prepare(render_run *run, glint_error *error)
+// The renderer of the scene as a frame shows it, in that frame's light.
+static glint_status begin_with(render_run *run, int frame, glint_error *error)
 {
     const glint_input_request *request = &run->request->inputs;
-    run->cursor = (glint_frame_cursor){.list = &run->request->frames, .shard = run->request->shard};
-    glint_frame_cursor first = run->cursor;
-    int frame;
-    // A frame whose scene is bad is one bad frame, and next_frame says so: the renderer begins with
-    // the first that is not.
-    glint_status status = GLINT_OK;
-    while (glint_frame_next(&first, &frame)) {
-        glint_error_free(error);
-        status = render_stage_set(run, frame, error);
-        if (status == GLINT_OK) {
-            status = render_light_set(run, frame, error);
-        }
-        if (status == GLINT_OK) {
-            status = render_parcel_check_plate(run, frame, error);
-        }
-        if (status == GLINT_OK || status == GLINT_DEVICE_FAILED) {
-            break;
-        }
+    glint_status status = render_stage_set(run, frame, error);
+    if (status == GLINT_OK) {
+        status = render_light_set(run, frame, error);
     }
     if (status == GLINT_OK) {
+        status = render_parcel_check_plate(run, frame, error);
+    }
+    if (status == GLINT_OK && run->device == NULL) {
         status = glint_device_open(request->device, &run->device, error);
     }
     if (status == GLINT_OK) {
@@ -159,6 +148,43 @@ glint_status render_run_prepare(render_run *run, glint_error *error)
     run->renderer_shows = run->scene_is;
     run->tree = "built";
     return glint_renderer_create(&inputs, &run->renderer, error);
+}
+
+// Whether the next frame may fare better: its scene, its plate and its environment may be good
+// ones.
+static bool is_one_frames(const render_run *run, glint_status status)
+{
+    const bool has_own_light = run->request->env_name.length > 0 || run->request->capture != NULL;
+    return status == GLINT_BAD_INPUT || (status == GLINT_USAGE && has_own_light);
+}
+
+glint_status render_run_prepare(render_run *run, glint_error *error)
+{
+    run->cursor = (glint_frame_cursor){.list = &run->request->frames, .shard = run->request->shard};
+    glint_frame_cursor first = run->cursor;
+    glint_error first_error = {0};
+    glint_status status = GLINT_OK;
+    int frame;
+    // What is bad of one frame makes one bad frame, and next_frame says so: the renderer begins
+    // with the first that is good. Where none is, the first says why.
+    while (glint_frame_next(&first, &frame)) {
+        status = begin_with(run, frame, error);
+        if (!is_one_frames(run, status)) {
+            break;
+        }
+        if (first_error.code == GLINT_OK) {
+            first_error = *error;
+        } else {
+            glint_error_free(error);
+        }
+        *error = (glint_error){0};
+    }
+    if (is_one_frames(run, status)) {
+        *error = first_error;
+        return first_error.code;
+    }
+    glint_error_free(&first_error);
+    return status;
 }
 
 void render_stage_look_ahead(render_run *run)

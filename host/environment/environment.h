@@ -36,6 +36,10 @@ void glint_cube_store(const glint_cube *cube, int face, int i, int j, const doub
 // Fills the border from the neighbours' texels; called once the inside is complete.
 void glint_cube_fill_border(glint_cube *cube);
 
+// Mends what is no radiance as in files (see source.c), with a warning that names `name`, and fills
+// the border anew. Returns how many texels it was.
+size_t glint_cube_mend(const char *name, glint_cube *cube, glint_warnings *warnings);
+
 // The direction (not normalised) of the point (s, t) on a face, see kernels/layout.h.
 glint_vec3 glint_cube_direction(int face, double s, double t);
 

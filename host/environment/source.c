@@ -91,6 +91,24 @@ static size_t mend(const char *path, glint_image *image, glint_warnings *warning
     return found.count;
 }
 
+size_t glint_cube_mend(const char *name, glint_cube *cube, glint_warnings *warnings)
+{
+    // The faces above each other, with borders that hold nothing until they are filled anew.
+    static const double nothing[3] = {0};
+    const int edge = cube->edge, pitch = edge + 2;
+    for (int k = 0; k < 6 * pitch; k++) {
+        const int face = k / pitch, at = k % pitch - 1;
+        glint_cube_store(cube, face, at, -1, nothing);
+        glint_cube_store(cube, face, at, edge, nothing);
+        glint_cube_store(cube, face, -1, at, nothing);
+        glint_cube_store(cube, face, edge, at, nothing);
+    }
+    glint_image faces = {pitch, 6 * pitch, 4, cube->texels};
+    const size_t mended = mend(name, &faces, warnings);
+    glint_cube_fill_border(cube);
+    return mended;
+}
+
 // ---- One file -----------------------------------------------------------------------------------
 
 static const glint_layout_request nothing_known = {0};

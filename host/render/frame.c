@@ -249,7 +249,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     glint_frame_report own_report = {0};
     report = report != NULL ? report : &own_report;
     *report = (glint_frame_report){0};
-    if (r->kernel == NULL || r->has_failed) {
+    if (r->kernel == NULL || r->has_failed || r->is_dark) {
         glint_image_free(image);
         return glint_fail(error, GLINT_USAGE, "the renderer was made without frames, or failed");
     }

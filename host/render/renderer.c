@@ -369,7 +369,7 @@ glint_status glint_renderer_set_environment(glint_renderer *r, const glint_envir
 {
     const glint_plan before = r->shown.plan;
     r->inputs.environment = environment;
-    r->has_failed = true;
+    r->is_dark = true;
     r->is_next_ready = false; // its plan is another environment's
     const glint_plan_inputs inputs = {.environment = &environment->radiance,
                                       .device = glint_device_capabilities(r->device),
@@ -380,12 +380,15 @@ glint_status glint_renderer_set_environment(glint_renderer *r, const glint_envir
         return status;
     }
     const bool same_kernel = has_same_options(&before, &r->shown.plan) && r->kernel != NULL;
+    const bool needs_kernel = !r->inputs.without_frames;
     glint_light_memory_free(&r->light);
     status = upload_light(&r->inputs, r, error);
     if (status == GLINT_OK) {
-        status = same_kernel ? set_buffers(r, error) : replace_kernel(&r->inputs, r, error);
+        status = same_kernel    ? set_buffers(r, error)
+                 : needs_kernel ? replace_kernel(&r->inputs, r, error)
+                                : GLINT_OK;
     }
-    r->has_failed = status != GLINT_OK;
+    r->is_dark = status != GLINT_OK;
     return status;
 }
 

@@ -33,6 +33,7 @@ struct glint_renderer {
     glint_pixels pixels;
     cl_mem counters, layers, terms;
     bool has_failed;     // to take another scene
+    bool is_dark;        // it failed to take another environment
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
 };
 

@@ -275,8 +275,6 @@ class Writer
     std::array<float, 3> high_ = {-INFINITY, -INFINITY, -INFINITY};
 };
 
-// Keeps the materials that triangles use, in the order of the file and the default one last, so
-// that nothing is compiled, and nothing said, for others.
 // The file's nodes, and the names of those that are drawn.
 void name_nodes(const tinygltf::Model &model, glint_scene &scene)
 {
@@ -301,6 +299,8 @@ void name_nodes(const tinygltf::Model &model, glint_scene &scene)
     }
 }
 
+// Keeps the materials that triangles use, in the order of the file and the default one last, so
+// that nothing is compiled, and nothing said, for others.
 void keep_used_materials(Load &load, std::size_t default_material, glint_scene &scene)
 {
     constexpr std::uint32_t unused = 0xFFFFFFFF;

@@ -35,13 +35,27 @@ static bool mark_by(const glint_scene *scene, const char *name, long index, bool
     return is_found;
 }
 
-// Marks the instances of a node, by its name or else by its index. False where there is none.
+static bool has_name(const glint_scene *scene, const char *name)
+{
+    bool has = false;
+    for (size_t i = 0; i < scene->node_count; i++) {
+        has = has || (scene->nodes[i].name != NULL && strcmp(scene->nodes[i].name, name) == 0);
+    }
+    return has;
+}
+
+// Marks the instances of a node: of all that bear the name, else of that with the index, whatever
+// can be seen at this time. False where there is no such node, or it has no triangles at any time.
 static bool mark(const glint_scene *scene, const char *node, bool *is_marked)
 {
+    if (has_name(scene, node)) {
+        return mark_by(scene, node, 0, is_marked) || scene->moves;
+    }
     char *rest;
     const long index = strtol(node, &rest, 10);
-    return mark_by(scene, node, 0, is_marked) ||
-           (rest != node && *rest == '\0' && mark_by(scene, NULL, index, is_marked));
+    const bool is_index = rest != node && *rest == '\0';
+    return is_index && (mark_by(scene, NULL, index, is_marked) ||
+                        (scene->moves && index >= 0 && index < (long)scene->node_count));
 }
 
 static glint_status refuse(const glint_scene *scene, const char *node, glint_error *error)
@@ -196,7 +210,13 @@ glint_status glint_scene_middle_of_nodes(const glint_scene *scene, const char *n
     glint_status status = mark_nodes(scene, nodes, &is_marked, error);
     if (status == GLINT_OK) {
         find_bounds(scene, is_marked, true, &low, &high);
-        *middle = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
+        if (low.x <= high.x) {
+            *middle = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
+        } else {
+            status = glint_fail(error, GLINT_BAD_INPUT,
+                                "%s: node \"%s\" has no triangles at this time, and so no middle",
+                                scene->path != NULL ? scene->path : "the scene", nodes);
+        }
     }
     free(is_marked);
     return status;

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Command-line tests of glint capture, and of what renders of shots are made of: parts of scenes,
 # plates, an environment for each frame.
-# shot_checks.sh GLINT JSON_GET SCENES
-scenes=$(readlink -f -- "$3")
+# shot_checks.sh GLINT JSON_GET MAKE_EXR SCENES
+make_exr=$(readlink -f -- "$3")
+scenes=$(readlink -f -- "$4")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
@@ -79,6 +80,21 @@ run capture in/clockwork.gltf out/one.exr --around "$moving" --to ball --size 32
 check 'a frame alone is the same' same_pixels out/one.exr out/ball.0013.exr
 run capture in/clockwork.gltf out/zero.exr --around "$moving" --to ball --size 32
 check 'without frames it is the first' same_pixels out/zero.exr out/ball.0001.exr
+mkdir out/bad.0002.exr
+run capture in/clockwork.gltf out/bad.####.exr --at 0,0,0 --size 16 --frames 1-3
+check 'one that cannot be written fails alone: exit status 6' test "$status" -eq 6
+check 'the others are there' test -s out/bad.0001.exr -a -s out/bad.0003.exr
+clean
+run capture in/mirror_sphere.gltf out/same.#.exr --at 0,2,0 --size 16 --frames 1-2
+check 'nothing moves: said' grep -q 'nothing moves: all 2 frames are the same' stderr
+clean
+cp in/studio.exr in/w.0002.exr
+refuses 2 'this is an input' capture in/mirror_sphere.gltf in/w.####.exr --at 0,0,0 --frames 1-2 \
+    --env in/w.0002.exr
+# What is hidden at the beginning is there later: the growing ball.
+run capture in/clockwork.gltf out/late.####.exr --around 'growing ball' --size 16 --frames 1,24
+check 'hidden at frame 1: that one fails' test "$status" -eq 6 -a -s out/late.0024.exr
+check 'why' grep -q 'has no triangles at this time' stderr
 clean
 
 # ---- parts of scenes ----------------------------------------------------------------------------
@@ -97,6 +113,22 @@ run render "$spheres" -o out/left.exr "${small[@]}" --only 1,red --turntable 7 -
 run render "$spheres" -o out/right.exr "${small[@]}" --without green,blue,yellow --turntable 7 --frames 3
 check 'a part by what it is or by what it is not' same_pixels out/left.exr out/right.exr
 clean
+
+# A node that has nothing to show at a time is nothing that is left out, or kept.
+clock=(in/clockwork.gltf --size 48x36)
+run render "${clock[@]}" -o out/a.####.exr --frames 1,24
+run render "${clock[@]}" -o out/b.####.exr --frames 1,24 --without 'growing ball'
+check 'hidden at frame 1: leaving it out changes nothing' same_pixels out/a.0001.exr out/b.0001.exr
+check 'seen at frame 24: it does' apart 0 out/a.0024.exr out/b.0024.exr
+run render "${clock[@]}" -o out/c.####.exr --frames 1,24 --only 'growing ball' --background transparent
+check 'and alone it is nothing, or seen' test "$status" -eq 0
+# A name stands before an index, whether it is seen or not.
+sed 's/"growing ball"/"3"/' in/clockwork.gltf >in/numbered.gltf
+run render in/numbered.gltf --size 48x36 -o out/d.####.exr --frames 1,24 --without 3
+check 'a name that is a number: frame 1' same_pixels out/b.0001.exr out/d.0001.exr
+check 'a name that is a number: frame 24' same_pixels out/b.0024.exr out/d.0024.exr
+clean
+refuses 3 'no node "front" has triangles' render "$spheres" -o out/a.exr --only front
 
 # ---- plates -------------------------------------------------------------------------------------
 
@@ -128,6 +160,10 @@ printf 'no picture' >in/bad.exr
 refuses 3 'in/bad.exr' render "${shot[@]}" -o out/a.exr --background in/bad.exr
 refuses 2 'this is an input' render "${shot[@]}" -o in/plate.exr --background in/plate.exr
 refuses 2 'this is an input' render "${shot[@]}" -o in/p.####.exr --background in/p.#.exr --frames 1000-1003
+refuses 2 'this is an input' render "${shot[@]}" -o in/p.#.exr --background in/p.####.exr --frames 998-1001
+refuses 2 'this is an input' render "${shot[@]}" -o in/y.001#.exr --background in/y.####.exr --frames 1,11
+refuses 2 'this is an input' render "${shot[@]}" -o out/r.####.exr --background in/r.####.exr --frames 1-2 \
+    --stats in/r.0002.exr
 
 # One for each frame; one that is missing is one bad frame.
 run render "${shot[@]}" "${exact[@]}" -o in/p.####.exr --without 1 --turntable 5
@@ -189,13 +225,28 @@ for frame in 1 2 3; do
 done
 clean
 
+# One that half cannot hold is one bad frame, wherever it stands.
+"$glint" env in/studio.exr in/b.0001.exr --size 16 2>/dev/null
+"$make_exr" in/b.0002.exr B,G,R 1,1,200000 0,0,63,31 0,0,63,31
+for frames in 1-2 2,1; do
+    run render in/mirror_sphere.gltf --size 16x16 --env in/b.####.exr --texels half -o out/h.####.exr \
+        --frames "$frames"
+    check "frames $frames, too bright for half: exit status 6" test "$status" -eq 6
+    check "frames $frames: the other is there" test "$(ls out)" = h.0001.exr
+    clean
+done
+
 # ---- render --env capture:NODE -------------------------------------------------------------------
 
 refuses 2 'around which node?' render "$spheres" -o out/a.exr --env capture:
 refuses 3 'no node "jewel" has triangles' render "$spheres" -o out/a.exr --env capture:jewel
-refuses 2 'they are behind what is captured' render "$spheres" -o out/a.exr --surroundings in/axes.exr
+refuses 2 '--surroundings: it is about what is captured' render "$spheres" -o out/a.exr --surroundings in/axes.exr
 refuses 3 'in/none.exr' render "$spheres" -o out/a.exr --env capture:mirror --surroundings in/none.exr
 refuses 2 '--capture-size' render "$spheres" -o out/a.exr --env capture:mirror --capture-size 0
+refuses 2 '--capture-size: it is about what is captured' render "$spheres" -o out/a.exr --capture-size 64
+refuses 2 'no --surroundings are given' render "$spheres" -o out/a.exr --env capture:mirror --env-layout ball
+refuses 2 'only render captures' info "$spheres" --env capture:mirror
+refuses 2 'no --env is given' render "$spheres" -o out/a.exr --env-layout ball
 around=("${small[@]}" --exr-type float --surroundings in/axes.exr --capture-size 64)
 run capture "$spheres" out/map --around mirror --to faces --size 64 --samples 4 --env in/axes.exr
 run render "$spheres" -o out/two.exr "${small[@]}" --exr-type float --env out/map --only mirror
