@@ -167,11 +167,11 @@ static void light_pixel(const job *work, const float *pixel, double rgb[3])
     }
     for (int k = 0; k < terms->capacity; k++) {
         const int *places = terms->places + HEADER + TERM * k;
+        if (pixel[places[0]] == 0 && pixel[places[1]] == 0 && pixel[places[2]] == 0) {
+            break; // not taken, nor those behind it
+        }
         const glint_vec3 along = turn_back(work, pixel, places);
         double light[3];
-        if (!(glint_vec3_dot(along, along) > 0)) {
-            continue; // not taken
-        }
         glint_cube_sample(pixel[places[3]] != 0 ? work->irradiance : work->radiance, along, light);
         for (int c = 0; c < 3; c++) {
             rgb[c] += (double)pixel[places[4 + c]] * light[c];

@@ -15,7 +15,7 @@
 // terms.dropped (the weight that found no room), and of each of `capacity` places, the heaviest
 // terms of a pixel in no order, terms.NN.x, .y, .z (a unit vector in the world's axes), .kind (0:
 // the environment's radiance along it; 1: its irradiance over π of a surface with that normal),
-// .wr, .wg, .wb (the weight; 0 in a place that is not taken).
+// .wr, .wg, .wb (the weight). Places that are not taken, behind the others, hold 0.
 // Adds those channels to a frame's layers, from what the kernels stored (see kernels/layout.h).
 // Errors: GLINT_DEVICE_FAILED where memory is short.
 glint_status glint_terms_add_channels(const float *stored, size_t pixel_count, int capacity,
