@@ -141,8 +141,11 @@ typedef struct glint_frame_record {
 // ---- Irradiance --------------------------------------------------------------------------------
 // With GLINT_IRRADIANCE_HARMONICS the irradiance over π is no map but [GLINT_HARMONICS][4] floats,
 // R, G, B and one unused, the coefficients of these polynomials of the unit normal:
-//   1, x, y, z, x y, y z, z x, x² − y², 3 z² − 1
 #define GLINT_HARMONICS 9
+#define GLINT_HARMONIC_TERMS(x, y, z)                                                              \
+    {                                                                                              \
+        1, x, y, z, (x) * (y), (y) * (z), (z) * (x), (x) * (x) - (y) * (y), 3 * (z) * (z)-1        \
+    }
 
 // ---- Layers ------------------------------------------------------------------------------------
 // With GLINT_DIAGNOSTICS: what became of a pixel's paths, [height][width]. The first three are of

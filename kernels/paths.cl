@@ -230,15 +230,7 @@ static inline void split_path(paths *all, int slot, path *reflected, path *trans
 static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wanted)
 {
     global const float *coefficients = scene->irradiance.texels;
-    const real terms[GLINT_HARMONICS] = {real_of(1),
-                                         n.x,
-                                         n.y,
-                                         n.z,
-                                         n.x * n.y,
-                                         n.y * n.z,
-                                         n.z * n.x,
-                                         fused(n.x, n.x, -(n.y * n.y)),
-                                         fused(R(3.0) * n.z, n.z, real_of(-1))};
+    const real terms[GLINT_HARMONICS] = GLINT_HARMONIC_TERMS(n.x, n.y, n.z);
     real3 sum = real3_of(real_of(0), real_of(0), real_of(0));
     (void)wanted;
     for (int k = 0; k < GLINT_HARMONICS; k++) {

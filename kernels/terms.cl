@@ -46,7 +46,7 @@ static inline float weight_of_term(global const float *term)
 }
 
 // Where a pixel's next term goes: behind the others, or, where there is no room, in the place of
-// the lightest if that is lighter; NULL where it is not.
+// the lightest if that is lighter, as all are than NaN; NULL where it is not.
 static inline global float *place_of_term(terms *t, int pixel, float weight)
 {
     global float *first = terms_of_pixel(t, pixel) + GLINT_TERM_VALUES;
@@ -59,8 +59,8 @@ static inline global float *place_of_term(terms *t, int pixel, float weight)
         lightest = weight_of_term(other) < weight_of_term(lightest) ? other : lightest;
     }
     const float least = weight_of_term(lightest);
-    t->dropped[pixel] += fmin(least, weight);
-    return least < weight ? lightest : 0;
+    t->dropped[pixel] += weight <= least ? weight : least;
+    return weight <= least ? 0 : lightest;
 }
 
 // The rays in `wanted` bring what comes along their vectors, or what the surfaces with these

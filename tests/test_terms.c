@@ -220,6 +220,42 @@ static void files_without_terms_are_refused(void **state)
     glint_image_free(&image);
 }
 
+// A file from elsewhere may hold anything: what is no number is passed on, and nothing else is
+// lost.
+static void what_is_no_number_stays_one(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"terms.00.kind",    "terms.00.wb",      "terms.00.wg",
+                                        "terms.00.wr",      "terms.00.x",       "terms.00.y",
+                                        "terms.00.z",       "terms.constant_b", "terms.constant_g",
+                                        "terms.constant_r", "terms.dropped"};
+    float values[11][3] = {{0, 0, 1},          {1, 1, 1}, {1, NAN, 1}, {1, 1, 1},
+                           {NAN, 0, INFINITY}, {0, 1, 0}, {0, 0, 0},   {0, 0, 0},
+                           {0, 0, 0},          {0, 0, 0}, {NAN, 0, -1}};
+    glint_channel channels[11];
+    for (int i = 0; i < 11; i++) {
+        channels[i] = (glint_channel){names[i], values[i]};
+    }
+    glint_environment environment;
+    glint_image image, found;
+    glint_terms terms;
+    glint_error error = {0};
+    const glint_write_options options = {.channels = channels, .channel_count = 11};
+    bridge_direction_environment(16, &environment);
+    assert_int_equal(glint_image_create(3, 1, 4, &image, NULL), GLINT_OK);
+    assert_int_equal(glint_image_write(scratch_path("nan.exr"), &image, &options, &error),
+                     GLINT_OK);
+    assert_int_equal(glint_terms_read(scratch_path("nan.exr"), &terms, &error), GLINT_OK);
+    assert_true(terms.dropped == 0);
+    assert_int_equal(glint_terms_relight(&terms, &environment, 0, &found, &error), GLINT_OK);
+    assert_int_equal(glint_image_count_nonfinite(&found), 3);
+    assert_true(fabs((double)found.pixels[4] - 0.5) < 1e-2 && isnan(found.pixels[5]));
+    glint_image_free(&found);
+    glint_image_free(&image);
+    glint_terms_free(&terms);
+    glint_environment_free(&environment);
+}
+
 static int setup(void **state)
 {
     return scratch_setup(state);
@@ -239,6 +275,7 @@ int main(void)
         cmocka_unit_test(packets_of_1_8_and_16_rays_keep_the_same),
         cmocka_unit_test(what_finds_no_room_is_the_lightest_and_is_counted),
         cmocka_unit_test(files_without_terms_are_refused),
+        cmocka_unit_test(what_is_no_number_stays_one),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -123,6 +123,10 @@ static glint_status light(const relight_request *request, const char *path, glin
                                      request->inputs.settings.env_rotate, &image, error);
     }
     const double light_ms = glint_lap_ms(&clock);
+    const size_t nonfinite = glint_image_count_nonfinite(&image);
+    if (nonfinite > 0) {
+        glint_say("warning: %zu pixels are not finite", nonfinite);
+    }
     if (status == GLINT_OK) {
         const glint_write_options options = write_options(request);
         status = glint_image_write(request->output, &image, &options, error);

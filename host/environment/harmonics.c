@@ -26,22 +26,6 @@ typedef struct job {
     row_sum *rows; // [6][edge]
 } job;
 
-static void polynomials(glint_vec3 d, double f[GLINT_HARMONICS])
-{
-    const double all[GLINT_HARMONICS] = {1,
-                                         d.x,
-                                         d.y,
-                                         d.z,
-                                         d.x * d.y,
-                                         d.y * d.z,
-                                         d.z * d.x,
-                                         d.x * d.x - d.y * d.y,
-                                         3 * d.z * d.z - 1};
-    for (int k = 0; k < GLINT_HARMONICS; k++) {
-        f[k] = all[k];
-    }
-}
-
 // Texels so small are taken as a point each: that errs by h²/24 of second derivatives, which are
 // under 8, with h = 2/edge: 2e-5. Larger ones by Gauss's rule, as four.
 #define POINT_EDGE 256
@@ -52,13 +36,14 @@ static void add_texel(const float *texel, int face, double s, double t, double h
 {
     const int points = half <= 1.0 / POINT_EDGE ? 1 : 4;
     const double aside = points == 1 ? 0 : half / sqrt(3.0), area = 4 * half * half / points;
-    double f[GLINT_HARMONICS], sum[GLINT_HARMONICS] = {0};
+    double sum[GLINT_HARMONICS] = {0};
     for (int point = 0; point < points; point++) {
         const glint_vec3 at = glint_cube_direction(face, s + (point & 1 ? aside : -aside),
                                                    t + (point & 2 ? aside : -aside));
         const double length = glint_vec3_length(at);
         const double weight = area / (length * length * length);
-        polynomials(glint_vec3_scale(at, 1 / length), f);
+        const glint_vec3 d = glint_vec3_scale(at, 1 / length);
+        const double f[GLINT_HARMONICS] = GLINT_HARMONIC_TERMS(d.x, d.y, d.z);
         for (int k = 0; k < GLINT_HARMONICS; k++) {
             sum[k] += weight * f[k];
         }

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -67,4 +68,19 @@ void glint_image_put_behind(const glint_image *front, const glint_image *back)
             pixel[3] = 1;
         }
     }
+}
+
+size_t glint_image_count_nonfinite(const glint_image *image)
+{
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    const size_t channels = (size_t)image->channels;
+    size_t count = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        float sum = 0;
+        for (size_t c = 0; c < channels; c++) {
+            sum += image->pixels[channels * i + c];
+        }
+        count += isfinite(sum) ? 0 : 1;
+    }
+    return count;
 }

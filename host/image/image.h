@@ -43,6 +43,9 @@ static inline void glint_image_rgb(const glint_image *image, int x, int y, doubl
     }
 }
 
+// How many pixels have a value that is NaN or infinite, or overflow when their values are added.
+size_t glint_image_count_nonfinite(const glint_image *image);
+
 // Puts a picture behind one that is premultiplied: front + (1 − alpha)·back, linear, alpha 1. Where
 // the front covers all nothing of the back counts, not even what is not finite. The two have the
 // same size; the back's alpha says nothing more than its premultiplied colour does.

@@ -229,18 +229,6 @@ void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more)
     sum->total_reflections += more->total_reflections;
 }
 
-static uint64_t count_nonfinite(const glint_image *image)
-{
-    uint64_t count = 0;
-    size_t pixels = (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < pixels; i++) {
-        const float *p = image->pixels + 4 * i;
-        // The sum is not finite if any of the four is not (or if it overflows, which is as wrong).
-        count += isfinite(p[0] + p[1] + p[2] + p[3]) ? 0 : 1;
-    }
-    return count;
-}
-
 glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,
                                   const glint_progress *progress, glint_image *image,
                                   glint_frame_report *report, glint_error *error)
@@ -283,7 +271,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
         glint_image_free(image);
         return status;
     }
-    report->nonfinite_pixels = count_nonfinite(image);
+    report->nonfinite_pixels = glint_image_count_nonfinite(image);
     r->phases.kernel = report->kernel_ms;
     r->phases.readback = report->readback_ms;
     return GLINT_OK;

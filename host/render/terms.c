@@ -109,10 +109,10 @@ static void survey(glint_terms *terms)
     double kept = 0, dropped = 0;
     for (size_t p = 0; p < pixels; p++) {
         const float *pixel = c->values + p * (size_t)c->count;
-        dropped += (double)pixel[terms->places[3]];
+        dropped += fmax(0, (double)pixel[terms->places[3]]); // 0 of NaN
         for (int k = 0; k < terms->capacity; k++) {
             const int *places = terms->places + HEADER + TERM * k;
-            kept += heaviest(pixel, places);
+            kept += fmax(0, heaviest(pixel, places));
             terms->has_irradiance = terms->has_irradiance || pixel[places[3]] != 0;
         }
     }
