@@ -24,6 +24,7 @@ const char *bench_job_name(bench_job job)
 // ---- Meshes ------------------------------------------------------------------------------------
 
 static const bench_ball bumpy_ball = {.radius = 1, .displacement = bench_bumps};
+static const bench_ball smooth_ball = {.radius = 1};
 
 static glint_status make_level_6(bench_mesh *mesh, glint_error *error)
 {
@@ -200,14 +201,15 @@ static glint_status store(const recipe *from, bench_mesh *mesh, bench_scene *sce
     return status;
 }
 
-// The number of "ico:NUMBER"; 0 for other names.
-static size_t icosphere_size(const char *name)
+// The number of "PREFIX:NUMBER"; 0 for other names.
+static size_t icosphere_size(const char *name, const char *prefix)
 {
-    if (strncmp(name, "ico:", 4) != 0) {
+    const size_t length = strlen(prefix);
+    if (strncmp(name, prefix, length) != 0 || name[length] != ':') {
         return 0;
     }
     char *end;
-    double count = strtod(name + 4, &end);
+    double count = strtod(name + length + 1, &end);
     bool valid = *end == '\0' && count >= SMALLEST_ICOSPHERE && count <= LARGEST_ICOSPHERE;
     return valid ? (size_t)count : 0;
 }
@@ -222,18 +224,21 @@ glint_status bench_scene_make(const char *name, bench_scene *scene, glint_error 
     }
     bench_mesh mesh = {0};
     glint_status status;
-    size_t triangles = icosphere_size(name);
+    const size_t smooth = icosphere_size(name, "ball");
+    const size_t triangles = smooth > 0 ? smooth : icosphere_size(name, "ico");
     if (triangles > 0) {
         found = &recipes[0];
         int frequency = (int)lround(sqrt((double)triangles / SMALLEST_ICOSPHERE));
-        status = bench_mesh_add_icosphere(&mesh, &bumpy_ball, frequency, error);
+        status = bench_mesh_add_icosphere(&mesh, smooth > 0 ? &smooth_ball : &bumpy_ball, frequency,
+                                          error);
     } else if (found != NULL) {
         status = found->make(&mesh, error);
     } else {
-        return glint_fail(error, GLINT_USAGE,
-                          "--scenes: '%s' is none (S0, S1, S2, needles, stadium, G0, or ico:N with "
-                          "%d to %d triangles)",
-                          name, SMALLEST_ICOSPHERE, LARGEST_ICOSPHERE);
+        return glint_fail(
+            error, GLINT_USAGE,
+            "--scenes: '%s' is none (S0, S1, S2, needles, stadium, G0, or ico:N or ball:N "
+            "with %d to %d triangles)",
+            name, SMALLEST_ICOSPHERE, LARGEST_ICOSPHERE);
     }
     if (status == GLINT_OK) {
         status = store(found, &mesh, scene, error);

@@ -7,6 +7,7 @@
 //   stadium    a displaced icosphere, 82 thousand, that is small inside a hall of 12
 //   G0         S0's mesh as solid glass
 //   ico:N      like S0, of about N triangles, 20 at least
+//   ball:N     likewise, without displacement
 #ifndef GLINT_BENCH_SCENES_H
 #define GLINT_BENCH_SCENES_H
 

@@ -30,6 +30,8 @@
     FEATURE(ENV_ROTATION, "the environment is turned about +Y")                                    \
     FEATURE(IRRADIANCE_HARMONICS, "the irradiance is a polynomial of the normal and no map")       \
     FEATURE(MIP_LEVELS, "the environment is averaged over what a pixel sees of it")                \
+    FEATURE(VERTEX_COLOR, "colours are found at vertices and interpolated")                        \
+    FEATURE(VERTEX_DIRECTION, "directions are found at vertices and interpolated")                 \
     FEATURE(HITS, "a pixel holds what its ray met instead of a colour")                            \
     FEATURE(TERMS, "what pixels are the sum of is stored, to light them anew")                     \
     FEATURE(DIAGNOSTICS, "layers tell what became of each pixel's paths")

@@ -173,6 +173,22 @@ typedef struct glint_layers_record {
 #define GLINT_TERM_RADIANCE 0.0f   // the environment's radiance along the vector
 #define GLINT_TERM_IRRADIANCE 1.0f // its irradiance over π of a surface with this normal
 
+// ---- Vertices ----------------------------------------------------------------------------------
+// With GLINT_VERTEX_COLOR and GLINT_VERTEX_DIRECTION, what was found of the clusters' vertices for
+// this view: per cluster its vectors, each as x[16], y[16], z[16] by vertex, floats. Of a colour
+// there is one, R, G, B; of directions there are more: what the surface emits; what it sends back
+// of an irradiance over π of 1, and its unit normal; and the unit vectors along which it looks the
+// environment up, with their weights.
+#define GLINT_VERTEX_COLOR_VECTORS 1
+#define GLINT_VERTEX_VECTORS 7
+#define GLINT_VERTEX_EMITTED 0 // or the colour
+#define GLINT_VERTEX_LIT 1
+#define GLINT_VERTEX_NORMAL 2
+#define GLINT_VERTEX_REFLECTED 3
+#define GLINT_VERTEX_REFLECTED_WEIGHT 4
+#define GLINT_VERTEX_TRANSMITTED 5
+#define GLINT_VERTEX_TRANSMITTED_WEIGHT 6
+
 // ---- Counters ----------------------------------------------------------------------------------
 // Each counter is 64 bits in two 32-bit words (low, high). To keep work-items from waiting for each
 // other there are GLINT_COUNTER_SLOTS sets; the host adds them up. Whole numbers, so that the sum

@@ -24,24 +24,6 @@ static inline tally no_tally(void)
     return t;
 }
 
-static inline real3 join_vector(const glint_split_vector *v)
-{
-    return real3_of(real_of(JOIN(v->high[0], v->low[0])), real_of(JOIN(v->high[1], v->low[1])),
-                    real_of(JOIN(v->high[2], v->low[2])));
-}
-
-#if GLINT_ENV_ROTATION
-// The environment turned by the angle a about +Y is looked up along d turned by −a.
-static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)
-{
-    real c = real_of(JOIN(frame->env_rotation[0], frame->env_rotation[1]));
-    real s = real_of(JOIN(frame->env_rotation[2], frame->env_rotation[3]));
-    return real3_of(fused(c, d.x, -(s * d.z)), d.y, fused(s, d.x, c * d.z));
-}
-#else
-static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d) { return d; }
-#endif
-
 // A packet of primary rays, which pixels' samples they are, and what they meet.
 typedef struct primary {
     real x, y;        // places on the image plane
@@ -224,29 +206,6 @@ static inline void split_path(paths *all, int slot, path *reflected, path *trans
 }
 #endif
 
-#if GLINT_IRRADIANCE_HARMONICS
-// The polynomial of layout.h; where it is negative, which is a few percent of a single light's at
-// most, there is no light.
-static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wanted)
-{
-    global const float *coefficients = scene->irradiance.texels;
-    const real terms[GLINT_HARMONICS] = GLINT_HARMONIC_TERMS(n.x, n.y, n.z);
-    real3 sum = real3_of(real_of(0), real_of(0), real_of(0));
-    (void)wanted;
-    for (int k = 0; k < GLINT_HARMONICS; k++) {
-        global const float *c = coefficients + 4 * k;
-        sum = scale_add(real3_of(real_of(c[0]), real_of(c[1]), real_of(c[2])), terms[k], sum);
-    }
-    return real3_of(LARGER(sum.x, real_of(0)), LARGER(sum.y, real_of(0)),
-                    LARGER(sum.z, real_of(0)));
-}
-#elif NEEDS_IRRADIANCE
-static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wanted)
-{
-    return sample_cube(&scene->irradiance, n, wanted);
-}
-#endif
-
 #if GLINT_TERMS && GATHERS
 // What surfaces emit, apart from what the irradiance lights: what they would send back of one of 1
 // is more by that.
@@ -268,6 +227,28 @@ static inline void note_emission(terms *terms, const scene_buffers *scene, const
 }
 #endif
 
+// What becomes of the light that the rays in `met` met their surfaces for; theirs are the media
+// that they have passed, and the weight that is left of them.
+static inline scattering scatter_on_path(const scene_buffers *scene,
+                                         const glint_frame_record *frame, const surface *s,
+                                         const closest *hit, mask met, path *ray, tally *tally)
+{
+    real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
+#if NEEDS_IRRADIANCE
+    irradiance = find_irradiance(scene, turn_into_environment(frame, s->normal), met);
+#endif
+    mask media_lost;
+    lanes_int media = ray->media;
+    const scattering out =
+        scatter(scene, s, negate(ray->direction), &media, irradiance, &media_lost);
+    ray->media = SELECT(met, media, ray->media);
+#if GLINT_ABSORPTION
+    ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
+#endif
+    tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
+    return out;
+}
+
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
@@ -276,29 +257,21 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 {
     path *ray = &all->ray[slot];
     surface s = find_surface(scene, ray, hit, triangles);
-    real3 v = negate(ray->direction);
-    real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
-#if NEEDS_IRRADIANCE
-    irradiance = find_irradiance(scene, turn_into_environment(frame, s.normal), met);
-#endif
-    mask media_lost;
-    lanes_int media = ray->media;
-    scattering out = scatter(scene, &s, v, &media, irradiance, &media_lost);
-    ray->media = SELECT(met, media, ray->media);
-#if GLINT_ABSORPTION
-    ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
+#if SHADES_VERTICES
+    const scattering out = scatter_from_corners(scene, frame, ray, &s, hit, met);
+#else
+    const scattering out = scatter_on_path(scene, frame, &s, hit, met, ray, tally);
 #endif
 #if GATHERS
     gather(all, slot, multiply(ray->weight, out.emitted), met);
 #endif
 #if GLINT_TERMS && GATHERS
-    note_emission(tally->terms, scene, &s, v, ray, met, &all->pixels[slot]);
+    note_emission(tally->terms, scene, &s, negate(ray->direction), ray, met, &all->pixels[slot]);
 #endif
 #if GLINT_MIP_LEVELS
     const real width = width_after(&ray->cone, hit->t);
     const real spread = ray->cone.spread;
 #endif
-    tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
 
     path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
     reflected.weight = multiply(ray->weight, out.reflected_weight);

@@ -14,7 +14,8 @@
 #define PROBE_SCENE                                                                                \
     {nodes, clusters, normals, numbers, materials, media,                                          \
      {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
-     {irradiance, frame.irradiance_edge, false}}
+     {irradiance, frame.irradiance_edge, false},                                                   \
+     0}
 
 // Value `which` of the elements of a packet, of `values` each.
 static inline real probe_load(global const scalar *in, size_t packet, int values, int which)

@@ -23,6 +23,10 @@
 #error "HITS needs GEOMETRY"
 #endif
 
+#if (GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION) && !GLINT_SMOOTH_NORMALS
+#error "VERTEX_COLOR and VERTEX_DIRECTION need SMOOTH_NORMALS"
+#endif
+
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
 #if GLINT_IRRADIANCE_HARMONICS && !NEEDS_IRRADIANCE
 #error "IRRADIANCE_HARMONICS needs PAINT or BLEND"
@@ -30,7 +34,8 @@
 // Paths gather more than what the environment's look-ups bring.
 #define GATHERS                                                                                    \
     (!GLINT_HITS &&                                                                                \
-     (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT))
+     (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT ||          \
+      GLINT_VERTEX_COLOR))
 
 #include "layout.h"
 #include "lanes.cl"
@@ -44,6 +49,7 @@
 #include "bundle.cl"
 #include "tile.cl"
 #include "traverse_tile.cl"
+#include "light.cl"
 #include "cones.cl"
 #include "shade.cl"
 #include "scatter.cl"
@@ -53,7 +59,9 @@
 #include "traverse_together.cl"
 #include "layers.cl"
 #include "terms.cl"
+#include "corners.cl"
 #include "paths.cl"
+#include "vertices.cl"
 #include "mirrors.cl"
 
 // Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
@@ -320,8 +328,8 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
 }
 
 // Renders one tile a work-item.
-//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms: see
-// layout.h.
+//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms and
+// vertices: see layout.h.
 // counters: see layout.h. The other buffers are described in layout.h too; those that no compiled
 // feature needs may be of any size.
 kernel void render_tiles(global const float *nodes, global const float *clusters,
@@ -330,7 +338,8 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                          global const glint_medium_record *media, global const void *environment,
                          global const float *irradiance, global scalar *pixels,
                          global uint *counters, global glint_layers_record *layers,
-                         global float *terms, const glint_frame_record frame)
+                         global float *terms, global const float *vertices,
+                         const glint_frame_record frame)
 {
     const scene_buffers scene = {nodes,
                                  clusters,
@@ -339,7 +348,8 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                                  materials,
                                  media,
                                  {environment, frame.environment_edge, GLINT_HALF_TEXELS},
-                                 {irradiance, frame.irradiance_edge, false}};
+                                 {irradiance, frame.irradiance_edge, false},
+                                 vertices};
     int column, row;
     find_tile(&frame, (int)get_global_id(0), (int)get_global_id(1), &column, &row);
     if (column >= frame.width || row >= frame.height) {

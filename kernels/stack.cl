@@ -9,6 +9,7 @@ typedef struct scene_buffers {
     global const glint_material_record *materials;
     global const glint_medium_record *media;
     cube_map environment, irradiance;
+    global const float *vertices; // what was found at them, with VERTEX_COLOR and VERTEX_DIRECTION
 } scene_buffers;
 
 typedef global const float *node_pointer;

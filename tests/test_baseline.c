@@ -28,7 +28,7 @@ static void format_scene(const crafted *scene, char *text, size_t capacity)
     snprintf(text, capacity,
              "{\"name\": \"%s\", \"device\": {\"name\": \"%s\", \"compute_units\": 2},"
              " \"settings\": {\"width\": %d, \"height\": 1080, \"depth\": \"auto\","
-             " \"filter\": \"bilinear\", \"irradiance\": \"exact\"},"
+             " \"filter\": \"bilinear\", \"irradiance\": \"exact\", \"shading\": \"pixel\"},"
              " \"environment\": {\"name\": \"%s\", \"width\": 0},"
              " \"camera\": {\"eye\": [0.0, 0.0, 2.5]}, \"scene\": {\"triangle_count\": %d},"
              " \"frames\": {\"kernel\": {\"median\": %.6f, \"lower_quartile\": %.6f,"
@@ -244,10 +244,11 @@ static void a_report_that_was_written_is_read(void **state)
 static void a_report_from_before_a_setting_has_its_default(void **state)
 {
     (void)state;
-    static const char *const members[] = {", \"irradiance\": \"exact\"",
-                                          " \"filter\": \"bilinear\", "};
-    static const char *const others[][2] = {{"irradiance", "sh"}, {"filter", "mip"}};
-    for (int i = 0; i < 2; i++) {
+    static const char *const members[] = {
+        ", \"irradiance\": \"exact\"", " \"filter\": \"bilinear\", ", ", \"shading\": \"pixel\""};
+    static const char *const others[][2] = {
+        {"irradiance", "sh"}, {"filter", "mip"}, {"shading", "vertex-color"}};
+    for (int i = 0; i < 3; i++) {
         char scene[1024];
         format_scene(&plain, scene, sizeof scene);
         char *member = strstr(scene, members[i]);

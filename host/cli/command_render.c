@@ -70,18 +70,21 @@ static glint_status write_stats(const render_run *run, glint_error *error)
 
 // ---- What is said ------------------------------------------------------------------------------
 
-static const char *truncation_advice(const glint_truncation *truncation)
+static const char *truncation_advice(const glint_truncation *truncation, glint_shading shading)
 {
     if (truncation->by_stack > truncation->by_depth + truncation->by_min_weight) {
         return "a larger --min-weight leaves fewer branches waiting";
     }
-    return truncation->by_depth >= truncation->by_min_weight
-               ? "a greater --depth follows it further"
-               : "a smaller --min-weight, say 1e-5, follows it further";
+    if (truncation->by_depth < truncation->by_min_weight) {
+        return "a smaller --min-weight, say 1e-5, follows it further";
+    }
+    return shading == GLINT_SHADING_PIXEL ? "a greater --depth follows it further"
+                                          : "--shading pixel follows it further";
 }
 
 // What the frame's figures give cause to say.
-static void warn_of_report(const glint_frame_report *report, glint_warnings *warnings)
+static void warn_of_report(const glint_frame_report *report, glint_shading shading,
+                           glint_warnings *warnings)
 {
     const glint_truncation *truncation = &report->truncation;
     if (report->nonfinite_pixels > 0) {
@@ -95,7 +98,7 @@ static void warn_of_report(const glint_frame_report *report, glint_warnings *war
     if (glint_stats_truncated(truncation) > TRUNCATION_WORTH_SAYING) {
         glint_warn(warnings,
                    "%.2g%% of the light took the environment before its path had ended (%s)",
-                   100 * glint_stats_truncated(truncation), truncation_advice(truncation));
+                   100 * glint_stats_truncated(truncation), truncation_advice(truncation, shading));
     }
 }
 
@@ -212,7 +215,8 @@ static glint_status render(render_run *run, glint_error *error)
         glint_error_free(&later);
         return status;
     }
-    warn_of_report(&run->totals.worst, &run->inputs.warnings);
+    warn_of_report(&run->totals.worst, run->request->inputs.settings.shading,
+                   &run->inputs.warnings);
     glint_say_warnings(&run->inputs.warnings, run->warnings_said);
     if (written == GLINT_OK) {
         written = write_stats(run, &later);

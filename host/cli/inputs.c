@@ -224,6 +224,13 @@ const glint_option glint_settings_options[] = {
          "What lights matte paint: exact, a map that is computed of the whole environment; sh, its "
          "nine spherical harmonics, which take less time and are off where a light is small.",
      .fallback = "exact", .offset = OFFSET(irradiance), .choices = "exact|sh"},
+    {GLINT_OPTION_CHOICE, .name = "shading", .argument = "RATE",
+     .help = "Where the environment is looked up: pixel, at what each pixel's rays meet; "
+             "vertex-direction, along directions that are found at the triangles' vertices and "
+             "interpolated; vertex-color, at the vertices, whose colours are interpolated. At "
+             "vertices surfaces see nothing but the environment.",
+     .fallback = "pixel", .offset = OFFSET(shading),
+     .choices = "pixel|vertex-direction|vertex-color"},
     {GLINT_OPTION_TEXT, .name = "device", .argument = "SELECTOR",
      .help = "The OpenCL device: an index of `glint devices`, cpu, gpu, or a part of a name.",
      .fallback = "the first GPU, else the CPU", .offset = OFFSET(device)},
@@ -310,6 +317,7 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
     request->settings.texels = (glint_texels)request->texels;
     request->settings.filter = (glint_filter)request->filter;
     request->settings.irradiance = (glint_irradiance)request->irradiance;
+    request->settings.shading = (glint_shading)request->shading;
     return GLINT_OK;
 }
 

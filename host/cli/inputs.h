@@ -34,6 +34,7 @@ typedef struct glint_input_request {
     int texels;     // a glint_texels, in the order of the choices
     int filter;     // a glint_filter, likewise
     int irradiance; // a glint_irradiance, likewise
+    int shading;    // a glint_shading, likewise
     glint_settings settings;
 } glint_input_request;
 

@@ -6,6 +6,7 @@
 #include "kernels/layout.h"
 #include "render/renderer.h"
 #include "render/terms.h"
+#include "render/vertices.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -255,6 +256,9 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     double clock = glint_now_ms();
     if (status == GLINT_OK) {
         status = clear_counters(r, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_vertices_shade(r, &record, error);
     }
     if (status == GLINT_OK) {
         status = run_frame(r, &record, progress, error);

@@ -4,21 +4,13 @@
 #include "base/half.h"
 #include "environment/half_texels.h"
 #include "environment/mip_levels.h"
+#include "scene/complete_normals.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define HITS_TRIANGLES_MAX (1u << 24) // numbers that a float holds exactly
-
-const glint_settings glint_settings_default = {
-    .width = 1280,
-    .height = 720,
-    .samples_per_axis = 1,
-    .min_weight = GLINT_DEFAULT_MIN_WEIGHT,
-};
 
 const char *glint_feature_name(glint_feature feature)
 {
@@ -166,8 +158,11 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     const glint_scene *scene = in->scene;
     decide(plan, GLINT_FEATURE_GEOMETRY, scene->triangle_count > 0, "%zu triangles",
            scene->triangle_count);
-    decide(plan, GLINT_FEATURE_SMOOTH_NORMALS, scene->normals != NULL, "%s",
-           scene->normals != NULL ? "some primitive has normals" : "no primitive has normals");
+    const bool by_vertex = glint_plan_shades_vertices(plan);
+    decide(plan, GLINT_FEATURE_SMOOTH_NORMALS, scene->normals != NULL || by_vertex, "%s",
+           scene->normals != NULL ? "some primitive has normals"
+           : by_vertex            ? "vertices are shaded, by their triangle's normal"
+                                  : "no primitive has normals");
     if (!plan->features[GLINT_FEATURE_SOLID].compiled) {
         decide(plan, GLINT_FEATURE_NESTED_MEDIA, false, "no material with a volume");
     } else if (scene->moves) {
@@ -191,6 +186,11 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
            samples == 1 ? "" : "s");
     decide(plan, GLINT_FEATURE_TRANSPARENT, settings->transparent, "background %s",
            settings->transparent ? "transparent" : "env");
+    const char *shading = glint_shading_name(plan->shading);
+    decide(plan, GLINT_FEATURE_VERTEX_COLOR, plan->shading == GLINT_SHADING_VERTEX_COLOR,
+           "shading %s", shading);
+    decide(plan, GLINT_FEATURE_VERTEX_DIRECTION, plan->shading == GLINT_SHADING_VERTEX_DIRECTION,
+           "shading %s", shading);
     bool hits =
         settings->output == GLINT_OUTPUT_HITS && plan->features[GLINT_FEATURE_GEOMETRY].compiled;
     decide(plan, GLINT_FEATURE_HITS, hits, "%s", hits ? "hits were asked for" : "colour is wanted");
@@ -213,60 +213,6 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
            settings->aovs != 0 ? "layers were asked for" : "no layers were asked for");
     bool turned = fmod(settings->env_rotate, 360) != 0;
     decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
-}
-
-static glint_status check_settings(const glint_plan_inputs *in, glint_error *error)
-{
-    const glint_settings *s = in->settings;
-    if (s->width < 1 || s->height < 1) {
-        return glint_fail(error, GLINT_USAGE, "--size: %dx%d has no pixels", s->width, s->height);
-    }
-    if (s->samples_per_axis < 1 || s->samples_per_axis > GLINT_SAMPLES_PER_AXIS_MAX) {
-        return glint_fail(error, GLINT_USAGE, "--samples: a square number from 1 to %d",
-                          GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX);
-    }
-    if (s->depth < 0) {
-        return glint_fail(error, GLINT_USAGE, "--depth: 1 or more, or auto");
-    }
-    if (s->output == GLINT_OUTPUT_HITS &&
-        (s->samples_per_axis > 1 || in->scene->triangle_count > HITS_TRIANGLES_MAX)) {
-        return glint_fail(error, GLINT_USAGE,
-                          "hits can be had for one sample a pixel and %u triangles at most",
-                          HITS_TRIANGLES_MAX);
-    }
-    if (s->aovs > GLINT_AOV_ALL || (s->aovs != 0 && s->output == GLINT_OUTPUT_HITS)) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--aov: only layers that there are, and none with hits");
-    }
-    if (s->terms < 0 || s->terms > GLINT_TERMS_MAX ||
-        (s->terms > 0 && s->output == GLINT_OUTPUT_HITS)) {
-        return glint_fail(error, GLINT_USAGE, "--directions: 1 to %d, and none with hits",
-                          GLINT_TERMS_MAX);
-    }
-    if (s->terms > 0 && s->filter == GLINT_FILTER_MIP) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--directions: what a pixel sees around a direction is not kept, which "
-                          "--filter mip needs (use bilinear)");
-    }
-    if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
-        return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
-    }
-    if (!isfinite(s->env_rotate)) {
-        return glint_fail(error, GLINT_USAGE, "--env-rotate: a finite number of degrees");
-    }
-    if (s->kernel_width != 0 && s->kernel_width != 1 && s->kernel_width != 8 &&
-        s->kernel_width != 16) {
-        return glint_fail(error, GLINT_USAGE, "--kernel-width: 1, 8 or 16");
-    }
-    if (s->tile_packets != 0 && s->tile_packets != 1 && s->tile_packets != 16) {
-        return glint_fail(error, GLINT_USAGE, "--kernel-tile: 1 or 16");
-    }
-    if (s->precision == GLINT_PRECISION_DOUBLE && !in->device->has_double) {
-        return glint_fail(error, GLINT_DEVICE_FAILED,
-                          "device '%s' has no double precision (use --precision float)",
-                          in->device->name);
-    }
-    return GLINT_OK;
 }
 
 // A packet fills the widest vector of the device; where a work-item is one lane of the hardware's
@@ -462,6 +408,7 @@ static void compile_everything(glint_plan *plan)
                      i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
                      i == GLINT_FEATURE_IRRADIANCE_HARMONICS || i == GLINT_FEATURE_SMOOTH_NORMALS ||
                      i == GLINT_FEATURE_DIAGNOSTICS || i == GLINT_FEATURE_TERMS ||
+                     i == GLINT_FEATURE_VERTEX_COLOR || i == GLINT_FEATURE_VERTEX_DIRECTION ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {
@@ -475,7 +422,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
 {
     *plan = (glint_plan){0};
     const glint_settings *settings = in->settings;
-    glint_status status = check_settings(in, error);
+    glint_status status = glint_plan_check_settings(in, error);
     if (status != GLINT_OK) {
         return status;
     }
@@ -491,6 +438,10 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     if (settings->output == GLINT_OUTPUT_HITS) {
         census = (material_census){.used = 1}; // whatever they are, none is looked at
         plan->depth = 1;
+    } else if (in->scene->triangle_count > 0 && settings->shading != GLINT_SHADING_PIXEL) {
+        plan->shading = settings->shading;
+        plan->depth = 1;
+        plan->depth_is_auto = false;
     }
     decide_materials(&census, plan);
     decide_optics(&census, settings->fresnel, plan);
@@ -509,28 +460,57 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     return glint_plan_choose_texels(in, plan, error);
 }
 
-static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *scene)
+static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *scene,
+                                    const float *normals)
 {
     return (glint_bvh_inputs){
         .positions = scene->positions,
-        .normals = scene->normals,
+        .normals = normals,
         .material_of = scene->material_of,
         .triangle_count = scene->triangle_count,
         .width = plan->bvh_width,
     };
 }
 
+// The normals that a tree's clusters get: where vertices are shaded all have one.
+static glint_status find_normals(const glint_plan *plan, const glint_scene *scene, float **own,
+                                 const float **normals, glint_error *error)
+{
+    *own = NULL;
+    *normals = scene->normals;
+    if (!glint_plan_shades_vertices(plan)) {
+        return GLINT_OK;
+    }
+    glint_status status = glint_scene_complete_normals(scene, own, error);
+    *normals = *own;
+    return status;
+}
+
 glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
                                    glint_error *error)
 {
-    const glint_bvh_inputs inputs = tree_inputs(plan, scene);
-    return glint_bvh_build(&inputs, bvh, error);
+    float *own;
+    const float *normals;
+    glint_status status = find_normals(plan, scene, &own, &normals, error);
+    if (status == GLINT_OK) {
+        const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
+        status = glint_bvh_build(&inputs, bvh, error);
+    }
+    free(own);
+    return status;
 }
 
 bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh)
 {
-    const glint_bvh_inputs inputs = tree_inputs(plan, scene);
-    return glint_bvh_refit(&inputs, bvh);
+    float *own;
+    const float *normals;
+    if (find_normals(plan, scene, &own, &normals, NULL) != GLINT_OK) {
+        return false;
+    }
+    const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
+    const bool fits = glint_bvh_refit(&inputs, bvh);
+    free(own);
+    return fits;
 }
 
 int glint_plan_feature_count(const glint_plan *plan)
@@ -567,8 +547,9 @@ void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity)
     snprintf(depth, sizeof depth, plan->depth_is_auto ? "auto (at most %d)" : "%d", plan->depth);
     snprintf(
         text, capacity,
-        "shading pixel, depth %s, precision %s, %s texels, filter %s, width %d, %d of %d features",
-        depth, plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
+        "shading %s, depth %s, precision %s, %s texels, filter %s, width %d, %d of %d features",
+        glint_shading_name(plan->shading), depth,
+        plan->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
         plan->half_texels ? "half" : "float",
         plan->features[GLINT_FEATURE_MIP_LEVELS].compiled ? "mip" : "bilinear", plan->kernel_width,
         glint_plan_feature_count(plan), GLINT_FEATURE_COUNT);

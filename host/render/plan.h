@@ -27,6 +27,14 @@ typedef enum glint_fresnel {
                          // all, paint nothing
 } glint_fresnel;
 
+// Where the environment is looked up: the lecture's two alternatives, and ours. At vertices what
+// surfaces see is the environment alone, whatever is in between.
+typedef enum glint_shading {
+    GLINT_SHADING_PIXEL,            // at what each primary ray meets
+    GLINT_SHADING_VERTEX_DIRECTION, // directions are found at vertices, interpolated, and looked up
+    GLINT_SHADING_VERTEX_COLOR,     // colours are found at vertices and interpolated
+} glint_shading;
+
 // What a pixel holds.
 typedef enum glint_output {
     GLINT_OUTPUT_COLOR, // radiance R, G, B, premultiplied; alpha
@@ -79,8 +87,9 @@ typedef struct glint_settings {
     glint_texels texels;
     glint_filter filter;
     glint_irradiance irradiance;
-    int terms;         // of each pixel's that are kept, to light it anew, see terms.h: up to
-                       // GLINT_TERMS_MAX, 0: none; only beside colours, with the bilinear filter
+    glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers
+    int terms;             // of each pixel's that are kept, to light it anew, see terms.h: up to
+               // GLINT_TERMS_MAX, 0: none; only beside colours, with the bilinear filter
     uint32_t aovs;     // the set of diagnostic layers wanted, see layers.h; only beside colours
     int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
     int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
@@ -111,7 +120,8 @@ typedef struct glint_plan {
     char texels_reason[160];
     double texels_rmse; // relative RMSE that half texels add to the environment; 0 with float
     int bvh_width;      // children of a node
-    int depth;          // surfaces at most
+    glint_shading shading;
+    int depth; // surfaces at most
     bool depth_is_auto;
     int stack_capacity; // waiting branches of a pixel; 0 without SPLIT
     char stack_reason[120];
@@ -127,6 +137,9 @@ typedef struct glint_plan {
 const char *glint_feature_name(glint_feature feature);
 const char *glint_feature_meaning(glint_feature feature);
 
+// "pixel", "vertex-direction", "vertex-color".
+const char *glint_shading_name(glint_shading shading);
+
 // Everything the decision rests on. Pointers are borrowed. The topology is read only where some
 // material bounds a solid; it may be empty where none does.
 typedef struct glint_plan_inputs {
@@ -141,6 +154,10 @@ typedef struct glint_plan_inputs {
 
 // Lanes of a packet on the device where nobody asks for others: 1, 8 or 16.
 int glint_plan_native_width(const glint_capabilities *device, glint_precision precision);
+
+// Whether the settings are in range, go together and suit the device: what glint_plan_make asks
+// first. Of `inputs` scene, device and settings are read.
+glint_status glint_plan_check_settings(const glint_plan_inputs *inputs, glint_error *error);
 
 // Errors: GLINT_USAGE for settings out of range and for half texels of an environment that half
 // cannot hold, GLINT_DEVICE_FAILED for what the device cannot do (double precision without
@@ -160,6 +177,12 @@ glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *sc
 // Fits a tree of the same scene at another time. False where it does not serve, see
 // glint_bvh_refit.
 bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh);
+
+// Whether light is found at vertices.
+static inline bool glint_plan_shades_vertices(const glint_plan *plan)
+{
+    return plan->shading != GLINT_SHADING_PIXEL;
+}
 
 // The number of features compiled.
 int glint_plan_feature_count(const glint_plan *plan);

@@ -7,6 +7,7 @@
 #include "environment/irradiance.h"
 #include "kernels/layout.h"
 #include "render/renderer.h"
+#include "render/vertices.h"
 #include "scene/topology.h"
 
 #include <stdlib.h>
@@ -77,7 +78,8 @@ static glint_status set_buffers(const glint_renderer *r, glint_error *error)
                               r->pixels.own,
                               r->counters,
                               r->layers,
-                              r->terms};
+                              r->terms,
+                              r->vertices};
     glint_status status = GLINT_OK;
     for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
         status = glint_renderer_set_argument(r, i, sizeof buffers[i], &buffers[i], error);
@@ -97,6 +99,7 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
     glint_status status = glint_program_build(r->device, &request, &program, error);
     if (status == GLINT_OK) {
         status = glint_program_kernel(r->device, program, "render_tiles", &r->kernel, error);
+        status = status == GLINT_OK ? glint_vertices_take_kernel(r, program, error) : status;
         clReleaseProgram(program);
     }
     if (status == GLINT_OK) {
@@ -187,6 +190,7 @@ static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
         sizes.environment = prepared->plan.environment_bytes;
         sizes.layers = glint_renderer_layers_bytes(r);
         sizes.terms = glint_renderer_terms_bytes(r);
+        sizes.vertex = glint_vertices_bytes(&prepared->plan, 1);
         status = glint_upload_check(r->device, scene, &sizes, error);
     }
     prepared->analysis_ms = glint_lap_ms(&clock);
@@ -212,6 +216,7 @@ static glint_status upload_geometry(const glint_renderer_inputs *in, glint_rende
     if (status == GLINT_OK) {
         r->geometry = fresh;
         r->space = glint_stored_space_of(in->scene);
+        status = glint_vertices_allocate(r, error);
     }
     if (status != GLINT_OK || !in->scene->moves) {
         glint_bvh_free(&shown->tree);
@@ -273,6 +278,17 @@ static glint_status set_up(const glint_renderer_inputs *in, glint_renderer *r, g
     return status;
 }
 
+static void release_kernels(glint_renderer *r)
+{
+    cl_kernel *const kernels[] = {&r->kernel, &r->vertex_kernel};
+    for (int i = 0; i < 2; i++) {
+        if (*kernels[i] != NULL) {
+            clReleaseKernel(*kernels[i]);
+            *kernels[i] = NULL;
+        }
+    }
+}
+
 static void tear_down(glint_renderer *r)
 {
     glint_geometry_memory_free(&r->geometry);
@@ -282,10 +298,9 @@ static void tear_down(glint_renderer *r)
     glint_buffer_release(r->layers);
     glint_buffer_release(r->terms);
     r->counters = r->layers = r->terms = NULL;
-    if (r->kernel != NULL) {
-        clReleaseKernel(r->kernel);
-        r->kernel = NULL;
-    }
+    glint_buffer_release(r->vertices);
+    r->vertices = NULL;
+    release_kernels(r);
 }
 
 glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
@@ -324,10 +339,7 @@ static glint_status replace_kernel(const glint_renderer_inputs *in, glint_render
                                    glint_error *error)
 {
     double clock = glint_now_ms();
-    if (r->kernel != NULL) {
-        clReleaseKernel(r->kernel);
-        r->kernel = NULL;
-    }
+    release_kernels(r);
     glint_status status = build_kernel(in, r, error);
     r->phases.kernel_build = glint_lap_ms(&clock);
     return status;
@@ -442,7 +454,8 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
         .environment =
             glint_buffer_bytes(light->environment) + glint_buffer_bytes(light->irradiance),
         .frame = glint_pixels_bytes(&renderer->pixels) + glint_renderer_layers_bytes(renderer) +
-                 glint_renderer_terms_bytes(renderer),
+                 glint_renderer_terms_bytes(renderer) +
+                 glint_vertices_bytes(&renderer->shown.plan, renderer->shown.bvh.cluster_count),
     };
 }
 

@@ -29,7 +29,9 @@ struct glint_renderer {
     glint_geometry_memory geometry;
     glint_light_memory light;
     int environment_edge, irradiance_edge;
-    cl_kernel kernel; // NULL without frames
+    cl_kernel kernel;        // NULL without frames
+    cl_kernel vertex_kernel; // NULL where pixels are shaded
+    cl_mem vertices;         // what it finds
     glint_pixels pixels;
     cl_mem counters, layers, terms;
     bool has_failed;     // to take another scene
@@ -40,7 +42,7 @@ struct glint_renderer {
 // The kernel's arguments that change from frame to frame; the others are the renderer's buffers, in
 // the order of set_buffers.
 #define GLINT_PIXELS_ARGUMENT 8
-#define GLINT_FRAME_ARGUMENT 12
+#define GLINT_FRAME_ARGUMENT 13
 
 // Of a frame, whose size has been checked.
 static inline size_t glint_renderer_pixel_count(const glint_renderer *r)

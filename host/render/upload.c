@@ -50,6 +50,7 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
         {"the frame", sizes->frame},
         {"the layers", sizes->layers},
         {"the directions", sizes->terms},
+        {"the vertices", clusters * sizes->vertex},
     };
     double total = 0;
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) {

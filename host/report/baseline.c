@@ -60,8 +60,9 @@ static void complete_settings(json_t *root)
     json_t *list = json_object_get(root, "scenes");
     for (size_t i = 0; i < json_array_size(list); i++) {
         json_t *settings = json_object_get(json_array_get(list, i), "settings");
-        static const char *const before[][2] = {{"filter", "bilinear"}, {"irradiance", "exact"}};
-        for (int k = 0; json_is_object(settings) && k < 2; k++) {
+        static const char *const before[][2] = {
+            {"filter", "bilinear"}, {"irradiance", "exact"}, {"shading", "pixel"}};
+        for (int k = 0; json_is_object(settings) && k < 3; k++) {
             if (json_object_get(settings, before[k][0]) == NULL) {
                 json_object_set_new(settings, before[k][0], json_string(before[k][1]));
             }

@@ -81,7 +81,7 @@ static void add_settings(XXH3_state_t *state, const glint_settings *s)
                               s->depth,      s->min_weight, s->transparent ? 1 : 0,
                               s->env_rotate, s->precision,  s->fresnel,
                               s->output,     s->filter,     s->aovs,
-                              s->irradiance, s->terms};
+                              s->irradiance, s->terms,      s->shading};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
 }
 

@@ -154,6 +154,7 @@ json_t *glint_json_settings(const glint_settings *settings)
                         settings->filter == GLINT_FILTER_MIP ? "mip" : "bilinear");
     glint_json_put_text(object, "irradiance",
                         settings->irradiance == GLINT_IRRADIANCE_SH ? "sh" : "exact");
+    glint_json_put_text(object, "shading", glint_shading_name(settings->shading));
     glint_json_put(object, "kernel_width", number_or_auto(settings->kernel_width));
     glint_json_put(object, "kernel_tile", number_or_auto(settings->tile_packets));
     return object;

@@ -61,10 +61,10 @@ mkdir in/folder.gltf in/empty
 
 render_options='output exposure compression exr-type preview aov directions stats progress frames turntable
     fps skip-existing shard surroundings capture-size env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without
-    scene size samples depth min-weight background precision fresnel texels filter irradiance device
+    scene size samples depth min-weight background precision fresnel texels filter irradiance shading device
     kernel-width kernel-tile kernel-dir help'
 info_options='json env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without scene size samples depth min-weight background
-    precision fresnel texels filter irradiance device kernel-width kernel-tile help'
+    precision fresnel texels filter irradiance shading device kernel-width kernel-tile help'
 
 # shellcheck disable=SC2086 # lists of words
 {
@@ -139,6 +139,10 @@ done
 refuses 2 '--aov: out/x.png is no EXR' render "${ok[@]}" --aov tir
 refuses 2 '--kernel-width 4' render "${ok[@]}" --kernel-width 4
 refuses 2 '--kernel-tile 4' render "${ok[@]}" --kernel-tile 4
+refuses 2 '--shading vertex' render "${ok[@]}" --shading vertex
+refuses 2 '--shading vertex-color: surfaces see' render "${ok[@]}" --shading vertex-color --depth 3
+refuses 2 '--filter mip: is found of pixels' render "${ok[@]}" --shading vertex-direction --filter mip
+refuses 2 '--aov: is found of pixels' render in/mirror.gltf -o out/x.exr --shading vertex-direction --aov depth
 refuses 2 '--fresnel schlick' render "${ok[@]}" --fresnel schlick
 refuses 2 'latlong' render "${ok[@]}" --env in/sky.hdr --env-layout mercator
 refuses 2 '--env-layout' render "${ok[@]}" --env-layout latlong

@@ -1,0 +1,101 @@
+// What may be asked for. See plan.h.
+#include "render/plan.h"
+
+#include <math.h>
+
+#define HITS_TRIANGLES_MAX (1u << 24) // numbers that a float holds exactly
+
+const glint_settings glint_settings_default = {
+    .width = 1280,
+    .height = 720,
+    .samples_per_axis = 1,
+    .min_weight = GLINT_DEFAULT_MIN_WEIGHT,
+};
+
+// At vertices there is no pixel, of which a part of the environment could be seen, and no path on
+// which more could be met.
+static glint_status check_vertex_shading(const glint_settings *s, glint_error *error)
+{
+    const char *name = glint_shading_name(s->shading);
+    if (s->depth > 1) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--shading %s: surfaces see the environment alone, which is depth 1 "
+                          "(leave --depth %d out, or use --shading pixel)",
+                          name, s->depth);
+    }
+    const char *other = s->filter == GLINT_FILTER_MIP ? "--filter mip"
+                        : s->aovs != 0                ? "--aov"
+                        : s->terms > 0                ? "--directions"
+                                                      : NULL;
+    return other == NULL ? GLINT_OK
+                         : glint_fail(error, GLINT_USAGE,
+                                      "%s: is found of pixels, not of vertices (use --shading "
+                                      "pixel)",
+                                      other);
+}
+
+const char *glint_shading_name(glint_shading shading)
+{
+    static const char *const names[] = {"pixel", "vertex-direction", "vertex-color"};
+    return names[shading];
+}
+
+glint_status glint_plan_check_settings(const glint_plan_inputs *in, glint_error *error)
+{
+    const glint_settings *s = in->settings;
+    if (s->width < 1 || s->height < 1) {
+        return glint_fail(error, GLINT_USAGE, "--size: %dx%d has no pixels", s->width, s->height);
+    }
+    if (s->samples_per_axis < 1 || s->samples_per_axis > GLINT_SAMPLES_PER_AXIS_MAX) {
+        return glint_fail(error, GLINT_USAGE, "--samples: a square number from 1 to %d",
+                          GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX);
+    }
+    if (s->depth < 0) {
+        return glint_fail(error, GLINT_USAGE, "--depth: 1 or more, or auto");
+    }
+    if (s->output == GLINT_OUTPUT_HITS &&
+        (s->samples_per_axis > 1 || in->scene->triangle_count > HITS_TRIANGLES_MAX)) {
+        return glint_fail(error, GLINT_USAGE,
+                          "hits can be had for one sample a pixel and %u triangles at most",
+                          HITS_TRIANGLES_MAX);
+    }
+    if (s->aovs > GLINT_AOV_ALL || (s->aovs != 0 && s->output == GLINT_OUTPUT_HITS)) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--aov: only layers that there are, and none with hits");
+    }
+    if (s->terms < 0 || s->terms > GLINT_TERMS_MAX ||
+        (s->terms > 0 && s->output == GLINT_OUTPUT_HITS)) {
+        return glint_fail(error, GLINT_USAGE, "--directions: 1 to %d, and none with hits",
+                          GLINT_TERMS_MAX);
+    }
+    if (s->terms > 0 && s->filter == GLINT_FILTER_MIP) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--directions: what a pixel sees around a direction is not kept, which "
+                          "--filter mip needs (use bilinear)");
+    }
+    if (s->shading != GLINT_SHADING_PIXEL) {
+        glint_status status = check_vertex_shading(s, error);
+        if (status != GLINT_OK) {
+            return status;
+        }
+    }
+    if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
+        return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
+    }
+    if (!isfinite(s->env_rotate)) {
+        return glint_fail(error, GLINT_USAGE, "--env-rotate: a finite number of degrees");
+    }
+    if (s->kernel_width != 0 && s->kernel_width != 1 && s->kernel_width != 8 &&
+        s->kernel_width != 16) {
+        return glint_fail(error, GLINT_USAGE, "--kernel-width: 1, 8 or 16");
+    }
+    if (s->tile_packets != 0 && s->tile_packets != 1 && s->tile_packets != 16) {
+        return glint_fail(error, GLINT_USAGE, "--kernel-tile: 1 or 16");
+    }
+    if (s->precision == GLINT_PRECISION_DOUBLE && !in->device->has_double) {
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "device '%s' has no double precision (use --precision float)",
+                          in->device->name);
+    }
+    return GLINT_OK;
+}

@@ -1,0 +1,184 @@
+// Shading once per vertex and view instead of once per pixel (--shading vertex-color and
+// vertex-direction): before a frame's tiles are rendered, `shade_vertices` finds for every vertex
+// what a ray from the eye to it would find there, by the same optics. Pixels interpolate
+// (corners.cl). As vertices are few and far between, surfaces see nothing but the environment.
+#if SHADES_VERTICES
+
+// A packet of a cluster's 16 vertices, from `first` on: three values of x[16], y[16], z[16].
+static inline real load_vertices(global const float *values, int first)
+{
+    real loaded;
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        LANE(loaded, lane) = (scalar)values[first + lane];
+    }
+    return loaded;
+}
+
+static inline real3 load_vertices3(global const float *values, int first)
+{
+    return real3_of(load_vertices(values, first),
+                    load_vertices(values + GLINT_CLUSTER_LANES, first),
+                    load_vertices(values + 2 * GLINT_CLUSTER_LANES, first));
+}
+
+// Stores vector `which` of the vertices.
+static inline void store_vertices(global float *values, int which, int first, real3 vector)
+{
+    global float *x = values + 3 * which * GLINT_CLUSTER_LANES + first;
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        x[lane] = (float)LANE(vector.x, lane);
+        x[lane + GLINT_CLUSTER_LANES] = (float)LANE(vector.y, lane);
+        x[lane + 2 * GLINT_CLUSTER_LANES] = (float)LANE(vector.z, lane);
+    }
+}
+
+// The rays from the eye to the vertices, as primary rays are, and how far they run before they are
+// there. In image coordinates (glint_frame_record) the way from the eye is h times the direction of
+// the primary ray through (x/h, y/h): no division is needed, and what lies behind the eye is seen
+// from it as well, as pixels interpolate towards it.
+static inline path rays_to_vertices(const glint_frame_record *frame, real3 vertices, real *distance)
+{
+    const real3 p = subtract(vertices, join_vector(&frame->origin));
+    const real x = dot3(join_vector(&frame->image_x), p), y = dot3(join_vector(&frame->image_y), p);
+    const real z = dot3(join_vector(&frame->image_z), p);
+    const real h =
+        fused(z, (scalar)frame->image_slope, JOIN(frame->image_offset[0], frame->image_offset[1]));
+    const real3 d = scale_add(
+        join_vector(&frame->direction_y), y,
+        scale_add(join_vector(&frame->direction_x), x, scale(join_vector(&frame->direction), h)));
+    mask valid, always;
+    path ray;
+    ray.direction = normalized(d, &valid);
+    ray.direction = select3(valid, ray.direction, // of a vertex at the eye the middle ray's
+                            normalized(join_vector(&frame->direction), &always));
+    ray.media = int_of(0);
+    const real one = real_of(1);
+    ray.weight = real3_of(one, one, one);
+#if GLINT_ABSORPTION
+    ray.travelled = real_of(0);
+#endif
+    const real length = sqrt(dot3(d, d));
+    const real depth = z + JOIN(frame->start[0], frame->start[1]);
+    *distance = frame->image_slope > 0 ? length : fabs(depth / h) * length;
+    return ray;
+}
+
+// A hit at the vertices. The viewer's side is the normal's: where a vertex of a closed surface is
+// just out of sight, all but all light is reflected whichever side it is taken to be seen from.
+static inline surface surface_at_vertices(const scene_buffers *scene, real3 normals, int material,
+                                          real3 v)
+{
+    surface s;
+    const real facing = dot3(normals, v);
+    s.outside = facing > R(0.0);
+    s.normal = select3(s.outside, normals, negate(normals));
+    s.normal = select3(is_zero3(normals), v, s.normal); // of a triangle without area
+    s.geometric_normal = s.normal;
+    s.cosine = SMALLER(fabs(dot3(s.normal, v)), real_of(1));
+    set_material(&s, mask_all(), scene->materials + (GLINT_MANY_MATERIALS ? material : 0));
+    return s;
+}
+
+// What the surfaces add by themselves, and what they send back of an irradiance of 1 beside it.
+static inline scattering scatter_at_vertices(const scene_buffers *scene, const surface *s,
+                                             path *ray, real3 *lit)
+{
+    const real zero = real_of(0), one = real_of(1);
+    mask media_lost;
+    lanes_int media = ray->media;
+    *lit = scatter(scene, s, negate(ray->direction), &media, real3_of(one, one, one), &media_lost)
+               .emitted;
+    const scattering out = scatter(scene, s, negate(ray->direction), &ray->media,
+                                   real3_of(zero, zero, zero), &media_lost);
+    *lit = subtract(*lit, out.emitted);
+    return out;
+}
+
+#if GLINT_VERTEX_COLOR
+// The radiance of the environment along d, by its weight.
+static inline real3 weighted_radiance(const scene_buffers *scene, const glint_frame_record *frame,
+                                      real3 d, real3 weight)
+{
+    const mask wanted = largest3(weight) > R(0.0);
+    const real3 light = sample_cube(&scene->environment, turn_into_environment(frame, d), wanted);
+    return multiply(weight, light);
+}
+#endif
+
+// Shades a packet of a cluster's vertices: `first` is the first one's lane.
+static inline void shade_packet(const scene_buffers *scene, const glint_frame_record *frame,
+                                size_t cluster, int first, global float *values)
+{
+    global const float *vertices = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
+    const int material = ((global const int *)vertices)[GLINT_CLUSTER_MATERIAL];
+    real distance;
+    path ray = rays_to_vertices(frame, load_vertices3(vertices, first), &distance);
+    const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
+    mask valid;
+    real3 n =
+        normalized(load_vertices3(scene->normals + cluster * GLINT_CLUSTER_NORMALS, first), &valid);
+    n = select3(valid, n, zero);
+    const surface s = surface_at_vertices(scene, n, material, negate(ray.direction));
+    real3 lit;
+    const scattering out = scatter_at_vertices(scene, &s, &ray, &lit);
+#if GLINT_ABSORPTION
+    const real3 left = absorbed_weight(scene, &ray, distance);
+#else
+    const real3 left = ray.weight;
+#endif
+    const real3 emitted = multiply(left, out.emitted);
+    lit = multiply(left, lit);
+    const real3 reflected_weight = multiply(left, out.reflected_weight);
+#if GLINT_GLASS
+    const real3 transmitted_weight = multiply(left, out.transmitted_weight);
+#endif
+#if GLINT_VERTEX_COLOR
+    real3 color = add(emitted, weighted_radiance(scene, frame, out.reflected, reflected_weight));
+#if GLINT_GLASS
+    color = add(color, weighted_radiance(scene, frame, out.transmitted, transmitted_weight));
+#endif
+#if NEEDS_IRRADIANCE
+    const real3 irradiance =
+        find_irradiance(scene, turn_into_environment(frame, s.normal), mask_all());
+    color = add(color, multiply(lit, irradiance));
+#endif
+    store_vertices(values, GLINT_VERTEX_EMITTED, first, color);
+#else
+    store_vertices(values, GLINT_VERTEX_EMITTED, first, emitted);
+    store_vertices(values, GLINT_VERTEX_LIT, first, lit);
+    store_vertices(values, GLINT_VERTEX_NORMAL, first, s.normal);
+    store_vertices(values, GLINT_VERTEX_REFLECTED, first, out.reflected);
+    store_vertices(values, GLINT_VERTEX_REFLECTED_WEIGHT, first, reflected_weight);
+#if GLINT_GLASS
+    store_vertices(values, GLINT_VERTEX_TRANSMITTED, first, out.transmitted);
+    store_vertices(values, GLINT_VERTEX_TRANSMITTED_WEIGHT, first, transmitted_weight);
+#endif
+#endif
+}
+
+// Shades the vertices of one cluster a work-item, of `count` clusters. The other arguments are
+// those of render_tiles as far as they are needed.
+kernel void shade_vertices(global const float *clusters, global const float *normals,
+                           global const glint_material_record *materials,
+                           global const glint_medium_record *media, global const void *environment,
+                           global const float *irradiance, global float *vertices, const int count,
+                           const glint_frame_record frame)
+{
+    if (get_global_id(0) >= (size_t)count) {
+        return;
+    }
+    const scene_buffers scene = {0,
+                                 clusters,
+                                 normals,
+                                 0,
+                                 materials,
+                                 media,
+                                 {environment, frame.environment_edge, GLINT_HALF_TEXELS},
+                                 {irradiance, frame.irradiance_edge, false},
+                                 vertices};
+    const size_t cluster = get_global_id(0);
+    for (int first = 0; first < GLINT_CLUSTER_LANES; first += GLINT_WIDTH) {
+        shade_packet(&scene, &frame, cluster, first, vertices + cluster * VERTEX_CLUSTER_VALUES);
+    }
+}
+#endif
