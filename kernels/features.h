@@ -29,6 +29,7 @@
     FEATURE(TRANSPARENT, "the background is left out and alpha kept")                              \
     FEATURE(ENV_ROTATION, "the environment is turned about +Y")                                    \
     FEATURE(IRRADIANCE_HARMONICS, "the irradiance is a polynomial of the normal and no map")       \
+    FEATURE(PROXY, "the environment is as far away as a box or a sphere around the scene")         \
     FEATURE(MIP_LEVELS, "the environment is averaged over what a pixel sees of it")                \
     FEATURE(VERTEX_COLOR, "colours are found at vertices and interpolated")                        \
     FEATURE(VERTEX_DIRECTION, "directions are found at vertices and interpolated")                 \

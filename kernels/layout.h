@@ -126,11 +126,15 @@ typedef struct glint_frame_record {
     int key_is_inverse;
     float start[2];        // how far the start was moved, in lengths of the direction: high, low
     float env_rotation[4]; // cosine high, low, sine high, low
-    float min_weight;      // a branch whose largest weight is below takes the environment
-    int width, height;     // pixels
-    int samples_per_axis;  // k
-    int depth;             // surfaces that a path meets at most, 1 or more
-    int environment_edge;  // texels, without border
+    // With GLINT_PROXY: where the environment was seen from, and the box, its middle and its half
+    // extent along each axis, on which all of it is taken to lie; of a sphere the radius thrice.
+    glint_split_vector proxy_center, proxy_middle, proxy_half;
+    int proxy_is_sphere;
+    float min_weight;     // a branch whose largest weight is below takes the environment
+    int width, height;    // pixels
+    int samples_per_axis; // k
+    int depth;            // surfaces that a path meets at most, 1 or more
+    int environment_edge; // texels, without border
     int irradiance_edge;
     // Tiles are rendered band by band, and within one column by column.
     int band;       // how many rows of tiles, 1 or more

@@ -4,7 +4,8 @@
 // are sums of the vertices' with weights that need not sum to 1.
 #define ONE_LOOKUP                                                                                 \
     (!GLINT_INTERREFLECTION && !GLINT_GLASS && !GLINT_MIP_LEVELS && !GATHERS && !GLINT_HITS &&     \
-     !GLINT_TERMS && !GLINT_VERTEX_DIRECTION && (GLINT_MIRROR || !GLINT_GEOMETRY))
+     !GLINT_TERMS && !GLINT_VERTEX_DIRECTION && !GLINT_PROXY &&                                    \
+     (GLINT_MIRROR || !GLINT_GEOMETRY))
 #if ONE_LOOKUP
 
 // Where the samples of a tile's pixels meet the environment.

@@ -76,7 +76,7 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     path branch = *ray;
     branch.direction = direction;
     branch.met = ray->met + (lane_int)1;
-#if GLINT_INTERREFLECTION
+#if HAS_PLACES
     branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
     branch.from = hit->place;
 #endif
@@ -325,17 +325,29 @@ static inline void begin_paths(const glint_frame_record *frame, primary *first, 
 }
 
 #if GLINT_DIAGNOSTICS
-// Notes what look-ups of the rays in `escaped` tell of their pixels.
-static inline void note_look_ups(const glint_frame_record *frame, const cube_map *map,
-                                 const path *ray, mask escaped, const pixels *pixels,
-                                 layers *layers)
+// Notes what look-ups of the rays in `escaped` along directions in the environment tell of their
+// pixels.
+static inline void note_look_ups(const cube_map *map, real3 direction, const path *ray,
+                                 mask escaped, const pixels *pixels, layers *layers)
 {
-    const real3 direction = turn_into_environment(frame, ray->direction);
     const cube_point point = find_on_cube(direction, int_of(map->edge), int_of(0));
     note_faces(layers, pixels, escaped, ray->weight, face_of(map, &point));
     note_truncation(layers, pixels, escaped & (ray->looked_up != (lane_int)0), ray->weight);
 }
 #endif
+
+// Along which directions the environment shows what the rays come to; `first` as below.
+static inline real3 environment_seen(const glint_frame_record *frame, const path *ray,
+                                     const primary *first)
+{
+#if GLINT_PROXY
+    const real behind =
+        first != 0 ? first->length * JOIN(frame->start[0], frame->start[1]) : real_of(0);
+    return toward_proxy(frame, ray->origin, ray->direction, behind);
+#else
+    return ray->direction;
+#endif
+}
 
 // Takes the paths in a slot on from what they have met: those that escaped are looked up, the
 // others go on from their surfaces. `first` says what primary rays are, and is NULL for others.
@@ -348,10 +360,11 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     mask escaped = active & !met;
     if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
         const path *ray = &all->ray[slot];
-        look_up_later(later, &scene->environment, ray, turn_into_environment(frame, ray->direction),
-                      escaped, &all->pixels[slot]);
+        const real3 direction = turn_into_environment(frame, environment_seen(frame, ray, first));
+        look_up_later(later, &scene->environment, ray, direction, escaped, &all->pixels[slot]);
 #if GLINT_DIAGNOSTICS
-        note_look_ups(frame, &scene->environment, ray, escaped, &all->pixels[slot], tally->layers);
+        note_look_ups(&scene->environment, direction, ray, escaped, &all->pixels[slot],
+                      tally->layers);
 #endif
 #if GLINT_TERMS
         note_terms(tally->terms, &all->pixels[slot], escaped, ray->direction, GLINT_TERM_RADIANCE,

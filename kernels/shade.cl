@@ -33,6 +33,8 @@ typedef struct surface {
     lanes_int flags, medium;
 } surface;
 
+// Hits have places: rays start there, or the environment is seen from there.
+#define HAS_PLACES (GLINT_INTERREFLECTION || GLINT_PROXY)
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 
 // The corners of the triangles hit, and their normals; zeros for rays that hit nothing.
@@ -249,7 +251,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     s.geometric_normal = normalized(normal_of(vertices), &valid);
     // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
     s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
-#if GLINT_INTERREFLECTION
+#if HAS_PLACES
     place_on_triangle(vertices, hit, &s);
 #endif
     orient_normals(t, ray, hit, &s);

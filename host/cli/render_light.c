@@ -55,10 +55,17 @@ static glint_status prepare_capture(render_run *run, glint_error *error)
         status = glint_fingerprint_scene(&light->scene, &light->scene_is, error);
     }
     if (status == GLINT_OK) {
+        status = proxy_option_make(&request->proxy, light->at, &light->scene, &light->proxy, error);
+    }
+    if (status == GLINT_OK) {
+        // What is around tells the proxy's bounds.
         const glint_fingerprint parts[] = {light->surroundings_are, light->scene_is};
-        char text[160];
-        snprintf(text, sizeof text, "capture %d %a %a %a %a", request->capture_size, light->at.x,
-                 light->at.y, light->at.z, request->capture_rotate);
+        const double *n = request->proxy.numbers;
+        char text[400];
+        snprintf(text, sizeof text, "capture %d %a %a %a %a%s %d %a %a %a %a %a %a",
+                 request->capture_size, light->at.x, light->at.y, light->at.z,
+                 request->capture_rotate, request->proxy.kind == PROXY_NONE ? "" : " proxy",
+                 (int)request->proxy.kind, n[0], n[1], n[2], n[3], n[4], n[5]);
         light->is = glint_fingerprint_join(parts, 2, text);
         light->time = run->time;
         light->stands = true;
@@ -130,6 +137,7 @@ static glint_status capture(render_run *run, glint_error *error)
                                        .reason = "captured from the scene",
                                        .source_width = edge,
                                        .source_height = 6 * edge,
+                                       .proxy = light->proxy,
                                        .radiance = cube};
     light->loaded = light->is;
     run->inputs.environment_ms += glint_now_ms() - begun;
@@ -143,12 +151,25 @@ static glint_status capture(render_run *run, glint_error *error)
 
 // ---- Files of frames ---------------------------------------------------------------------------
 
+// A file's; captures have theirs (prepare_capture).
+static glint_status set_proxy(const render_request *request, glint_inputs *inputs,
+                              glint_error *error)
+{
+    const double *at = request->env_at.at;
+    return request->capture != NULL
+               ? GLINT_OK
+               : proxy_option_make(&request->proxy, (glint_vec3){at[0], at[1], at[2]},
+                                   &inputs->scene, &inputs->environment.proxy, error);
+}
+
 glint_status render_light_try(const render_request *request, int first,
                               glint_progress_display *display, glint_inputs *inputs,
                               glint_error *error)
 {
     if (request->env_name.length == 0) {
-        return glint_inputs_load_environment(&request->inputs, display, inputs, error);
+        glint_status loaded =
+            glint_inputs_load_environment(&request->inputs, display, inputs, error);
+        return loaded == GLINT_OK ? set_proxy(request, inputs, error) : loaded;
     }
     glint_input_request of_frame = request->inputs;
     char *path = glint_frame_name_make(&request->env_name, first);
@@ -157,7 +178,7 @@ glint_status render_light_try(const render_request *request, int first,
                               ? glint_inputs_load_environment(&of_frame, display, inputs, error)
                               : glint_fail_memory(error, "a file name");
     free(path);
-    return status;
+    return status == GLINT_OK ? set_proxy(request, inputs, error) : status;
 }
 
 static glint_status load_file(render_run *run, int frame, glint_error *error)

@@ -26,7 +26,8 @@ typedef struct render_light {
     double time;
     glint_scene scene; // without what is lit
     glint_fingerprint scene_is;
-    glint_vec3 at;            // where it is captured from (metres, world space)
+    glint_vec3 at; // where it is captured from (metres, world space)
+    glint_proxy proxy;
     glint_renderer *capturer; // of that scene; NULL before the first capture
     glint_fingerprint capturer_shows;
 } render_light;

@@ -156,6 +156,17 @@ static const glint_option capture_options[] = {
     {GLINT_OPTION_INT, .name = "capture-size", .argument = "N",
      .help = "The edge of each of its six views, in pixels.", .fallback = "512",
      .offset = offsetof(render_request, capture_size), .minimum = 1, .maximum = 4096},
+    {GLINT_OPTION_CUSTOM, .name = "proxy", .argument = "SHAPE",
+     .help =
+         "Take the environment to be no further away than a shape around the scene, so that it "
+         "looks different from different places: sphere:RADIUS about where it was seen from, a "
+         "box by two corners, x,y,z,x,y,z, in metres, or bounds, the box around what is captured.",
+     .fallback = "none: it is infinitely far away", .offset = offsetof(render_request, proxy),
+     .parse = proxy_option_parse},
+    {GLINT_OPTION_CUSTOM, .name = "env-at", .argument = "X,Y,Z",
+     .help = "With --proxy, where a file's environment was seen from.",
+     .fallback = "0,0,0; of a capture its own place", .offset = offsetof(render_request, env_at),
+     .parse = place_option_parse},
     GLINT_OPTION_END,
 };
 
@@ -368,6 +379,24 @@ static glint_status find_light(render_request *request, glint_error *error)
     return glint_frame_name_parse(env, &request->env_name, error);
 }
 
+// How far away the environment is, and where it was seen from.
+static glint_status find_proxy(render_request *request, glint_error *error)
+{
+    const bool has_proxy = request->proxy.kind != PROXY_NONE;
+    if (request->env_at.is_given && (!has_proxy || request->capture != NULL)) {
+        return glint_fail(error, GLINT_USAGE, "--env-at: %s",
+                          has_proxy ? "a capture has a place of its own (leave one of the two out)"
+                                    : "it is where a proxy is seen from (with --proxy)");
+    }
+    if (request->proxy.kind == PROXY_BOUNDS && request->capture == NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--proxy bounds: they are those of what is captured (with --env "
+                          "capture:NODE, or name a box or a sphere)");
+    }
+    request->inputs.settings.proxy = has_proxy;
+    return GLINT_OK;
+}
+
 static glint_status find_plate(render_request *request, glint_error *error)
 {
     const char *plate = request->inputs.plate;
@@ -426,6 +455,9 @@ glint_status render_request_finish(render_request *request, glint_error *error)
     glint_status status = check_format(request, error);
     if (status == GLINT_OK) {
         status = find_light(request, error);
+    }
+    if (status == GLINT_OK) {
+        status = find_proxy(request, error);
     }
     if (status == GLINT_OK) {
         request->inputs.is_for_render = true;

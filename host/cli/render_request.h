@@ -4,6 +4,7 @@
 #define GLINT_CLI_RENDER_REQUEST_H
 
 #include "cli/inputs.h"
+#include "cli/proxy_option.h"
 #include "image/image_io.h"
 #include "render/frame_list.h"
 #include "render/frame_name.h"
@@ -20,6 +21,8 @@ typedef struct render_request {
     bool preview;             // a PNG beside the EXR
     const char *surroundings; // behind what is captured; NULL: the studio
     int capture_size;         // of a view
+    proxy_request proxy;      // of the environment
+    place_request env_at;     // where a file's was seen from
     int progress;             // a glint_progress_mode
     const char *frames_text;
     int turntable; // frames of a whole turn; 0: the camera stays

@@ -81,12 +81,28 @@ typedef struct glint_layout_request {
                           // whole picture, which tells the distance; 0: not known
 } glint_layout_request;
 
+// Where what an environment shows is taken to be: on the inside of a box or a sphere, so that
+// mirrors in different places see different sides of it. All in metres, world space.
+typedef enum glint_proxy_kind {
+    GLINT_PROXY_NONE, // infinitely far away
+    GLINT_PROXY_BOX,
+    GLINT_PROXY_SPHERE,
+} glint_proxy_kind;
+
+typedef struct glint_proxy {
+    glint_proxy_kind kind;
+    glint_vec3 center;      // where the environment was seen from, inside the proxy
+    glint_vec3 middle;      // of the proxy
+    glint_vec3 half_extent; // along each axis; of a sphere the radius thrice
+} glint_proxy;
+
 typedef struct glint_environment {
     char *name;          // the file as given, or "studio"
     glint_layout layout; // what it was read as
     const char *reason;  // how that was known: "envmap attribute", "shape 2:1", …; static text
     int source_width, source_height;
     glint_cube radiance;
+    glint_proxy proxy;    // heeded where the settings say so
     size_t mended_texels; // NaN, infinite or negative ones, replaced (see source.c)
 } glint_environment;
 

@@ -10,6 +10,7 @@ glint_settings glint_capture_settings(const glint_settings *settings, int edge)
     square.transparent = false;
     square.aovs = 0;
     square.terms = 0;
+    square.proxy = false;
     square.shading = GLINT_SHADING_PIXEL;
     return square;
 }

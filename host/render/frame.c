@@ -247,6 +247,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     record.environment_edge = r->environment_edge;
     record.irradiance_edge = r->irradiance_edge;
     record.terms = r->settings.terms;
+    glint_view_set_proxy(&r->space, &r->proxy, &record);
     cl_mem target = NULL;
     glint_status status = glint_pixels_begin(&r->pixels, image, &target, error);
     if (status == GLINT_OK) {

@@ -211,6 +211,9 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
     }
     decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
            settings->aovs != 0 ? "layers were asked for" : "no layers were asked for");
+    decide(plan, GLINT_FEATURE_PROXY, settings->proxy && !hits, "%s",
+           settings->proxy ? "the environment is as far away as its proxy"
+                           : "the environment is infinitely far away");
     bool turned = fmod(settings->env_rotate, 360) != 0;
     decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
 }
@@ -405,10 +408,11 @@ static void compile_everything(glint_plan *plan)
 {
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         bool stays = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
-                     i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_MIP_LEVELS ||
-                     i == GLINT_FEATURE_IRRADIANCE_HARMONICS || i == GLINT_FEATURE_SMOOTH_NORMALS ||
-                     i == GLINT_FEATURE_DIAGNOSTICS || i == GLINT_FEATURE_TERMS ||
-                     i == GLINT_FEATURE_VERTEX_COLOR || i == GLINT_FEATURE_VERTEX_DIRECTION ||
+                     i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_PROXY ||
+                     i == GLINT_FEATURE_MIP_LEVELS || i == GLINT_FEATURE_IRRADIANCE_HARMONICS ||
+                     i == GLINT_FEATURE_SMOOTH_NORMALS || i == GLINT_FEATURE_DIAGNOSTICS ||
+                     i == GLINT_FEATURE_TERMS || i == GLINT_FEATURE_VERTEX_COLOR ||
+                     i == GLINT_FEATURE_VERTEX_DIRECTION ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

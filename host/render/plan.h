@@ -87,6 +87,8 @@ typedef struct glint_settings {
     glint_texels texels;
     glint_filter filter;
     glint_irradiance irradiance;
+    bool proxy;            // the environment has one (environment.h), which is heeded: with the
+                           // bilinear filter, shading pixel and no terms
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers
     int terms;             // of each pixel's that are kept, to light it anew, see terms.h: up to
                // GLINT_TERMS_MAX, 0: none; only beside colours, with the bilinear filter

@@ -234,6 +234,10 @@ static glint_status upload_light(const glint_renderer_inputs *in, glint_renderer
     float harmonics[GLINT_HARMONICS][4];
     const bool by_harmonics = r->shown.plan.features[GLINT_FEATURE_IRRADIANCE_HARMONICS].compiled;
     glint_status status = GLINT_OK;
+    r->proxy = in->environment->proxy;
+    if (r->settings.proxy && r->proxy.kind == GLINT_PROXY_NONE) {
+        return glint_fail(error, GLINT_USAGE, "the environment has no proxy");
+    }
     if (by_harmonics) {
         status = glint_irradiance_harmonics(radiance, harmonics, error);
         r->phases.irradiance = glint_lap_ms(&clock);

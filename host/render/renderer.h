@@ -29,6 +29,7 @@ struct glint_renderer {
     glint_geometry_memory geometry;
     glint_light_memory light;
     int environment_edge, irradiance_edge;
+    glint_proxy proxy;       // the environment's
     cl_kernel kernel;        // NULL without frames
     cl_kernel vertex_kernel; // NULL where pixels are shaded
     cl_mem vertices;         // what it finds

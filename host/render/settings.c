@@ -79,6 +79,16 @@ glint_status glint_plan_check_settings(const glint_plan_inputs *in, glint_error 
             return status;
         }
     }
+    const char *beside = s->filter == GLINT_FILTER_MIP       ? "--filter mip"
+                         : s->terms > 0                      ? "--directions"
+                         : s->shading != GLINT_SHADING_PIXEL ? "--shading"
+                                                             : NULL;
+    if (s->proxy && beside != NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--proxy: where rays come to it is found for points of surfaces alone "
+                          "(leave %s out)",
+                          beside);
+    }
     if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
         return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
     }

@@ -102,3 +102,15 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     record->samples_per_axis = settings->samples_per_axis;
     record->depth = plan->depth;
 }
+
+void glint_view_set_proxy(const glint_stored_space *space, const glint_proxy *proxy,
+                          glint_frame_record *record)
+{
+    const double scale = 1 / space->unit;
+    const glint_vec3 center = glint_vec3_subtract(proxy->center, space->origin);
+    const glint_vec3 middle = glint_vec3_subtract(proxy->middle, space->origin);
+    record->proxy_center = split_vector(glint_vec3_scale(center, scale));
+    record->proxy_middle = split_vector(glint_vec3_scale(middle, scale));
+    record->proxy_half = split_vector(glint_vec3_scale(proxy->half_extent, scale));
+    record->proxy_is_sphere = proxy->kind == GLINT_PROXY_SPHERE;
+}

@@ -20,4 +20,8 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
                        const glint_settings *settings, const glint_plan *plan,
                        glint_frame_record *record);
 
+// Fills the proxy's part; one of kind NONE is never read.
+void glint_view_set_proxy(const glint_stored_space *space, const glint_proxy *proxy,
+                          glint_frame_record *record);
+
 #endif

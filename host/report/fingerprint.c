@@ -144,6 +144,13 @@ glint_status glint_fingerprint_environment(const glint_environment *environment,
     if (status == GLINT_OK) {
         const glint_cube *radiance = &environment->radiance;
         add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
+        const glint_proxy *p = &environment->proxy;
+        const double proxy[] = {p->kind,          p->center.x,     p->center.y, p->center.z,
+                                p->middle.x,      p->middle.y,     p->middle.z, p->half_extent.x,
+                                p->half_extent.y, p->half_extent.z};
+        if (p->kind != GLINT_PROXY_NONE) {
+            add_numbers(state, proxy, sizeof proxy / sizeof *proxy);
+        }
         *fingerprint = finish(state);
     }
     return status;

@@ -108,6 +108,13 @@ json_t *glint_json_environment(const glint_environment *environment)
     glint_json_put_count(object, "cube_bytes",
                          glint_cube_size(&environment->radiance) * sizeof(float));
     glint_json_put_count(object, "mended_texels", environment->mended_texels);
+    const glint_proxy *proxy = &environment->proxy;
+    if (proxy->kind != GLINT_PROXY_NONE) {
+        glint_json_put_text(object, "proxy", proxy->kind == GLINT_PROXY_BOX ? "box" : "sphere");
+        glint_json_put(object, "proxy_center", vector(proxy->center));
+        glint_json_put(object, "proxy_middle", vector(proxy->middle));
+        glint_json_put(object, "proxy_half_extent", vector(proxy->half_extent));
+    }
     return object;
 }
 

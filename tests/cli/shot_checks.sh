@@ -244,6 +244,16 @@ refuses 2 '--surroundings: it is about what is captured' render "$spheres" -o ou
 refuses 3 'in/none.exr' render "$spheres" -o out/a.exr --env capture:mirror --surroundings in/none.exr
 refuses 2 '--capture-size' render "$spheres" -o out/a.exr --env capture:mirror --capture-size 0
 refuses 2 '--capture-size: it is about what is captured' render "$spheres" -o out/a.exr --capture-size 64
+for proxy in '' box sphere sphere:0 sphere:-1 sphere:nan sphere:1x 0,0,0 0,0,0,1,1 0,0,0,1,1,0 0,0,0,1,1,inf 0,0,0,1,1,1,1; do
+    refuses 2 '--proxy' render "$spheres" -o out/a.exr --proxy "$proxy"
+done
+refuses 2 '--proxy bounds: they are those of what is captured' render "$spheres" -o out/a.exr --proxy bounds
+refuses 2 '--env-at: it is where a proxy is seen from' render "$spheres" -o out/a.exr --env-at 0,0,0
+refuses 2 '--env-at: a capture has a place of its own' render "$spheres" -o out/a.exr --env capture:mirror \
+    --proxy sphere:9 --env-at 0,0,0
+refuses 2 '--env-at 1,2: x,y,z in metres' render "$spheres" -o out/a.exr --proxy sphere:9 --env-at 1,2
+refuses 2 'which is not inside' render "$spheres" -o out/a.exr --proxy 1,1,1,2,2,2
+refuses 2 'leave --filter mip out' render "$spheres" -o out/a.exr --proxy sphere:9 --filter mip
 refuses 2 'no --surroundings are given' render "$spheres" -o out/a.exr --env capture:mirror --env-layout ball
 refuses 2 'only render captures' info "$spheres" --env capture:mirror
 refuses 2 'no --env is given' render "$spheres" -o out/a.exr --env-layout ball
@@ -261,6 +271,19 @@ check 'are known again' grep -q '0 rendered, 3 skipped' stderr
 run render "$spheres" -o out/f.####.exr "${around[@]}" --env capture:mirror --turntable 3 \
     --skip-existing --capture-size 32
 check 'another capture is another frame' grep -q '3 rendered, 0 skipped' stderr
+run render "$spheres" -o out/f.####.exr "${around[@]}" --env capture:mirror --turntable 3 \
+    --skip-existing --capture-size 32 --proxy sphere:1e6
+check 'a proxy makes another frame' grep -q '3 rendered, 0 skipped' stderr
+run render "$spheres" -o out/a.exr "${around[@]}" --env capture:mirror --proxy sphere:1e6
+check 'what is very far away is infinitely far away' within 0.001 out/one.exr out/a.exr
+run render "$spheres" -o out/a.exr "${around[@]}" --env capture:mirror --proxy bounds --stats out/a.json
+check 'what is near is not' apart 0.1 out/one.exr out/a.exr
+check 'the proxy is told' test "$("$json_get" out/a.json environment proxy)" = box
+run render "$spheres" -o out/b.exr --exr-type float --size 64x48 --progress none --only mirror \
+    --env in/axes.exr --env-at 0,0.5,0 --proxy -3,-3,-3,3,3,3
+run render "$spheres" -o out/c.exr --exr-type float --size 64x48 --progress none --only mirror \
+    --env in/axes.exr --proxy -3,-3,-3,3,3,3
+check 'and where it was seen from' apart 0.1 out/b.exr out/c.exr
 run render in/clockwork.gltf -o out/c.####.exr "${small[@]}" --env "capture:$moving" --capture-size 32 \
     --frames 1,13 --background transparent
 run render in/clockwork.gltf -o out/c.exr "${small[@]}" --env "capture:$moving" --capture-size 32 \
