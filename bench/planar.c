@@ -208,30 +208,36 @@ static double look_up(const glint_image *view, double x, double y, int k)
     return sum;
 }
 
+// The traced frame with a view in the mirror's place.
+static void put_view(const bench *b, const bool *shows, const glint_image *view, glint_image *put)
+{
+    memcpy(put->pixels, b->images[TRACED].pixels, sizeof(float) * 4 * WIDTH * HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const int x = i % WIDTH, y = i / WIDTH;
+        for (int k = 0; shows[i] && k < 3; k++) {
+            put->pixels[4 * i + k] =
+                (float)(reflectance(b, x, y, k) * look_up(view, x + 0.5, y + 0.5, k));
+        }
+    }
+}
+
 static glint_status print_errors(bench *b, glint_error *error)
 {
-    bool *shows = calloc((size_t)WIDTH * HEIGHT, sizeof *shows);
+    static bool shows[WIDTH * HEIGHT];
     glint_image put = {0};
-    glint_status status = shows != NULL ? glint_image_create(WIDTH, HEIGHT, 4, &put, error)
-                                        : glint_fail_memory(error, "a frame");
+    glint_status status = glint_image_create(WIDTH, HEIGHT, 4, &put, error);
     if (status == GLINT_OK) {
         status = find_pixels(b, shows, error);
     }
     for (int s = 0; status == GLINT_OK && s < SCALES; s++) {
-        memcpy(put.pixels, b->images[TRACED].pixels, sizeof(float) * 4 * WIDTH * HEIGHT);
-        for (int i = 0; i < WIDTH * HEIGHT; i++) {
-            const int x = i % WIDTH, y = i / WIDTH;
-            for (int k = 0; shows[i] && k < 3; k++) {
-                put.pixels[4 * i + k] = (float)(reflectance(b, x, y, k) *
-                                                look_up(&b->images[VIEW + s], x + 0.5, y + 0.5, k));
-            }
-        }
+        put_view(b, shows, &b->images[VIEW + s], &put);
         glint_metrics metrics;
         status = glint_metrics_find(&put, &b->images[TRACED], NULL, &metrics, error);
-        printf("view at 1/%d: relative RMSE %.4g, MAE %.4g of the mean\n", 1 << s,
-               metrics.relative_rmse, metrics.mae / metrics.mean);
+        if (status == GLINT_OK) {
+            printf("view at 1/%d: relative RMSE %.4g, MAE %.4g of the mean\n", 1 << s,
+                   metrics.relative_rmse, metrics.mae / metrics.mean);
+        }
     }
-    free(shows);
     glint_image_free(&put);
     return status;
 }
