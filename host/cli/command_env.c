@@ -25,17 +25,6 @@ typedef struct env_request {
     bool probe, studio;
 } env_request;
 
-static glint_status parse_flip(const glint_option *option, const char *text, void *destination,
-                               glint_error *error)
-{
-    if (text[strspn(text, "xyz")] != '\0') {
-        return glint_fail(error, GLINT_USAGE, "--%s %s: axes are expected: x, y, z or several",
-                          option->name, text);
-    }
-    *(const char **)destination = text;
-    return GLINT_OK;
-}
-
 static const glint_option env_options[] = {
     {GLINT_OPTION_HEADING, .help = "What is read"},
     GLINT_ENV_AS_OPTIONS(offsetof(env_request, env_as)),
@@ -52,7 +41,7 @@ static const glint_option env_options[] = {
     {GLINT_OPTION_CUSTOM, .name = "flip", .argument = "AXES",
      .help = "Mirror it first: x exchanges left and right, y above and below, z front and back; "
              "xz is half a turn.",
-     .offset = offsetof(env_request, flip), .parse = parse_flip},
+     .offset = offsetof(env_request, flip), .parse = glint_parse_flip},
     GLINT_OPTION_END,
 };
 

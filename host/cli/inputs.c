@@ -153,6 +153,17 @@ static glint_status parse_kernel_tile(const glint_option *option, const char *te
 
 #define OFFSET(member) offsetof(glint_input_request, member)
 
+glint_status glint_parse_flip(const glint_option *option, const char *text, void *destination,
+                              glint_error *error)
+{
+    if (text[strspn(text, "xyz")] != '\0') {
+        return glint_fail(error, GLINT_USAGE, "--%s %s: axes are expected: x, y, z or several",
+                          option->name, text);
+    }
+    *(const char **)destination = text;
+    return GLINT_OK;
+}
+
 const glint_option glint_input_options[] = {
     {GLINT_OPTION_HEADING, .help = "Scene and environment"},
     {GLINT_OPTION_TEXT, .name = "env", .argument = "FILE",
@@ -162,6 +173,10 @@ const glint_option glint_input_options[] = {
          "each frame, ball.####.exr, or capture:NODE: the node alone, lit by what is around it.",
      .fallback = "a built-in studio", .offset = OFFSET(env)},
     GLINT_ENV_AS_OPTIONS(OFFSET(env_as)),
+    {GLINT_OPTION_CUSTOM, .name = "env-flip", .argument = "AXES",
+     .help = "Mirror the environment first: x exchanges left and right, y above and below, z front "
+             "and back.",
+     .offset = OFFSET(env_flip), .parse = glint_parse_flip},
     {GLINT_OPTION_REAL, .name = "env-rotate", .argument = "DEG",
      .help = "Turn the environment about +Y by degrees, counter-clockwise seen from above.",
      .fallback = "0", .offset = OFFSET(settings.env_rotate), .minimum = -1e6, .maximum = 1e6},
@@ -401,6 +416,9 @@ glint_status glint_inputs_load_environment(const glint_input_request *request,
             ? glint_environment_studio(&inputs->environment, error)
             : glint_environment_load(request->env, &request->env_as, &inputs->environment,
                                      &inputs->warnings, error);
+    if (status == GLINT_OK && request->env_flip != NULL) {
+        status = glint_cube_mirror(&inputs->environment.radiance, request->env_flip, error);
+    }
     inputs->environment_ms = glint_now_ms() - begun;
     return status;
 }

@@ -26,6 +26,7 @@ typedef struct glint_input_request {
                           // 0 is no mistake, and viewpoint.camera.is_lost says so
     const char *env;
     glint_layout_request env_as;
+    const char *env_flip; // axes, NULL: none
     const char *device;
     const char *kernel_dir; // NULL: the embedded kernels
     int size[2];
@@ -48,6 +49,9 @@ extern const glint_option glint_kernel_dir_options[];
 // Rows that say how an environment's file is read, for a request with a glint_layout_request at
 // `member`; glint_layout_request_check looks at them together.
 glint_option_parser glint_parse_layout, glint_parse_circle, glint_parse_distance;
+
+// Axes to mirror along, "xz", into a const char *.
+glint_option_parser glint_parse_flip;
 
 #define GLINT_ENV_AS_OPTIONS(member)                                                               \
     {GLINT_OPTION_CUSTOM,                                                                          \

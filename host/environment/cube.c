@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "kernels/layout.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -171,6 +172,48 @@ void glint_cube_fill_border(glint_cube *cube)
             fill_corner(cube, face, corner % 2, corner / 2);
         }
     }
+}
+
+// The texel of a cube of edge n whose centre has the coordinate s on a face.
+static int texel_at(double s, int n)
+{
+    return (int)lround(((s + 1) * n - 1) / 2);
+}
+
+static void mirror_face(const glint_cube *from, glint_vec3 signs, int face, glint_cube *to)
+{
+    const int n = from->edge;
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i < n; i++) {
+            const glint_vec3 d =
+                glint_cube_direction(face, (2.0 * i + 1) / n - 1, (2.0 * j + 1) / n - 1);
+            double s, t;
+            const int source =
+                glint_cube_place((glint_vec3){signs.x * d.x, signs.y * d.y, signs.z * d.z}, &s, &t);
+            memcpy(glint_cube_texel(to, face, i, j),
+                   glint_cube_texel(from, source, texel_at(s, n), texel_at(t, n)),
+                   4 * sizeof(float));
+        }
+    }
+}
+
+glint_status glint_cube_mirror(glint_cube *cube, const char *flip, glint_error *error)
+{
+    const glint_vec3 signs = {strchr(flip, 'x') != NULL ? -1 : 1,
+                              strchr(flip, 'y') != NULL ? -1 : 1,
+                              strchr(flip, 'z') != NULL ? -1 : 1};
+    glint_cube mirrored;
+    glint_status status = glint_cube_create(cube->edge, &mirrored, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    for (int face = 0; face < GLINT_CUBE_FACES; face++) {
+        mirror_face(cube, signs, face, &mirrored);
+    }
+    glint_cube_fill_border(&mirrored);
+    glint_cube_free(cube);
+    *cube = mirrored;
+    return GLINT_OK;
 }
 
 void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[3])

@@ -47,6 +47,11 @@ glint_vec3 glint_cube_direction(int face, double s, double t);
 // the order x, y, z decides, as in ImfEnvmap.h and cubemap.cl.
 int glint_cube_place(glint_vec3 direction, double *s, double *t);
 
+// Mirrors the cube along the axes that are named in `flip` ("x" exchanges left and right, "xz" is
+// half a turn): each texel is another one as it was. Errors: GLINT_DEVICE_FAILED (memory), with the
+// cube unchanged.
+glint_status glint_cube_mirror(glint_cube *cube, const char *flip, glint_error *error);
+
 // Bilinear look-up along a direction of any length but zero.
 void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[3]);
 

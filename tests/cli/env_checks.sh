@@ -156,6 +156,12 @@ run env in/studio.exr out/turned.exr --env-rotate 90
 run render in/mirror_sphere.gltf --size 64x64 --env out/turned.exr -o out/a.exr
 run render in/mirror_sphere.gltf --size 64x64 --env in/studio.exr --env-rotate 90 -o out/b.exr
 check 'turned as render turns it' within 0.02 out/a.exr out/b.exr
+run env in/studio.exr out/mirrored.exr --flip xy
+run render in/mirror_sphere.gltf --size 64x64 --env out/mirrored.exr -o out/a.exr
+run render in/mirror_sphere.gltf --size 64x64 --env in/studio.exr --env-flip xy -o out/b.exr
+check 'render mirrors as env does' within 0.02 out/a.exr out/b.exr
+run render in/mirror_sphere.gltf --size 64x64 --env in/studio.exr -o out/c.exr
+check 'which is another picture' apart 0.1 out/b.exr out/c.exr
 run env out/turned.exr out/back.exr --env-rotate -90
 check 'turned back' within 0.02 out/back.exr in/studio.exr
 for axis in x y z; do

@@ -60,10 +60,10 @@ mkdir in/folder.gltf in/empty
 # ---- help ---------------------------------------------------------------------------------------
 
 render_options='output exposure compression exr-type preview aov directions stats progress frames turntable
-    fps skip-existing shard surroundings capture-size proxy env-at env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without
+    fps skip-existing shard surroundings capture-size proxy env-at env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without
     scene size samples depth min-weight background precision fresnel texels filter irradiance shading device
     kernel-width kernel-tile kernel-dir help'
-info_options='json env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without scene size samples depth min-weight background
+info_options='json env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without scene size samples depth min-weight background
     precision fresnel texels filter irradiance shading device kernel-width kernel-tile help'
 
 # shellcheck disable=SC2086 # lists of words
@@ -105,7 +105,7 @@ refuses 2 'unknown option -x' render "${ok[@]}" -x
 refuses 2 '--json takes no value' info in/mirror.gltf --json=yes
 refuses 2 '--output' render in/mirror.gltf -o
 refuses 2 '--output' render in/mirror.gltf -o ''
-for option in env env-layout ball-circle ball-distance ball-fov env-rotate camera scene size samples depth min-weight background \
+for option in env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera scene size samples depth min-weight background \
     precision texels device kernel-width exposure compression exr-type aov stats progress kernel-dir; do
     refuses 2 "--$option" render "${ok[@]}" "--$option"
 done

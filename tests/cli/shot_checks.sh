@@ -23,7 +23,7 @@ apart() { # LIMIT A B: it is more
 # ---- capture ------------------------------------------------------------------------------------
 
 check 'capture --help tells every option' help_mentions capture at around to size exposure \
-    compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-rotate camera animation only without \
+    compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without \
     scene samples depth min-weight background precision fresnel texels filter irradiance shading device kernel-width \
     kernel-tile kernel-dir help
 run --help
@@ -294,7 +294,7 @@ clean
 # ---- relight -------------------------------------------------------------------------------------
 
 check 'relight --help tells every option' help_mentions relight env env-layout ball-circle \
-    ball-distance ball-fov env-rotate output exposure compression exr-type progress help
+    ball-distance ball-fov env-flip env-rotate output exposure compression exr-type progress help
 run --help
 check 'glint --help lists it' grep -q '^  relight ' stdout
 kept=("$spheres" --size 64x48 --exr-type float --texels float)
