@@ -23,6 +23,7 @@ static glint_stats stats_of(const render_run *run, const glint_subject *subject)
         .encode_ms = run->totals.write.sum,
         .total_ms = glint_progress_elapsed(&run->display),
         .exposure = run->request->exposure,
+        .plate = run->request->plate,
     };
 }
 

@@ -15,7 +15,8 @@ typedef struct glint_stats {
     const glint_phases *phases;
     const glint_frame_report *frame;
     double load_scene_ms, load_environment_ms, encode_ms, total_ms;
-    double exposure; // stops
+    double exposure;   // stops
+    const char *plate; // the background's file as it was given, NULL without one
 } glint_stats;
 
 // All rays that were traced or looked up.

@@ -142,7 +142,8 @@ run render "${shot[@]}" "${exact[@]}" -o out/whole.exr --samples 16
 run render "${shot[@]}" "${exact[@]}" -o out/composited.exr --samples 16 --background in/plate.exr
 check 'but for what its edges hide of it' within 1e-3 out/composited.exr out/whole.exr
 check 'alpha is 1' "$glint" compare out/composited.exr out/whole.exr --fail-above alpha=0
-run render "${shot[@]}" -o out/preview.exr --background in/plate.exr --preview
+run render "${shot[@]}" -o out/preview.exr --background in/plate.exr --preview --stats out/a.json
+check 'the background is told' test "$("$json_get" out/a.json settings background)" = in/plate.exr
 run render "${shot[@]}" -o out/direct.png --background in/plate.exr
 check 'the preview has the plate, too' same_pixels out/preview.png out/direct.png
 # Eight bits and back: the curve is undone and done.
