@@ -43,6 +43,15 @@ run() {
     status=$?
 }
 
+# within LIMIT A B: the relative RMSE of two pictures is no more. apart LIMIT A B: it is more.
+within() {
+    "$glint" compare "$2" "$3" --fail-above "relative-rmse=$1" --fail-above nan=0
+}
+apart() {
+    "$glint" compare "$2" "$3" --fail-above "relative-rmse=$1"
+    [ $? -eq 7 ]
+}
+
 # refuses STATUS TEXT ARGUMENT…: a mistake; TEXT is part of the line that it gets.
 refuses() {
     local wanted=$1 text=$2

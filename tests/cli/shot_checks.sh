@@ -11,15 +11,6 @@ cp "$scenes"/mirror_sphere.* "$scenes"/clockwork.* in/
 "$glint" env --studio in/studio.exr --to latlong --size 128 2>/dev/null
 "$glint" env --probe in/axes.exr --to latlong --size 256 2>/dev/null
 
-# within LIMIT A B: the relative RMSE of two pictures is no more.
-within() {
-    "$glint" compare "$2" "$3" --fail-above "relative-rmse=$1" --fail-above nan=0
-}
-apart() { # LIMIT A B: it is more
-    "$glint" compare "$2" "$3" --fail-above "relative-rmse=$1"
-    [ $? -eq 7 ]
-}
-
 # ---- capture ------------------------------------------------------------------------------------
 
 check 'capture --help tells every option' help_mentions capture at around to size exposure \
