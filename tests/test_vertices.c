@@ -181,7 +181,7 @@ static vertex_light light_at(const oracle_scene *all, const oracle_view *view,
 static bool add_look_up(const oracle_scene *scene, const vertex_light lights[3],
                         const double weights[3], bool is_irradiance, bool is_ahead, double rgb[3])
 {
-    double direction[3] = {0}, weight[3] = {0}, light[3];
+    double direction[3] = {0}, weight[3] = {0}, light[3] = {0};
     int corners = 0;
     for (int v = 0; v < 3; v++) {
         for (int i = 0; i < lights[v].count; i++) {
