@@ -1,6 +1,6 @@
-// Shading at vertices (--shading vertex-color, vertex-direction) against the oracle: what it finds
-// where a ray from the eye meets a triangle of its own through a vertex, interpolated here between
-// the corners of the triangle that a pixel sees.
+// Shading at vertices against the oracle: what it finds where a ray from the eye meets a triangle
+// of its own through a vertex, interpolated here between the corners of the triangle that a pixel
+// sees.
 #include "environment/irradiance.h"
 #include "scene/icosphere.h"
 #include "support/bridge.h"
@@ -419,7 +419,6 @@ static void vertices_agree_with_the_oracle(void **state)
     }
 }
 
-// Of one look-up's light nothing may depend on the packet's width, nor on the tree.
 static void vertices_are_the_same_at_every_width(void **state)
 {
     (void)state;
