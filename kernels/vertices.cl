@@ -63,15 +63,39 @@ static inline path rays_to_vertices(const glint_frame_record *frame, real3 verti
     return ray;
 }
 
-// A hit at the vertices. The viewer's side is the normal's: where a vertex of a closed surface is
-// just out of sight, all but all light is reflected whichever side it is taken to be seen from.
+// Which of a cluster's vertices, as bits, belong to a triangle that is seen from the side from
+// which it winds left. What such a triangle shows is the outside, also where a corner's normal
+// points away from the eye already; a corner of none is seen from inside.
+static inline uint seen_from_outside(const glint_frame_record *frame, global const float *vertices)
+{
+    global const uchar *corners = (global const uchar *)(vertices + GLINT_CLUSTER_CORNERS);
+    const int count = ((global const int *)vertices)[GLINT_CLUSTER_COUNT];
+    uint seen = 0;
+    for (int i = 0; i < count; i++) {
+        real3 p[3];
+        uint bits = 0;
+        for (int k = 0; k < 3; k++) {
+            const int lane = corners[k * GLINT_CLUSTER_LANES + i];
+            p[k] = real3_of(real_of(vertices[lane]), real_of(vertices[GLINT_CLUSTER_LANES + lane]),
+                            real_of(vertices[2 * GLINT_CLUSTER_LANES + lane]));
+            bits |= 1u << lane;
+        }
+        real distance;
+        const path ray = rays_to_vertices(frame, p[0], &distance);
+        seen |= any_lane(dot3(normal_of(p), ray.direction) < R(0.0)) ? bits : 0;
+    }
+    return seen;
+}
+
+// A hit at the vertices, whose lanes in the cluster begin with `first`.
 static inline surface surface_at_vertices(const scene_buffers *scene, real3 normals, int material,
-                                          real3 v)
+                                          real3 v, uint from_outside, int first)
 {
     surface s;
-    const real facing = dot3(normals, v);
-    s.outside = facing > R(0.0);
-    s.normal = select3(s.outside, normals, negate(normals));
+    const mask away = dot3(normals, v) < R(0.0);
+    s.outside = ((int_of((lane_int)from_outside) >> (lane_numbers() + (lane_int)first)) &
+                 (lane_int)1) != (lane_int)0;
+    s.normal = select3(away, negate(normals), normals);
     s.normal = select3(is_zero3(normals), v, s.normal); // of a triangle without area
     s.geometric_normal = s.normal;
     s.cosine = SMALLER(fabs(dot3(s.normal, v)), real_of(1));
@@ -118,7 +142,10 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
     real3 n =
         normalized(load_vertices3(scene->normals + cluster * GLINT_CLUSTER_NORMALS, first), &valid);
     n = select3(valid, n, zero);
-    const surface s = surface_at_vertices(scene, n, material, negate(ray.direction));
+    const surface s = surface_at_vertices(scene, n, material, negate(ray.direction),
+                                          seen_from_outside(frame, vertices), first);
+    // What lights paint comes from the side that is seen, wherever the normal points by then.
+    const real3 lit_side = select3(s.outside, n, negate(n));
     real3 lit;
     const scattering out = scatter_at_vertices(scene, &s, &ray, &lit);
 #if GLINT_ABSORPTION
@@ -139,14 +166,14 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
 #endif
 #if NEEDS_IRRADIANCE
     const real3 irradiance =
-        find_irradiance(scene, turn_into_environment(frame, s.normal), mask_all());
+        find_irradiance(scene, turn_into_environment(frame, lit_side), mask_all());
     color = add(color, multiply(lit, irradiance));
 #endif
     store_vertices(values, GLINT_VERTEX_EMITTED, first, color);
 #else
     store_vertices(values, GLINT_VERTEX_EMITTED, first, emitted);
     store_vertices(values, GLINT_VERTEX_LIT, first, lit);
-    store_vertices(values, GLINT_VERTEX_NORMAL, first, s.normal);
+    store_vertices(values, GLINT_VERTEX_NORMAL, first, lit_side);
     store_vertices(values, GLINT_VERTEX_REFLECTED, first, out.reflected);
     store_vertices(values, GLINT_VERTEX_REFLECTED_WEIGHT, first, reflected_weight);
 #if GLINT_GLASS

@@ -5,11 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
+// Metres: the kernels square distances, in units as small as the scene.
+#define FARTHEST 1e9
+
 static bool read_finite(const char *text, double *numbers, int count)
 {
     for (int i = 0; i < count; i++) {
         int length = 0;
-        if (sscanf(text, "%lf%n", &numbers[i], &length) != 1 || !isfinite(numbers[i]) ||
+        if (sscanf(text, "%lf%n", &numbers[i], &length) != 1 || !(fabs(numbers[i]) <= FARTHEST) ||
             text[length] != (i + 1 < count ? ',' : '\0')) {
             return false;
         }
@@ -49,7 +52,7 @@ glint_status proxy_option_parse(const glint_option *option, const char *text, vo
     if (!valid) {
         return glint_fail(error, GLINT_USAGE,
                           "--%s %s: none, bounds, sphere:RADIUS or a box's least and greatest "
-                          "corner, x,y,z,x,y,z, in metres, are expected",
+                          "corner, x,y,z,x,y,z, in metres (1e9 at most), are expected",
                           option->name, text);
     }
     memcpy(destination, &request, sizeof request);

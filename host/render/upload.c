@@ -38,7 +38,8 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
 {
     // As many as would do if all clusters could be full.
     const size_t clusters = (scene->triangle_count + GLINT_CLUSTER_LANES - 1) / GLINT_CLUSTER_LANES;
-    const size_t normals = scene->normals != NULL ? clusters * GLINT_CLUSTER_NORMALS : 0;
+    const size_t normals =
+        scene->normals != NULL || sizes->vertex > 0 ? clusters * GLINT_CLUSTER_NORMALS : 0;
     const struct {
         const char *what;
         size_t bytes;

@@ -236,7 +236,7 @@ refuses 2 '--surroundings: it is about what is captured' render "$spheres" -o ou
 refuses 3 'in/none.exr' render "$spheres" -o out/a.exr --env capture:mirror --surroundings in/none.exr
 refuses 2 '--capture-size' render "$spheres" -o out/a.exr --env capture:mirror --capture-size 0
 refuses 2 '--capture-size: it is about what is captured' render "$spheres" -o out/a.exr --capture-size 64
-for proxy in '' box sphere sphere:0 sphere:-1 sphere:nan sphere:1x 0,0,0 0,0,0,1,1 0,0,0,1,1,0 0,0,0,1,1,inf 0,0,0,1,1,1,1; do
+for proxy in '' box sphere sphere:0 sphere:-1 sphere:nan sphere:1e20 sphere:1x 0,0,0 0,0,0,1,1 0,0,0,1,1,0 0,0,0,1,1,inf 0,0,0,1,1,1,1; do
     refuses 2 '--proxy' render "$spheres" -o out/a.exr --proxy "$proxy"
 done
 refuses 2 '--proxy bounds: they are those of what is captured' render "$spheres" -o out/a.exr --proxy bounds
