@@ -70,7 +70,8 @@ static double distance_to_edge(const glint_proxy *room, const double p[3])
     return room->kind == GLINT_PROXY_SPHERE ? INFINITY : next;
 }
 
-static void look_around(const glint_proxy *room, glint_environment *environment)
+// What is to be seen from the room's center, in a map that is to be turned by `turned` radians.
+static void look_around(const glint_proxy *room, double turned, glint_environment *environment)
 {
     *environment = (glint_environment){.proxy = *room};
     glint_cube *cube = &environment->radiance;
@@ -81,7 +82,8 @@ static void look_around(const glint_proxy *room, glint_environment *environment)
             for (int i = 0; i < EDGE; i++) {
                 const glint_vec3 d =
                     glint_cube_direction(face, (2.0 * i + 1) / EDGE - 1, (2.0 * j + 1) / EDGE - 1);
-                const double direction[3] = {d.x, d.y, d.z};
+                const double direction[3] = {d.x * cos(turned) + d.z * sin(turned), d.y,
+                                             d.z * cos(turned) - d.x * sin(turned)};
                 double p[3];
                 assert_true(leave(room, center, direction, 0, p));
                 for (int k = 0; k < 3; k++) {
@@ -99,7 +101,7 @@ typedef struct sight {
     double rgb[3];
     double to_edge; // of the room
     bool meets_room;
-    bool is_folded; // a reflected direction ended behind its surface, where it may not stay
+    bool is_folded; // a direction ended on the wrong side of its surface, where it may not stay
 } sight;
 
 static double dot(const double a[3], const double b[3])
@@ -127,8 +129,10 @@ static void normals_at(const oracle_triangle *t, const oracle_hit *hit, double p
     }
 }
 
-// Follows a ray over white mirrors, `depth` at most, to the walls. `scene` is of metres.
-static sight follow(const oracle_scene *scene, const glint_proxy *room, oracle_ray ray, int depth)
+// Follows a ray over white mirrors, or through glass where `ior` is not 0, of `depth` surfaces at
+// most, to the walls. `scene` is of metres.
+static sight follow(const oracle_scene *scene, const glint_proxy *room, oracle_ray ray, double ior,
+                    int depth)
 {
     sight s = {.to_edge = INFINITY};
     int left = -1;
@@ -148,8 +152,14 @@ static sight follow(const oracle_scene *scene, const glint_proxy *room, oracle_r
         for (int k = 0; k < 3; k++) {
             n[k] /= length;
         }
-        oracle_reflect(n, back, ray.direction);
-        s.is_folded = s.is_folded || dot(back, plane) * dot(ray.direction, plane) <= 0;
+        const double side = dot(back, plane);
+        if (ior == 0) {
+            oracle_reflect(n, back, ray.direction);
+            s.is_folded = s.is_folded || side * dot(ray.direction, plane) <= 0;
+        } else {
+            s.is_folded = !oracle_refract(n, back, side > 0 ? 1 / ior : ior, ray.direction) ||
+                          s.is_folded || side * dot(ray.direction, plane) >= 0;
+        }
         left = hit.triangle;
     }
     const double center[3] = {room->center.x, room->center.y, room->center.z};
@@ -179,6 +189,8 @@ typedef struct room_case {
     glint_vec3 eye; // looks at the origin
     bool in_parallel;
     int depth;
+    double ior;     // of glass that reflects nothing; 0: mirrors
+    double degrees; // the environment is turned by
     double in_room; // least share of pixels that show the room
 } room_case;
 
@@ -198,13 +210,48 @@ typedef struct room_case {
     }
 
 static const room_case cases[] = {
-    {"a box", "mirror_sphere", BOX(0.3, 0.4, -0.2), {0.7, 0.5, 2.9}, false, 1, 1},
-    {"a box, from outside", "mirror_sphere", BOX(0.3, 0.4, -0.2), {1, 2, 7}, false, 1, 0.4},
-    {"a box, in parallel", "mirror_sphere", BOX(-1, 1, 2), {2, 1, 6}, true, 1, 0.9},
-    {"a sphere", "mirror_sphere", BALL(0.5, -0.4, 0.6), {0.7, 0.5, 2.9}, false, 1, 1},
-    {"a sphere, from outside", "mirror_sphere", BALL(0.5, -0.4, 0.6), {1, 2, 9}, false, 1, 0.25},
-    {"mirrors in a box", "facing_mirrors", BOX(0.3, 0.4, -0.2), {0.3, 0.5, 2.5}, false, 8, 1},
-    {"mirrors in a sphere", "facing_mirrors", BALL(0.5, -0.4, 0.6), {0.3, 0.5, 2.5}, false, 8, 1},
+    {"a box", "mirror_sphere", BOX(0.3, 0.4, -0.2), {0.7, 0.5, 2.9}, false, 1, 0, 0, 1},
+    {"a box, from outside", "mirror_sphere", BOX(0.3, 0.4, -0.2), {1, 2, 7}, false, 1, 0, 0, 0.4},
+    {"a box, in parallel", "mirror_sphere", BOX(-1, 1, 2), {2, 1, 6}, true, 1, 0, 0, 0.9},
+    {"a sphere", "mirror_sphere", BALL(0.5, -0.4, 0.6), {0.7, 0.5, 2.9}, false, 1, 0, 0, 1},
+    {"a sphere, from outside",
+     "mirror_sphere",
+     BALL(0.5, -0.4, 0.6),
+     {1, 2, 9},
+     false,
+     1,
+     0,
+     0,
+     0.25},
+    {"mirrors in a box", "facing_mirrors", BOX(0.3, 0.4, -0.2), {0.3, 0.5, 2.5}, false, 8, 0, 0, 1},
+    {"mirrors in a sphere",
+     "facing_mirrors",
+     BALL(0.5, -0.4, 0.6),
+     {0.3, 0.5, 2.5},
+     false,
+     8,
+     0,
+     0,
+     1},
+    {"a box that is turned",
+     "mirror_sphere",
+     BOX(0.3, 0.4, -0.2),
+     {0.7, 0.5, 2.9},
+     false,
+     1,
+     0,
+     50,
+     1},
+    {"glass in a box", "mirror_sphere", BOX(0.3, 0.4, -0.2), {0.7, 0.5, 2.9}, false, 2, 1.5, 0, 1},
+    {"glass in a sphere that is turned",
+     "mirror_sphere",
+     BALL(0.5, -0.4, 0.6),
+     {0.7, 0.5, 2.9},
+     false,
+     2,
+     1.3,
+     -75,
+     1},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
@@ -219,7 +266,10 @@ static void look_from(const room_case *c, glint_scene *scene)
     camera->orthographic = c->in_parallel;
     camera->ymag = 1.5;
     for (size_t i = 0; i < scene->material_count; i++) {
-        scene->materials[i].metallic = 1;
+        scene->materials[i].metallic = c->ior == 0;
+        scene->materials[i].transmission = 1;
+        scene->materials[i].thickness = 1;
+        scene->materials[i].ior = c->ior == 0 ? 1.5F : (float)c->ior;
         scene->materials[i].mirror = -1;
         for (int k = 0; k < 3; k++) {
             scene->materials[i].base_color[k] = 1;
@@ -233,6 +283,8 @@ static glint_settings frame_of(const room_case *c)
     settings.texels = GLINT_TEXELS_FLOAT;
     settings.proxy = true;
     settings.min_weight = 0;
+    settings.fresnel = GLINT_FRESNEL_NONE;
+    settings.env_rotate = c->degrees;
     return settings;
 }
 
@@ -247,7 +299,7 @@ static outcome compare(const room_case *c, const glint_settings *settings)
     glint_environment environment;
     test_scene_load(c->scene, &scene);
     look_from(c, &scene);
-    look_around(&c->room, &environment);
+    look_around(&c->room, c->degrees * GLINT_PI / 180, &environment);
     test_frame frame;
     test_render(&scene, &environment, NULL, settings, &frame);
     bridge *b = bridge_create(&scene, &environment);
@@ -263,7 +315,8 @@ static outcome compare(const room_case *c, const glint_settings *settings)
             o.at_edges++;
             continue;
         }
-        const sight s = follow(bridge_scene(b), &c->room, oracle_primary_ray(&view, at), c->depth);
+        const sight s =
+            follow(bridge_scene(b), &c->room, oracle_primary_ray(&view, at), c->ior, c->depth);
         if (s.is_folded) {
             o.at_edges++;
             continue;
@@ -291,7 +344,7 @@ static void a_room_is_seen_from_everywhere_in_it(void **state)
         const outcome o = compare(c, &settings);
         settings.proxy = false;
         const outcome far = compare(c, &settings);
-        print_message("%-24s off by %.2g, where walls meet %.2g; %d in the room, %d at edges; "
+        print_message("%-32s off by %.2g, where walls meet %.2g; %d in the room, %d at edges; "
                       "infinitely far away by %.2g\n",
                       c->name, o.largest, o.largest_bent, o.in_room, o.at_edges, far.largest);
         assert_true(o.largest < SMOOTH_ERROR && o.largest_bent < BENT_ERROR);
@@ -309,7 +362,7 @@ static void it_is_the_same_at_every_width_and_precision(void **state)
         glint_environment environment;
         test_scene_load(cases[i].scene, &scene);
         look_from(&cases[i], &scene);
-        look_around(&cases[i].room, &environment);
+        look_around(&cases[i].room, cases[i].degrees * GLINT_PI / 180, &environment);
         glint_settings settings = frame_of(&cases[i]);
         settings.samples_per_axis = 2;
         settings.kernel_width = 1;

@@ -6,6 +6,7 @@
 #include "cli/file_names.h"
 #include "cli/inputs.h"
 #include "cli/progress.h"
+#include "cli/proxy_option.h"
 #include "device/device.h"
 #include "render/capture.h"
 #include "render/frame_list.h"
@@ -21,8 +22,7 @@
 typedef struct capture_request {
     glint_input_request inputs; // first: see inputs.h
     env_output_request output;
-    double at[3];
-    bool has_at;
+    place_request at;
     const char *around;
     const char *frames_text;
     double fps;
@@ -32,23 +32,11 @@ typedef struct capture_request {
     glint_frame_name name;
 } capture_request;
 
-static glint_status parse_at(const glint_option *option, const char *text, void *destination,
-                             glint_error *error)
-{
-    capture_request *request = destination;
-    char rest;
-    double *at = request->at;
-    request->has_at = sscanf(text, "%lf,%lf,%lf%c", &at[0], &at[1], &at[2], &rest) == 3 &&
-                      isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
-    return request->has_at ? GLINT_OK
-                           : glint_fail(error, GLINT_USAGE, "--%s %s: x,y,z in metres is expected",
-                                        option->name, text);
-}
-
 static const glint_option capture_options[] = {
     {GLINT_OPTION_HEADING, .help = "From where"},
     {GLINT_OPTION_CUSTOM, .name = "at", .argument = "X,Y,Z",
-     .help = "The place, in metres of the scene's world.", .parse = parse_at},
+     .help = "The place, in metres of the scene's world.", .offset = offsetof(capture_request, at),
+     .parse = place_option_parse},
     {GLINT_OPTION_TEXT, .name = "around", .argument = "NODE",
      .help = "The middle of the bounds of a node, by its name or index, or of several with commas "
              "between; they themselves are taken away.",
@@ -92,8 +80,8 @@ typedef struct capture {
 static glint_status find_place(capture *work, glint_error *error)
 {
     const capture_request *request = work->request;
-    if (request->has_at) {
-        work->at = (glint_vec3){request->at[0], request->at[1], request->at[2]};
+    if (request->at.is_given) {
+        work->at = (glint_vec3){request->at.at[0], request->at.at[1], request->at.at[2]};
         return GLINT_OK;
     }
     glint_scene *scene = &work->inputs.scene;
@@ -205,10 +193,10 @@ static glint_status prepare(capture *work, glint_error *error)
 
 static glint_status check_request(const capture_request *request, glint_error *error)
 {
-    if (request->has_at == (request->around != NULL)) {
+    if (request->at.is_given == (request->around != NULL)) {
         return glint_fail(error, GLINT_USAGE,
-                          request->has_at ? "--around: the place is given by --at (give one)"
-                                          : "from where? (give --at x,y,z or --around NODE)");
+                          request->at.is_given ? "--around: the place is given by --at (give one)"
+                                               : "from where? (give --at x,y,z or --around NODE)");
     }
     return GLINT_OK;
 }
@@ -252,6 +240,12 @@ static glint_status settle(capture_request *request, const char *path, glint_err
     if (status == GLINT_OK && request->inputs.settings.transparent) {
         return glint_fail(error, GLINT_USAGE,
                           "--background transparent: an environment has no holes");
+    }
+    if (status == GLINT_OK && request->inputs.settings.shading != GLINT_SHADING_PIXEL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--shading %s: a capture shows what surfaces see of each other, which "
+                          "vertices do not (leave it out)",
+                          glint_shading_name(request->inputs.settings.shading));
     }
     return status == GLINT_OK ? find_frames(request, path, error) : status;
 }

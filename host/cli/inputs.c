@@ -43,9 +43,7 @@ glint_status glint_parse_circle(const glint_option *option, const char *text, vo
                                 glint_error *error)
 {
     double *circle = destination;
-    char rest;
-    if (sscanf(text, "%lf,%lf,%lf%c", &circle[0], &circle[1], &circle[2], &rest) == 3 &&
-        isfinite(circle[0]) && isfinite(circle[1]) && circle[2] >= 1 && isfinite(circle[2])) {
+    if (glint_parse_reals(text, circle, 3) && circle[2] >= 1) {
         return GLINT_OK;
     }
     return glint_fail(error, GLINT_USAGE,

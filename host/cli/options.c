@@ -33,6 +33,19 @@ bool glint_parse_real(const char *text, double *value)
     return true;
 }
 
+bool glint_parse_reals(const char *text, double *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        int length = 0;
+        if (sscanf(text, "%lf%n", &values[i], &length) != 1 || !isfinite(values[i]) ||
+            text[length] != (i + 1 < count ? ',' : '\0')) {
+            return false;
+        }
+        text += length + 1;
+    }
+    return true;
+}
+
 static glint_status parse_int(const glint_option *option, const char *text, void *destination,
                               glint_error *error)
 {

@@ -86,4 +86,8 @@ const char *glint_nearest_word(const char *text, const char *const *words);
 bool glint_parse_int(const char *text, long long *value);
 bool glint_parse_real(const char *text, double *value);
 
+// Writes values[count] from as many numbers with commas between. False, and values are of no use,
+// if the text is anything else or a number not finite.
+bool glint_parse_reals(const char *text, double *values, int count);
+
 #endif

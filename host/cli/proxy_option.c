@@ -2,32 +2,27 @@
 #include "cli/proxy_option.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 // Metres: the kernels square distances, in units as small as the scene.
 #define FARTHEST 1e9
 
-static bool read_finite(const char *text, double *numbers, int count)
+static bool read_lengths(const char *text, double *numbers, int count)
 {
-    for (int i = 0; i < count; i++) {
-        int length = 0;
-        if (sscanf(text, "%lf%n", &numbers[i], &length) != 1 || !(fabs(numbers[i]) <= FARTHEST) ||
-            text[length] != (i + 1 < count ? ',' : '\0')) {
-            return false;
-        }
-        text += length + 1;
+    bool valid = glint_parse_reals(text, numbers, count);
+    for (int i = 0; valid && i < count; i++) {
+        valid = fabs(numbers[i]) <= FARTHEST;
     }
-    return true;
+    return valid;
 }
 
 glint_status place_option_parse(const glint_option *option, const char *text, void *destination,
                                 glint_error *error)
 {
     place_request place = {.is_given = true};
-    if (!read_finite(text, place.at, 3)) {
-        return glint_fail(error, GLINT_USAGE, "--%s %s: x,y,z in metres is expected", option->name,
-                          text);
+    if (!read_lengths(text, place.at, 3)) {
+        return glint_fail(error, GLINT_USAGE, "--%s %s: x,y,z in metres (1e9 at most) is expected",
+                          option->name, text);
     }
     memcpy(destination, &place, sizeof place);
     return GLINT_OK;
@@ -44,10 +39,10 @@ glint_status proxy_option_parse(const glint_option *option, const char *text, vo
         request.kind = PROXY_BOUNDS;
     } else if (strncmp(text, sphere, sizeof sphere - 1) == 0) {
         request.kind = PROXY_SPHERE;
-        valid = read_finite(text + sizeof sphere - 1, n, 1) && n[0] > 0;
+        valid = read_lengths(text + sizeof sphere - 1, n, 1) && n[0] > 0;
     } else if (strcmp(text, "none") != 0) {
         request.kind = PROXY_BOX;
-        valid = read_finite(text, n, 6) && n[0] < n[3] && n[1] < n[4] && n[2] < n[5];
+        valid = read_lengths(text, n, 6) && n[0] < n[3] && n[1] < n[4] && n[2] < n[5];
     }
     if (!valid) {
         return glint_fail(error, GLINT_USAGE,
@@ -102,10 +97,14 @@ glint_status proxy_option_make(const proxy_request *request, glint_vec3 center,
         break;
     }
     if (!is_inside(proxy)) {
+        const glint_vec3 low = glint_vec3_subtract(proxy->middle, proxy->half_extent);
+        const glint_vec3 high = glint_vec3_add(proxy->middle, proxy->half_extent);
         return glint_fail(error, GLINT_USAGE,
                           "--proxy: the environment was seen from (%g, %g, %g), which is not "
-                          "inside (name a larger box, or a sphere)",
-                          center.x, center.y, center.z);
+                          "inside the box from (%g, %g, %g) to (%g, %g, %g) (name a larger one, or "
+                          "a sphere)",
+                          center.x, center.y, center.z, low.x, low.y, low.z, high.x, high.y,
+                          high.z);
     }
     return GLINT_OK;
 }

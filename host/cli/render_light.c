@@ -62,10 +62,10 @@ static glint_status prepare_capture(render_run *run, glint_error *error)
         const glint_fingerprint parts[] = {light->surroundings_are, light->scene_is};
         const double *n = request->proxy.numbers;
         char text[400];
-        snprintf(text, sizeof text, "capture %d %a %a %a %a%s %d %a %a %a %a %a %a",
+        snprintf(text, sizeof text, "capture %d %a %a %a %a %d %a %a %a %a %a %a",
                  request->capture_size, light->at.x, light->at.y, light->at.z,
-                 request->capture_rotate, request->proxy.kind == PROXY_NONE ? "" : " proxy",
-                 (int)request->proxy.kind, n[0], n[1], n[2], n[3], n[4], n[5]);
+                 request->capture_rotate, (int)request->proxy.kind, n[0], n[1], n[2], n[3], n[4],
+                 n[5]);
         light->is = glint_fingerprint_join(parts, 2, text);
         light->time = run->time;
         light->stands = true;

@@ -83,7 +83,8 @@ void render_parcel_make(render_run *run, glint_sequence_frame *frame)
         frame->own = NULL;
         return;
     }
-    const glint_environment lit_by = {.name = made->environment};
+    const glint_environment lit_by = {.name = made->environment,
+                                      .proxy = run->inputs.environment.proxy};
     glint_subject subject = render_run_subject(run);
     subject.scene = &run->label;
     subject.camera = &frame->camera;

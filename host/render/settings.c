@@ -2,6 +2,7 @@
 #include "render/plan.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #define HITS_TRIANGLES_MAX (1u << 24) // numbers that a float holds exactly
 
@@ -11,6 +12,60 @@ const glint_settings glint_settings_default = {
     .samples_per_axis = 1,
     .min_weight = GLINT_DEFAULT_MIN_WEIGHT,
 };
+
+const char *glint_shading_name(glint_shading shading)
+{
+    static const char *const names[] = {"pixel", "vertex-direction", "vertex-color"};
+    return names[shading];
+}
+
+static glint_status check_numbers(const glint_settings *s, glint_error *error)
+{
+    if (s->width < 1 || s->height < 1) {
+        return glint_fail(error, GLINT_USAGE, "--size: %dx%d has no pixels", s->width, s->height);
+    }
+    if (s->samples_per_axis < 1 || s->samples_per_axis > GLINT_SAMPLES_PER_AXIS_MAX) {
+        return glint_fail(error, GLINT_USAGE, "--samples: a square number from 1 to %d",
+                          GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX);
+    }
+    if (s->depth < 0) {
+        return glint_fail(error, GLINT_USAGE, "--depth: 1 or more, or auto");
+    }
+    if (s->aovs > GLINT_AOV_ALL) {
+        return glint_fail(error, GLINT_USAGE, "--aov: only layers that there are");
+    }
+    if (s->terms < 0 || s->terms > GLINT_TERMS_MAX) {
+        return glint_fail(error, GLINT_USAGE, "--directions: 1 to %d", GLINT_TERMS_MAX);
+    }
+    if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
+        return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
+    }
+    if (!isfinite(s->env_rotate)) {
+        return glint_fail(error, GLINT_USAGE, "--env-rotate: a finite number of degrees");
+    }
+    if (s->kernel_width != 0 && s->kernel_width != 1 && s->kernel_width != 8 &&
+        s->kernel_width != 16) {
+        return glint_fail(error, GLINT_USAGE, "--kernel-width: 1, 8 or 16");
+    }
+    if (s->tile_packets != 0 && s->tile_packets != 1 && s->tile_packets != 16) {
+        return glint_fail(error, GLINT_USAGE, "--kernel-tile: 1 or 16");
+    }
+    return GLINT_OK;
+}
+
+static glint_status check_hits(const glint_settings *s, size_t triangle_count, glint_error *error)
+{
+    if (s->samples_per_axis > 1 || triangle_count > HITS_TRIANGLES_MAX) {
+        return glint_fail(error, GLINT_USAGE,
+                          "hits can be had for one sample a pixel and %u triangles at most",
+                          HITS_TRIANGLES_MAX);
+    }
+    if (s->aovs != 0 || s->terms > 0) {
+        return glint_fail(error, GLINT_USAGE, "%s: hits have none (leave it out)",
+                          s->aovs != 0 ? "--aov" : "--directions");
+    }
+    return GLINT_OK;
+}
 
 // At vertices there is no pixel, of which a part of the environment could be seen, and no path on
 // which more could be met.
@@ -27,85 +82,53 @@ static glint_status check_vertex_shading(const glint_settings *s, glint_error *e
                         : s->aovs != 0                ? "--aov"
                         : s->terms > 0                ? "--directions"
                                                       : NULL;
-    return other == NULL ? GLINT_OK
-                         : glint_fail(error, GLINT_USAGE,
-                                      "%s: is found of pixels, not of vertices (use --shading "
-                                      "pixel)",
-                                      other);
+    return other == NULL
+               ? GLINT_OK
+               : glint_fail(error, GLINT_USAGE,
+                            "%s: it tells of pixels, and --shading %s shades vertices (use "
+                            "--shading pixel)",
+                            other, name);
 }
 
-const char *glint_shading_name(glint_shading shading)
+// A ray comes to a proxy at one point of it, and from a point.
+static glint_status check_proxy(const glint_settings *s, glint_error *error)
 {
-    static const char *const names[] = {"pixel", "vertex-direction", "vertex-color"};
-    return names[shading];
+    char shading[64];
+    snprintf(shading, sizeof shading, "--shading %s", glint_shading_name(s->shading));
+    const char *beside = s->filter == GLINT_FILTER_MIP       ? "--filter mip"
+                         : s->terms > 0                      ? "--directions"
+                         : s->shading != GLINT_SHADING_PIXEL ? shading
+                                                             : NULL;
+    return beside == NULL
+               ? GLINT_OK
+               : glint_fail(error, GLINT_USAGE,
+                            "--proxy: where rays come to it is found for points of surfaces alone "
+                            "(leave %s out)",
+                            beside);
 }
 
 glint_status glint_plan_check_settings(const glint_plan_inputs *in, glint_error *error)
 {
     const glint_settings *s = in->settings;
-    if (s->width < 1 || s->height < 1) {
-        return glint_fail(error, GLINT_USAGE, "--size: %dx%d has no pixels", s->width, s->height);
+    glint_status status = check_numbers(s, error);
+    if (status == GLINT_OK && s->output == GLINT_OUTPUT_HITS) {
+        status = check_hits(s, in->scene->triangle_count, error);
     }
-    if (s->samples_per_axis < 1 || s->samples_per_axis > GLINT_SAMPLES_PER_AXIS_MAX) {
-        return glint_fail(error, GLINT_USAGE, "--samples: a square number from 1 to %d",
-                          GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX);
-    }
-    if (s->depth < 0) {
-        return glint_fail(error, GLINT_USAGE, "--depth: 1 or more, or auto");
-    }
-    if (s->output == GLINT_OUTPUT_HITS &&
-        (s->samples_per_axis > 1 || in->scene->triangle_count > HITS_TRIANGLES_MAX)) {
-        return glint_fail(error, GLINT_USAGE,
-                          "hits can be had for one sample a pixel and %u triangles at most",
-                          HITS_TRIANGLES_MAX);
-    }
-    if (s->aovs > GLINT_AOV_ALL || (s->aovs != 0 && s->output == GLINT_OUTPUT_HITS)) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--aov: only layers that there are, and none with hits");
-    }
-    if (s->terms < 0 || s->terms > GLINT_TERMS_MAX ||
-        (s->terms > 0 && s->output == GLINT_OUTPUT_HITS)) {
-        return glint_fail(error, GLINT_USAGE, "--directions: 1 to %d, and none with hits",
-                          GLINT_TERMS_MAX);
-    }
-    if (s->terms > 0 && s->filter == GLINT_FILTER_MIP) {
+    if (status == GLINT_OK && s->terms > 0 && s->filter == GLINT_FILTER_MIP) {
         return glint_fail(error, GLINT_USAGE,
                           "--directions: what a pixel sees around a direction is not kept, which "
                           "--filter mip needs (use bilinear)");
     }
-    if (s->shading != GLINT_SHADING_PIXEL) {
-        glint_status status = check_vertex_shading(s, error);
-        if (status != GLINT_OK) {
-            return status;
-        }
+    if (status == GLINT_OK && s->shading != GLINT_SHADING_PIXEL) {
+        status = check_vertex_shading(s, error);
     }
-    const char *beside = s->filter == GLINT_FILTER_MIP       ? "--filter mip"
-                         : s->terms > 0                      ? "--directions"
-                         : s->shading != GLINT_SHADING_PIXEL ? "--shading"
-                                                             : NULL;
-    if (s->proxy && beside != NULL) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--proxy: where rays come to it is found for points of surfaces alone "
-                          "(leave %s out)",
-                          beside);
+    if (status == GLINT_OK && s->proxy) {
+        status = check_proxy(s, error);
     }
-    if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
-        return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
-    }
-    if (!isfinite(s->env_rotate)) {
-        return glint_fail(error, GLINT_USAGE, "--env-rotate: a finite number of degrees");
-    }
-    if (s->kernel_width != 0 && s->kernel_width != 1 && s->kernel_width != 8 &&
-        s->kernel_width != 16) {
-        return glint_fail(error, GLINT_USAGE, "--kernel-width: 1, 8 or 16");
-    }
-    if (s->tile_packets != 0 && s->tile_packets != 1 && s->tile_packets != 16) {
-        return glint_fail(error, GLINT_USAGE, "--kernel-tile: 1 or 16");
-    }
-    if (s->precision == GLINT_PRECISION_DOUBLE && !in->device->has_double) {
+    if (status == GLINT_OK && s->precision == GLINT_PRECISION_DOUBLE && !in->device->has_double) {
         return glint_fail(error, GLINT_DEVICE_FAILED,
                           "device '%s' has no double precision (use --precision float)",
                           in->device->name);
     }
-    return GLINT_OK;
+    return status;
 }

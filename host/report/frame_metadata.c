@@ -97,6 +97,25 @@ static void add_time(glint_frame_metadata *metadata)
     add_real(metadata, "utcOffset", 0 - (double)local.tm_gmtoff);
 }
 
+// How far away the environment was taken to be, in metres of world space.
+static void add_proxy(glint_frame_metadata *metadata, const glint_proxy *proxy)
+{
+    const glint_vec3 low = glint_vec3_subtract(proxy->middle, proxy->half_extent);
+    const glint_vec3 high = glint_vec3_add(proxy->middle, proxy->half_extent);
+    char *text = metadata->proxy;
+    if (proxy->kind == GLINT_PROXY_SPHERE) {
+        snprintf(text, sizeof metadata->proxy,
+                 "sphere %.9g %.9g %.9g %.9g, seen from %.9g %.9g %.9g", proxy->middle.x,
+                 proxy->middle.y, proxy->middle.z, proxy->half_extent.x, proxy->center.x,
+                 proxy->center.y, proxy->center.z);
+    } else {
+        snprintf(text, sizeof metadata->proxy,
+                 "box %.9g %.9g %.9g to %.9g %.9g %.9g, seen from %.9g %.9g %.9g", low.x, low.y,
+                 low.z, high.x, high.y, high.z, proxy->center.x, proxy->center.y, proxy->center.z);
+    }
+    glint_frame_metadata_add_text(metadata, "glint:proxy", text);
+}
+
 void glint_frame_metadata_fill(const glint_subject *subject, int frame, double exposure,
                                double render_ms, glint_frame_metadata *metadata)
 {
@@ -115,6 +134,9 @@ void glint_frame_metadata_fill(const glint_subject *subject, int frame, double e
     add_int(metadata, "imageCounter", frame);
     glint_frame_metadata_add_text(metadata, "glint:scene", subject->scene->path);
     glint_frame_metadata_add_text(metadata, "glint:environment", subject->environment->name);
+    if (settings->proxy) {
+        add_proxy(metadata, &subject->environment->proxy);
+    }
     glint_frame_metadata_add_text(metadata, "glint:camera", subject->camera->name);
     glint_frame_metadata_add_text(metadata, "glint:plan", metadata->plan);
     glint_frame_metadata_add_text(metadata, "glint:device", metadata->device);

@@ -25,6 +25,7 @@ typedef struct glint_frame_metadata {
     char plan[512];
     char date[32];
     char device[700];
+    char proxy[256];
 } glint_frame_metadata;
 
 // `subject`: scene, environment, camera, settings, device and plan are needed, and must outlive

@@ -141,8 +141,8 @@ refuses 2 '--kernel-width 4' render "${ok[@]}" --kernel-width 4
 refuses 2 '--kernel-tile 4' render "${ok[@]}" --kernel-tile 4
 refuses 2 '--shading vertex' render "${ok[@]}" --shading vertex
 refuses 2 '--shading vertex-color: surfaces see' render "${ok[@]}" --shading vertex-color --depth 3
-refuses 2 '--filter mip: is found of pixels' render "${ok[@]}" --shading vertex-direction --filter mip
-refuses 2 '--aov: is found of pixels' render in/mirror.gltf -o out/x.exr --shading vertex-direction --aov depth
+refuses 2 '--filter mip: it tells of pixels, and --shading vertex-direction' render "${ok[@]}" --shading vertex-direction --filter mip
+refuses 2 '--aov: it tells of pixels, and --shading vertex-direction' render in/mirror.gltf -o out/x.exr --shading vertex-direction --aov depth
 refuses 2 '--fresnel schlick' render "${ok[@]}" --fresnel schlick
 refuses 2 'latlong' render "${ok[@]}" --env in/sky.hdr --env-layout mercator
 refuses 2 '--env-layout' render "${ok[@]}" --env-layout latlong

@@ -24,11 +24,12 @@ spheres=in/lecture_example_2.gltf
 refuses 2 'from where?' capture "$spheres" out/a.exr
 refuses 2 'give one' capture "$spheres" out/a.exr --at 0,0,0 --around mirror
 for at in 1,2 1,2,3,4 nan,0,0 x; do
-    refuses 2 'x,y,z in metres is expected' capture "$spheres" out/a.exr --at "$at"
+    refuses 2 'x,y,z in metres (1e9 at most) is expected' capture "$spheres" out/a.exr --at "$at"
 done
 refuses 2 'an environment has no holes' capture "$spheres" out/a.exr --at 0,0,0 --background transparent
 refuses 3 'no node "jewel" has triangles (there is 1 "mirror", 2 "red", 3 "green", 4 "blue", 5 "yellow")' \
     capture "$spheres" out/a.exr --around jewel
+refuses 2 'a capture shows what surfaces see' capture "$spheres" out/a.exr --at 0,0,0 --shading vertex-color
 refuses 3 'no node "none" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,none
 refuses 3 'no node "9" has triangles' capture "$spheres" out/a.exr --around 9
 refuses 3 'no node "" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --without red,
@@ -244,7 +245,7 @@ refuses 2 '--env-at: it is where a proxy is seen from' render "$spheres" -o out/
 refuses 2 '--env-at: a capture has a place of its own' render "$spheres" -o out/a.exr --env capture:mirror \
     --proxy sphere:9 --env-at 0,0,0
 refuses 2 '--env-at 1,2: x,y,z in metres' render "$spheres" -o out/a.exr --proxy sphere:9 --env-at 1,2
-refuses 2 'which is not inside' render "$spheres" -o out/a.exr --proxy 1,1,1,2,2,2
+refuses 2 'which is not inside the box from (1, 1, 1) to (2, 2, 2)' render "$spheres" -o out/a.exr --proxy 1,1,1,2,2,2
 refuses 2 'leave --filter mip out' render "$spheres" -o out/a.exr --proxy sphere:9 --filter mip
 refuses 2 'no --surroundings are given' render "$spheres" -o out/a.exr --env capture:mirror --env-layout ball
 refuses 2 'only render captures' info "$spheres" --env capture:mirror
@@ -270,6 +271,7 @@ run render "$spheres" -o out/a.exr "${around[@]}" --env capture:mirror --proxy s
 check 'what is very far away is infinitely far away' within 0.001 out/one.exr out/a.exr
 run render "$spheres" -o out/a.exr "${around[@]}" --env capture:mirror --proxy bounds --stats out/a.json
 check 'what is near is not' apart 0.1 out/one.exr out/a.exr
+check 'the file tells it' grep -qa 'box .* seen from' out/a.exr
 check 'the proxy is told' test "$("$json_get" out/a.json environment proxy)" = box
 run render "$spheres" -o out/b.exr --exr-type float --size 64x48 --progress none --only mirror \
     --env in/axes.exr --env-at 0,0.5,0 --proxy -3,-3,-3,3,3,3
