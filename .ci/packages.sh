@@ -13,7 +13,7 @@ packages_to_build='
 packages_to_test='
     libcmocka-dev oclgrind/oclgrind clang/clang clang-tidy/clang-tidy
     clang-format/clang-format cppcheck/cppcheck shellcheck/shellcheck
-    openexr/exrenvmap'
+    openexr/exrenvmap tidy/tidy'
 
 packages_to_bench='
     libembree-dev

@@ -64,7 +64,7 @@ static void print_check(const json_t *check, FILE *out)
     }
 }
 
-static void print_subject(const json_t *scene, FILE *out)
+void glint_bench_print_subject(const json_t *scene, FILE *out)
 {
     const json_t *settings = glint_json_at(scene, "settings");
     fprintf(out, "\n%s: %lld triangles, %lldx%lld, samples %lld, environment %s\n",
@@ -75,8 +75,6 @@ static void print_subject(const json_t *scene, FILE *out)
             text_at(scene, "device.name"), text_at(scene, "device.platform"),
             text_at(scene, "device.driver"), text_at(scene, "device.opencl"),
             count_at(scene, "device.compute_units"));
-    fprintf(out, "  plan      %s\n", text_at(scene, "plan.text"));
-    print_check(glint_json_at(scene, "check"), out);
 }
 
 static void print_times(const char *label, const json_t *times, double frames_per_second, FILE *out)
@@ -157,7 +155,9 @@ static void print_memory(const json_t *scene, FILE *out)
 
 void glint_bench_print_scene(const json_t *scene, FILE *out)
 {
-    print_subject(scene, out);
+    glint_bench_print_subject(scene, out);
+    fprintf(out, "  plan      %s\n", text_at(scene, "plan.text"));
+    print_check(glint_json_at(scene, "check"), out);
     if (glint_json_at(scene, "frames") != NULL) {
         print_frames(scene, out);
         print_rays(scene, out);

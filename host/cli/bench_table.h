@@ -9,6 +9,9 @@
 // The program, the date and the machine, of a document (report/bench_json.h).
 void glint_bench_print_head(const json_t *document, FILE *out);
 
+// What one of its scenes is, and the device.
+void glint_bench_print_subject(const json_t *scene, FILE *out);
+
 // One of its scenes.
 void glint_bench_print_scene(const json_t *scene, FILE *out);
 

@@ -6,13 +6,17 @@
 #include "cli/cli.h"
 
 #include "base/child.h"
+#include "cli/bench_error.h"
 #include "cli/bench_table.h"
+#include "cli/error_table.h"
 #include "cli/file_names.h"
 #include "cli/inputs.h"
 #include "cli/json_output.h"
+#include "cli/shell_word.h"
 #include "image/output_file.h"
 #include "report/baseline.h"
 #include "report/bench_json.h"
+#include "report/speed_error_json.h"
 #include "scene/built_in.h"
 
 #include <stdio.h>
@@ -28,6 +32,9 @@ typedef struct bench_request {
     double seconds; // 0: not given
     int rounds;     // 0: not given
     bool no_check;
+    bool error; // speed against error, of every rung
+    bool no_sampling;
+    const char *html;
     const char *json; // "-" is stdout
     const char *baseline;
     double margin; // per cent; negative: not given
@@ -46,12 +53,25 @@ static const glint_option bench_options[] = {
      .help = "Do not compare the picture with double precision first; for series in which that was "
              "done.",
      .offset = offsetof(bench_request, no_check)},
+    {GLINT_OPTION_FLAG, .name = "error",
+     .help =
+         "Speed against error: render each scene in up to a dozen ways, from colours at vertices "
+         "to double precision, and show what each takes and by how much it is off.",
+     .offset = offsetof(bench_request, error)},
+    {GLINT_OPTION_FLAG, .name = "no-sampling",
+     .help = "With --error, leave out what more samples a pixel give, which takes the time of some "
+             "ninety frames.",
+     .offset = offsetof(bench_request, no_sampling)},
     {GLINT_OPTION_FLAG, .name = "list", .help = "List the built-in scenes and do nothing else.",
      .offset = offsetof(bench_request, list)},
     {GLINT_OPTION_HEADING, .help = "Results"},
     {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE|-",
      .help = "Write everything as JSON; - prints it instead of the table.",
      .offset = offsetof(bench_request, json)},
+    {GLINT_OPTION_TEXT, .name = "html", .argument = "FILE",
+     .help = "With --error, write a page with a plot, and the picture of each way beside the "
+             "reference.",
+     .offset = offsetof(bench_request, html)},
     {GLINT_OPTION_TEXT, .name = "baseline", .argument = "FILE",
      .help = "Compare with the JSON of an earlier run on the same device, with the same settings.",
      .offset = offsetof(bench_request, baseline)},
@@ -62,7 +82,8 @@ static const glint_option bench_options[] = {
     GLINT_OPTION_END,
 };
 
-static const glint_option size_options[] = {GLINT_SIZE_OPTIONS("1920x1080"), GLINT_OPTION_END};
+static const glint_option size_options[] = {GLINT_SIZE_OPTIONS("1920x1080; with --error 640x360"),
+                                            GLINT_OPTION_END};
 
 static const glint_option *const groups[] = {
     bench_options,          glint_input_options,      size_options,
@@ -75,6 +96,7 @@ typedef struct bench_work {
     json_t *baseline;    // NULL: none
     json_t *comparisons; // a list, one entry for each scene that is not wrong
     json_t *document;
+    char *command;                  // the command line, or NULL
     size_t wrong, compared, slower; // scenes
 } bench_work;
 
@@ -95,6 +117,8 @@ static bool is_built_in(const char *name)
 typedef struct scene_task {
     glint_input_request inputs;
     glint_bench_options options;
+    bool error; // then by these options
+    glint_speed_error_options error_options;
     glint_progress_display *display;
 } scene_task;
 
@@ -153,7 +177,11 @@ static glint_status run_task(void *context, char **text, glint_error *error)
     scene_task *task = context;
     glint_inputs loaded;
     glint_status status = glint_inputs_load(&task->inputs, task->display, &loaded, error);
-    if (status == GLINT_OK) {
+    if (status == GLINT_OK && task->error) {
+        const glint_bench_watcher watcher = {show, task, stop_requested};
+        status = bench_error_measure(&task->inputs, &loaded, &task->error_options, &watcher, text,
+                                     error);
+    } else if (status == GLINT_OK) {
         status = measure(task, &loaded, text, error);
     }
     glint_progress_clear(task->display);
@@ -176,6 +204,16 @@ static glint_bench_options options_of(const bench_request *request)
     };
 }
 
+static glint_speed_error_options error_options_of(const bench_request *request)
+{
+    return (glint_speed_error_options){
+        .seconds = options_of(request).seconds,
+        .rounds = request->rounds,
+        .pictures = request->html != NULL,
+        .no_sampling = request->no_sampling,
+    };
+}
+
 // The scene's entry of the report, a new reference.
 static glint_status measure_scene(bench_work *work, const char *name, json_t **entry,
                                   glint_error *error)
@@ -184,6 +222,8 @@ static glint_status measure_scene(bench_work *work, const char *name, json_t **e
     scene_task task = {
         .inputs = request->inputs,
         .options = options_of(request),
+        .error = request->error,
+        .error_options = error_options_of(request),
         .display = &work->display,
     };
     task.inputs.scene = name;
@@ -237,8 +277,16 @@ static glint_status take_scene(bench_work *work, json_t *entry, glint_error *err
         if (json_array_size(entries) == 0) {
             glint_bench_print_head(work->document, stdout);
         }
-        glint_bench_print_scene(entry, stdout);
+        if (work->request->error) {
+            glint_error_print_scene(entry, stdout);
+        } else {
+            glint_bench_print_scene(entry, stdout);
+        }
         fflush(stdout);
+    }
+    if (work->request->error) {
+        (void)json_array_append_new(entries, entry);
+        return status;
     }
     if (glint_json_at(entry, "frames") == NULL) {
         work->wrong++;
@@ -321,13 +369,19 @@ static glint_status bench(bench_work *work, const char *const *names, size_t cou
         return status;
     }
     const glint_bench_options options = options_of(request);
+    const glint_speed_error_options error_options = error_options_of(request);
     glint_machine machine;
     glint_machine_describe(&machine);
-    work->document = glint_bench_document(&machine, &options);
+    work->document = request->error
+                         ? glint_speed_error_document(&machine, &error_options, work->command)
+                         : glint_bench_document(&machine, &options);
     work->comparisons = json_array();
     status = measure_scenes(work, names, count, error);
     if (status != GLINT_OK) {
         return status;
+    }
+    if (request->error) {
+        return bench_error_write(work->document, request->html, request->json, error);
     }
     if (work->baseline != NULL) {
         add_comparisons(work);
@@ -355,20 +409,58 @@ static glint_status check_scene(const bench_request *request, const char *name, 
     return GLINT_OK;
 }
 
-// A report that would replace an input.
-static glint_status check_report(const bench_request *request, const char *const *names,
-                                 size_t count, glint_error *error)
+// A report that would replace an input. `option` names it.
+static glint_status check_report(const bench_request *request, const char *option, const char *path,
+                                 const char *const *names, size_t count, glint_error *error)
 {
-    bool is_input = glint_same_file(request->json, request->baseline) ||
-                    glint_same_file(request->json, request->inputs.env);
+    bool is_input =
+        glint_same_file(path, request->baseline) || glint_same_file(path, request->inputs.env);
     for (size_t i = 0; i < count; i++) {
-        is_input = is_input || (!is_built_in(names[i]) && glint_same_file(request->json, names[i]));
+        is_input = is_input || (!is_built_in(names[i]) && glint_same_file(path, names[i]));
     }
     if (is_input) {
-        return glint_fail(error, GLINT_USAGE, "--json %s: this is an input (name another file)",
-                          request->json);
+        return glint_fail(error, GLINT_USAGE, "--%s %s: this is an input (name another file)",
+                          option, path);
     }
-    return glint_output_file_check(request->json, error);
+    return glint_output_file_check(path, error);
+}
+
+static glint_status check_reports(const bench_request *request, const char *const *names,
+                                  size_t count, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    if (request->json != NULL && !glint_is_stdout(request->json)) {
+        status = check_report(request, "json", request->json, names, count, error);
+    }
+    if (status == GLINT_OK && request->html != NULL) {
+        if (glint_same_file(request->html, request->json)) {
+            return glint_fail(error, GLINT_USAGE,
+                              "--html %s: --json goes there, too (name another "
+                              "file)",
+                              request->html);
+        }
+        status = check_report(request, "html", request->html, names, count, error);
+    }
+    return status;
+}
+
+// What goes with --error and what without.
+static glint_status check_kind(bench_request *request, glint_error *error)
+{
+    const char *lone = request->html != NULL ? "--html" : "--no-sampling";
+    if (!request->error && (request->html != NULL || request->no_sampling)) {
+        return glint_fail(error, GLINT_USAGE, "%s: it belongs to --error (add that)", lone);
+    }
+    const char *other = request->baseline != NULL ? "--baseline" : "--no-check";
+    if (request->error && (request->baseline != NULL || request->no_check)) {
+        return glint_fail(error, GLINT_USAGE, "%s: it does not go with --error (leave one out)",
+                          other);
+    }
+    if (request->inputs.size[0] == 0) {
+        request->inputs.size[0] = request->error ? 640 : 1920;
+        request->inputs.size[1] = request->error ? 360 : 1080;
+    }
+    return GLINT_OK;
 }
 
 // All that can be found wrong before anything is measured.
@@ -381,7 +473,13 @@ static glint_status check_request(bench_request *request, const char *const *nam
     if (request->margin >= 0 && request->baseline == NULL) {
         return glint_fail(error, GLINT_USAGE, "--margin: there is no --baseline");
     }
-    glint_status status = glint_input_request_finish(&request->inputs, error);
+    glint_status status = check_kind(request, error);
+    if (status == GLINT_OK) {
+        status = glint_input_request_finish(&request->inputs, error);
+    }
+    if (status == GLINT_OK && request->error) {
+        status = bench_error_check(&request->inputs.settings, error);
+    }
     for (size_t i = 0; status == GLINT_OK && i < count; i++) {
         status = check_scene(request, names[i], error);
         for (size_t k = 0; status == GLINT_OK && k < i; k++) {
@@ -390,8 +488,7 @@ static glint_status check_request(bench_request *request, const char *const *nam
             }
         }
     }
-    bool writes_file = request->json != NULL && !glint_is_stdout(request->json);
-    return status == GLINT_OK && writes_file ? check_report(request, names, count, error) : status;
+    return status == GLINT_OK ? check_reports(request, names, count, error) : status;
 }
 
 static void print_list(void)
@@ -405,8 +502,7 @@ static void set_defaults(void *context)
 {
     bench_request *request = context;
     glint_input_request_default(&request->inputs);
-    request->inputs.size[0] = 1920;
-    request->inputs.size[1] = 1080;
+    request->inputs.size[0] = request->inputs.size[1] = 0; // not given
     request->margin = -1;
 }
 
@@ -439,7 +535,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     }
     glint_status status = check_request(request, names, count, error);
     if (status == GLINT_OK) {
-        bench_work work = {.request = request};
+        bench_work work = {.request = request, .command = glint_command_line(arguments)};
         glint_progress_begin(&work.display, GLINT_PROGRESS_AUTO);
         if (work.display.mode != GLINT_PROGRESS_BAR) {
             work.display.mode = GLINT_PROGRESS_NONE;
@@ -448,6 +544,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
         json_decref(work.comparisons);
         json_decref(work.baseline);
         json_decref(work.document);
+        free(work.command);
     }
     free(names);
     return status;
@@ -461,11 +558,13 @@ const glint_command glint_command_bench = {
         "Measures the phases, the frames and the rays a second of each scene: a glTF file or one "
         "that is built in (--list); without any, all that are built in. The picture is first "
         "compared with double precision; one that is wrong has no speed, and gives exit status 7. "
-        "A frame's time is a median, with quartiles and range beside.",
+        "A frame's time is a median, with quartiles and range beside. With --error each scene is "
+        "rendered in many ways, and what each costs stands beside its error.",
     .examples = "  glint bench\n"
                 "  glint bench mirror --json before.json\n"
                 "  glint bench mirror --baseline before.json --margin 5\n"
-                "  glint bench car.glb --device gpu --size 3840x2160 --seconds 20\n",
+                "  glint bench car.glb --device gpu --size 3840x2160 --seconds 20\n"
+                "  glint bench car.glb --error --html car.html\n",
     .groups = groups,
     .positional = "SCENE",
     .takes_any_number = true,

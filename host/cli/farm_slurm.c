@@ -1,6 +1,8 @@
 // Array jobs of Slurm. See farm_slurm.h.
 #include "cli/farm_slurm.h"
 
+#include "cli/shell_word.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -12,20 +14,6 @@
 #include <unistd.h>
 
 // ---- Texts within scripts ----------------------------------------------------------------------
-
-// As one word of the shell.
-static void put_word(FILE *out, const char *word)
-{
-    fputc('\'', out);
-    for (; *word != '\0'; word++) {
-        if (*word == '\'') {
-            fputs("'\\''", out);
-        } else {
-            fputc(*word, out);
-        }
-    }
-    fputc('\'', out);
-}
 
 // As the value of an option in an #SBATCH line. In names of files % begins a pattern.
 static void put_value(FILE *out, const char *value, bool is_pattern)
@@ -159,17 +147,17 @@ static const char end_attempt[] =
 static void put_part_body(FILE *out, const farm_slurm *slurm)
 {
     fputs("folder=", out);
-    put_word(out, slurm->folder);
+    glint_put_shell_word(slurm->folder, out);
     fprintf(out, "\nretries=%d\n%sstatus=143\n[ -n \"$stopped\" ] || {\n    ", slurm->retries,
             begin_attempt);
-    put_word(out, slurm->program);
+    glint_put_shell_word(slurm->program, out);
     fprintf(out,
             " render --skip-existing --shard \"$part/%d\" \\\n"
             "        --stats \"$account.$attempt.jsonl\" \\\n       ",
             slurm->parts);
     for (int i = 0; i < slurm->argument_count; i++) {
         fputc(' ', out);
-        put_word(out, slurm->arguments[i]);
+        glint_put_shell_word(slurm->arguments[i], out);
     }
     fputs("\n    status=$?\n}\n", out);
     fputs(end_attempt, out);
@@ -219,9 +207,9 @@ glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, 
     snprintf(log, sizeof log, "%s_report.txt", job);
     put_options(out, slurm, "-report", log, slurm->report_further);
     fputs("exec ", out);
-    put_word(out, slurm->program);
+    glint_put_shell_word(slurm->program, out);
     fprintf(out, " farm report --job %s ", job);
-    put_word(out, slurm->folder);
+    glint_put_shell_word(slurm->folder, out);
     fputc('\n', out);
     return finish(out, script, error);
 }

@@ -293,7 +293,7 @@ static glint_status check_positionals(const glint_command *command,
 glint_status glint_options_parse(const glint_command *command, int argc, char **argv, void *request,
                                  glint_arguments *arguments, glint_error *error)
 {
-    *arguments = (glint_arguments){0};
+    *arguments = (glint_arguments){.words = argv, .word_count = argc};
     getopt_tables tables = {0};
     make_tables(command, &tables);
     opterr = 0;

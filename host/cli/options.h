@@ -52,6 +52,8 @@ typedef struct glint_arguments {
     bool help;                // --help was given: nothing else was looked at
     char *const *positionals; // borrowed from argv, in the order of the command line
     int positional_count;
+    char *const *words; // all of the command line, from the command's name on; borrowed likewise.
+    int word_count;     // Options stand before the positional arguments
 } glint_arguments;
 
 typedef struct glint_command {

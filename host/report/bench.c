@@ -61,9 +61,9 @@ static bool step(void *context, uint64_t done, uint64_t total)
     return watcher->stop_requested == NULL || !watcher->stop_requested();
 }
 
-static glint_progress progress_of(bench_run *run)
+glint_progress glint_bench_progress(glint_bench_watcher *watcher)
 {
-    return (glint_progress){step, &run->watcher};
+    return (glint_progress){step, watcher};
 }
 
 static glint_status create_renderer(bench_run *run, glint_error *error)
@@ -95,7 +95,7 @@ static glint_status create_renderer(bench_run *run, glint_error *error)
 static glint_status render_first(bench_run *run, glint_error *error)
 {
     glint_bench_result *result = run->result;
-    const glint_progress progress = progress_of(run);
+    const glint_progress progress = glint_bench_progress(&run->watcher);
     glint_status status = glint_renderer_frame(run->renderer, run->inputs->camera, &progress,
                                                &run->first, &result->report, error);
     result->first_frame_ms = result->report.kernel_ms + result->report.readback_ms;
@@ -121,7 +121,7 @@ static glint_status check(bench_run *run, glint_error *error)
         check->outcome = GLINT_CHECK_NO_DOUBLE;
         return GLINT_OK;
     }
-    const glint_progress progress = progress_of(run);
+    const glint_progress progress = glint_bench_progress(&run->watcher);
     return glint_bench_check_picture(run->inputs, run->device, &progress, &run->first, check,
                                      error);
 }
@@ -130,7 +130,7 @@ static glint_status check(bench_run *run, glint_error *error)
 static glint_status repeat(bench_run *run, glint_frame_report *report, glint_error *error)
 {
     glint_image *image = &run->again;
-    const glint_progress progress = progress_of(run);
+    const glint_progress progress = glint_bench_progress(&run->watcher);
     glint_status status =
         glint_renderer_frame(run->renderer, run->inputs->camera, &progress, image, report, error);
     if (status == GLINT_OK) {

@@ -43,6 +43,9 @@ typedef struct glint_bench_watcher {
     bool (*stop_requested)(void);
 } glint_bench_watcher;
 
+// What a frame asks whether to stop; borrows the watcher.
+glint_progress glint_bench_progress(glint_bench_watcher *watcher);
+
 typedef enum glint_check_outcome {
     GLINT_CHECK_PASSED,
     GLINT_CHECK_FAILED,    // the picture is wrong; nothing is measured

@@ -5,19 +5,6 @@
 
 #include <math.h>
 
-static json_t *summary_object(const glint_summary *summary)
-{
-    json_t *object = json_object();
-    glint_json_put_count(object, "count", summary->count);
-    glint_json_put_real(object, "median", summary->median);
-    glint_json_put_real(object, "lower_quartile", summary->lower_quartile);
-    glint_json_put_real(object, "upper_quartile", summary->upper_quartile);
-    glint_json_put_real(object, "minimum", summary->minimum);
-    glint_json_put_real(object, "maximum", summary->maximum);
-    glint_json_put_real(object, "median_absolute_deviation", summary->deviation);
-    return object;
-}
-
 static json_t *milliseconds_object(const glint_bench_scene *scene, const glint_bench_result *result)
 {
     const glint_phases *phases = &result->phases;
@@ -40,9 +27,9 @@ static json_t *frames_object(const glint_bench_result *result)
 {
     json_t *object = json_object();
     glint_json_put(object, "warm_up_frames", json_integer(result->warm_up_frames));
-    glint_json_put(object, "kernel", summary_object(&result->kernel));
-    glint_json_put(object, "readback", summary_object(&result->readback));
-    glint_json_put(object, "kernel_and_readback", summary_object(&result->frame));
+    glint_json_put(object, "kernel", glint_json_summary(&result->kernel));
+    glint_json_put(object, "readback", glint_json_summary(&result->readback));
+    glint_json_put(object, "kernel_and_readback", glint_json_summary(&result->frame));
     // A time of 0 gives null.
     glint_json_put_real(object, "frames_per_second", 1e3 / result->kernel.median);
     glint_json_put_real(object, "frames_per_second_with_readback", 1e3 / result->frame.median);

@@ -7,6 +7,7 @@
 #include "base/status.h"
 #include "render/frame.h"
 #include "report/metrics.h"
+#include "report/statistics.h"
 #include "report/subject.h"
 
 #include <jansson.h>
@@ -32,6 +33,7 @@ json_t *glint_json_settings(const glint_settings *settings);
 json_t *glint_json_warnings(const glint_warnings *warnings);
 json_t *glint_json_rays(const glint_ray_counts *rays);
 json_t *glint_json_truncation(const glint_truncation *truncation);
+json_t *glint_json_summary(const glint_summary *summary);
 // Where no pixel was compared, the figures are null.
 json_t *glint_json_metrics(const glint_metrics *metrics);
 // Counts and bounds; with `everything` also the materials, the instances and the cameras.

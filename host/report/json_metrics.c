@@ -1,7 +1,20 @@
-// The error figures of a picture as JSON. See json.h.
+// Figures as JSON: of a row of measurements, and of a picture's errors. See json.h.
 #include "report/json.h"
 
 #include <math.h>
+
+json_t *glint_json_summary(const glint_summary *summary)
+{
+    json_t *object = json_object();
+    glint_json_put_count(object, "count", summary->count);
+    glint_json_put_real(object, "median", summary->median);
+    glint_json_put_real(object, "lower_quartile", summary->lower_quartile);
+    glint_json_put_real(object, "upper_quartile", summary->upper_quartile);
+    glint_json_put_real(object, "minimum", summary->minimum);
+    glint_json_put_real(object, "maximum", summary->maximum);
+    glint_json_put_real(object, "median_absolute_deviation", summary->deviation);
+    return object;
+}
 
 json_t *glint_json_metrics(const glint_metrics *metrics)
 {

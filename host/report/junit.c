@@ -3,45 +3,16 @@
 #include "report/junit.h"
 
 #include "image/output_file.h"
+#include "report/markup.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// As text or within quotes; what XML cannot hold becomes '?'.
-static void put_text(FILE *out, const char *bytes)
-{
-    json_t *valid = glint_json_text(bytes);
-    const char *text = json_is_string(valid) ? json_string_value(valid) : "";
-    for (; *text != '\0'; text++) {
-        const unsigned char c = (unsigned char)*text;
-        switch (c) {
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        case '\n':
-            fputs("&#10;", out);
-            break;
-        default:
-            fputc(c < 0x20 ? '?' : c, out);
-        }
-    }
-    json_decref(valid);
-}
-
 static void put_attribute(FILE *out, const char *name, const char *value)
 {
     fprintf(out, " %s=\"", name);
-    put_text(out, value);
+    glint_markup_text(out, value);
     fputc('"', out);
 }
 
@@ -61,10 +32,10 @@ static void put_measures(FILE *out, const glint_selftest_result *r)
         snprintf(line, sizeof line, "%s: %.6g %s, at most %.6g (%llu judged): %s\n", m->what,
                  m->measured, m->unit, m->bound, (unsigned long long)m->judged,
                  glint_measure_holds(m) ? "holds" : "fails");
-        put_text(out, line);
+        glint_markup_text(out, line);
         if (m->worst[0] != '\0') {
             fputs("  worst: ", out);
-            put_text(out, m->worst);
+            glint_markup_text(out, m->worst);
             fputc('\n', out);
         }
     }

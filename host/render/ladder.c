@@ -1,0 +1,136 @@
+// Which rungs there are. See ladder.h.
+#include "render/ladder.h"
+
+#include <stdio.h>
+#include <string.h>
+
+// A rung that is the settings but for what the caller then changes.
+static glint_rung *add(glint_ladder *ladder, const glint_settings *settings, const char *name,
+                       const char *options)
+{
+    glint_rung *rung = &ladder->rungs[ladder->count++];
+    rung->settings = *settings;
+    snprintf(rung->name, sizeof rung->name, "%s", name);
+    snprintf(rung->options, sizeof rung->options, "%s", options);
+    return rung;
+}
+
+static bool has(const glint_plan *plan, glint_feature feature)
+{
+    return plan->features[feature].compiled;
+}
+
+// Whether a path can meet a second surface.
+static bool goes_on(const glint_plan *plan)
+{
+    return has(plan, GLINT_FEATURE_MIRROR) || has(plan, GLINT_FEATURE_GLASS) ||
+           has(plan, GLINT_FEATURE_GLOSS) || has(plan, GLINT_FEATURE_BLEND);
+}
+
+static void add_vertices(const glint_settings *settings, glint_ladder *ladder)
+{
+    add(ladder, settings, "colours at vertices", "--shading vertex-color")->settings.shading =
+        GLINT_SHADING_VERTEX_COLOR;
+    add(ladder, settings, "directions at vertices", "--shading vertex-direction")
+        ->settings.shading = GLINT_SHADING_VERTEX_DIRECTION;
+}
+
+// Surfaces that paths meet; 0: as many as the weight allows.
+static void add_depth(const glint_settings *settings, int depth, glint_ladder *ladder)
+{
+    char name[64], options[128];
+    snprintf(name, sizeof name, depth > 0 ? "depth %d" : "depth auto", depth);
+    snprintf(options, sizeof options, depth > 0 ? "--depth %d" : "--depth auto", depth);
+    add(ladder, settings, name, options)->settings.depth = depth;
+}
+
+// Branches below 1/`inverse` of a pixel are not followed.
+static void add_weights(const glint_settings *settings, glint_precision precision,
+                        glint_texels texels, int inverse, glint_ladder *ladder)
+{
+    const bool is_double = precision == GLINT_PRECISION_DOUBLE;
+    const bool is_float = !is_double && texels == GLINT_TEXELS_FLOAT;
+    char name[64], options[128];
+    snprintf(name, sizeof name, "weights of 1/%d%s", inverse,
+             is_double  ? ", double precision"
+             : is_float ? ", float texels"
+                        : "");
+    snprintf(options, sizeof options, "--min-weight %.12g%s", 1.0 / inverse,
+             is_double  ? " --precision double"
+             : is_float ? " --texels float"
+                        : "");
+    glint_rung *rung = add(ladder, settings, name, options);
+    rung->settings.precision = precision;
+    rung->settings.texels = texels;
+    rung->settings.min_weight = 1.0 / inverse;
+}
+
+// Where paths split, how far the light branches are followed decides cost and error, and their
+// depth hardly does: what a path of some depth is cut short of is as bright as anything, what a
+// light branch is cut short of is not.
+static void add_branching(const glint_settings *settings, glint_ladder *ladder)
+{
+    add(ladder, settings, "no Fresnel term", "--fresnel none")->settings.fresnel =
+        GLINT_FRESNEL_NONE;
+    for (int inverse = 16; inverse <= 1024; inverse *= 4) {
+        add_weights(settings, GLINT_PRECISION_FLOAT, GLINT_TEXELS_AUTO, inverse, ladder);
+    }
+    add_weights(settings, GLINT_PRECISION_FLOAT, GLINT_TEXELS_FLOAT, 4096, ladder);
+    for (int inverse = 1024; inverse <= 16384; inverse *= 4) {
+        add_weights(settings, GLINT_PRECISION_DOUBLE, GLINT_TEXELS_AUTO, inverse, ladder);
+    }
+}
+
+static void add_bouncing(const glint_settings *settings, glint_ladder *ladder)
+{
+    for (int depth = 2; depth <= 8; depth *= 2) {
+        add_depth(settings, depth, ladder);
+    }
+    add_depth(settings, 0, ladder);
+}
+
+static void add_exact(const glint_plan *plan, const glint_settings *settings, glint_ladder *ladder)
+{
+    if (plan->half_texels) {
+        add(ladder, settings, "float texels", "--texels float")->settings.texels =
+            GLINT_TEXELS_FLOAT;
+    }
+    add(ladder, settings, "double precision", "--precision double")->settings.precision =
+        GLINT_PRECISION_DOUBLE;
+}
+
+static void make_reference(const glint_settings *settings, glint_rung *reference)
+{
+    reference->settings = *settings;
+    reference->settings.precision = GLINT_PRECISION_DOUBLE;
+    reference->settings.depth = GLINT_REFERENCE_DEPTH;
+    reference->settings.min_weight = GLINT_REFERENCE_MIN_WEIGHT;
+    snprintf(reference->name, sizeof reference->name, "the reference");
+    snprintf(reference->options, sizeof reference->options,
+             "--precision double --depth %d --min-weight %.12g", GLINT_REFERENCE_DEPTH,
+             GLINT_REFERENCE_MIN_WEIGHT);
+}
+
+void glint_ladder_make(const glint_plan *plan, const glint_settings *settings, glint_ladder *ladder)
+{
+    *ladder = (glint_ladder){0};
+    make_reference(settings, &ladder->reference);
+    if (!has(plan, GLINT_FEATURE_GEOMETRY)) {
+        add_exact(plan, settings, ladder);
+        return;
+    }
+    add_vertices(settings, ladder);
+    add_depth(settings, 1, ladder);
+    if (has(plan, GLINT_FEATURE_SPLIT)) {
+        add_branching(settings, ladder);
+        return;
+    }
+    if (goes_on(plan)) {
+        add_bouncing(settings, ladder);
+    }
+    if (has(plan, GLINT_FEATURE_PAINT) || has(plan, GLINT_FEATURE_BLEND)) {
+        add(ladder, settings, "spherical harmonics", "--irradiance sh")->settings.irradiance =
+            GLINT_IRRADIANCE_SH;
+    }
+    add_exact(plan, settings, ladder);
+}
