@@ -130,8 +130,11 @@ typedef struct glint_frame_record {
     // extent along each axis, on which all of it is taken to lie; of a sphere the radius thrice.
     glint_split_vector proxy_center, proxy_middle, proxy_half;
     int proxy_is_sphere;
-    float min_weight;     // a branch whose largest weight is below takes the environment
-    int width, height;    // pixels
+    float min_weight;  // a branch whose largest weight is below takes the environment
+    int width, height; // pixels that are rendered: of the image's every `step`th of every
+                       // `step`th row, from `first_pixel` on; all of them where step is 1
+    int image_width, image_height;
+    int step, first_pixel;
     int samples_per_axis; // k
     int depth;            // surfaces that a path meets at most, 1 or more
     int environment_edge; // texels, without border

@@ -32,6 +32,7 @@ typedef struct tile {
     block center_x, center_y;
     scalar middle_x, middle_y;
     scalar largest_x, largest_y;
+    scalar step;                           // from a pixel to its neighbour
     scalar planes[4][3], plane_offsets[4]; // inside is ≥ 0
     real key[TILE_GROUPS];                 // of the nearest hit; see image_key
     lanes_int place[TILE_GROUPS];          // of the triangle hit, −1: none
@@ -95,12 +96,12 @@ static inline void bound_tile(const image_space *s, tile *t, int plane, int row,
 }
 
 // How far the outermost pixels of a group and of the tile lie from its middle.
-#define GROUP_HALF_X (R(0.5) * (scalar)(PACKET_WIDTH - 1))
-#define GROUP_HALF_Y (R(0.5) * (scalar)(PACKET_HEIGHT - 1))
-#define TILE_HALF_X (R(0.5) * (scalar)(PACKET_WIDTH * TILE_COLUMNS - 1))
-#define TILE_HALF_Y (R(0.5) * (scalar)(PACKET_HEIGHT * TILE_ROWS - 1))
+#define GROUP_HALF_X(t) (R(0.5) * (scalar)(PACKET_WIDTH - 1) * (t)->step)
+#define GROUP_HALF_Y(t) (R(0.5) * (scalar)(PACKET_HEIGHT - 1) * (t)->step)
+#define TILE_HALF_X(t) (R(0.5) * (scalar)(PACKET_WIDTH * TILE_COLUMNS - 1) * (t)->step)
+#define TILE_HALF_Y(t) (R(0.5) * (scalar)(PACKET_HEIGHT * TILE_ROWS - 1) * (t)->step)
 
-// Columns and rows of a group's pixels, counted in the image.
+// Columns and rows of a group's pixels, counted among those that are rendered.
 static inline lanes_int group_columns(int tile_column, int group)
 {
     return lane_numbers() % (lane_int)PACKET_WIDTH +
@@ -133,14 +134,17 @@ static inline size_t pixel_place(const glint_frame_record *frame, int column, in
 }
 
 // The places on the image plane of samples that lie (right, down) from the upper left corner of
-// their pixels. All but the last operation is exact: the same for every size of tiles.
+// their pixels. All but the last operation is exact: the same for every size of tiles, and for
+// every grid of pixels that are rendered of the image (see glint_frame_record).
 static inline real place_x(const glint_frame_record *frame, lanes_int columns, scalar right)
 {
-    return to_real(columns) - R(0.5) * (scalar)frame->width + right;
+    const lanes_int x = columns * (lane_int)frame->step + (lane_int)frame->first_pixel;
+    return to_real(x) - R(0.5) * (scalar)frame->image_width + right;
 }
 static inline real place_y(const glint_frame_record *frame, lanes_int rows, scalar down)
 {
-    return R(0.5) * (scalar)frame->height - to_real(rows) - down;
+    const lanes_int y = rows * (lane_int)frame->step + (lane_int)frame->first_pixel;
+    return R(0.5) * (scalar)frame->image_height - to_real(y) - down;
 }
 
 // Nothing is met yet. Pixels outside the image hide everything, even what has no depth: nothing is
@@ -175,17 +179,20 @@ static inline void begin_tile(const image_space *s, const glint_frame_record *fr
     for (int i = 0; i < TILE_ROWS; i++) {
         t->y[i] = place_y(frame, group_rows(row, i * TILE_COLUMNS), down);
     }
+    t->step = (scalar)frame->step;
     scalar low_x = LANE(t->x[0], 0), high_y = LANE(t->y[0], 0);
-    scalar high_x = low_x + R(2.0) * TILE_HALF_X, low_y = high_y - R(2.0) * TILE_HALF_Y;
-    t->middle_x = low_x + TILE_HALF_X;
-    t->middle_y = high_y - TILE_HALF_Y;
+    scalar high_x = low_x + R(2.0) * TILE_HALF_X(t), low_y = high_y - R(2.0) * TILE_HALF_Y(t);
+    t->middle_x = low_x + TILE_HALF_X(t);
+    t->middle_y = high_y - TILE_HALF_Y(t);
     t->largest_x = LARGER(fabs(low_x), fabs(high_x));
     t->largest_y = LARGER(fabs(low_y), fabs(high_y));
     const block_mask groups = BLOCK_NUMBERS;
     t->center_x = to_block(groups % (lane_int)TILE_COLUMNS * (lane_int)PACKET_WIDTH);
     t->center_y = to_block(groups / (lane_int)TILE_COLUMNS * (lane_int)-PACKET_HEIGHT);
-    t->center_x += low_x + GROUP_HALF_X;
-    t->center_y += high_y - GROUP_HALF_Y;
+    t->center_x *= t->step;
+    t->center_y *= t->step;
+    t->center_x += low_x + GROUP_HALF_X(t);
+    t->center_y += high_y - GROUP_HALF_Y(t);
     bound_tile(s, t, 0, 0, low_x, R(1.0));
     bound_tile(s, t, 1, 0, high_x, R(-1.0));
     bound_tile(s, t, 2, 1, low_y, R(1.0));

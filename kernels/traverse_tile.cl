@@ -141,13 +141,15 @@ static inline block_mask groups_in_bounds(const tile *t, const block places[2], 
 #pragma unroll
     for (int i = 0; i < TILE_COLUMNS; i++) {
         const scalar center = ((const scalar *)&t->center_x)[i];
-        block_mask met = (high[0] >= center - GROUP_HALF_X) & (low[0] <= center + GROUP_HALF_X);
+        block_mask met =
+            (high[0] >= center - GROUP_HALF_X(t)) & (low[0] <= center + GROUP_HALF_X(t));
         columns |= met & (block_mask)(1 << i);
     }
 #pragma unroll
     for (int i = 0; i < TILE_ROWS; i++) {
         const scalar center = ((const scalar *)&t->center_y)[i * TILE_COLUMNS];
-        block_mask met = (high[1] >= center - GROUP_HALF_Y) & (low[1] <= center + GROUP_HALF_Y);
+        block_mask met =
+            (high[1] >= center - GROUP_HALF_Y(t)) & (low[1] <= center + GROUP_HALF_Y(t));
         groups |= met & (columns << (i * TILE_COLUMNS));
     }
     return SELECT(in_front > R(0.0), groups, (block_mask)((1 << TILE_GROUPS) - 1));
@@ -202,11 +204,11 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
         block ax = fabs(edge[0]), ay = fabs(edge[1]);
         block middle =
             fused(edge[0], block_of(t->middle_x), fused(edge[1], block_of(t->middle_y), edge[2]));
-        block rise =
-            fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), out->uncertain));
+        block rise = fused(ax, block_of(TILE_HALF_X(t)),
+                           fused(ay, block_of(TILE_HALF_Y(t)), out->uncertain));
         seen &= middle >= -rise;
-        out->reach[k] =
-            fused(ax, block_of(GROUP_HALF_X), fused(ay, block_of(GROUP_HALF_Y), out->uncertain));
+        out->reach[k] = fused(ax, block_of(GROUP_HALF_X(t)),
+                              fused(ay, block_of(GROUP_HALF_Y(t)), out->uncertain));
     }
     block ax = fabs(out->key[0]), ay = fabs(out->key[1]);
     block error =
@@ -215,10 +217,11 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
     block middle = fused(out->key[0], block_of(t->middle_x),
                          fused(out->key[1], block_of(t->middle_y), out->key[2]));
     block highest =
-        fused(ax, block_of(TILE_HALF_X), fused(ay, block_of(TILE_HALF_Y), middle + error));
+        fused(ax, block_of(TILE_HALF_X(t)), fused(ay, block_of(TILE_HALF_Y(t)), middle + error));
     // A key that is NaN, of a triangle seen exactly edge-on, hides nothing: no comparison drops it.
     seen &= !(highest < t->least) & !(out->key_largest < t->least);
-    out->key_reach = fused(ax, block_of(GROUP_HALF_X), fused(ay, block_of(GROUP_HALF_Y), error));
+    out->key_reach =
+        fused(ax, block_of(GROUP_HALF_X(t)), fused(ay, block_of(GROUP_HALF_Y(t)), error));
     return TILE_GROUPS > 1 ? block_bits(seen & (out->groups != 0)) : block_bits(seen);
 }
 

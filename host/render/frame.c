@@ -54,7 +54,8 @@ glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record
     tile_size(&r->shown.plan, &tile_width, &tile_height);
     size_t local[2];
     local_size(&r->shown.plan, local);
-    size_t columns = ((size_t)r->settings.width + (size_t)tile_width - 1) / (size_t)tile_width;
+    const size_t width = record->width > 0 ? (size_t)record->width : 1; // 0: see build_kernel
+    size_t columns = (width + (size_t)tile_width - 1) / (size_t)tile_width;
     const size_t across = columns * (size_t)record->band;
     const size_t global[2] = {round_up(across, local[0]), round_up(bands, local[1])};
     cl_command_queue queue = r->device->launches;

@@ -75,7 +75,9 @@ typedef enum glint_feature {
 
 // What the user asks for. glint_settings_default fills it.
 typedef struct glint_settings {
-    int width, height;    // pixels, ≥ 1
+    int width, height; // pixels, ≥ 1
+    int grid_step;     // 0, or n ≥ 2: of an image of width × height pixels render every nth of
+                       // every nth row alone, see glint_settings_pixels
     int samples_per_axis; // k of k² samples a pixel, ≥ 1
     int depth;            // surfaces a path meets, ≥ 1; 0: auto
     double min_weight;    // in [0, 1]; 0 follows every branch to the depth
@@ -101,6 +103,10 @@ typedef struct glint_settings {
     // cache yet (to time it).
     uint32_t build_tag;
 } glint_settings;
+
+// The pixels that are rendered: columns and rows of the frame. Of a grid, its first pixel stands in
+// the middle of the first n × n.
+void glint_settings_pixels(const glint_settings *settings, int size[2]);
 
 extern const glint_settings glint_settings_default; // 1280 × 720, 1 sample, auto, 1/1024, float
 

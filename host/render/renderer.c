@@ -117,8 +117,10 @@ static glint_status build_kernel(const glint_renderer_inputs *in, glint_renderer
 
 static glint_status create_outputs(glint_renderer *r, glint_error *error)
 {
-    glint_status status = glint_pixels_create(r->device, r->settings.width, r->settings.height,
-                                              scalar_bytes(r), &r->pixels, error);
+    int size[2];
+    glint_settings_pixels(&r->settings, size);
+    glint_status status =
+        glint_pixels_create(r->device, size[0], size[1], scalar_bytes(r), &r->pixels, error);
     if (status == GLINT_OK) {
         const size_t counters = GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2 * sizeof(cl_uint);
         status =
@@ -183,8 +185,9 @@ static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
     glint_upload_sizes sizes = {0};
     glint_status status = analyse(&in, before, &prepared->plan, error);
     if (status == GLINT_OK) {
-        status = glint_pixels_size(r->settings.width, r->settings.height, scalar_bytes(r),
-                                   &sizes.frame, error);
+        int size[2];
+        glint_settings_pixels(&r->settings, size);
+        status = glint_pixels_size(size[0], size[1], scalar_bytes(r), &sizes.frame, error);
     }
     if (status == GLINT_OK) {
         sizes.environment = prepared->plan.environment_bytes;

@@ -48,7 +48,9 @@ struct glint_renderer {
 // Of a frame, whose size has been checked.
 static inline size_t glint_renderer_pixel_count(const glint_renderer *r)
 {
-    return (size_t)r->settings.width * (size_t)r->settings.height;
+    int size[2];
+    glint_settings_pixels(&r->settings, size);
+    return (size_t)size[0] * (size_t)size[1];
 }
 
 static inline size_t glint_renderer_layers_bytes(const glint_renderer *r)

@@ -13,6 +13,13 @@ const glint_settings glint_settings_default = {
     .min_weight = GLINT_DEFAULT_MIN_WEIGHT,
 };
 
+void glint_settings_pixels(const glint_settings *settings, int size[2])
+{
+    const int step = settings->grid_step > 0 ? settings->grid_step : 1;
+    size[0] = (settings->width - step / 2 + step - 1) / step;
+    size[1] = (settings->height - step / 2 + step - 1) / step;
+}
+
 const char *glint_shading_name(glint_shading shading)
 {
     static const char *const names[] = {"pixel", "vertex-direction", "vertex-color"};
@@ -23,6 +30,9 @@ static glint_status check_numbers(const glint_settings *s, glint_error *error)
 {
     if (s->width < 1 || s->height < 1) {
         return glint_fail(error, GLINT_USAGE, "--size: %dx%d has no pixels", s->width, s->height);
+    }
+    if (s->grid_step < 0 || s->grid_step > s->width || s->grid_step > s->height) {
+        return glint_fail(error, GLINT_USAGE, "a grid's step is no larger than the image");
     }
     if (s->samples_per_axis < 1 || s->samples_per_axis > GLINT_SAMPLES_PER_AXIS_MAX) {
         return glint_fail(error, GLINT_USAGE, "--samples: a square number from 1 to %d",

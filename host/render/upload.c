@@ -15,7 +15,7 @@ _Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has g
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_layers_record) == 24, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 21 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 25 * 4, "glint_frame_record has gaps");
 
 #define MEBIBYTE 1048576.0
 #define LEAST_BYTES ((size_t)16) // of a buffer

@@ -97,8 +97,14 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
     split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
     record->min_weight = (float)settings->min_weight;
-    record->width = settings->width;
-    record->height = settings->height;
+    int pixels[2];
+    glint_settings_pixels(settings, pixels);
+    record->width = pixels[0];
+    record->height = pixels[1];
+    record->image_width = settings->width;
+    record->image_height = settings->height;
+    record->step = settings->grid_step > 0 ? settings->grid_step : 1;
+    record->first_pixel = settings->grid_step / 2;
     record->samples_per_axis = settings->samples_per_axis;
     record->depth = plan->depth;
 }

@@ -1,0 +1,106 @@
+// A grid of an image's pixels: each is the image's own, bit by bit, whatever is rendered beside it.
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef struct grid_case {
+    const char *scene;
+    int width, height, step, samples_per_axis, kernel_width;
+    glint_precision precision;
+    glint_filter filter;
+} grid_case;
+
+static const grid_case cases[] = {
+    {"gallery", 203, 117, 2, 1, 0, GLINT_PRECISION_FLOAT, GLINT_FILTER_BILINEAR},
+    {"gallery", 203, 117, 7, 2, 0, GLINT_PRECISION_FLOAT, GLINT_FILTER_BILINEAR},
+    {"gallery", 96, 54, 3, 1, 0, GLINT_PRECISION_DOUBLE, GLINT_FILTER_BILINEAR},
+    {"mirror_sphere", 640, 360, 13, 1, 0, GLINT_PRECISION_FLOAT, GLINT_FILTER_BILINEAR},
+    {"mirror_sphere", 640, 360, 16, 3, 1, GLINT_PRECISION_FLOAT, GLINT_FILTER_BILINEAR},
+    {"orthographic", 320, 181, 5, 1, 16, GLINT_PRECISION_FLOAT, GLINT_FILTER_BILINEAR},
+    {"orthographic", 320, 181, 5, 2, 0, GLINT_PRECISION_FLOAT, GLINT_FILTER_MIP},
+    {"facing_mirrors", 64, 48, 48, 1, 8, GLINT_PRECISION_FLOAT, GLINT_FILTER_BILINEAR},
+};
+
+static void check_case(const grid_case *c, int depth)
+{
+    glint_scene scene = {0};
+    glint_environment environment;
+    test_scene_load(c->scene, &scene);
+    assert_int_equal(glint_environment_studio(&environment, NULL), GLINT_OK);
+    glint_settings settings = glint_settings_default;
+    settings.width = c->width;
+    settings.height = c->height;
+    settings.samples_per_axis = c->samples_per_axis;
+    settings.kernel_width = c->kernel_width;
+    settings.precision = c->precision;
+    settings.filter = c->filter;
+    settings.depth = depth;
+    test_frame whole, grid;
+    test_render(&scene, &environment, NULL, &settings, &whole);
+    settings.grid_step = c->step;
+    test_render(&scene, &environment, NULL, &settings, &grid);
+    int size[2];
+    glint_settings_pixels(&settings, size);
+    assert_int_equal(grid.image.width, size[0]);
+    assert_int_equal(grid.image.height, size[1]);
+    assert_int_equal(grid.report.rays.primary,
+                     size[0] * size[1] * c->samples_per_axis * c->samples_per_axis);
+    // The last one of a row and of a column is within the image, and one more would not be.
+    assert_in_range((size[0] - 1) * c->step + c->step / 2, 0, c->width - 1);
+    assert_true(size[0] * c->step + c->step / 2 >= c->width);
+    assert_true(size[1] * c->step + c->step / 2 >= c->height);
+    for (int y = 0; y < size[1]; y++) {
+        for (int x = 0; x < size[0]; x++) {
+            const size_t row = (size_t)y * (size_t)c->step + (size_t)(c->step / 2);
+            const size_t column = (size_t)x * (size_t)c->step + (size_t)(c->step / 2);
+            const float *one = grid.image.pixels + 4 * ((size_t)y * (size_t)size[0] + (size_t)x);
+            const float *same = whole.image.pixels + 4 * (row * (size_t)c->width + column);
+            assert_memory_equal(one, same, 4 * sizeof *one);
+        }
+    }
+    test_frame_free(&whole);
+    test_frame_free(&grid);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+}
+
+static void its_pixels_are_the_images(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        check_case(&cases[i], 0);
+    }
+    check_case(&cases[3], 1); // the short way of mirrors
+}
+
+static void a_step_beyond_the_image_is_refused(void **state)
+{
+    (void)state;
+    const glint_scene nothing = {0};
+    glint_settings settings = glint_settings_default;
+    const glint_plan_inputs inputs = {.scene = &nothing,
+                                      .device = glint_device_capabilities(test_device()),
+                                      .settings = &settings};
+    const int steps[] = {-1, settings.height + 1, settings.height, 0, 1};
+    for (int i = 0; i < 5; i++) {
+        settings.grid_step = steps[i];
+        assert_int_equal(glint_plan_check_settings(&inputs, NULL), i < 2 ? GLINT_USAGE : GLINT_OK);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(its_pixels_are_the_images),
+        cmocka_unit_test(a_step_beyond_the_image_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
