@@ -19,7 +19,7 @@
 
 static glint_ladder ladder_of(const glint_feature *features, size_t count, bool half_texels)
 {
-    glint_plan plan = {.half_texels = half_texels};
+    glint_plan plan = {.half_texels = half_texels, .depth = GLINT_DEPTH_MAX};
     for (size_t i = 0; i < count; i++) {
         plan.features[features[i]].compiled = true;
     }
@@ -78,6 +78,15 @@ static void what_a_scene_has_not_has_no_rung(void **state)
     assert_true(has_rung(&mirrors, "--depth 2") && has_rung(&mirrors, "--depth auto"));
     assert_true(has_rung(&mirrors, "--texels float"));
     assert_false(has_rung(&mirrors, "--irradiance") || has_rung(&mirrors, "--fresnel"));
+
+    glint_plan proved = {.depth = 1, .depth_is_exact = true};
+    proved.features[GLINT_FEATURE_GEOMETRY].compiled = true;
+    proved.features[GLINT_FEATURE_MIRROR].compiled = true;
+    glint_ladder convex;
+    glint_ladder_make(&proved, &glint_settings_default, &convex);
+    check_ladder(&convex);
+    assert_true(has_rung(&convex, "--depth 1"));
+    assert_false(has_rung(&convex, "--depth 2") || has_rung(&convex, "--depth auto"));
 
     const glint_feature of_glass[] = {GLINT_FEATURE_GEOMETRY, GLINT_FEATURE_GLASS,
                                       GLINT_FEATURE_SPLIT, GLINT_FEATURE_PAINT};

@@ -6,7 +6,7 @@
 #include "report/json.h"
 #include "report/speed_error.h"
 
-// Refuses settings that the ladder has for itself, and those that its errors cannot be counted of.
+// Refuses settings that the ladder has for itself.
 // Errors: GLINT_USAGE.
 glint_status bench_error_check(const glint_settings *settings, glint_error *error);
 

@@ -43,7 +43,9 @@ typedef struct bench_request {
 static const glint_option bench_options[] = {
     {GLINT_OPTION_HEADING, .help = "Measurement"},
     {GLINT_OPTION_REAL, .name = "seconds", .argument = "S",
-     .help = "Measure each scene's frames for so long, after the warm-up; five frames at least.",
+     .help =
+         "Measure each scene's frames for so long, after the warm-up, with --error those of each "
+         "way; five frames at least.",
      .fallback = "5", .offset = offsetof(bench_request, seconds), .minimum = 0.001,
      .maximum = 86400},
     {GLINT_OPTION_INT, .name = "rounds", .argument = "N",
@@ -111,8 +113,7 @@ static bool is_built_in(const char *name)
     return is_name && !(stat(name, &facts) == 0 && S_ISREG(facts.st_mode));
 }
 
-// ---- One scene, in its own process
-// ---------------------------------------------------------------
+// ---- One scene, in its own process -------------------------------------------------------------
 
 typedef struct scene_task {
     glint_input_request inputs;
@@ -192,8 +193,7 @@ static glint_status run_task(void *context, char **text, glint_error *error)
     return status;
 }
 
-// ---- All scenes
-// ----------------------------------------------------------------------------------
+// ---- All scenes --------------------------------------------------------------------------------
 
 static glint_bench_options options_of(const bench_request *request)
 {
@@ -392,8 +392,7 @@ static glint_status bench(bench_work *work, const char *const *names, size_t cou
     return status == GLINT_OK ? give_verdict(work, count, error) : status;
 }
 
-// ---- The request
-// ---------------------------------------------------------------------------------
+// ---- The request -------------------------------------------------------------------------------
 
 static glint_status check_scene(const bench_request *request, const char *name, glint_error *error)
 {

@@ -3,6 +3,7 @@
 
 #include "cli/inputs.h"
 #include "device/device.h"
+#include "render/view.h"
 #include "report/inventory.h"
 
 #include <math.h>
@@ -173,6 +174,20 @@ static void print_environment(const glint_environment *environment)
     }
 }
 
+static void print_sight(const glint_plan *plan)
+{
+    const glint_sight *sight = &plan->sight;
+    if (sight->depth > 0 && !plan->depth_is_exact) {
+        printf("  no depth is exact from inside of the scene's bounds; from outside %d is: %s\n",
+               sight->depth, sight->reason);
+    } else if (sight->depth > 0) {
+        printf("  depth %d is exact here: %s%s\n", sight->depth, sight->reason,
+               sight->from_outside ? ", as the eye is outside of the scene's bounds" : "");
+    } else if (sight->reason[0] != '\0') {
+        printf("  no depth is proved to be exact: %s\n", sight->reason);
+    }
+}
+
 static void print_plan(const glint_subject *subject)
 {
     const glint_plan *plan = subject->plan;
@@ -190,6 +205,7 @@ static void print_plan(const glint_subject *subject)
     printf("  %d lanes: %s\n", plan->kernel_width, plan->width_reason);
     printf("  tiles of %d packet%s: %s\n", plan->tiles ? 16 : 1, plan->tiles ? "s" : "",
            plan->tiles_reason);
+    print_sight(plan);
     printf("  secondary rays: %s\n", plan->secondary);
     printf("  %s texels: %s\n", plan->half_texels ? "half" : "float", plan->texels_reason);
     if (plan->stack_capacity > 0) {
@@ -248,9 +264,11 @@ static glint_status make_plan(const info_request *request, info_work *work, glin
     if (status != GLINT_OK) {
         return glint_fail(error, status, "%s", work->plan_failure.message);
     }
+    const glint_sight sight = glint_sight_find(&work->inputs.scene, &work->topology);
     const glint_plan_inputs inputs = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,
+        .sight = &sight,
         .environment = &work->inputs.environment.radiance,
         .device = glint_device_capabilities(work->device),
         .settings = &request->inputs.settings,
@@ -259,6 +277,8 @@ static glint_status make_plan(const info_request *request, info_work *work, glin
     if (status != GLINT_OK) {
         return status;
     }
+    const glint_stored_space space = glint_stored_space_of(&work->inputs.scene);
+    glint_plan_suit(&work->plan, &space, &work->inputs.viewpoint.camera);
     work->has_plan = true;
     return glint_plan_build_tree(&work->plan, &work->inputs.scene, &work->bvh, error);
 }

@@ -39,13 +39,19 @@ static void print_rung(const json_t *rungs, size_t which, FILE *out)
     const json_t *rung = json_array_get(rungs, which);
     const json_t *wrong = glint_json_at(rung, "wrong_hits");
     const char *by = glint_json_text_at(rung, "dominated_by");
-    fprintf(out, "  %c%2zu", by == NULL ? '*' : ' ', which + 1);
+    const bool is_optimal = json_is_true(glint_json_at(rung, "is_pareto_optimal"));
+    const long long lost =
+        (long long)json_integer_value(glint_json_at(rung, "error.nonfinite_pixels"));
+    fprintf(out, "  %c%2zu", is_optimal ? '*' : ' ', which + 1);
     print_times(rung, out);
     print_error(glint_json_at(rung, "error"), out);
     print_figure(glint_json_real_at(rung, "directions.mean_degrees"), "%.3g", 8, out);
     print_figure(glint_json_real_at(rung, "directions.p99_degrees"), "%.3g", 8, out);
     print_figure(json_is_integer(wrong) ? (double)json_integer_value(wrong) : NAN, "%.0f", 6, out);
     fprintf(out, "  %s", text_at(rung, "name"));
+    if (lost > 0) {
+        fprintf(out, ", %lld PIXELS NOT FINITE", lost);
+    }
     if (by != NULL) {
         fprintf(out, " (%lld is better)",
                 (long long)json_integer_value(glint_json_at(rung, "dominated_by_number")));

@@ -203,9 +203,11 @@ const glint_option glint_settings_options[] = {
      .help = "Samples a pixel, a square number: a regular grid.", .fallback = "1",
      .offset = OFFSET(settings.samples_per_axis), .parse = parse_samples},
     {GLINT_OPTION_CUSTOM, .name = "depth", .argument = "N|auto",
-     .help = "How many surfaces a light path meets before it takes the environment along its "
-             "direction: 1 is environment mapping, 2 is in and out of glass. auto goes on until "
-             "--min-weight ends every path, 64 at most.",
+     .help =
+         "How many surfaces a light path meets before it takes the environment along its "
+         "direction: 1 is environment mapping, 2 is in and out of glass. auto goes on until "
+         "--min-weight ends every path, 64 at most, and no further than it is proved that anything "
+         "is met.",
      .fallback = "auto", .offset = OFFSET(settings.depth), .parse = parse_depth},
     {GLINT_OPTION_REAL, .name = "min-weight", .argument = "W",
      .help = "A branch whose weight falls under this takes the environment at once; 0 follows "

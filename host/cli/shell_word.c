@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What no shell takes for anything but itself, wherever it stands in a word.
+// What a POSIX shell takes for itself, in an argument.
 static bool is_plain(const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"

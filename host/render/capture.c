@@ -11,6 +11,7 @@ glint_settings glint_capture_settings(const glint_settings *settings, int edge)
     square.aovs = 0;
     square.terms = 0;
     square.proxy = false;
+    square.grid_step = 0;
     square.shading = GLINT_SHADING_PIXEL;
     return square;
 }

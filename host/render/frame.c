@@ -117,7 +117,10 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
     report->deepest = (uint32_t)total_of(counters, GLINT_COUNT_DEEPEST);
     double all = ldexp((double)report->rays.primary, GLINT_WEIGHT_BITS);
     glint_truncation *t = &report->truncation;
-    t->by_depth = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH) / all;
+    // Where the depth is exact, what was not traced is known to see the environment.
+    t->by_depth = r->shown.plan.depth_is_exact
+                      ? 0
+                      : (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH) / all;
     t->by_min_weight = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT) / all;
     t->by_stack = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_STACK) / all;
     t->media_overflows = total_of(counters, GLINT_COUNT_MEDIA_OVERFLOWS);
@@ -243,6 +246,11 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
         glint_image_free(image);
         return glint_fail(error, GLINT_USAGE, "the renderer was made without frames, or failed");
     }
+    glint_status status = glint_renderer_suit(r, camera, error);
+    if (status != GLINT_OK) {
+        glint_image_free(image);
+        return status;
+    }
     glint_frame_record record;
     glint_view_record(&r->space, camera, &r->settings, &r->shown.plan, &record);
     record.environment_edge = r->environment_edge;
@@ -250,7 +258,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     record.terms = r->settings.terms;
     glint_view_set_proxy(&r->space, &r->proxy, &record);
     cl_mem target = NULL;
-    glint_status status = glint_pixels_begin(&r->pixels, image, &target, error);
+    status = glint_pixels_begin(&r->pixels, image, &target, error);
     if (status == GLINT_OK) {
         status =
             glint_renderer_set_argument(r, GLINT_PIXELS_ARGUMENT, sizeof target, &target, error);

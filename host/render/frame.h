@@ -120,6 +120,9 @@ typedef struct glint_device_bytes {
 
 glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
 
+// Bytes of the compiled kernels as the driver would hand them out; 0 where it does not.
+size_t glint_renderer_program_bytes(const glint_renderer *renderer);
+
 // Renders with `camera` into an RGBA image (premultiplied, linear). *image is zero, or an image
 // whose memory is used again where it has the frame's size: on a CPU that saves what fresh memory
 // costs. `progress` and `report` may be NULL. On failure `image` is left empty.

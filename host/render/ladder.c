@@ -81,12 +81,16 @@ static void add_branching(const glint_settings *settings, glint_ladder *ladder)
     }
 }
 
-static void add_bouncing(const glint_settings *settings, glint_ladder *ladder)
+// None where one surface is proved to be all that a path meets.
+static void add_bouncing(const glint_plan *plan, const glint_settings *settings,
+                         glint_ladder *ladder)
 {
-    for (int depth = 2; depth <= 8; depth *= 2) {
+    for (int depth = 2; depth <= 8 && depth < plan->depth; depth *= 2) {
         add_depth(settings, depth, ladder);
     }
-    add_depth(settings, 0, ladder);
+    if (plan->depth > 1) {
+        add_depth(settings, 0, ladder);
+    }
 }
 
 static void add_exact(const glint_plan *plan, const glint_settings *settings, glint_ladder *ladder)
@@ -126,7 +130,7 @@ void glint_ladder_make(const glint_plan *plan, const glint_settings *settings, g
         return;
     }
     if (goes_on(plan)) {
-        add_bouncing(settings, ladder);
+        add_bouncing(plan, settings, ladder);
     }
     if (has(plan, GLINT_FEATURE_PAINT) || has(plan, GLINT_FEATURE_BLEND)) {
         add(ladder, settings, "spherical harmonics", "--irradiance sh")->settings.irradiance =

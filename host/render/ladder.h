@@ -19,15 +19,15 @@
 #define GLINT_REFERENCE_MIN_WEIGHT (1.0 / 65536)
 
 typedef struct glint_rung {
-    char name[64];     // "depth 2, weights of 1/64"
-    char options[128]; // the program's, that make it: "--depth 2 --min-weight 0.015625"
+    char name[64];     // "weights of 1/64"
+    char options[128]; // the program's, that make it: "--min-weight 0.015625"
     glint_settings settings;
 } glint_rung;
 
 // Plain data.
 typedef struct glint_ladder {
     size_t count;
-    glint_rung rungs[GLINT_RUNGS_MAX]; // in the order of what they cost, the cheapest first
+    glint_rung rungs[GLINT_RUNGS_MAX]; // roughly in the order of what they cost, the cheapest first
     glint_rung reference;              // what their errors are counted from
 } glint_ladder;
 

@@ -4,7 +4,6 @@
 #include "base/half.h"
 #include "environment/half_texels.h"
 #include "environment/mip_levels.h"
-#include "scene/complete_normals.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -176,11 +175,19 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
-static void decide_settings(const glint_settings *settings, glint_plan *plan)
+static void decide_depth(glint_plan *plan)
 {
     decide(plan, GLINT_FEATURE_INTERREFLECTION,
            plan->features[GLINT_FEATURE_GEOMETRY].compiled && plan->depth > 1,
-           plan->depth_is_auto ? "depth auto, %d at most" : "depth %d", plan->depth);
+           plan->depth_is_exact  ? "depth %d is exact here"
+           : plan->depth_is_auto ? "depth auto, %d at most"
+                                 : "depth %d",
+           plan->depth);
+}
+
+static void decide_settings(const glint_settings *settings, glint_plan *plan)
+{
+    decide_depth(plan);
     int samples = settings->samples_per_axis * settings->samples_per_axis;
     decide(plan, GLINT_FEATURE_SUPERSAMPLING, samples > 1, "%d sample%s a pixel", samples,
            samples == 1 ? "" : "s");
@@ -422,6 +429,28 @@ static void compile_everything(glint_plan *plan)
     }
 }
 
+static void choose_depth(const glint_plan_inputs *in, glint_plan *plan)
+{
+    if (in->sight != NULL && glint_plan_heeds_sight(in->settings)) {
+        plan->sight = *in->sight;
+    }
+    plan->depth_is_exact = plan->sight.depth > 0;
+    if (plan->depth_is_exact) {
+        plan->depth = plan->sight.depth;
+    }
+}
+
+void glint_plan_heed_sight(glint_plan *plan, bool heed)
+{
+    if (plan->sight.depth == 0 || plan->depth_is_exact == heed) {
+        return;
+    }
+    plan->depth_is_exact = heed;
+    plan->depth = heed ? plan->sight.depth : GLINT_DEPTH_MAX;
+    decide_depth(plan);
+    describe_secondary_rays(plan);
+}
+
 glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     *plan = (glint_plan){0};
@@ -447,6 +476,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
         plan->depth = 1;
         plan->depth_is_auto = false;
     }
+    choose_depth(in, plan);
     decide_materials(&census, plan);
     decide_optics(&census, settings->fresnel, plan);
     decide_scene(in, plan);
@@ -462,59 +492,6 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
     return glint_plan_choose_texels(in, plan, error);
-}
-
-static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *scene,
-                                    const float *normals)
-{
-    return (glint_bvh_inputs){
-        .positions = scene->positions,
-        .normals = normals,
-        .material_of = scene->material_of,
-        .triangle_count = scene->triangle_count,
-        .width = plan->bvh_width,
-    };
-}
-
-// The normals that a tree's clusters get: where vertices are shaded all have one.
-static glint_status find_normals(const glint_plan *plan, const glint_scene *scene, float **own,
-                                 const float **normals, glint_error *error)
-{
-    *own = NULL;
-    *normals = scene->normals;
-    if (!glint_plan_shades_vertices(plan)) {
-        return GLINT_OK;
-    }
-    glint_status status = glint_scene_complete_normals(scene, own, error);
-    *normals = *own;
-    return status;
-}
-
-glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
-                                   glint_error *error)
-{
-    float *own;
-    const float *normals;
-    glint_status status = find_normals(plan, scene, &own, &normals, error);
-    if (status == GLINT_OK) {
-        const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
-        status = glint_bvh_build(&inputs, bvh, error);
-    }
-    free(own);
-    return status;
-}
-
-bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh)
-{
-    float *own;
-    const float *normals;
-    if (find_normals(plan, scene, &own, &normals, NULL) != GLINT_OK) {
-        return false;
-    }
-    const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
-    const bool fits = glint_bvh_refit(&inputs, bvh);
-    free(own);
-    return fits;
 }
 
 int glint_plan_feature_count(const glint_plan *plan)
@@ -548,7 +525,11 @@ void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacit
 void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity)
 {
     char depth[32];
-    snprintf(depth, sizeof depth, plan->depth_is_auto ? "auto (at most %d)" : "%d", plan->depth);
+    snprintf(depth, sizeof depth,
+             plan->depth_is_exact  ? "auto (%d is exact)"
+             : plan->depth_is_auto ? "auto (at most %d)"
+                                   : "%d",
+             plan->depth);
     snprintf(
         text, capacity,
         "shading %s, depth %s, precision %s, %s texels, filter %s, width %d, %d of %d features",

@@ -9,6 +9,7 @@
 #include "kernels/features.h"
 #include "render/layers.h"
 #include "scene/scene.h"
+#include "scene/sight.h"
 #include "scene/topology.h"
 
 #include <stdbool.h>
@@ -131,7 +132,9 @@ typedef struct glint_plan {
     glint_shading shading;
     int depth; // surfaces at most
     bool depth_is_auto;
-    int stack_capacity; // waiting branches of a pixel; 0 without SPLIT
+    glint_sight sight;   // with depth auto, what is proved of the scene
+    bool depth_is_exact; // `depth` is what sight proved: nothing changes beyond
+    int stack_capacity;  // waiting branches of a pixel; 0 without SPLIT
     char stack_reason[120];
     int media_count;     // distinct media (index of refraction and absorption), without empty space
     int media_bits;      // bits of one entry of the stack of media
@@ -153,6 +156,7 @@ const char *glint_shading_name(glint_shading shading);
 typedef struct glint_plan_inputs {
     const glint_scene *scene;
     const glint_topology *topology;
+    const glint_sight *sight; // NULL: nothing is known of what paths can meet
     const glint_cube *environment;
     const glint_capabilities *device;
     const glint_settings *settings;
@@ -185,6 +189,20 @@ glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *sc
 // Fits a tree of the same scene at another time. False where it does not serve, see
 // glint_bvh_refit.
 bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh);
+
+// Whether a plan of these settings heeds what is proved of the scene. Layers tell what took the
+// environment untraced, which rests on paths being followed.
+static inline bool glint_plan_heeds_sight(const glint_settings *settings)
+{
+    return settings->depth == 0 && settings->output == GLINT_OUTPUT_COLOR && settings->aovs == 0 &&
+           settings->shading == GLINT_SHADING_PIXEL;
+}
+
+// Whether a plan that was made with a sight heeds it, as it does at first: not where the proof is
+// for eyes outside and this one is inside (sight.from_outside). Changes the depth and whether paths
+// go on; nothing else of a plan rests on these where no path splits, and where one may nothing is
+// proved for eyes outside alone.
+void glint_plan_heed_sight(glint_plan *plan, bool heed);
 
 // Whether light is found at vertices.
 static inline bool glint_plan_shades_vertices(const glint_plan *plan)

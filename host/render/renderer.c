@@ -28,17 +28,22 @@ static bool has_solids(const glint_scene *scene)
     return false;
 }
 
-// The topology is found only where the plan asks for it: millions of triangles take seconds.
+// The topology is found only where solids may nest, or where what paths meet may be proved of it:
+// of millions of triangles it takes seconds.
 static glint_status analyse(const glint_renderer_inputs *in, const glint_plan *before,
                             glint_plan *plan, glint_error *error)
 {
     glint_topology topology = {0};
-    const bool wanted = has_solids(in->scene) && !in->scene->moves;
+    const bool sees = glint_plan_heeds_sight(in->settings);
+    const bool wanted = !in->scene->moves &&
+                        (has_solids(in->scene) || (sees && glint_sight_wants_topology(in->scene)));
     glint_status status = wanted ? glint_topology_find(in->scene, &topology, error) : GLINT_OK;
     if (status == GLINT_OK) {
+        const glint_sight sight = sees ? glint_sight_find(in->scene, &topology) : (glint_sight){0};
         const glint_plan_inputs inputs = {
             .scene = in->scene,
             .topology = &topology,
+            .sight = &sight,
             .environment = &in->environment->radiance,
             .device = glint_device_capabilities(in->device),
             .settings = in->settings,
@@ -352,6 +357,24 @@ static glint_status replace_kernel(const glint_renderer_inputs *in, glint_render
     return status;
 }
 
+glint_status glint_renderer_suit(glint_renderer *r, const glint_camera *camera, glint_error *error)
+{
+    glint_plan *plan = &r->shown.plan;
+    if (plan->sight.depth == 0) {
+        return GLINT_OK;
+    }
+    const glint_plan before = *plan;
+    const double build_ms = r->phases.kernel_build;
+    glint_plan_suit(plan, &r->space, camera);
+    if (has_same_options(&before, plan) && r->kernel != NULL) {
+        return GLINT_OK; // only the depth is another
+    }
+    r->bands_per_ms = 0;
+    glint_status status = replace_kernel(&r->inputs, r, error);
+    r->phases.kernel_build += build_ms;
+    return status;
+}
+
 // What has been prepared, in the place of what was shown, whose buffers are gone and whose kernel
 // was that of the plan `before`.
 static glint_status show(glint_renderer *r, const glint_scene *scene, const glint_plan *before,
@@ -464,6 +487,20 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
                  glint_renderer_terms_bytes(renderer) +
                  glint_vertices_bytes(&renderer->shown.plan, renderer->shown.bvh.cluster_count),
     };
+}
+
+size_t glint_renderer_program_bytes(const glint_renderer *renderer)
+{
+    cl_program program = NULL;
+    size_t bytes = 0; // for the one device that it was built for
+    if (renderer->kernel == NULL ||
+        clGetKernelInfo(renderer->kernel, CL_KERNEL_PROGRAM, sizeof program, &program, NULL) !=
+            CL_SUCCESS ||
+        clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) !=
+            CL_SUCCESS) {
+        return 0;
+    }
+    return bytes;
 }
 
 void glint_renderer_free(glint_renderer *renderer)

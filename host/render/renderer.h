@@ -67,6 +67,10 @@ static inline size_t glint_renderer_terms_bytes(const glint_renderer *r)
 glint_status glint_renderer_set_argument(const glint_renderer *r, cl_uint index, size_t size,
                                          const void *value, glint_error *error);
 
+// Compiles other kernels where what the plan proved of the scene does not hold for the camera, or
+// does again. Errors: as building them.
+glint_status glint_renderer_suit(glint_renderer *r, const glint_camera *camera, glint_error *error);
+
 // Begins to render `bands` bands of tiles from `first` on. glint_renderer_wait waits for the end,
 // and takes `done`.
 glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record, size_t first,

@@ -109,6 +109,23 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     record->depth = plan->depth;
 }
 
+bool glint_view_is_outside(const glint_stored_space *space, const glint_camera *camera)
+{
+    const glint_vec3 e = camera->eye, low = space->low, high = space->high;
+    if (camera->orthographic) { // rays begin in the plane of the eye
+        const glint_vec3 eye =
+            glint_vec3_scale(glint_vec3_subtract(e, space->origin), 1 / space->unit);
+        return depth_of(space, camera, eye).start > 0;
+    }
+    return e.x < low.x || e.x > high.x || e.y < low.y || e.y > high.y || e.z < low.z ||
+           e.z > high.z;
+}
+
+void glint_plan_suit(glint_plan *plan, const glint_stored_space *space, const glint_camera *camera)
+{
+    glint_plan_heed_sight(plan, !plan->sight.from_outside || glint_view_is_outside(space, camera));
+}
+
 void glint_view_set_proxy(const glint_stored_space *space, const glint_proxy *proxy,
                           glint_frame_record *record)
 {

@@ -20,6 +20,12 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
                        const glint_settings *settings, const glint_plan *plan,
                        glint_frame_record *record);
 
+// Whether all rays begin outside of the scene's bounds.
+bool glint_view_is_outside(const glint_stored_space *space, const glint_camera *camera);
+
+// Makes the plan heed its sight if that holds for the camera.
+void glint_plan_suit(glint_plan *plan, const glint_stored_space *space, const glint_camera *camera);
+
 // Fills the proxy's part; one of kind NONE is never read.
 void glint_view_set_proxy(const glint_stored_space *space, const glint_proxy *proxy,
                           glint_frame_record *record);

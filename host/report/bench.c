@@ -84,9 +84,7 @@ static glint_status create_renderer(bench_run *run, glint_error *error)
     status = glint_renderer_create(&inputs, &run->renderer, error);
     if (status == GLINT_OK) {
         result->device = *glint_device_capabilities(run->device);
-        result->plan = *glint_renderer_plan(run->renderer);
         result->bvh = *glint_renderer_bvh(run->renderer);
-        result->phases = *glint_renderer_phases(run->renderer);
         result->bytes = glint_renderer_device_bytes(run->renderer);
     }
     return status;
@@ -98,6 +96,8 @@ static glint_status render_first(bench_run *run, glint_error *error)
     const glint_progress progress = glint_bench_progress(&run->watcher);
     glint_status status = glint_renderer_frame(run->renderer, run->inputs->camera, &progress,
                                                &run->first, &result->report, error);
+    result->plan = *glint_renderer_plan(run->renderer); // as it suits the camera
+    result->phases = *glint_renderer_phases(run->renderer);
     result->first_frame_ms = result->report.kernel_ms + result->report.readback_ms;
     result->peak_resident_bytes = glint_peak_resident_bytes();
     return status;

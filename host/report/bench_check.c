@@ -80,6 +80,7 @@ static glint_status render_references(const glint_bench_inputs *inputs, glint_de
     settings.texels = GLINT_TEXELS_FLOAT;
     settings.kernel_width = 0;
     settings.tile_packets = 0;
+    settings.depth = settings.depth == 0 ? GLINT_DEPTH_MAX : settings.depth; // nothing is proved
     const glint_renderer_inputs exact = {
         .device = device,
         .scene = inputs->scene,

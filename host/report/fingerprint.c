@@ -77,12 +77,12 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
 
 static void add_settings(XXH3_state_t *state, const glint_settings *s)
 {
-    const double numbers[] = {s->width,        s->height,     s->samples_per_axis,
-                              s->depth,        s->min_weight, s->transparent ? 1 : 0,
-                              s->env_rotate,   s->precision,  s->fresnel,
-                              s->output,       s->filter,     s->aovs,
-                              s->irradiance,   s->terms,      s->shading,
-                              s->proxy ? 1 : 0};
+    const double numbers[] = {s->width,         s->height,     s->samples_per_axis,
+                              s->depth,         s->min_weight, s->transparent ? 1 : 0,
+                              s->env_rotate,    s->precision,  s->fresnel,
+                              s->output,        s->filter,     s->aovs,
+                              s->irradiance,    s->terms,      s->shading,
+                              s->proxy ? 1 : 0, s->grid_step};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
 }
 

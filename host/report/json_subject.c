@@ -86,6 +86,12 @@ json_t *glint_json_plan(const glint_plan *plan)
     glint_json_put(object, "bvh_width", json_integer(plan->bvh_width));
     glint_json_put(object, "depth", json_integer(plan->depth));
     glint_json_put_flag(object, "depth_is_auto", plan->depth_is_auto);
+    glint_json_put_flag(object, "depth_is_exact", plan->depth_is_exact);
+    glint_json_put_text(object, "depth_reason",
+                        plan->sight.depth > 0 && !plan->depth_is_exact
+                            ? "proved for eyes outside of the scene's bounds alone"
+                        : plan->sight.reason[0] != '\0' ? plan->sight.reason
+                                                        : NULL);
     glint_json_put(object, "stack_capacity", json_integer(plan->stack_capacity));
     glint_json_put_text(object, "stack_reason", plan->stack_reason);
     glint_json_put(object, "media_count", json_integer(plan->media_count));

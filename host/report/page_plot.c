@@ -174,6 +174,8 @@ void glint_page_plot(const glint_plot_point *points, size_t count, FILE *out)
     for (size_t i = 0; i < count; i++) {
         if (is_shown(&points[i])) {
             include(&p.ms, points[i].ms);
+            include(&p.ms, points[i].low > 0 ? points[i].low : points[i].ms);
+            include(&p.ms, points[i].high > 0 ? points[i].high : points[i].ms);
             p.has_zero = p.has_zero || points[i].error == 0;
             if (points[i].error > 0) {
                 include(&p.error, points[i].error);

@@ -6,6 +6,7 @@
 #include "report/speed_error.h"
 
 #include "base/clock.h"
+#include "render/view.h"
 #include "report/heat_map.h"
 
 #include <math.h>
@@ -89,7 +90,10 @@ static glint_status make_ladder(run *r, glint_error *error)
     glint_renderer *renderer;
     glint_status status = create(r, r->inputs->settings, true, &renderer, error);
     if (status == GLINT_OK) {
-        glint_ladder_make(glint_renderer_plan(renderer), r->inputs->settings, &r->ladder);
+        glint_plan plan = *glint_renderer_plan(renderer);
+        const glint_stored_space space = glint_stored_space_of(r->inputs->scene);
+        glint_plan_suit(&plan, &space, r->inputs->camera);
+        glint_ladder_make(&plan, r->inputs->settings, &r->ladder);
         r->result->bvh = *glint_renderer_bvh(renderer);
         r->result->count = r->ladder.count;
         r->result->reference = r->ladder.reference;
@@ -195,8 +199,9 @@ static glint_status render_directions(run *r, const glint_settings *settings, gl
 
 static size_t pixel_count(const run *r)
 {
-    const glint_settings *settings = r->inputs->settings;
-    return (size_t)settings->width * (size_t)settings->height;
+    int size[2];
+    glint_settings_pixels(r->inputs->settings, size);
+    return (size_t)size[0] * (size_t)size[1];
 }
 
 static uint64_t count_wrong_hits(const run *r, const glint_layers *layers)
@@ -303,9 +308,15 @@ static glint_status time_rungs(run *r, glint_error *error)
     return status;
 }
 
+// Of the whole picture: what is not finite is left out of the RMSE.
+static double error_of(const glint_rung_result *rung)
+{
+    return rung->error.nonfinite > 0 ? (double)NAN : rung->error.relative_rmse;
+}
+
 static bool dominates(const glint_rung_result *a, const glint_rung_result *b)
 {
-    const double ea = a->error.relative_rmse, eb = b->error.relative_rmse;
+    const double ea = error_of(a), eb = error_of(b);
     const double ta = a->kernel.median, tb = b->kernel.median;
     if (isnan(eb) || isnan(ea)) {
         return isnan(eb) && !isnan(ea);
@@ -338,10 +349,10 @@ static glint_status render_samples(run *r, int axis, bool is_mip, glint_image *i
     glint_renderer *renderer = NULL;
     glint_frame_report report;
     glint_status status = create(r, &settings, false, &renderer, error);
-    const size_t frames = t != NULL ? 3 : 1;
-    for (size_t i = 0; status == GLINT_OK && i < frames; i++) {
+    const int frames = t != NULL ? 4 : 1;
+    for (int i = 0; status == GLINT_OK && i < frames; i++) {
         status = render(r, renderer, image, &report, error);
-        if (status == GLINT_OK && t != NULL) {
+        if (status == GLINT_OK && i > 0) { // the first warms up
             status = keep_time(t, report.kernel_ms, error);
         }
     }

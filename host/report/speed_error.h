@@ -82,7 +82,8 @@ glint_status glint_speed_error_measure(const glint_bench_inputs *inputs,
 void glint_speed_error_free(glint_speed_error_result *result);
 
 // Sets `dominated_by` of each rung, by medians and relative RMSE: of several that dominate it the
-// fastest. A rung whose error is NaN is dominated by any whose is not.
+// fastest. A rung whose error is NaN, or with pixels that are not finite, is dominated by any that
+// has neither.
 void glint_speed_error_compare(glint_rung_result *rungs, size_t count);
 
 // How far the heaviest directions differ of two frames that were rendered with terms = 1.

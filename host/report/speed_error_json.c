@@ -72,7 +72,8 @@ static glint_status put_rung(json_t *list, const glint_speed_error_result *resul
     } else {
         glint_json_put(object, "wrong_hits", json_null());
     }
-    glint_json_put_flag(object, "is_pareto_optimal", by < 0);
+    glint_json_put_flag(object, "is_pareto_optimal",
+                        by < 0 && rung->error.nonfinite == 0 && !isnan(rung->error.relative_rmse));
     glint_json_put_text(object, "dominated_by", by < 0 ? NULL : result->rungs[by].rung.name);
     glint_json_put(object, "dominated_by_number", by < 0 ? json_null() : json_integer(by + 1));
     glint_json_put(object, "rays", glint_json_rays(&rung->rays));

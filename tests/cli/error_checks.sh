@@ -46,11 +46,14 @@ while "$json_get" out/stats.json scenes 0 rungs "$rungs" name >/dev/null 2>&1; d
     check "JSON: rung $rungs has nothing that is not finite" stat_is 0 scenes 0 rungs "$rungs" error nonfinite_pixels
     rungs=$((rungs + 1))
 done
-check 'JSON: the rungs of a mirror' test "$rungs" -eq 9
+check 'JSON: the rungs of a convex mirror' test "$rungs" -eq 5
 last=$((rungs - 1))
+is_tiny() { # KEY…
+    "$json_get" out/stats.json "$@" | awk '{ exit !($1 >= 0 && $1 < 1e-6) }'
+}
 check 'double precision is the reference, where no path splits' \
-    stat_is 0.0 scenes 0 rungs "$last" error relative_rmse
-check 'with the same directions' stat_is 0.0 scenes 0 rungs "$last" directions largest_degrees
+    is_tiny scenes 0 rungs "$last" error relative_rmse
+check 'with the same directions' is_tiny scenes 0 rungs "$last" directions largest_degrees
 check 'and nothing beats it' stat_is true scenes 0 rungs "$last" is_pareto_optimal
 check 'vertices have no directions' stat_is null scenes 0 rungs 0 directions
 check 'JSON: no pictures' test "$("$json_get" out/stats.json scenes 0 rungs 0 picture 2>/dev/null | wc -c)" -le 5
@@ -70,7 +73,7 @@ options_of() { # KEY…
 }
 # shellcheck disable=SC2046 # a list of options
 check 'the reference is rendered' render out/reference.exr $(options_of reference)
-for rung in 0 1 2 3 6; do
+for rung in 0 1 2 3; do
     # shellcheck disable=SC2046
     check "rung $rung is rendered" render out/rung.exr $(options_of rungs "$rung")
     "$glint" compare out/rung.exr out/reference.exr --json out/compare.json >/dev/null

@@ -1,0 +1,58 @@
+// The trees of plans. See plan.h.
+#include "render/plan.h"
+#include "scene/complete_normals.h"
+
+#include <stdlib.h>
+
+static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *scene,
+                                    const float *normals)
+{
+    return (glint_bvh_inputs){
+        .positions = scene->positions,
+        .normals = normals,
+        .material_of = scene->material_of,
+        .triangle_count = scene->triangle_count,
+        .width = plan->bvh_width,
+    };
+}
+
+// The normals that a tree's clusters get: where vertices are shaded all have one.
+static glint_status find_normals(const glint_plan *plan, const glint_scene *scene, float **own,
+                                 const float **normals, glint_error *error)
+{
+    *own = NULL;
+    *normals = scene->normals;
+    if (!glint_plan_shades_vertices(plan)) {
+        return GLINT_OK;
+    }
+    glint_status status = glint_scene_complete_normals(scene, own, error);
+    *normals = *own;
+    return status;
+}
+
+glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
+                                   glint_error *error)
+{
+    float *own;
+    const float *normals;
+    glint_status status = find_normals(plan, scene, &own, &normals, error);
+    if (status == GLINT_OK) {
+        const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
+        status = glint_bvh_build(&inputs, bvh, error);
+    }
+    free(own);
+    return status;
+}
+
+bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh)
+{
+    float *own;
+    const float *normals;
+    if (find_normals(plan, scene, &own, &normals, NULL) != GLINT_OK) {
+        return false;
+    }
+    const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
+    const bool fits = glint_bvh_refit(&inputs, bvh);
+    free(own);
+    return fits;
+}

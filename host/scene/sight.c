@@ -1,0 +1,226 @@
+// What paths can meet. See sight.h.
+#include "scene/sight.h"
+
+#include "scene/convexity.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+// What becomes of a path at a surface.
+typedef enum fate {
+    FATE_ENDS,
+    FATE_REFLECTED,
+    FATE_PASSES,   // straight through a thin wall, or reflected
+    FATE_REFRACTED // or reflected
+} fate;
+
+static fate fate_at(const glint_material *m)
+{
+    if (m->unlit) {
+        return FATE_ENDS;
+    }
+    if (m->mirror >= 0) {
+        return m->mirror > 0 ? FATE_REFLECTED : FATE_ENDS;
+    }
+    if (m->metallic < 1 && m->transmission > 0) {
+        return glint_material_is_solid(m) ? FATE_REFRACTED : FATE_PASSES;
+    }
+    const bool is_glossy = m->metallic < 1 && !(m->roughness > 0);
+    return m->metallic > 0 || is_glossy ? FATE_REFLECTED : FATE_ENDS;
+}
+
+typedef struct census {
+    size_t ends, reflected, passes, refracted; // triangles
+} census;
+
+static census take_census(const glint_scene *scene)
+{
+    census c = {0};
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const glint_instance *instance = &scene->instances[i];
+        switch (fate_at(&scene->materials[instance->material])) {
+        case FATE_ENDS:
+            c.ends += instance->triangle_count;
+            break;
+        case FATE_REFLECTED:
+            c.reflected += instance->triangle_count;
+            break;
+        case FATE_PASSES:
+            c.passes += instance->triangle_count;
+            break;
+        case FATE_REFRACTED:
+            c.refracted += instance->triangle_count;
+            break;
+        }
+    }
+    return c;
+}
+
+static bool goes_on_at(const glint_scene *scene, size_t triangle)
+{
+    return fate_at(&scene->materials[scene->material_of[triangle]]) != FATE_ENDS;
+}
+
+static glint_vec3 corner(const glint_scene *scene, size_t triangle, int k)
+{
+    const float *p = scene->positions + 9 * triangle + 3 * k;
+    return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+}
+
+// A plane through a triangle: n unit.
+typedef struct plane {
+    glint_vec3 n;
+    double offset;
+} plane;
+
+// As long as twice the triangle's area.
+static glint_vec3 normal_of(const glint_scene *scene, size_t triangle)
+{
+    const glint_vec3 a = corner(scene, triangle, 0);
+    return glint_vec3_cross(glint_vec3_subtract(corner(scene, triangle, 1), a),
+                            glint_vec3_subtract(corner(scene, triangle, 2), a));
+}
+
+static plane plane_of(const glint_scene *scene, size_t triangle)
+{
+    const glint_vec3 a = corner(scene, triangle, 0), n = normal_of(scene, triangle);
+    const double length = glint_vec3_length(n);
+    const glint_vec3 unit = length > 0 ? glint_vec3_scale(n, 1 / length) : n;
+    return (plane){unit, glint_vec3_dot(unit, a)};
+}
+
+// How far a point may be from a plane by `roundings` of its coordinates.
+static double slack_at(const plane *p, glint_vec3 at, double roundings)
+{
+    const double reach = fabs(p->n.x * at.x) + fabs(p->n.y * at.y) + fabs(p->n.z * at.z);
+    return roundings * (double)FLT_EPSILON / 2 * reach;
+}
+
+// Whether all triangles where paths go on lie in one plane, that of the largest. Where light passes
+// through, no more than what storing the corners has rounded may lie between two sheets.
+static bool is_flat(const glint_scene *scene, bool passes)
+{
+    const double roundings = passes ? 2 : GLINT_POSITION_ROUNDINGS;
+    size_t largest = 0;
+    double size = -1;
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        const double of = goes_on_at(scene, i) ? glint_vec3_length(normal_of(scene, i)) : -1;
+        if (of > size) {
+            size = of;
+            largest = i;
+        }
+    }
+    const plane p = plane_of(scene, largest);
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        for (int k = 0; k < 3 && goes_on_at(scene, i); k++) {
+            const glint_vec3 at = corner(scene, i, k);
+            if (!(fabs(glint_vec3_dot(p.n, at) - p.offset) <= slack_at(&p, at, roundings))) {
+                return false;
+            }
+        }
+    }
+    return size > 0;
+}
+
+// ---- Convex bodies -----------------------------------------------------------------------------
+
+#define PROBES 64
+#define FAR_OFF (8 * GLINT_POSITION_ROUNDINGS * (double)FLT_EPSILON) // of coordinates of 1 at most
+
+// Whether a few corners of the mirrors lie on one side of the plane of each of their triangles,
+// which those of a convex body do.
+static bool may_be_convex(const glint_scene *scene, size_t mirrors)
+{
+    glint_vec3 probes[PROBES];
+    size_t count = 0, seen = 0;
+    const size_t every = mirrors / PROBES + 1;
+    for (size_t i = 0; i < scene->triangle_count && count < PROBES; i++) {
+        if (goes_on_at(scene, i) && seen++ % every == 0) {
+            probes[count++] = corner(scene, i, 0);
+        }
+    }
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        if (!goes_on_at(scene, i)) {
+            continue;
+        }
+        const plane p = plane_of(scene, i);
+        bool in_front = false, behind = false;
+        for (size_t k = 0; k < count; k++) {
+            const double distance = glint_vec3_dot(p.n, probes[k]) - p.offset;
+            in_front = in_front || distance > FAR_OFF;
+            behind = behind || distance < -FAR_OFF;
+        }
+        if (in_front && behind) {
+            return false;
+        }
+    }
+    return count > 0;
+}
+
+bool glint_sight_wants_topology(const glint_scene *scene)
+{
+    const census c = take_census(scene);
+    return !scene->moves && c.reflected > 0 && c.passes == 0 && c.refracted == 0 &&
+           !is_flat(scene, false) && may_be_convex(scene, c.reflected);
+}
+
+// The only surface at which paths go on, if it is one and proved convex.
+static bool is_one_convex_body(const glint_scene *scene, const glint_topology *topology)
+{
+    size_t bodies = 0;
+    bool convex = true;
+    for (size_t i = 0; i < topology->component_count; i++) {
+        const glint_component *component = &topology->components[i];
+        const uint32_t material = scene->instances[component->instance].material;
+        if (fate_at(&scene->materials[material]) != FATE_ENDS) {
+            bodies++;
+            convex = convex && component->convex;
+        }
+    }
+    return bodies == 1 && convex;
+}
+
+static glint_sight proved(bool alone, bool from_outside, const char *what)
+{
+    glint_sight sight = {.depth = alone ? 1 : 2, .from_outside = from_outside};
+    snprintf(sight.reason, sizeof sight.reason, "%s %s", what,
+             alone ? "sees nothing but the environment" : "sees nothing that sends paths on");
+    return sight;
+}
+
+static glint_sight not_proved(const char *why)
+{
+    glint_sight sight = {0};
+    snprintf(sight.reason, sizeof sight.reason, "%s", why);
+    return sight;
+}
+
+glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *topology)
+{
+    const census c = take_census(scene);
+    const bool alone = c.ends == 0;
+    if (scene->triangle_count == 0) {
+        return not_proved("there is no surface");
+    }
+    if (c.reflected + c.passes + c.refracted == 0) {
+        glint_sight sight = {.depth = 1};
+        snprintf(sight.reason, sizeof sight.reason, "every path ends at the first surface");
+        return sight;
+    }
+    if (scene->moves) {
+        return not_proved("what moves is not looked at");
+    }
+    if (c.refracted == 0 && is_flat(scene, c.passes > 0)) {
+        return proved(alone, false, c.passes > 0 ? "a flat pane" : "a flat mirror");
+    }
+    const bool is_convex = is_one_convex_body(scene, topology);
+    if (c.refracted == 0 && c.passes == 0 && is_convex) {
+        return proved(alone, true, "a closed, convex mirror");
+    }
+    return not_proved(
+        c.reflected + c.passes == 0 && is_convex
+            ? "light that leaves the convex glass does not come back, but inside it is "
+              "reflected any number of times"
+            : "what sends paths on is neither one convex mirror nor flat");
+}
