@@ -227,6 +227,59 @@ static void is_proved_as_it_must_be(void **state)
     }
 }
 
+// What becomes of a path at each kind of surface, told by what is proved of a convex ball and of a
+// bumpy one that are made of it.
+static void materials_end_paths_or_not(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        glint_material material;
+        int convex, bumpy;
+    } kinds[] = {
+        {"metal", {.metallic = 1, .mirror = -1}, 1, 0},
+        {"rough metal, which is rendered smooth",
+         {.metallic = 1, .roughness = 1, .mirror = -1},
+         1,
+         0},
+        {"partly metal", {.metallic = 0.25F, .roughness = 1, .mirror = -1}, 1, 0},
+        {"matte paint", {.roughness = 1, .mirror = -1}, 1, 1},
+        {"matte paint that emits", {.roughness = 1, .emission = {1, 1, 1}, .mirror = -1}, 1, 1},
+        {"smooth paint", {.mirror = -1}, 1, 0},
+        {"unlit metal", {.metallic = 1, .unlit = true, .mirror = -1}, 1, 1},
+        {"unlit glass", {.transmission = 1, .thickness = 1, .unlit = true, .mirror = -1}, 1, 1},
+        {"the blend, matte alone", {.metallic = 1, .mirror = 0}, 1, 1},
+        {"the blend, a little of a mirror", {.roughness = 1, .mirror = 0.01F}, 1, 0},
+        {"the blend, of glass", {.transmission = 1, .thickness = 1, .mirror = 0.5F}, 1, 0},
+        {"glass", {.transmission = 1, .thickness = 1, .mirror = -1}, 0, 0},
+        {"a little of glass",
+         {.transmission = 0.01F, .thickness = 1, .roughness = 1, .mirror = -1},
+         0,
+         0},
+        {"a thin wall", {.transmission = 1, .mirror = -1}, 0, 0},
+        {"metal that would be glass",
+         {.metallic = 1, .transmission = 1, .thickness = 1, .mirror = -1},
+         1,
+         0},
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        for (int is_bumpy = 0; is_bumpy < 2; is_bumpy++) {
+            glint_scene scene;
+            glint_topology topology;
+            build(&cases[is_bumpy ? 4 : 0], &scene);
+            scene.materials[MATERIAL_MIRROR] = kinds[i].material;
+            assert_int_equal(glint_topology_find(&scene, &topology, NULL), GLINT_OK);
+            const int depth = glint_sight_find(&scene, &topology).depth;
+            if (depth != (is_bumpy ? kinds[i].bumpy : kinds[i].convex)) {
+                fail_msg("%s: depth %d", kinds[i].name, depth);
+            }
+            glint_topology_free(&topology);
+            scene.materials[MATERIAL_MIRROR] = (glint_material){0};
+            glint_scene_free(&scene);
+        }
+    }
+}
+
 // From four places: paths that are traced meet no more than was proved.
 static void no_path_goes_deeper(void **state)
 {
@@ -314,6 +367,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(is_proved_as_it_must_be),
+        cmocka_unit_test(materials_end_paths_or_not),
         cmocka_unit_test(no_path_goes_deeper),
         cmocka_unit_test(an_eye_inside_is_noticed),
     };
