@@ -62,7 +62,7 @@ static const glint_option bench_options[] = {
      .offset = offsetof(bench_request, error)},
     {GLINT_OPTION_FLAG, .name = "no-sampling",
      .help = "With --error, leave out what more samples a pixel give, which takes the time of some "
-             "ninety frames.",
+             "hundred and fifty frames.",
      .offset = offsetof(bench_request, no_sampling)},
     {GLINT_OPTION_FLAG, .name = "list", .help = "List the built-in scenes and do nothing else.",
      .offset = offsetof(bench_request, list)},
