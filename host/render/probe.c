@@ -55,7 +55,12 @@ static size_t scalar_size(const glint_probe *probe)
 static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe,
                          glint_error *error)
 {
+    glint_settings settings = *inputs->settings;
+    if (settings.depth == 0) { // the parts are those of the general kernels, whatever is proved
+        settings.depth = GLINT_DEPTH_MAX;
+    }
     glint_renderer_inputs without_frames = *inputs;
+    without_frames.settings = &settings;
     without_frames.without_frames = true;
     glint_status status = glint_renderer_create(&without_frames, &probe->renderer, error);
     if (status != GLINT_OK) {

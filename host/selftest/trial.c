@@ -280,6 +280,7 @@ glint_settings trial_settings(const trial *t)
     glint_settings settings = glint_settings_default;
     settings.width = 64;
     settings.height = 48;
+    settings.depth = GLINT_DEPTH_MAX; // as auto has it, but for scenes of which less is proved
     settings.min_weight = 0;
     settings.precision = t->options->precision;
     settings.kernel_width = t->options->width;
