@@ -35,6 +35,7 @@
     FEATURE(VERTEX_DIRECTION, "directions are found at vertices and interpolated")                 \
     FEATURE(HITS, "a pixel holds what its ray met instead of a colour")                            \
     FEATURE(TERMS, "what pixels are the sum of is stored, to light them anew")                     \
+    FEATURE(TRUNCATION_SQUARES, "how unevenly truncated light is spread over pixels is counted")   \
     FEATURE(DIAGNOSTICS, "layers tell what became of each pixel's paths")
 
 #endif

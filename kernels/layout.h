@@ -137,6 +137,7 @@ typedef struct glint_frame_record {
     int step, first_pixel;
     int samples_per_axis; // k
     int depth;            // surfaces that a path meets at most, 1 or more
+    int depth_counts;     // with GLINT_TRUNCATION_SQUARES: what that cuts short counts, too
     int environment_edge; // texels, without border
     int irradiance_edge;
     // Tiles are rendered band by band, and within one column by column.
@@ -199,9 +200,11 @@ typedef struct glint_layers_record {
 // ---- Counters ----------------------------------------------------------------------------------
 // Each counter is 64 bits in two 32-bit words (low, high). To keep work-items from waiting for each
 // other there are GLINT_COUNTER_SLOTS sets; the host adds them up. Whole numbers, so that the sum
-// does not depend on the order. Weights are in units of 2^−GLINT_WEIGHT_BITS.
+// does not depend on the order. Weights are in units of 2^−GLINT_WEIGHT_BITS, squares of them,
+// which are counted pixel by pixel, of 2^−GLINT_SQUARE_BITS.
 #define GLINT_COUNTER_SLOTS 64
 #define GLINT_WEIGHT_BITS 32
+#define GLINT_SQUARE_BITS 36
 enum glint_counter {
     GLINT_COUNT_REFLECTED,
     GLINT_COUNT_REFRACTED_IN,
@@ -213,7 +216,8 @@ enum glint_counter {
     GLINT_COUNT_WEIGHT_BY_DEPTH,
     GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT,
     GLINT_COUNT_WEIGHT_BY_STACK,
-    GLINT_COUNTERS = 16 // room for more, and a round size
+    GLINT_COUNT_TRUNCATION_SQUARES, // of each pixel's truncated weight, its samples' mean
+    GLINT_COUNTERS = 16             // room for more, and a round size
 };
 
 // ---- Probes ------------------------------------------------------------------------------------

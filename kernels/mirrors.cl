@@ -65,7 +65,8 @@ static inline real3 mirrored(const image_space *image, const triangle *t, const 
 
 // The mirrors' weights. Counts the rays that they send on, and what the depth cuts off.
 static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame_record *frame,
-                                   const triangle *t, real cosine, mask met, tally *tally)
+                                   const triangle *t, real cosine, mask met, const pixels *pixels,
+                                   tally *tally)
 {
     const real one = real_of(1);
     real3 weights = real3_of(one, one, one);
@@ -75,7 +76,7 @@ static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame
     weights = select3(met, metal_reflectance(s.base_color, SMALLER(cosine, one)), weights);
 #endif
     mask reflects = met & (largest3(weights) > R(0.0));
-    ended(frame, largest3(weights), int_of(1), reflects, tally);
+    ended(frame, largest3(weights), int_of(1), reflects, pixels, tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
     return weights;
 }
@@ -89,9 +90,7 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
     real3 d = primary_directions(frame, first->x, first->y);
     bool shows_mirrors = false;
     real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
-#if GLINT_DIAGNOSTICS
     const pixels pixels = pixels_of_group(group);
-#endif
 #if GLINT_GEOMETRY
     mask met = first->places >= (lane_int)0; // pixels outside the image meet nothing: clear_tile
     shows_mirrors = any_lane(met);
@@ -99,7 +98,7 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
         const triangle t = load_triangles(scene, first->places, met);
         real cosine;
         d = select3(met, mirrored(image, &t, first, d, met, &cosine), d);
-        weights = mirror_weights(scene, frame, &t, cosine, met, tally);
+        weights = mirror_weights(scene, frame, &t, cosine, met, &pixels, tally);
         tally->deepest = SELECT(met, int_of(1), tally->deepest);
 #if GLINT_DIAGNOSTICS
         note_surfaces(tally->layers, &pixels, met, int_of(1));

@@ -5,6 +5,9 @@ typedef struct tally {
     ulong counts[GLINT_COUNTERS];
     lanes_int deepest; // surfaces that a path has met
     real weight_by_depth, weight_by_min_weight, weight_by_stack;
+#if GLINT_TRUNCATION_SQUARES
+    scalar truncated[TILE_PIXELS]; // weight that the pixels' paths were cut short of
+#endif
 #if GLINT_DIAGNOSTICS
     layers *layers; // of the tile's pixels
 #endif
@@ -21,7 +24,23 @@ static inline tally no_tally(void)
     }
     t.deepest = int_of(0);
     t.weight_by_depth = t.weight_by_min_weight = t.weight_by_stack = real_of(0);
+#if GLINT_TRUNCATION_SQUARES
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        t.truncated[i] = 0;
+    }
+#endif
     return t;
+}
+
+// The rays in `these` take the environment untraced for want of depth, weight or room.
+static inline void count_truncated(tally *tally, const pixels *pixels, mask these, real weight)
+{
+#if GLINT_TRUNCATION_SQUARES
+    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        tally->truncated[pixel_of(*pixels, lane)] += LANE(weight, lane);
+    }
+#endif
 }
 
 // A packet of primary rays, which pixels' samples they are, and what they meet.
@@ -89,21 +108,22 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
 // Rule 7: which of the branches that exist have met all the surfaces they may, or weigh too little.
 // What that leaves out is counted.
 static inline mask ended(const glint_frame_record *frame, real weight, lanes_int met, mask exists,
-                         tally *tally)
+                         const pixels *pixels, tally *tally)
 {
     mask deep = exists & (met >= (lane_int)frame->depth);
     mask light = exists & !deep & (weight < (scalar)frame->min_weight);
     const real zero = real_of(0);
     tally->weight_by_depth += SELECT(deep, weight, zero);
     tally->weight_by_min_weight += SELECT(light, weight, zero);
+    count_truncated(tally, pixels, frame->depth_counts != 0 ? deep | light : light, weight);
     return deep | light;
 }
 
 // Such a branch takes the environment along its direction.
 static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
-                              tally *tally)
+                              const pixels *pixels, tally *tally)
 {
-    mask ends = ended(frame, largest3(branch->weight), branch->met, exists, tally);
+    mask ends = ended(frame, largest3(branch->weight), branch->met, exists, pixels, tally);
     branch->looked_up = SELECT(ends, int_of(1), int_of(0));
 }
 
@@ -194,6 +214,8 @@ static inline void split_path(paths *all, int slot, path *reflected, path *trans
         mask unended_t = full & (transmitted->looked_up == (lane_int)0);
         tally->weight_by_stack += SELECT(unended_r, largest3(reflected->weight), zero) +
                                   SELECT(unended_t, largest3(transmitted->weight), zero);
+        count_truncated(tally, pixels, unended_r, largest3(reflected->weight));
+        count_truncated(tally, pixels, unended_t, largest3(transmitted->weight));
         reflected->looked_up = SELECT(full, int_of(1), reflected->looked_up);
         transmitted->looked_up = SELECT(full, int_of(1), transmitted->looked_up);
     }
@@ -281,7 +303,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
-    end_branch(frame, &reflected, reflects, tally);
+    end_branch(frame, &reflected, reflects, &all->pixels[slot], tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
 #if GLINT_GLASS
     path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
@@ -291,7 +313,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     transmitted.cone = leave_surface(width, spread, out.eta, out.bend, s.curvature);
 #endif
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
-    end_branch(frame, &transmitted, transmits, tally);
+    end_branch(frame, &transmitted, transmits, &all->pixels[slot], tally);
     count_transmissions(&s, transmits, tally);
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);

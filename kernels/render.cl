@@ -64,6 +64,12 @@
 #include "vertices.cl"
 #include "mirrors.cl"
 
+#if GLINT_SUPERSAMPLING
+#define SAMPLES_PER_AXIS(frame) ((frame)->samples_per_axis)
+#else
+#define SAMPLES_PER_AXIS(frame) 1
+#endif
+
 // Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
 static inline void add_to_counter(global uint *counter, ulong amount)
 {
@@ -84,7 +90,22 @@ static inline ulong weight_units(real weights)
     return (ulong)(sum_of_lanes(weights) * (scalar)(1UL << GLINT_WEIGHT_BITS));
 }
 
-static inline void report(tally *tally, global uint *counters)
+#if GLINT_TRUNCATION_SQUARES
+// Rounded pixel by pixel, so that the sum is the same whatever shares a tile.
+static inline ulong squared_truncation(const tally *tally, const glint_frame_record *frame)
+{
+    const int k = SAMPLES_PER_AXIS(frame);
+    const scalar share = R(1.0) / (scalar)(k * k);
+    ulong sum = 0;
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        const scalar weight = tally->truncated[i] * share;
+        sum += (ulong)(weight * weight * (scalar)(1UL << GLINT_SQUARE_BITS) + R(0.5));
+    }
+    return sum;
+}
+#endif
+
+static inline void report(tally *tally, const glint_frame_record *frame, global uint *counters)
 {
     const uint slot = (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0));
     ulong *counts = tally->counts;
@@ -92,6 +113,9 @@ static inline void report(tally *tally, global uint *counters)
     counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = weight_units(tally->weight_by_depth);
     counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] = weight_units(tally->weight_by_min_weight);
     counts[GLINT_COUNT_WEIGHT_BY_STACK] = weight_units(tally->weight_by_stack);
+#if GLINT_TRUNCATION_SQUARES
+    counts[GLINT_COUNT_TRUNCATION_SQUARES] = squared_truncation(tally, frame);
+#endif
     global uint *mine = counters + 2 * GLINT_COUNTERS * (slot % GLINT_COUNTER_SLOTS);
     for (int i = 0; i < GLINT_COUNTERS; i++) {
         if (counts[i] == 0) {
@@ -111,12 +135,6 @@ typedef struct gathered {
     real3 color[TILE_GROUPS];
     real alpha[TILE_GROUPS];
 } gathered;
-
-#if GLINT_SUPERSAMPLING
-#define SAMPLES_PER_AXIS(frame) ((frame)->samples_per_axis)
-#else
-#define SAMPLES_PER_AXIS(frame) 1
-#endif
 
 // The primary rays of a group, and which triangles they meet.
 static inline primary primary_of(const tile *t, int group)
@@ -300,7 +318,7 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     scalar sums[TILE_GROUPS * PIXEL_VALUES];
     sample_tile(scene, frame, column, row, sums, &sum, &tally);
     // Before the pixels are stored: an atomic operation waits for all stores before it.
-    report(&tally, out->counters);
+    report(&tally, frame, out->counters);
 #if GLINT_DIAGNOSTICS
     store_layers(&layers, frame, column, row, out->layers);
 #endif

@@ -171,10 +171,13 @@ static void the_stack_holds_every_branch_that_the_least_weight_allows(void **sta
     glint_settings settings = glint_settings_default;
     glint_plan plan;
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
-    assert_int_equal(plan.stack_capacity, 12); // log2(1024) + 1 waiting, and the warning slot
-    settings.depth = 2;
+    assert_int_equal(plan.stack_capacity, 18); // the least: log2(1024) + 2 are needed
+    settings.min_weight = 0x1p-20;
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
-    assert_int_equal(plan.stack_capacity, 3);
+    assert_int_equal(plan.stack_capacity, 22); // log2(2^20) + 1 waiting, and the warning slot
+    settings.depth = 20;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_int_equal(plan.stack_capacity, 21);
     settings.min_weight = 0;
     settings.depth = 1000;
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);

@@ -51,10 +51,10 @@ glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record
         return status;
     }
     int tile_width, tile_height;
-    tile_size(&r->shown.plan, &tile_width, &tile_height);
+    tile_size(&r->plan, &tile_width, &tile_height);
     size_t local[2];
-    local_size(&r->shown.plan, local);
-    const size_t width = record->width > 0 ? (size_t)record->width : 1; // 0: see build_kernel
+    local_size(&r->plan, local);
+    const size_t width = record->width > 0 ? (size_t)record->width : 1; // 0: see equipment.c
     size_t columns = (width + (size_t)tile_width - 1) / (size_t)tile_width;
     const size_t across = columns * (size_t)record->band;
     const size_t global[2] = {round_up(across, local[0]), round_up(bands, local[1])};
@@ -118,11 +118,13 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
     double all = ldexp((double)report->rays.primary, GLINT_WEIGHT_BITS);
     glint_truncation *t = &report->truncation;
     // Where the depth is exact, what was not traced is known to see the environment.
-    t->by_depth = r->shown.plan.depth_is_exact
-                      ? 0
-                      : (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH) / all;
+    t->by_depth =
+        r->plan.depth_is_exact ? 0 : (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH) / all;
     t->by_min_weight = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT) / all;
     t->by_stack = (double)total_of(counters, GLINT_COUNT_WEIGHT_BY_STACK) / all;
+    t->rms =
+        sqrt(ldexp((double)total_of(counters, GLINT_COUNT_TRUNCATION_SQUARES), -GLINT_SQUARE_BITS) /
+             (double)glint_renderer_pixel_count(r));
     t->media_overflows = total_of(counters, GLINT_COUNT_MEDIA_OVERFLOWS);
     return GLINT_OK;
 }
@@ -174,7 +176,7 @@ static glint_status end_launch(launches *l, glint_error *error)
 static glint_status run_launches(launches *l, const glint_progress *progress, glint_error *error)
 {
     size_t local[2];
-    local_size(&l->renderer->shown.plan, local);
+    local_size(&l->renderer->plan, local);
     double clock = glint_now_ms();
     glint_status status = GLINT_OK;
     while (status == GLINT_OK && l->done < l->bands) {
@@ -201,12 +203,12 @@ static glint_status run_frame(glint_renderer *r, glint_frame_record *record,
                               const glint_progress *progress, glint_error *error)
 {
     int tile_width, tile_height;
-    tile_size(&r->shown.plan, &tile_width, &tile_height);
+    tile_size(&r->plan, &tile_width, &tile_height);
     size_t local[2];
-    local_size(&r->shown.plan, local);
+    local_size(&r->plan, local);
     double row_samples =
         (double)record->width * tile_height * record->samples_per_axis * record->samples_per_axis;
-    record->band = r->shown.plan.tiles && BAND_ROWS * row_samples <= BAND_SAMPLES ? BAND_ROWS : 1;
+    record->band = r->plan.tiles && BAND_ROWS * row_samples <= BAND_SAMPLES ? BAND_ROWS : 1;
     const int band_height = tile_height * record->band;
     double first_step = r->bands_per_ms > 0 ? r->bands_per_ms * LAUNCH_MS
                                             : FIRST_LAUNCH_SAMPLES / (row_samples * record->band);
@@ -252,7 +254,7 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
         return status;
     }
     glint_frame_record record;
-    glint_view_record(&r->space, camera, &r->settings, &r->shown.plan, &record);
+    glint_view_record(&r->space, camera, &r->settings, &r->plan, &record);
     record.environment_edge = r->environment_edge;
     record.irradiance_edge = r->irradiance_edge;
     record.terms = r->settings.terms;
@@ -295,7 +297,7 @@ glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixe
                                          glint_error *error)
 {
     *pixels = NULL;
-    if (renderer->shown.plan.precision != GLINT_PRECISION_DOUBLE) {
+    if (renderer->plan.precision != GLINT_PRECISION_DOUBLE) {
         return glint_fail(error, GLINT_USAGE, "only frames in double precision have exact pixels");
     }
     *pixels = glint_allocate_unset(glint_renderer_pixel_count(renderer) * 4, sizeof **pixels);
@@ -328,7 +330,7 @@ static glint_status read_layers(glint_renderer *r, glint_layers *layers, glint_e
     const glint_settings *settings = &r->settings;
     void *records = NULL;
     glint_status status = read_buffer(r, "reading the layers", r->layers,
-                                      glint_renderer_layers_bytes(r), &records, error);
+                                      glint_layers_bytes(&r->settings), &records, error);
     if (status == GLINT_OK) {
         status = glint_layers_make(records, glint_renderer_pixel_count(r),
                                    settings->samples_per_axis * settings->samples_per_axis,
@@ -342,7 +344,7 @@ static glint_status read_terms(glint_renderer *r, glint_layers *layers, glint_er
 {
     void *stored = NULL;
     glint_status status = read_buffer(r, "reading the directions", r->terms,
-                                      glint_renderer_terms_bytes(r), &stored, error);
+                                      glint_terms_bytes(&r->settings), &stored, error);
     if (status == GLINT_OK) {
         status = glint_terms_add_channels(stored, glint_renderer_pixel_count(r), r->settings.terms,
                                           layers, error);

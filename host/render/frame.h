@@ -17,8 +17,8 @@
 typedef struct glint_phases {
     double analysis;     // topology and plan
     double bvh;          // tree
-    double irradiance;   // irradiance map, where paint needs one
-    double kernel_build; // compiling, or fetching from the driver's cache
+    double irradiance;   // irradiance map, where paint needs one: all of them
+    double kernel_build; // compiling, or fetching from the driver's cache: all kernels so far
     double upload;
     double kernel; // all launches of the frame
     double readback;
@@ -43,6 +43,9 @@ typedef struct glint_truncation {
     double by_depth;
     double by_min_weight;
     double by_stack;
+    double rms; // of pixels' truncated weight, its root mean square, where the settings ask for
+                // truncation_squares; without what the depth truncates where that is the
+                // reference's (see ladder.h) or proved to be exact
     uint64_t media_overflows; // entries lost because solids nest deeper than the stack of media
 } glint_truncation;
 
@@ -69,7 +72,7 @@ typedef struct glint_renderer_inputs {
     glint_device *device;                 // borrowed, must outlive the renderer
     const glint_scene *scene;             // borrowed during creation only
     const glint_environment *environment; // borrowed during creation; as long as the renderer lives
-                                          // where it is given other scenes
+                                          // where it is given other scenes or settings
     const glint_settings *settings;       // borrowed during creation only
     const char *kernel_dir;               // NULL: the embedded kernels; borrowed likewise
     bool without_frames;                  // no frame will be asked for (see probe.h)
@@ -105,6 +108,14 @@ glint_status glint_renderer_set_prepared(glint_renderer *renderer, const glint_s
 glint_status glint_renderer_set_environment(glint_renderer *renderer,
                                             const glint_environment *environment,
                                             glint_error *error);
+
+// Other settings for the frames that follow, as glint_plan_vary allows them: those of a coarser or
+// a finer frame of the same scene, or of a grid of its pixels (grid_step). What the last few need
+// is kept, so that going back is quick. Another scene or environment brings the settings of the
+// creation back. Errors: as creating; a renderer that failed may be given other settings, and
+// renders no frame until then.
+glint_status glint_renderer_set_settings(glint_renderer *renderer, const glint_settings *settings,
+                                         glint_error *error);
 
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);

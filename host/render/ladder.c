@@ -35,34 +35,43 @@ static void add_vertices(const glint_settings *settings, glint_ladder *ladder)
         ->settings.shading = GLINT_SHADING_VERTEX_DIRECTION;
 }
 
-// Surfaces that paths meet; 0: as many as the weight allows.
-static void add_depth(const glint_settings *settings, int depth, glint_ladder *ladder)
+void glint_rung_by_depth(const glint_settings *settings, int depth, glint_rung *rung)
 {
-    char name[64], options[128];
-    snprintf(name, sizeof name, depth > 0 ? "depth %d" : "depth auto", depth);
-    snprintf(options, sizeof options, depth > 0 ? "--depth %d" : "--depth auto", depth);
-    add(ladder, settings, name, options)->settings.depth = depth;
+    *rung = (glint_rung){.settings = *settings};
+    rung->settings.depth = depth;
+    snprintf(rung->name, sizeof rung->name, depth > 0 ? "depth %d" : "depth auto", depth);
+    snprintf(rung->options, sizeof rung->options, depth > 0 ? "--depth %d" : "--depth auto", depth);
 }
 
-// Branches below 1/`inverse` of a pixel are not followed.
-static void add_weights(const glint_settings *settings, glint_precision precision,
-                        glint_texels texels, int inverse, glint_ladder *ladder)
+void glint_rung_by_weight(const glint_settings *settings, glint_precision precision,
+                          glint_texels texels, double min_weight, glint_rung *rung)
 {
     const bool is_double = precision == GLINT_PRECISION_DOUBLE;
     const bool is_float = !is_double && texels == GLINT_TEXELS_FLOAT;
-    char name[64], options[128];
-    snprintf(name, sizeof name, "weights of 1/%d%s", inverse,
+    *rung = (glint_rung){.settings = *settings};
+    rung->settings.precision = precision;
+    rung->settings.texels = texels;
+    rung->settings.min_weight = min_weight;
+    snprintf(rung->name, sizeof rung->name, "weights of 1/%.0f%s", 1 / min_weight,
              is_double  ? ", double precision"
              : is_float ? ", float texels"
                         : "");
-    snprintf(options, sizeof options, "--min-weight %.12g%s", 1.0 / inverse,
+    snprintf(rung->options, sizeof rung->options, "--min-weight %.12g%s", min_weight,
              is_double  ? " --precision double"
              : is_float ? " --texels float"
                         : "");
-    glint_rung *rung = add(ladder, settings, name, options);
-    rung->settings.precision = precision;
-    rung->settings.texels = texels;
-    rung->settings.min_weight = 1.0 / inverse;
+}
+
+static void add_depth(const glint_settings *settings, int depth, glint_ladder *ladder)
+{
+    glint_rung_by_depth(settings, depth, &ladder->rungs[ladder->count++]);
+}
+
+static void add_weights(const glint_settings *settings, glint_precision precision,
+                        glint_texels texels, int inverse, glint_ladder *ladder)
+{
+    glint_rung_by_weight(settings, precision, texels, 1.0 / inverse,
+                         &ladder->rungs[ladder->count++]);
 }
 
 // Where paths split, how far the light branches are followed decides cost and error, and their
@@ -103,9 +112,9 @@ static void add_exact(const glint_plan *plan, const glint_settings *settings, gl
         GLINT_PRECISION_DOUBLE;
 }
 
-static void make_reference(const glint_settings *settings, glint_rung *reference)
+void glint_rung_reference(const glint_settings *settings, glint_rung *reference)
 {
-    reference->settings = *settings;
+    *reference = (glint_rung){.settings = *settings};
     reference->settings.precision = GLINT_PRECISION_DOUBLE;
     reference->settings.depth = GLINT_REFERENCE_DEPTH;
     reference->settings.min_weight = GLINT_REFERENCE_MIN_WEIGHT;
@@ -118,7 +127,7 @@ static void make_reference(const glint_settings *settings, glint_rung *reference
 void glint_ladder_make(const glint_plan *plan, const glint_settings *settings, glint_ladder *ladder)
 {
     *ladder = (glint_ladder){0};
-    make_reference(settings, &ladder->reference);
+    glint_rung_reference(settings, &ladder->reference);
     if (!has(plan, GLINT_FEATURE_GEOMETRY)) {
         add_exact(plan, settings, ladder);
         return;

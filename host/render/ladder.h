@@ -24,6 +24,13 @@ typedef struct glint_rung {
     glint_settings settings;
 } glint_rung;
 
+// Rungs that are the settings but for what their names say: how many surfaces paths meet (0: as
+// many as the weight allows); below which weight branches are not followed; the reference.
+void glint_rung_by_depth(const glint_settings *settings, int depth, glint_rung *rung);
+void glint_rung_by_weight(const glint_settings *settings, glint_precision precision,
+                          glint_texels texels, double min_weight, glint_rung *rung);
+void glint_rung_reference(const glint_settings *settings, glint_rung *reference);
+
 // Plain data.
 typedef struct glint_ladder {
     size_t count;

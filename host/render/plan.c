@@ -2,7 +2,6 @@
 #include "render/plan.h"
 
 #include "base/half.h"
-#include "environment/half_texels.h"
 #include "environment/mip_levels.h"
 
 #include <math.h>
@@ -187,7 +186,6 @@ static void decide_depth(glint_plan *plan)
 
 static void decide_settings(const glint_settings *settings, glint_plan *plan)
 {
-    decide_depth(plan);
     int samples = settings->samples_per_axis * settings->samples_per_axis;
     decide(plan, GLINT_FEATURE_SUPERSAMPLING, samples > 1, "%d sample%s a pixel", samples,
            samples == 1 ? "" : "s");
@@ -210,19 +208,26 @@ static void decide_settings(const glint_settings *settings, glint_plan *plan)
            harmonics ? "sh"
            : is_lit  ? "exact"
                      : "is not needed");
+    decide(plan, GLINT_FEATURE_PROXY, settings->proxy && !hits, "%s",
+           settings->proxy ? "the environment is as far away as its proxy"
+                           : "the environment is infinitely far away");
+    bool turned = fmod(settings->env_rotate, 360) != 0;
+    decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
+}
+
+// What is told of a frame beside its colours.
+static void decide_extras(const glint_settings *settings, glint_plan *plan)
+{
     if (settings->terms > 0) {
         decide(plan, GLINT_FEATURE_TERMS, true, "%d directions of a pixel are kept",
                settings->terms);
     } else {
         decide(plan, GLINT_FEATURE_TERMS, false, "no directions were asked for");
     }
+    decide(plan, GLINT_FEATURE_TRUNCATION_SQUARES, settings->truncation_squares, "%s",
+           settings->truncation_squares ? "errors are to be bounded" : "no error is to be bounded");
     decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
            settings->aovs != 0 ? "layers were asked for" : "no layers were asked for");
-    decide(plan, GLINT_FEATURE_PROXY, settings->proxy && !hits, "%s",
-           settings->proxy ? "the environment is as far away as its proxy"
-                           : "the environment is infinitely far away");
-    bool turned = fmod(settings->env_rotate, 360) != 0;
-    decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
 }
 
 // A packet fills the widest vector of the device; where a work-item is one lane of the hardware's
@@ -289,17 +294,14 @@ static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *p
 {
     const bool asked_for = in->settings->texels == GLINT_TEXELS_HALF;
     const size_t capacity = sizeof plan->texels_reason;
-    if (in->before != NULL) {
-        plan->half_texels = in->before->half_texels;
-        plan->texels_rmse = in->before->texels_rmse;
-        plan->environment_bytes /= plan->half_texels ? 2 : 1;
-        memcpy(plan->texels_reason, in->before->texels_reason, capacity);
-        return GLINT_OK;
-    }
     glint_half_rounding half;
-    glint_status status = glint_half_rounding_measure(in->environment, &half, error);
-    if (status != GLINT_OK) {
-        return status;
+    if (in->half != NULL) {
+        half = *in->half;
+    } else {
+        glint_status status = glint_half_rounding_measure(in->environment, &half, error);
+        if (status != GLINT_OK) {
+            return status;
+        }
     }
     double largest = (double)half.largest, most = (double)GLINT_HALF_MAX;
     bool fits = largest <= most; // NaN does not
@@ -353,6 +355,9 @@ glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *p
 
 // The path goes on with the lighter of two branches, which has at most half of the weight, so that
 // at most 1 + log2(1/min_weight) wait; one more slot tells that the stack is nearly full.
+// What does not fill a stack costs nothing, so that all weights down to 2^−16 share a kernel.
+#define STACK_LEAST 18
+
 static void choose_stack(const glint_settings *settings, glint_plan *plan)
 {
     plan->stack_capacity = 0;
@@ -362,7 +367,7 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
     }
     double by_weight = settings->min_weight > 0 ? floor(-log2(settings->min_weight)) + 1 : INFINITY;
     double need = fmin(by_weight, plan->depth) + 1;
-    plan->stack_capacity = (int)fmin(need, GLINT_DEPTH_MAX + 1);
+    plan->stack_capacity = (int)fmax(STACK_LEAST, fmin(need, GLINT_DEPTH_MAX + 1));
     if (need > plan->stack_capacity) {
         snprintf(plan->stack_reason, sizeof plan->stack_reason,
                  "%d is the most; more would be truncated and reported", plan->stack_capacity);
@@ -429,11 +434,17 @@ static void compile_everything(glint_plan *plan)
     }
 }
 
-static void choose_depth(const glint_plan_inputs *in, glint_plan *plan)
+static void choose_depth(const glint_settings *settings, const glint_sight *sight, glint_plan *plan)
 {
-    if (in->sight != NULL && glint_plan_heeds_sight(in->settings)) {
-        plan->sight = *in->sight;
+    plan->depth_is_auto = settings->depth == 0;
+    plan->depth = plan->depth_is_auto ? GLINT_DEPTH_MAX : settings->depth;
+    if (settings->output == GLINT_OUTPUT_HITS) {
+        plan->depth = 1;
+    } else if (glint_plan_shades_vertices(plan)) {
+        plan->depth = 1;
+        plan->depth_is_auto = false;
     }
+    plan->sight = glint_plan_heeds_sight(settings) ? *sight : (glint_sight){0};
     plan->depth_is_exact = plan->sight.depth > 0;
     if (plan->depth_is_exact) {
         plan->depth = plan->sight.depth;
@@ -451,6 +462,26 @@ void glint_plan_heed_sight(glint_plan *plan, bool heed)
     describe_secondary_rays(plan);
 }
 
+// The part of a plan that rests on neither scene nor topology.
+static glint_status vary(const glint_plan_inputs *in, const glint_sight *sight, glint_plan *plan,
+                         glint_error *error)
+{
+    const glint_settings *settings = in->settings;
+    plan->precision = settings->precision;
+    choose_depth(settings, sight, plan);
+    decide_depth(plan);
+    decide_extras(settings, plan);
+    if (settings->all_features) {
+        compile_everything(plan);
+    }
+    choose_width(in, plan);
+    choose_tiles(settings, plan);
+    choose_stack(settings, plan);
+    limit_branches(plan);
+    describe_secondary_rays(plan);
+    return glint_plan_choose_texels(in, plan, error);
+}
+
 glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     *plan = (glint_plan){0};
@@ -464,34 +495,26 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     if (status != GLINT_OK) {
         return status;
     }
-    plan->precision = settings->precision;
     plan->build_tag = settings->build_tag;
-    plan->depth_is_auto = settings->depth == 0;
-    plan->depth = plan->depth_is_auto ? GLINT_DEPTH_MAX : settings->depth;
     if (settings->output == GLINT_OUTPUT_HITS) {
         census = (material_census){.used = 1}; // whatever they are, none is looked at
-        plan->depth = 1;
-    } else if (in->scene->triangle_count > 0 && settings->shading != GLINT_SHADING_PIXEL) {
+    } else if (in->scene->triangle_count > 0) {
         plan->shading = settings->shading;
-        plan->depth = 1;
-        plan->depth_is_auto = false;
     }
-    choose_depth(in, plan);
     decide_materials(&census, plan);
     decide_optics(&census, settings->fresnel, plan);
     decide_scene(in, plan);
     decide_settings(settings, plan);
-    if (settings->all_features) {
-        compile_everything(plan);
-    }
-    choose_width(in, plan);
-    choose_tiles(settings, plan);
-    choose_stack(settings, plan);
-    limit_branches(plan);
-    describe_secondary_rays(plan);
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
-    return glint_plan_choose_texels(in, plan, error);
+    return vary(in, in->sight != NULL ? in->sight : &(glint_sight){0}, plan, error);
+}
+
+glint_status glint_plan_vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
+{
+    glint_status status = glint_plan_check_settings(in, error);
+    const glint_sight sight = plan->sight;
+    return status == GLINT_OK ? vary(in, &sight, plan, error) : status;
 }
 
 int glint_plan_feature_count(const glint_plan *plan)

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "device/capabilities.h"
 #include "environment/environment.h"
+#include "environment/half_texels.h"
 #include "kernels/features.h"
 #include "render/layers.h"
 #include "scene/scene.h"
@@ -95,9 +96,10 @@ typedef struct glint_settings {
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers
     int terms;             // of each pixel's that are kept, to light it anew, see terms.h: up to
                // GLINT_TERMS_MAX, 0: none; only beside colours, with the bilinear filter
-    uint32_t aovs;     // the set of diagnostic layers wanted, see layers.h; only beside colours
-    int kernel_width;  // lanes: 1, 8 or 16; 0: the plan's choice
-    int tile_packets;  // of a tile: 1 or 16; 0: the plan's choice
+    uint32_t aovs; // the set of diagnostic layers wanted, see layers.h; only beside colours
+    bool truncation_squares; // glint_truncation.rms is wanted
+    int kernel_width;        // lanes: 1, 8 or 16; 0: the plan's choice
+    int tile_packets;        // of a tile: 1 or 16; 0: the plan's choice
     bool all_features; // compile everything, needed or not (to test that it changes nothing but
                        // the rounding of mirrors at depth 1, which take a shorter way without)
     // 0, or a number that the kernels get and do not read: a build with a new one is in no driver's
@@ -160,8 +162,7 @@ typedef struct glint_plan_inputs {
     const glint_cube *environment;
     const glint_capabilities *device;
     const glint_settings *settings;
-    const glint_plan *before; // NULL, or one of the same environment, device and settings: what was
-                              // found of the texels is taken over
+    const glint_half_rounding *half; // what the environment loses as halfs; NULL: to be found
 } glint_plan_inputs;
 
 // Lanes of a packet on the device where nobody asks for others: 1, 8 or 16.
@@ -175,6 +176,12 @@ glint_status glint_plan_check_settings(const glint_plan_inputs *inputs, glint_er
 // cannot hold, GLINT_DEVICE_FAILED for what the device cannot do (double precision without
 // cl_khr_fp64).
 glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
+
+// The plan for other settings of the same scene, environment and device, of which precision,
+// texels, depth, least weight, layers, terms and truncation_squares may differ from those that
+// `plan` was made of, and shade pixels. Scene and topology are not read. Errors: as
+// glint_plan_make; *plan is then not to be used.
+glint_status glint_plan_vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error);
 
 // Chooses the texels for another environment alone. Scene and topology are not read. Errors: as
 // glint_plan_make; of the plan only what concerns the texels is changed.
@@ -208,6 +215,12 @@ void glint_plan_heed_sight(glint_plan *plan, bool heed);
 static inline bool glint_plan_shades_vertices(const glint_plan *plan)
 {
     return plan->shading != GLINT_SHADING_PIXEL;
+}
+
+// Bytes of a number of the plan's precision.
+static inline size_t glint_plan_scalar_bytes(const glint_plan *plan)
+{
+    return plan->precision == GLINT_PRECISION_DOUBLE ? sizeof(double) : sizeof(float);
 }
 
 // The number of features compiled.

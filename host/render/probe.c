@@ -44,7 +44,7 @@ struct glint_probe {
 
 static bool is_double(const glint_probe *probe)
 {
-    return probe->renderer->shown.plan.precision == GLINT_PRECISION_DOUBLE;
+    return probe->renderer->plan.precision == GLINT_PRECISION_DOUBLE;
 }
 
 static size_t scalar_size(const glint_probe *probe)
@@ -68,7 +68,7 @@ static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe
     }
     const glint_renderer *r = probe->renderer;
     char options[4096];
-    glint_plan_build_options(&r->shown.plan, options, sizeof options);
+    glint_plan_build_options(&r->plan, options, sizeof options);
     const glint_program_request request = {inputs->kernel_dir, options, true};
     const size_t bytes = CHUNK_ELEMENTS * GLINT_PROBE_BOUNCE * scalar_size(probe);
     probe->staging = malloc(bytes);
@@ -124,7 +124,7 @@ void glint_probe_free(glint_probe *probe)
 
 const glint_plan *glint_probe_plan(const glint_probe *probe)
 {
-    return &probe->renderer->shown.plan;
+    return &probe->renderer->plan;
 }
 
 void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
@@ -133,7 +133,7 @@ void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
     const glint_renderer *r = probe->renderer;
     *frame = (glint_frame_record){0};
     if (camera != NULL) {
-        glint_view_record(&r->space, camera, settings, &r->shown.plan, frame);
+        glint_view_record(&r->space, camera, settings, &r->plan, frame);
     }
     frame->environment_edge = r->environment_edge;
     frame->irradiance_edge = r->irradiance_edge;
@@ -188,7 +188,7 @@ static glint_status call_chunk(glint_probe *probe, glint_probe_part part, const 
                                double *out, size_t count, glint_error *error)
 {
     const glint_renderer *r = probe->renderer;
-    const size_t scalar = scalar_size(probe), per_item = elements_per_item(&r->shown.plan);
+    const size_t scalar = scalar_size(probe), per_item = elements_per_item(&r->plan);
     const size_t items = (count + per_item - 1) / per_item, global = items, local = 1;
     const size_t values_in = count * parts[part].in, values_out = count * parts[part].out;
     memset(probe->staging, 0, items * per_item * parts[part].in * scalar);

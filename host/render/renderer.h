@@ -3,6 +3,7 @@
 #define GLINT_RENDER_RENDERER_H
 
 #include "kernels/layout.h"
+#include "render/equipment.h"
 #include "render/frame.h"
 #include "render/pixels.h"
 #include "render/upload.h"
@@ -10,28 +11,38 @@
 
 // All that a scene needs before the device comes in. Zero is valid.
 typedef struct glint_prepared_scene {
-    glint_plan plan;
+    glint_plan plan;      // of the settings that the renderer was made with
     glint_bvh tree;       // of a scene that moves, less the arrays that the device has; else empty
     glint_bvh_report bvh; // outlives the tree
     double built_cost, built_area; // the tree's when it was last built, see make_tree
     double analysis_ms, bvh_ms;
 } glint_prepared_scene;
 
+// What kernels read of the light: some of the equipment's.
+typedef struct glint_light {
+    cl_mem environment, irradiance;
+} glint_light;
+
 struct glint_renderer {
-    glint_device *device;         // borrowed
-    glint_renderer_inputs inputs; // borrowed; the scene is that of the creation, and may be gone
-    glint_settings settings;
+    glint_device *device;          // borrowed
+    glint_renderer_inputs inputs;  // borrowed; the scene is that of the creation, and may be gone
+    glint_settings first_settings; // those of the creation
+    glint_settings settings;       // of the frames that follow
+    glint_plan plan;               // theirs
+    glint_half_rounding half;      // what the environment loses as halfs
+    bool half_is_known;
     glint_prepared_scene shown; // whose frames are rendered
     glint_prepared_scene next;  // made meanwhile; its tree is fitted from that of the last but one
     bool is_next_ready;
     glint_phases phases;
     glint_stored_space space;
     glint_geometry_memory geometry;
-    glint_light_memory light;
+    glint_equipment equipment;
+    glint_light light;
     int environment_edge, irradiance_edge;
     glint_proxy proxy;       // the environment's
-    cl_kernel kernel;        // NULL without frames
-    cl_kernel vertex_kernel; // NULL where pixels are shaded
+    cl_kernel kernel;        // the equipment's; NULL without frames
+    cl_kernel vertex_kernel; // likewise; NULL where pixels are shaded
     cl_mem vertices;         // what it finds
     glint_pixels pixels;
     cl_mem counters, layers, terms;
@@ -41,7 +52,7 @@ struct glint_renderer {
 };
 
 // The kernel's arguments that change from frame to frame; the others are the renderer's buffers, in
-// the order of set_buffers.
+// the order of set_buffers in equipment.c.
 #define GLINT_PIXELS_ARGUMENT 8
 #define GLINT_FRAME_ARGUMENT 13
 
@@ -51,17 +62,6 @@ static inline size_t glint_renderer_pixel_count(const glint_renderer *r)
     int size[2];
     glint_settings_pixels(&r->settings, size);
     return (size_t)size[0] * (size_t)size[1];
-}
-
-static inline size_t glint_renderer_layers_bytes(const glint_renderer *r)
-{
-    return r->settings.aovs != 0 ? glint_renderer_pixel_count(r) * sizeof(glint_layers_record) : 0;
-}
-
-static inline size_t glint_renderer_terms_bytes(const glint_renderer *r)
-{
-    const size_t places = r->settings.terms > 0 ? (size_t)r->settings.terms + 1 : 0;
-    return glint_renderer_pixel_count(r) * places * GLINT_TERM_VALUES * sizeof(float);
 }
 
 glint_status glint_renderer_set_argument(const glint_renderer *r, cl_uint index, size_t size,

@@ -36,6 +36,9 @@ typedef struct glint_sequence {
     glint_renderer *renderer;
     bool with_layers; // the renderer's settings ask for some
     size_t writers;   // threads that write; at least 1
+    // Renders frame->image, with its report; NULL: the renderer does.
+    glint_status (*render)(void *context, glint_sequence_frame *frame,
+                           const glint_progress *progress, glint_error *error);
     // Sets the next frame's number and camera, if there is one.
     glint_sequence_next (*next)(void *context, glint_sequence_frame *frame);
     // A frame has been traced, and is about to be queued.

@@ -15,7 +15,7 @@ _Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has g
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_layers_record) == 24, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 25 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 26 * 4, "glint_frame_record has gaps");
 
 #define MEBIBYTE 1048576.0
 #define LEAST_BYTES ((size_t)16) // of a buffer
@@ -243,20 +243,12 @@ cleanup:
     return status;
 }
 
-static glint_status upload_cube(const glint_upload_inputs *in, const char *what,
-                                const glint_cube *cube, cl_mem *buffer, glint_error *error)
-{
-    size_t bytes = cube->texels != NULL ? glint_cube_size(cube) * sizeof(float) : 0;
-    return glint_buffer_create(in->device, what, bytes, cube->texels, buffer, error);
-}
-
 // The environment and its coarser levels. Of halfs the map's own texels need no copy in between.
-static glint_status upload_levels(const glint_upload_inputs *in, glint_light_memory *memory,
+static glint_status upload_levels(const struct glint_device *device, bool half,
+                                  const glint_cube *cube, glint_environment_memory *memory,
                                   glint_error *error)
 {
     const char *what = "the environment";
-    const glint_cube *cube = in->environment;
-    const bool half = in->plan->half_texels;
     const size_t own = glint_cube_size(cube), count = glint_mip_levels_size(cube->edge);
     void *floats = glint_allocate_unset(half ? count - own : count, sizeof(float));
     void *halfs = half ? glint_allocate_unset(count, sizeof(uint16_t)) : NULL;
@@ -266,39 +258,49 @@ static glint_status upload_levels(const glint_upload_inputs *in, glint_light_mem
     } else if (half) {
         glint_mip_levels_fill(cube, floats);
         glint_mip_levels_to_half(cube, floats, halfs);
-        status = hand_over(in->device, what, count * sizeof(uint16_t), &halfs, &memory->kept,
-                           &memory->environment, error);
+        status = hand_over(device, what, count * sizeof(uint16_t), &halfs, &memory->kept,
+                           &memory->texels, error);
     } else {
         memcpy(floats, cube->texels, own * sizeof(float));
         glint_mip_levels_fill(cube, (float *)floats + own);
-        status = hand_over(in->device, what, count * sizeof(float), &floats, &memory->kept,
-                           &memory->environment, error);
+        status = hand_over(device, what, count * sizeof(float), &floats, &memory->kept,
+                           &memory->texels, error);
     }
     free(floats);
     free(halfs);
     return status;
 }
 
-static glint_status upload_environment(const glint_upload_inputs *in, glint_light_memory *memory,
-                                       glint_error *error)
+static glint_status upload_halfs(const struct glint_device *device, const glint_cube *cube,
+                                 glint_environment_memory *memory, glint_error *error)
 {
     const char *what = "the environment";
-    if (in->plan->features[GLINT_FEATURE_MIP_LEVELS].compiled) {
-        return upload_levels(in, memory, error);
-    }
-    if (!in->plan->half_texels) {
-        return upload_cube(in, what, in->environment, &memory->environment, error);
-    }
-    size_t count = glint_cube_size(in->environment);
+    const size_t count = glint_cube_size(cube);
     void *texels = glint_allocate_unset(count, sizeof(uint16_t));
     if (texels == NULL) {
         return glint_fail_memory(error, what);
     }
-    glint_cube_to_half(in->environment, texels);
-    glint_status status = hand_over(in->device, what, count * sizeof(uint16_t), &texels,
-                                    &memory->kept, &memory->environment, error);
+    glint_cube_to_half(cube, texels);
+    glint_status status = hand_over(device, what, count * sizeof(uint16_t), &texels, &memory->kept,
+                                    &memory->texels, error);
     free(texels);
     return status;
+}
+
+glint_status glint_environment_upload(const struct glint_device *device, const glint_plan *plan,
+                                      const glint_cube *environment,
+                                      glint_environment_memory *memory, glint_error *error)
+{
+    *memory = (glint_environment_memory){0};
+    if (plan->features[GLINT_FEATURE_MIP_LEVELS].compiled) {
+        return upload_levels(device, plan->half_texels, environment, memory, error);
+    }
+    if (plan->half_texels) {
+        return upload_halfs(device, environment, memory, error);
+    }
+    const size_t floats = environment->texels != NULL ? glint_cube_size(environment) : 0;
+    return glint_buffer_create(device, "the environment", floats * sizeof(float),
+                               environment->texels, &memory->texels, error);
 }
 
 glint_status glint_geometry_upload(const glint_upload_inputs *in, glint_geometry_memory *memory,
@@ -311,22 +313,6 @@ glint_status glint_geometry_upload(const glint_upload_inputs *in, glint_geometry
     }
     if (status != GLINT_OK) {
         glint_geometry_memory_free(memory);
-    }
-    return status;
-}
-
-glint_status glint_light_upload(const glint_upload_inputs *in, glint_light_memory *memory,
-                                glint_error *error)
-{
-    *memory = (glint_light_memory){0};
-    glint_status status = upload_environment(in, memory, error);
-    if (status == GLINT_OK) {
-        status = glint_buffer_create(in->device, "the irradiance",
-                                     in->irradiance_count * sizeof *in->irradiance, in->irradiance,
-                                     &memory->irradiance, error);
-    }
-    if (status != GLINT_OK) {
-        glint_light_memory_free(memory);
     }
     return status;
 }
@@ -368,10 +354,9 @@ void glint_geometry_take_back(glint_geometry_memory *memory, glint_bvh *bvh)
     *memory = (glint_geometry_memory){0};
 }
 
-void glint_light_memory_free(glint_light_memory *memory)
+void glint_environment_memory_free(glint_environment_memory *memory)
 {
-    glint_buffer_release(memory->environment);
-    glint_buffer_release(memory->irradiance);
+    glint_buffer_release(memory->texels);
     free(memory->kept);
-    *memory = (glint_light_memory){0};
+    *memory = (glint_environment_memory){0};
 }

@@ -19,22 +19,18 @@ typedef struct glint_geometry_memory {
     void *kept[GLINT_TREE_ARRAYS]; // NULL where the tree's array was copied
 } glint_geometry_memory;
 
-typedef struct glint_light_memory {
-    cl_mem environment, irradiance;
-    void *kept; // what the environment lies in
-} glint_light_memory;
+typedef struct glint_environment_memory {
+    cl_mem texels;
+    void *kept; // what they lie in
+} glint_environment_memory;
 
-// Everything that is uploaded. Pointers are borrowed; `irradiance` may be none. A device
-// that shares the host's memory takes the tree's arrays over instead of copying them, and leaves
-// NULL.
+// What is uploaded of a scene. Pointers are borrowed. A device that shares the host's memory takes
+// the tree's arrays over instead of copying them, and leaves NULL.
 typedef struct glint_upload_inputs {
     const struct glint_device *device;
     const glint_scene *scene;
     glint_bvh *bvh;
     const glint_plan *plan;
-    const glint_cube *environment;
-    const float *irradiance; // a map's texels, or coefficients, see kernels/layout.h
-    size_t irradiance_count; // floats
 } glint_upload_inputs;
 
 // What takes memory beside the scene.
@@ -49,8 +45,7 @@ typedef struct glint_upload_sizes {
 glint_status glint_upload_check(const struct glint_device *device, const glint_scene *scene,
                                 const glint_upload_sizes *sizes, glint_error *error);
 
-// The tree and the materials, of `inputs` all but the cubes. Errors: GLINT_DEVICE_FAILED; *memory
-// is then empty.
+// The tree and the materials. Errors: GLINT_DEVICE_FAILED; *memory is then empty.
 glint_status glint_geometry_upload(const glint_upload_inputs *inputs, glint_geometry_memory *memory,
                                    glint_error *error);
 void glint_geometry_memory_free(glint_geometry_memory *memory);
@@ -58,10 +53,11 @@ void glint_geometry_memory_free(glint_geometry_memory *memory);
 // Frees the buffers and gives the tree the arrays back that were taken over.
 void glint_geometry_take_back(glint_geometry_memory *memory, glint_bvh *bvh);
 
-// The cubes. Errors likewise.
-glint_status glint_light_upload(const glint_upload_inputs *inputs, glint_light_memory *memory,
-                                glint_error *error);
-void glint_light_memory_free(glint_light_memory *memory);
+// The environment's texels as the plan wants them. Errors likewise.
+glint_status glint_environment_upload(const struct glint_device *device, const glint_plan *plan,
+                                      const glint_cube *environment,
+                                      glint_environment_memory *memory, glint_error *error);
+void glint_environment_memory_free(glint_environment_memory *memory);
 
 // A buffer of `bytes` (at least 16 are made), filled from `data` unless that is NULL. `what` names
 // it in messages.

@@ -1,8 +1,6 @@
 // Shading at vertices. See vertices.h.
 #include "render/vertices.h"
 
-#include "device/program.h"
-
 size_t glint_vertices_bytes(const glint_plan *plan, size_t clusters)
 {
     static const size_t vectors[] = {
@@ -18,8 +16,8 @@ glint_status glint_vertices_allocate(glint_renderer *r, glint_error *error)
     glint_buffer_release(r->vertices);
     r->vertices = NULL;
     return glint_buffer_create(r->device, "the vertices",
-                               glint_vertices_bytes(&r->shown.plan, r->shown.bvh.cluster_count),
-                               NULL, &r->vertices, error);
+                               glint_vertices_bytes(&r->plan, r->shown.bvh.cluster_count), NULL,
+                               &r->vertices, error);
 }
 
 // Launches the kernel for the first `count` clusters.
@@ -49,7 +47,7 @@ static glint_status launch(const glint_renderer *r, const glint_frame_record *vi
         return glint_fail_opencl(error, r->device, "setting a kernel's argument", code);
     }
     // Not left to the driver: one that compiles for each size of work-groups would take seconds.
-    const size_t local = r->shown.plan.kernel_width == 1 ? 16 : 1;
+    const size_t local = r->plan.kernel_width == 1 ? 16 : 1;
     const size_t global = (count / local + 1) * local;
     cl_event done;
     code = clEnqueueNDRangeKernel(r->device->launches, r->vertex_kernel, 1, NULL, &global, &local,
@@ -59,18 +57,10 @@ static glint_status launch(const glint_renderer *r, const glint_frame_record *vi
                : glint_fail_opencl(error, r->device, "running the kernel for vertices", code);
 }
 
-glint_status glint_vertices_take_kernel(glint_renderer *r, cl_program program, glint_error *error)
+glint_status glint_vertices_warm_up(const glint_renderer *r, glint_error *error)
 {
-    if (!glint_plan_shades_vertices(&r->shown.plan)) {
-        return GLINT_OK;
-    }
-    glint_status status =
-        glint_program_kernel(r->device, program, "shade_vertices", &r->vertex_kernel, error);
-    if (status == GLINT_OK) {
-        const glint_frame_record nothing = {0};
-        status = launch(r, &nothing, 0, error);
-    }
-    return status;
+    const glint_frame_record nothing = {0};
+    return r->vertex_kernel == NULL ? GLINT_OK : launch(r, &nothing, 0, error);
 }
 
 glint_status glint_vertices_shade(const glint_renderer *r, const glint_frame_record *view,

@@ -13,9 +13,9 @@ size_t glint_vertices_bytes(const glint_plan *plan, size_t clusters);
 // GLINT_DEVICE_FAILED.
 glint_status glint_vertices_allocate(glint_renderer *r, glint_error *error);
 
-// Takes the kernel from the program, if the plan shades vertices, and launches it once for no
-// vertex, see build_kernel. Errors: GLINT_DEVICE_FAILED.
-glint_status glint_vertices_take_kernel(glint_renderer *r, cl_program program, glint_error *error);
+// Launches the kernel once for no vertex, see equipment.c. Nothing where the plan shades pixels.
+// Errors: GLINT_DEVICE_FAILED.
+glint_status glint_vertices_warm_up(const glint_renderer *r, glint_error *error);
 
 // Shades all vertices for the view, and waits for the end. Nothing where the plan shades pixels.
 // Errors: GLINT_DEVICE_FAILED.

@@ -130,3 +130,24 @@ size_t test_count_different(const glint_image *a, const glint_image *b)
     }
     return different;
 }
+
+void test_stage_open(const char *scene, const glint_settings *settings, test_stage *stage)
+{
+    *stage = (test_stage){.settings = *settings};
+    test_scene_load(scene, &stage->scene);
+    assert_int_equal(glint_environment_studio(&stage->environment, NULL), GLINT_OK);
+    assert_int_equal(glint_scene_camera(&stage->scene, NULL, &stage->camera, NULL), GLINT_OK);
+    const glint_renderer_inputs inputs = {.device = test_device(),
+                                          .scene = &stage->scene,
+                                          .environment = &stage->environment,
+                                          .settings = &stage->settings};
+    assert_int_equal(glint_renderer_create(&inputs, &stage->renderer, NULL), GLINT_OK);
+}
+
+void test_stage_close(test_stage *stage)
+{
+    glint_renderer_free(stage->renderer);
+    glint_environment_free(&stage->environment);
+    glint_scene_free(&stage->scene);
+    *stage = (test_stage){0};
+}

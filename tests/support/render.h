@@ -15,6 +15,18 @@ int test_close_device(void **state);
 // Loads scenes/NAME.gltf; fails the running test, with the error, if it cannot.
 void test_scene_load(const char *name, glint_scene *scene);
 
+// A scene, its first camera, the studio around it, and a renderer. Fails the test on any error.
+typedef struct test_stage {
+    glint_scene scene;
+    glint_environment environment;
+    glint_camera camera;
+    glint_settings settings;
+    glint_renderer *renderer;
+} test_stage;
+
+void test_stage_open(const char *scene, const glint_settings *settings, test_stage *stage);
+void test_stage_close(test_stage *stage);
+
 typedef struct test_frame {
     glint_image image;
     glint_frame_report report;

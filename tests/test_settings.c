@@ -1,0 +1,233 @@
+// Other settings for a renderer that there is: its frames are, bit by bit, those of one that was
+// made with them. And what is counted of frames for whoever chooses settings.
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef struct variation {
+    glint_precision precision;
+    glint_texels texels;
+    int depth;
+    double min_weight;
+    int grid_step;
+    uint32_t aovs;
+    int terms;
+    bool truncation_squares;
+} variation;
+
+static const variation variations[] = {
+    {.min_weight = 0.01, .truncation_squares = true},
+    {.precision = GLINT_PRECISION_DOUBLE, .min_weight = 1e-4},
+    {.texels = GLINT_TEXELS_FLOAT, .depth = 2, .min_weight = 0.01},
+    {.precision = GLINT_PRECISION_DOUBLE,
+     .texels = GLINT_TEXELS_HALF,
+     .min_weight = 0.1,
+     .grid_step = 3},
+    {.depth = 1, .min_weight = 0.01, .aovs = GLINT_AOV_ALL},
+    {.min_weight = 1e-5, .grid_step = 2, .terms = 2},
+    {.min_weight = 0.01, .truncation_squares = true}, // the first once more
+    {.depth = 200, .min_weight = 1e-7},
+};
+
+enum { VARIATIONS = sizeof variations / sizeof *variations };
+
+static glint_settings vary(const glint_settings *first, const variation *v)
+{
+    glint_settings s = *first;
+    s.precision = v->precision;
+    s.texels = v->texels;
+    s.depth = v->depth;
+    s.min_weight = v->min_weight;
+    s.grid_step = v->grid_step;
+    s.aovs = v->aovs;
+    s.terms = v->terms;
+    s.truncation_squares = v->truncation_squares;
+    return s;
+}
+
+static void check_plan(const glint_plan *plan, const glint_plan *other)
+{
+    char options[2][4096];
+    glint_plan_build_options(plan, options[0], sizeof options[0]);
+    glint_plan_build_options(other, options[1], sizeof options[1]);
+    assert_string_equal(options[0], options[1]);
+    assert_int_equal(plan->depth, other->depth);
+    assert_int_equal(plan->depth_is_exact, other->depth_is_exact);
+    assert_int_equal(plan->environment_bytes, other->environment_bytes);
+    assert_string_equal(plan->texels_reason, other->texels_reason);
+    assert_string_equal(plan->width_reason, other->width_reason);
+}
+
+// Both frames have what the settings ask for, and it is the same.
+static void check_frame(test_stage *s, const glint_settings *settings)
+{
+    test_frame own;
+    glint_image image = {0};
+    glint_frame_report report;
+    glint_layers layers = {0};
+    test_render(&s->scene, &s->environment, NULL, settings, &own);
+    assert_int_equal(glint_renderer_frame(s->renderer, &s->camera, NULL, &image, &report, NULL),
+                     GLINT_OK);
+    check_plan(glint_renderer_plan(s->renderer), &own.plan);
+    assert_int_equal(test_count_different(&image, &own.image), 0);
+    assert_memory_equal(&report.rays, &own.report.rays, sizeof report.rays);
+    assert_memory_equal(&report.truncation, &own.report.truncation, sizeof report.truncation);
+    const bool has_layers = settings->aovs != 0 || settings->terms > 0;
+    assert_int_equal(glint_renderer_layers(s->renderer, &layers, NULL),
+                     has_layers ? GLINT_OK : GLINT_USAGE);
+    assert_int_equal(layers.count, own.layers.count);
+    const size_t pixels = (size_t)image.width * (size_t)image.height;
+    for (size_t i = 0; i < layers.count; i++) {
+        assert_memory_equal(layers.channels[i].values, own.layers.channels[i].values,
+                            pixels * sizeof(float));
+    }
+    glint_layers_free(&layers);
+    glint_image_free(&image);
+    test_frame_free(&own);
+}
+
+static void check_variations(const char *scene)
+{
+    const glint_settings first = test_small_frame(0);
+    test_stage s;
+    test_stage_open(scene, &first, &s);
+    for (int i = 0; i < VARIATIONS; i++) {
+        const glint_settings settings = vary(&first, &variations[i]);
+        assert_int_equal(glint_renderer_set_settings(s.renderer, &settings, NULL), GLINT_OK);
+        check_frame(&s, &settings);
+    }
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &first, NULL), GLINT_OK);
+    check_frame(&s, &first);
+    test_stage_close(&s);
+}
+
+static void frames_are_those_of_a_renderer_made_with_them(void **state)
+{
+    (void)state;
+    check_variations("gallery");
+    check_variations("mirror_sphere"); // where depth 1 is proved, for eyes outside
+    check_variations("lecture_example_2");
+}
+
+static void another_scene_or_environment_brings_the_first_settings_back(void **state)
+{
+    (void)state;
+    const glint_settings first = test_small_frame(0);
+    const glint_settings other = vary(&first, &variations[3]);
+    test_stage s;
+    test_stage_open("materials", &first, &s);
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &other, NULL), GLINT_OK);
+    assert_int_equal(glint_renderer_prepare(s.renderer, &s.scene, NULL), GLINT_OK);
+    check_frame(&s, &other);
+    assert_int_equal(glint_renderer_set_prepared(s.renderer, &s.scene, NULL), GLINT_OK);
+    check_frame(&s, &first);
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &other, NULL), GLINT_OK);
+    assert_int_equal(glint_renderer_set_scene(s.renderer, &s.scene, NULL), GLINT_OK);
+    check_frame(&s, &first);
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &other, NULL), GLINT_OK);
+    assert_int_equal(glint_renderer_set_environment(s.renderer, &s.environment, NULL), GLINT_OK);
+    check_frame(&s, &first);
+    test_stage_close(&s);
+}
+
+static void bad_ones_are_refused_until_there_are_good_ones(void **state)
+{
+    (void)state;
+    const glint_settings first = test_small_frame(0);
+    test_stage s;
+    test_stage_open("prism", &first, &s);
+    glint_settings bad = first;
+    bad.min_weight = -1;
+    glint_image image = {0};
+    glint_error error = {0};
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &bad, &error), GLINT_USAGE);
+    assert_non_null(strstr(error.message, "--min-weight"));
+    glint_error_free(&error);
+    assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &image, NULL, NULL),
+                     GLINT_USAGE);
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &first, NULL), GLINT_OK);
+    check_frame(&s, &first);
+    test_stage_close(&s);
+}
+
+// ---- What is counted ---------------------------------------------------------------------------
+
+typedef struct truncation_case {
+    const char *scene;
+    int depth, samples_per_axis;
+    double min_weight;
+    bool is_zero; // nothing counts
+} truncation_case;
+
+static const truncation_case truncations[] = {
+    {"gallery", 3, 1, 1.0 / 64, false},    {"gallery", 2, 2, 0.1, false},
+    {"mirror_sphere", 1, 1, 0, false},     {"mirror_sphere", 0, 1, 0, true}, // proved to be exact
+    {"lecture_example_2", 2, 1, 0, false},
+};
+
+// The layer holds what the longest way of counting gives: each pixel's weights one by one.
+static double rms_of_layer(const test_frame *frame, const glint_settings *settings)
+{
+    const size_t pixels = (size_t)settings->width * (size_t)settings->height;
+    double sum = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        const double weight = (double)frame->layers.channels[0].values[i];
+        sum += weight * weight;
+    }
+    return sqrt(sum / (double)pixels);
+}
+
+static void truncated_weight_is_counted_pixel_by_pixel(void **state)
+{
+    (void)state;
+    static const int widths[] = {1, 8, 16};
+    glint_environment studio;
+    assert_int_equal(glint_environment_studio(&studio, NULL), GLINT_OK);
+    for (size_t i = 0; i < sizeof truncations / sizeof *truncations; i++) {
+        const truncation_case *c = &truncations[i];
+        glint_scene scene = {0};
+        test_scene_load(c->scene, &scene);
+        glint_settings settings = test_small_frame(c->depth);
+        settings.samples_per_axis = c->samples_per_axis;
+        settings.min_weight = c->min_weight;
+        settings.truncation_squares = true;
+        double rms[3];
+        for (int w = 0; w < 3; w++) {
+            test_frame frame;
+            settings.kernel_width = widths[w];
+            test_render(&scene, &studio, NULL, &settings, &frame);
+            rms[w] = frame.report.truncation.rms;
+            test_frame_free(&frame);
+        }
+        assert_true(rms[0] == rms[1] && rms[1] == rms[2]);
+        settings.aovs = GLINT_AOV_BIT(GLINT_AOV_TRUNCATED);
+        test_frame with_layer;
+        test_render(&scene, &studio, NULL, &settings, &with_layer);
+        const double expected = c->is_zero ? 0 : rms_of_layer(&with_layer, &settings);
+        assert_true(c->is_zero || expected > 1e-3);
+        // Float sums of at most some hundred weights, and 2^−37 of each square.
+        assert_true(fabs(rms[0] - expected) <= 1e-5 * expected);
+        test_frame_free(&with_layer);
+        glint_scene_free(&scene);
+    }
+    glint_environment_free(&studio);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_are_those_of_a_renderer_made_with_them),
+        cmocka_unit_test(another_scene_or_environment_brings_the_first_settings_back),
+        cmocka_unit_test(bad_ones_are_refused_until_there_are_good_ones),
+        cmocka_unit_test(truncated_weight_is_counted_pixel_by_pixel),
+    };
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
