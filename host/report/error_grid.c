@@ -1,0 +1,158 @@
+// Pictures of a sparse grid of a frame's pixels. See error_grid.h.
+#include "report/error_grid.h"
+
+#include "report/metrics.h"
+#include "report/stats.h"
+
+#include <math.h>
+
+#define SHIFT 0.001  // of a pixel
+#define MATTERS 0.01 // of the mean
+#define STANDARD_ERRORS 2
+
+int glint_error_grid_step(int width, int height)
+{
+    const double pixels = (double)width * height;
+    return (int)fmax(1, floor(sqrt(pixels / GLINT_ERROR_GRID_PIXELS)));
+}
+
+size_t glint_error_grid_pixel_count(const glint_error_grid *grid)
+{
+    return (size_t)grid->reference.width * (size_t)grid->reference.height;
+}
+
+static bool go_on(void *context, uint64_t done, uint64_t total)
+{
+    (void)done, (void)total;
+    const glint_progress *progress = context;
+    return progress->step(progress->context, 0, 1);
+}
+
+glint_status glint_error_grid_render(glint_error_grid *grid, const glint_settings *settings,
+                                     const glint_camera *camera, glint_image *image,
+                                     glint_frame_report *report, glint_error *error)
+{
+    glint_settings of_grid = *settings;
+    of_grid.grid_step = grid->step > 1 ? grid->step : 0;
+    of_grid.aovs = 0;
+    of_grid.terms = 0;
+    of_grid.truncation_squares = true;
+    const bool asks = grid->progress != NULL && grid->progress->step != NULL;
+    const glint_progress progress = {asks ? go_on : NULL, (void *)grid->progress};
+    glint_status status = glint_renderer_set_settings(grid->renderer, &of_grid, error);
+    if (status == GLINT_OK) {
+        status = glint_renderer_frame(grid->renderer, camera, asks ? &progress : NULL, image,
+                                      report, error);
+    }
+    if (status == GLINT_OK) {
+        grid->rays += glint_stats_rays(&report->rays);
+        grid->pictures++;
+    }
+    return status;
+}
+
+static glint_grid_error compare(const glint_error_grid *grid)
+{
+    const size_t count = glint_error_grid_pixel_count(grid);
+    double sum = 0, squares = 0; // of the pixels' square errors
+    for (size_t i = 0; i < count; i++) {
+        const glint_pixel_error e =
+            glint_metrics_pixel(&grid->image, &grid->reference, i, grid->mean);
+        const glint_pixel_error same =
+            glint_metrics_pixel(&grid->reference, &grid->reference, i, grid->mean);
+        if (same.is_finite && !e.is_finite) {
+            return (glint_grid_error){(double)INFINITY, (double)INFINITY};
+        }
+        double square = 0;
+        for (int c = 0; c < 3; c++) {
+            square += e.difference[c] * e.difference[c] / 3;
+        }
+        sum += square;
+        squares += square * square;
+    }
+    if (sum == 0) {
+        return (glint_grid_error){0, 0};
+    }
+    const double n = (double)count, mean = sum / n;
+    const double variance = fmax(0, squares / n - mean * mean);
+    const double error = grid->step > 1 ? sqrt(variance / n) : 0;
+    glint_grid_error result;
+    result.measured = sqrt(mean) / fabs(grid->mean);
+    result.at_most = sqrt(mean + STANDARD_ERRORS * error) / fabs(grid->mean);
+    return result;
+}
+
+glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
+                                      glint_grid_error *result, glint_frame_report *report,
+                                      glint_error *error)
+{
+    glint_status status =
+        glint_error_grid_render(grid, settings, grid->camera, &grid->image, report, error);
+    if (status == GLINT_OK) {
+        *result = compare(grid);
+    }
+    return status;
+}
+
+// ---- Chaos -------------------------------------------------------------------------------------
+
+// The camera turned, or one of parallel rays moved, to the right by a part of a pixel.
+static glint_camera shifted(const glint_camera *camera, int height, double pixels)
+{
+    glint_camera c = *camera;
+    if (camera->orthographic) {
+        const double step = pixels * 2 * camera->ymag / height;
+        c.eye = glint_vec3_add(camera->eye, glint_vec3_scale(camera->right, step));
+        return c;
+    }
+    const double angle = pixels * 2 * tan(camera->yfov / 2) / height;
+    const double cosine = cos(angle), sine = sin(angle);
+    c.back = glint_vec3_add(glint_vec3_scale(camera->back, cosine),
+                            glint_vec3_scale(camera->right, -sine));
+    c.right = glint_vec3_add(glint_vec3_scale(camera->right, cosine),
+                             glint_vec3_scale(camera->back, sine));
+    return c;
+}
+
+// The largest of the three differences; 0 where either is not finite.
+static double difference(const glint_image *a, const glint_image *b, size_t pixel)
+{
+    const glint_pixel_error e = glint_metrics_pixel(a, b, pixel, 0);
+    return e.is_finite ? e.absolute_most : 0;
+}
+
+glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_settings *settings,
+                                         int depth, double contrast, double *share,
+                                         glint_error *error)
+{
+    const glint_camera beside = shifted(grid->camera, settings->height, SHIFT);
+    const size_t count = glint_error_grid_pixel_count(grid);
+    glint_settings shallow = *settings;
+    shallow.depth = depth;
+    glint_image cut = {0}, moved = {0};
+    glint_frame_report unused;
+    *share = 0;
+    glint_status status =
+        glint_error_grid_render(grid, settings, grid->camera, &grid->image, &unused, error);
+    if (status == GLINT_OK) {
+        status = glint_error_grid_render(grid, &shallow, grid->camera, &cut, &unused, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_error_grid_render(grid, settings, &beside, &moved, &unused, error);
+    }
+    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
+        if (difference(&cut, &grid->image, i) > MATTERS * fabs(grid->mean)) {
+            *share += fmin(1, difference(&moved, &grid->image, i) / contrast) / (double)count;
+        }
+    }
+    glint_image_free(&cut);
+    glint_image_free(&moved);
+    return status;
+}
+
+void glint_error_grid_free(glint_error_grid *grid)
+{
+    glint_image_free(&grid->reference);
+    glint_image_free(&grid->image);
+    *grid = (glint_error_grid){0};
+}

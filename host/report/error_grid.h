@@ -1,0 +1,59 @@
+// Pictures of a sparse grid of a frame's pixels, and their errors. For error_bound.c only.
+#ifndef GLINT_REPORT_ERROR_GRID_H
+#define GLINT_REPORT_ERROR_GRID_H
+
+#include "render/frame.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Zero is valid.
+typedef struct glint_error_grid {
+    glint_renderer *renderer;       // borrowed
+    const glint_camera *camera;     // likewise
+    const glint_progress *progress; // likewise; may be NULL. It is asked whether to go on, no more
+    glint_image reference;
+    glint_image image; // the last one that was measured
+    double mean;       // the reference's
+    int step;          // of the grid; 1: it is the frame
+    int pictures;      // so far
+    uint64_t rays;     // likewise
+} glint_error_grid;
+
+// About so many pixels are a grid's.
+#define GLINT_ERROR_GRID_PIXELS 9000
+
+// The step of the grid of a frame.
+int glint_error_grid_step(int width, int height);
+
+// Renders the grid's pixels with `settings`, but for their grid_step and extras, through `camera`
+// into *image.
+glint_status glint_error_grid_render(glint_error_grid *grid, const glint_settings *settings,
+                                     const glint_camera *camera, glint_image *image,
+                                     glint_frame_report *report, glint_error *error);
+
+// Relative RMSE against the grid's reference, infinite where pixels are not finite that the
+// reference's are; and the same with two standard errors added to the mean square: about what it is
+// at most over the whole frame, as far as a grid can tell.
+typedef struct glint_grid_error {
+    double measured, at_most;
+} glint_grid_error;
+
+glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
+                                      glint_grid_error *result, glint_frame_report *report,
+                                      glint_error *error);
+
+// How much of the grid hangs on digits that single precision does not have: of the pixels whose
+// light beyond `depth` surfaces matters (by a hundredth of the mean), by how much a shift of the
+// camera by a thousandth of a pixel changes them, in parts of `contrast` and one at most; the mean
+// over all pixels. Rounding in single precision shifts a path by less at its begin, but again at
+// each surface. Found in double precision.
+glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_settings *settings,
+                                         int depth, double contrast, double *share,
+                                         glint_error *error);
+
+size_t glint_error_grid_pixel_count(const glint_error_grid *grid);
+
+void glint_error_grid_free(glint_error_grid *grid);
+
+#endif
