@@ -9,16 +9,8 @@
 
 glint_status bench_error_check(const glint_settings *settings, glint_error *error)
 {
-    const glint_settings *usual = &glint_settings_default;
-    const char *own = settings->depth != usual->depth             ? "--depth"
-                      : settings->min_weight != usual->min_weight ? "--min-weight"
-                      : settings->precision != usual->precision   ? "--precision"
-                      : settings->fresnel != usual->fresnel       ? "--fresnel"
-                      : settings->texels != usual->texels         ? "--texels"
-                      : settings->filter != usual->filter         ? "--filter"
-                      : settings->irradiance != usual->irradiance ? "--irradiance"
-                      : settings->shading != usual->shading       ? "--shading"
-                                                                  : NULL;
+    const char *own =
+        settings->filter != GLINT_FILTER_BILINEAR ? "--filter" : glint_error_option(settings);
     return own == NULL
                ? GLINT_OK
                : glint_fail(error, GLINT_USAGE,

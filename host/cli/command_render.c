@@ -24,6 +24,7 @@ static glint_stats stats_of(const render_run *run, const glint_subject *subject)
         .total_ms = glint_progress_elapsed(&run->display),
         .exposure = run->request->exposure,
         .plate = run->request->plate,
+        .choice = run->request->max_error > 0 && run->totals.rendered > 0 ? &run->choice : NULL,
     };
 }
 
@@ -84,9 +85,9 @@ static const char *truncation_advice(const glint_truncation *truncation, glint_s
 }
 
 // What the frame's figures give cause to say.
-static void warn_of_report(const glint_frame_report *report, glint_shading shading,
-                           glint_warnings *warnings)
+static void warn_of_report(const render_run *run, glint_warnings *warnings)
 {
+    const glint_frame_report *report = &run->totals.worst;
     const glint_truncation *truncation = &report->truncation;
     if (report->nonfinite_pixels > 0) {
         glint_warn(warnings, "%llu pixels are not finite",
@@ -96,10 +97,13 @@ static void warn_of_report(const glint_frame_report *report, glint_shading shadi
         glint_warn(warnings, "solids nest too deep: %llu paths forgot one that they were in",
                    (unsigned long long)truncation->media_overflows);
     }
-    if (glint_stats_truncated(truncation) > TRUNCATION_WORTH_SAYING) {
+    // Where an error is kept that has been weighed.
+    if (run->request->max_error == 0 &&
+        glint_stats_truncated(truncation) > TRUNCATION_WORTH_SAYING) {
         glint_warn(warnings,
                    "%.2g%% of the light took the environment before its path had ended (%s)",
-                   100 * glint_stats_truncated(truncation), truncation_advice(truncation, shading));
+                   100 * glint_stats_truncated(truncation),
+                   truncation_advice(truncation, run->request->inputs.settings.shading));
     }
 }
 
@@ -114,6 +118,12 @@ static void say_frame(const render_run *run)
               glint_progress_elapsed(&run->display),
               run->inputs.scene_ms + run->inputs.environment_ms, phases->bvh, phases->kernel_build,
               run->last.kernel_ms, run->totals.write.sum, rate);
+    if (run->request->max_error > 0) {
+        const glint_error_choice *choice = &run->choice;
+        glint_say("  error %.2g of %g allowed, by %s (chosen on %d of its pixels in %.0f ms)",
+                  choice->error, choice->bound, choice->rung.options, choice->grid_pixels,
+                  choice->choosing_ms);
+    }
 }
 
 static void say_spread(const char *name, const render_spread *spread, uint64_t count)
@@ -141,8 +151,15 @@ static void say_sequence(const render_run *run)
             run->request->capture != NULL) {
             say_spread("build", &totals->build, totals->rendered);
         }
+        if (run->request->max_error > 0) {
+            say_spread("choose", &totals->choosing, totals->rendered);
+        }
         say_spread("trace", &totals->trace, totals->rendered);
         say_spread("write", &totals->write, totals->rendered);
+        if (run->request->max_error > 0) {
+            glint_say("  errors of %.2g to %.2g, of %g allowed", totals->error.least,
+                      totals->error.most, run->request->max_error);
+        }
     }
 }
 
@@ -216,8 +233,7 @@ static glint_status render(render_run *run, glint_error *error)
         glint_error_free(&later);
         return status;
     }
-    warn_of_report(&run->totals.worst, run->request->inputs.settings.shading,
-                   &run->inputs.warnings);
+    warn_of_report(run, &run->inputs.warnings);
     glint_say_warnings(&run->inputs.warnings, run->warnings_said);
     if (written == GLINT_OK) {
         written = write_stats(run, &later);

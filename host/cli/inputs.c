@@ -196,6 +196,19 @@ const glint_option glint_input_options[] = {
     GLINT_OPTION_END,
 };
 
+const char *glint_error_option(const glint_settings *settings)
+{
+    const glint_settings *usual = &glint_settings_default;
+    return settings->depth != usual->depth             ? "--depth"
+           : settings->min_weight != usual->min_weight ? "--min-weight"
+           : settings->precision != usual->precision   ? "--precision"
+           : settings->fresnel != usual->fresnel       ? "--fresnel"
+           : settings->texels != usual->texels         ? "--texels"
+           : settings->irradiance != usual->irradiance ? "--irradiance"
+           : settings->shading != usual->shading       ? "--shading"
+                                                       : NULL;
+}
+
 const glint_option glint_size_options[] = {GLINT_SIZE_OPTIONS("1280x720"), GLINT_OPTION_END};
 
 const glint_option glint_settings_options[] = {

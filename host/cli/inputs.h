@@ -44,6 +44,10 @@ typedef struct glint_input_request {
 extern const glint_option glint_input_options[];
 extern const glint_option glint_size_options[];
 extern const glint_option glint_settings_options[];
+
+// The first option, by its name, that says something of what errors are weighed by: precision,
+// depth, weights and the like; NULL where all are at their defaults.
+const char *glint_error_option(const glint_settings *settings);
 extern const glint_option glint_kernel_dir_options[];
 
 // Rows that say how an environment's file is read, for a request with a glint_layout_request at

@@ -246,6 +246,11 @@ glint_status render_light_show(render_run *run, glint_error *error)
         light->shown = (glint_fingerprint){0};
         status = glint_renderer_set_environment(run->renderer, &run->inputs.environment, error);
     }
+    if (status == GLINT_OK && run->request->max_error > 0 &&
+        !glint_fingerprints_equal(light->weighed, light->loaded)) {
+        glint_error_bound_set_environment(&run->bound, &run->inputs.environment.radiance);
+        light->weighed = light->loaded;
+    }
     if (status == GLINT_OK) {
         light->shown = light->loaded;
     }

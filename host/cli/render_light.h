@@ -14,10 +14,11 @@ typedef struct render_run render_run;
 
 // Zero is valid. The environment itself is the run's (inputs.environment).
 typedef struct render_light {
-    glint_fingerprint is;     // of what the frame that stands is to have
-    glint_fingerprint loaded; // of what there is
-    glint_fingerprint shown;  // of what the renderer has
-    bool has_file;            // of frame `frame`: what there is is its file's
+    glint_fingerprint is;      // of what the frame that stands is to have
+    glint_fingerprint loaded;  // of what there is
+    glint_fingerprint shown;   // of what the renderer has
+    glint_fingerprint weighed; // of what --max-error has been told of
+    bool has_file;             // of frame `frame`: what there is is its file's
     int frame;
     // Of captures:
     glint_environment surroundings; // behind all that is captured

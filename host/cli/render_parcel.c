@@ -97,6 +97,12 @@ void render_parcel_make(render_run *run, glint_sequence_frame *frame)
     if (made->plate != NULL) {
         glint_frame_metadata_add_text(&made->metadata, "glint:plate", made->plate);
     }
+    if (request->max_error > 0) {
+        made->choice = run->choice;
+        glint_frame_metadata_add_real(&made->metadata, "glint:max_error", request->max_error);
+        glint_frame_metadata_add_real(&made->metadata, "glint:error", made->choice.error);
+        glint_frame_metadata_add_text(&made->metadata, "glint:options", made->choice.rung.options);
+    }
     if (request->inputs.kernel_dir == NULL) {
         render_stage_fingerprint(run, &frame->camera, made->fingerprint);
         glint_frame_metadata_add_text(&made->metadata, GLINT_FINGERPRINT_NAME, made->fingerprint);

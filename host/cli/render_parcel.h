@@ -13,6 +13,7 @@ typedef struct render_parcel {
     char *plate;       // the file; NULL without one
     double build_ms;
     const char *tree;
+    glint_error_choice choice; // where --max-error asks for one
 } render_parcel;
 
 // Finds the plate of a frame and what it holds (run->plate_is). Errors: GLINT_BAD_INPUT.

@@ -16,7 +16,8 @@ typedef struct render_request {
     const char *output;
     const char *stats;
     const char *compression;
-    int exr_type; // index of the choices
+    double max_error; // of the picture; 0: as the settings say
+    int exr_type;     // index of the choices
     double exposure;
     bool preview;             // a PNG beside the EXR
     const char *surroundings; // behind what is captured; NULL: the studio

@@ -22,6 +22,7 @@ glint_subject render_run_subject(const render_run *run)
         .environment = &run->inputs.environment,
         .camera = &run->inputs.viewpoint.camera,
         .settings = &run->request->inputs.settings,
+        .max_error = run->request->max_error,
         .device = glint_device_capabilities(run->device),
         .plan = glint_renderer_plan(run->renderer),
         .bvh = glint_renderer_bvh(run->renderer),
@@ -208,6 +209,14 @@ static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame
     return wanted ? GLINT_NEXT_FRAME : is_stopped ? GLINT_NEXT_NONE : GLINT_NEXT_AGAIN;
 }
 
+static glint_status render_within(void *context, glint_sequence_frame *frame,
+                                  const glint_progress *progress, glint_error *error)
+{
+    render_run *run = context;
+    return glint_error_bound_frame(&run->bound, run->renderer, &frame->camera, progress,
+                                   &frame->image, &frame->report, &run->choice, error);
+}
+
 static void frame_is_traced(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
@@ -225,9 +234,14 @@ static void add_to_spread(render_spread *spread, uint64_t before, double ms)
 }
 
 static void count_rendered(render_totals *totals, const glint_sequence_frame *frame,
-                           double build_ms)
+                           const render_parcel *along)
 {
     const glint_frame_report *report = &frame->report;
+    const double build_ms = along != NULL ? along->build_ms : 0;
+    if (along != NULL) {
+        add_to_spread(&totals->error, totals->rendered, along->choice.error);
+        add_to_spread(&totals->choosing, totals->rendered, along->choice.choosing_ms);
+    }
     add_to_spread(&totals->build, totals->rendered, build_ms);
     add_to_spread(&totals->trace, totals->rendered, frame->trace_ms);
     add_to_spread(&totals->write, totals->rendered, frame->write_ms);
@@ -280,6 +294,11 @@ static void fail_frame(render_run *run, glint_sequence_frame *frame, const char 
     }
 }
 
+static const glint_error_choice *choice_of(const render_run *run, const render_parcel *along)
+{
+    return run->request->max_error > 0 && along != NULL ? &along->choice : NULL;
+}
+
 static bool frame_is_through(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
@@ -295,11 +314,12 @@ static bool frame_is_through(void *context, glint_sequence_frame *frame)
                                      .report = &frame->report,
                                      .build_ms = build_ms,
                                      .tree = along != NULL ? along->tree : NULL,
+                                     .choice = choice_of(run, along),
                                      .trace_ms = frame->trace_ms,
                                      .write_ms = frame->write_ms};
     log_frame(run, &facts);
     if (is_written) {
-        count_rendered(&run->totals, frame, build_ms);
+        count_rendered(&run->totals, frame, along);
         run->last = frame->report;
     } else {
         fail_frame(run, frame, path);
@@ -329,6 +349,10 @@ static void begin_display(render_run *run)
     const glint_settings *settings = &request->inputs.settings;
     char plan[256], count[48] = "", text[GLINT_MESSAGE_CAPACITY];
     glint_plan_describe(glint_renderer_plan(run->renderer), plan, sizeof plan);
+    if (request->max_error > 0) {
+        snprintf(plan, sizeof plan, "an error of %g at most, by what that takes",
+                 request->max_error);
+    }
     if (request->is_sequence) {
         snprintf(count, sizeof count, "%llu frames of ", (unsigned long long)run->frames);
     }
@@ -344,8 +368,8 @@ glint_status render_run_frames(render_run *run, glint_error *error)
     const render_request *request = run->request;
     const glint_settings *settings = &request->inputs.settings;
     glint_subject subject = render_run_subject(run);
-    if (request->env_name.length > 0 || request->capture != NULL) {
-        subject.plan = NULL; // its texels are one frame's
+    if (request->env_name.length > 0 || request->capture != NULL || request->max_error > 0) {
+        subject.plan = NULL; // it is one frame's
     }
     const glint_write_options options = render_write_options(request);
     glint_status status =
@@ -363,6 +387,7 @@ glint_status render_run_frames(render_run *run, glint_error *error)
         .renderer = run->renderer,
         .with_layers = settings->aovs != 0 || settings->terms > 0,
         .writers = writers,
+        .render = request->max_error > 0 ? render_within : NULL,
         .next = next_frame,
         .traced = frame_is_traced,
         .write = render_parcel_write,

@@ -8,6 +8,7 @@
 #include "cli/render_request.h"
 #include "device/device.h"
 #include "render/frame.h"
+#include "report/error_bound.h"
 #include "report/fingerprint.h"
 #include "report/stats.h"
 #include "report/subject.h"
@@ -24,6 +25,8 @@ typedef struct render_totals {
     size_t failed_known, failed_capacity;
     int *failed_frames; // owned; in the order in which they failed, as many as found memory
     glint_ray_counts rays;
+    render_spread error;               // relative RMSE, where --max-error asks for it
+    render_spread choosing;            // milliseconds, likewise
     render_spread build, trace, write; // build: the scene at its time, its tree;
                                        // beside the frame before
     glint_frame_report worst; // the one with the most truncated weight, with the largest of the
@@ -42,14 +45,16 @@ typedef struct render_run {
     glint_fingerprint renderer_shows; // of the renderer's
     glint_fingerprint plate_is;       // of the frame's plate; zero without
     render_light light;
-    glint_scene label;  // the scene's path, which outlives scenes of other times
-    char *camera_name;  // likewise; owned
-    bool stands;        // inputs.scene and inputs.viewpoint are those of `time`
-    double time;        // seconds of the animation
-    bool is_prepared;   // the renderer, for inputs.scene
-    render_ahead ahead; // the next frame's scene
-    double build_ms;    // of the frame that is traced
-    const char *tree;   // what came of its tree: "kept", "fitted" or "built"
+    glint_scene label;         // the scene's path, which outlives scenes of other times
+    char *camera_name;         // likewise; owned
+    bool stands;               // inputs.scene and inputs.viewpoint are those of `time`
+    double time;               // seconds of the animation
+    bool is_prepared;          // the renderer, for inputs.scene
+    render_ahead ahead;        // the next frame's scene
+    glint_error_bound bound;   // --max-error
+    glint_error_choice choice; // its last
+    double build_ms;           // of the frame that is traced
+    const char *tree;          // what came of its tree: "kept", "fitted" or "built"
     glint_frame_cursor cursor;
     uint64_t frames; // of this run's shard
     glint_stats_log *stats;

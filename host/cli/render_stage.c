@@ -117,6 +117,23 @@ glint_status render_run_load(render_run *run, glint_error *error)
     return status;
 }
 
+static glint_status open_device(render_run *run, glint_error *error)
+{
+    const glint_input_request *request = &run->request->inputs;
+    glint_status status = glint_device_open(request->device, &run->device, error);
+    if (status != GLINT_OK || run->request->max_error == 0) {
+        return status;
+    }
+    glint_error_bound_begin(&run->bound, run->request->max_error, &request->settings);
+    const glint_capabilities *device = glint_device_capabilities(run->device);
+    return device->has_double
+               ? GLINT_OK
+               : glint_fail(error, GLINT_DEVICE_FAILED,
+                            "--max-error: device '%s' has no double precision, which errors are "
+                            "counted from (name another with --device)",
+                            device->name);
+}
+
 // The renderer of the scene as a frame shows it, in that frame's light.
 static glint_status begin_with(render_run *run, int frame, glint_error *error)
 {
@@ -129,7 +146,7 @@ static glint_status begin_with(render_run *run, int frame, glint_error *error)
         status = render_parcel_check_plate(run, frame, error);
     }
     if (status == GLINT_OK && run->device == NULL) {
-        status = glint_device_open(request->device, &run->device, error);
+        status = open_device(run, error);
     }
     if (status == GLINT_OK) {
         status = render_light_show(run, error);

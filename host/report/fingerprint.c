@@ -86,6 +86,15 @@ static void add_settings(XXH3_state_t *state, const glint_settings *s)
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
 }
 
+// What decides about settings frame by frame.
+static void add_max_error(XXH3_state_t *state, double max_error)
+{
+    if (max_error > 0) {
+        add_text(state, "at most");
+        add_numbers(state, &max_error, 1);
+    }
+}
+
 // What else decides bits: widths and tiles do not, and texels are chosen for the environment.
 static void add_texels(XXH3_state_t *state, const glint_subject *subject)
 {
@@ -130,6 +139,7 @@ glint_status glint_fingerprint_run(const glint_subject *subject, const char *pat
         add_text(state, "glint " GLINT_VERSION);
         add_text(state, glint_kernel_source);
         add_settings(state, subject->settings);
+        add_max_error(state, subject->max_error);
         add_texels(state, subject);
         add_encoding(state, path, options);
         *fingerprint = finish(state);

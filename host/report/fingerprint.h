@@ -23,7 +23,7 @@ static inline bool glint_fingerprints_equal(glint_fingerprint a, glint_fingerpri
 
 // Of what the frames of a run share: the program's version and its kernels, the settings, the kind
 // of texels, and how a file is encoded; not of the device, nor of the names of files. `subject`:
-// settings are needed, and the plan unless its texels may be others in another frame. `path` names
+// settings are needed, and the plan unless it may be another in another frame. `path` names
 // the format by its extension. Errors: GLINT_DEVICE_FAILED (memory).
 glint_status glint_fingerprint_run(const glint_subject *subject, const char *path,
                                    const glint_write_options *options,

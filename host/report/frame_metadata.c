@@ -79,9 +79,11 @@ static void add_int(glint_frame_metadata *metadata, const char *name, int value)
     add(metadata, name, GLINT_METADATA_INT)->integer = value;
 }
 
-static void add_real(glint_frame_metadata *metadata, const char *name, double value)
+void glint_frame_metadata_add_real(glint_frame_metadata *metadata, const char *name, double value)
 {
-    add(metadata, name, GLINT_METADATA_FLOAT)->real = (float)value;
+    if (metadata->count < GLINT_FRAME_METADATA_MAX) {
+        add(metadata, name, GLINT_METADATA_FLOAT)->real = (float)value;
+    }
 }
 
 // capDate and utcOffset of the standard: local time, and the seconds to add to it to get UTC.
@@ -94,7 +96,7 @@ static void add_time(glint_frame_metadata *metadata)
         return;
     }
     glint_frame_metadata_add_text(metadata, "capDate", metadata->date);
-    add_real(metadata, "utcOffset", 0 - (double)local.tm_gmtoff);
+    glint_frame_metadata_add_real(metadata, "utcOffset", 0 - (double)local.tm_gmtoff);
 }
 
 // How far away the environment was taken to be, in metres of world space.
@@ -141,6 +143,6 @@ void glint_frame_metadata_fill(const glint_subject *subject, int frame, double e
     glint_frame_metadata_add_text(metadata, "glint:plan", metadata->plan);
     glint_frame_metadata_add_text(metadata, "glint:device", metadata->device);
     add_int(metadata, "glint:samples", settings->samples_per_axis * settings->samples_per_axis);
-    add_real(metadata, "glint:exposure", exposure);
-    add_real(metadata, "glint:render_ms", render_ms);
+    glint_frame_metadata_add_real(metadata, "glint:exposure", exposure);
+    glint_frame_metadata_add_real(metadata, "glint:render_ms", render_ms);
 }

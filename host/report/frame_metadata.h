@@ -16,7 +16,7 @@
 void glint_world_to_camera(const glint_camera *camera, float matrix[16]);
 void glint_world_to_ndc(const glint_camera *camera, double aspect, float matrix[16]);
 
-enum { GLINT_FRAME_METADATA_MAX = 16 };
+enum { GLINT_FRAME_METADATA_MAX = 24 };
 
 // Holds what `entries` point to: not to be copied.
 typedef struct glint_frame_metadata {
@@ -33,8 +33,9 @@ typedef struct glint_frame_metadata {
 void glint_frame_metadata_fill(const glint_subject *subject, int frame, double exposure,
                                double render_ms, glint_frame_metadata *metadata);
 
-// A further entry, while there is room; borrows both texts. An empty one is left out.
+// A further entry, while there is room; borrows the texts. An empty one is left out.
 void glint_frame_metadata_add_text(glint_frame_metadata *metadata, const char *name,
                                    const char *text);
+void glint_frame_metadata_add_real(glint_frame_metadata *metadata, const char *name, double value);
 
 #endif

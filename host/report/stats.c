@@ -55,6 +55,26 @@ static void put_frame(json_t *root, const glint_frame_report *frame)
     glint_json_put_count(root, "nonfinite_pixels", frame->nonfinite_pixels);
 }
 
+static void put_choice(json_t *root, const glint_error_choice *choice)
+{
+    if (choice == NULL) {
+        return;
+    }
+    json_t *object = json_object();
+    glint_json_put_real(object, "bound", choice->bound);
+    glint_json_put_real(object, "error", choice->error);
+    glint_json_put_text(object, "options", choice->rung.options);
+    glint_json_put_real(object, "grid_error", choice->grid_error);
+    glint_json_put_real(object, "unseen_of_single_precision", choice->chaos);
+    glint_json_put_count(object, "grid_pixels", (uint64_t)choice->grid_pixels);
+    glint_json_put_flag(object, "grid_is_frame", choice->grid_is_frame);
+    glint_json_put_count(object, "grids", (uint64_t)choice->grids);
+    glint_json_put_count(object, "frames", (uint64_t)choice->frames);
+    glint_json_put_real(object, "choosing_milliseconds", choice->choosing_ms);
+    glint_json_put_count(object, "choosing_rays", choice->choosing_rays);
+    glint_json_put(root, "max_error", object);
+}
+
 static void put_subject(json_t *root, const glint_subject *subject)
 {
     glint_json_put(root, "plan", glint_json_plan(subject->plan));
@@ -73,6 +93,9 @@ static void put_run(json_t *root, const glint_stats *stats)
     glint_json_put_real(settings, "exposure", stats->exposure);
     if (stats->plate != NULL) {
         glint_json_put_text(settings, "background", stats->plate);
+    }
+    if (stats->subject->max_error > 0) {
+        glint_json_put_real(settings, "max_error", stats->subject->max_error);
     }
     glint_json_put(root, "settings", settings);
 }
@@ -95,6 +118,7 @@ glint_status glint_stats_write(const char *path, const glint_stats *stats, glint
     glint_json_put_real(milliseconds, "total", stats->total_ms);
     glint_json_put(root, "milliseconds", milliseconds);
     put_frame(root, stats->frame);
+    put_choice(root, stats->choice);
     put_subject(root, stats->subject);
     put_memory(root);
     glint_json_put(root, "warnings", glint_json_warnings(stats->subject->warnings));
@@ -194,6 +218,7 @@ glint_status glint_stats_log_frame(glint_stats_log *log, const glint_stats_frame
             glint_json_put_text(root, "tree", frame->tree);
         }
         put_frame(root, frame->report);
+        put_choice(root, frame->choice);
     }
     return add_line(log, root, error);
 }

@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 #include "render/frame.h"
+#include "report/error_bound.h"
 #include "report/subject.h"
 
 #include <stdbool.h>
@@ -15,8 +16,9 @@ typedef struct glint_stats {
     const glint_phases *phases;
     const glint_frame_report *frame;
     double load_scene_ms, load_environment_ms, encode_ms, total_ms;
-    double exposure;   // stops
-    const char *plate; // the background's file as it was given, NULL without one
+    double exposure;                  // stops
+    const char *plate;                // the background's file as it was given, NULL without one
+    const glint_error_choice *choice; // where an error was to be kept, else NULL
 } glint_stats;
 
 // All rays that were traced or looked up.
@@ -38,6 +40,7 @@ typedef struct glint_stats_frame {
     const char *error;                // what went wrong; NULL
     const glint_frame_report *report; // NULL of a skipped one
     const char *tree;                 // "kept", "fitted" or "built"; NULL where that is not known
+    const glint_error_choice *choice; // as above
     double build_ms, trace_ms, write_ms;
 } glint_stats_frame;
 

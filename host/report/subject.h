@@ -18,6 +18,7 @@ typedef struct glint_subject {
     const glint_environment *environment;
     const glint_camera *camera;
     const glint_settings *settings;
+    double max_error; // relative RMSE that was asked for in place of some of them; 0: none was
     const glint_capabilities *device;
     const glint_plan *plan;
     const char *plan_failure; // why there is no plan
