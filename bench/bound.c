@@ -1,0 +1,241 @@
+// bench_bound WIDTHxHEIGHT VIEWS ROUNDS SCENE…: what --max-error chooses, against the truth. For
+// each scene (a file or a built-in one) in the studio, from so many places of a turntable, and for
+// each bound of 0.1, 0.01, 0.001 and 0.0001: the choice, what it is said to err by and what it errs
+// by over the whole frame, and how long its frames take against those of the reference and of the
+// fastest way that keeps the bound, found by rendering them all. One line of figures each, with
+// tabs between: scene, view, bound, options, error said, error, frames rendered, choosing in
+// milliseconds, the frame's milliseconds, the reference's over these, the best way's options, the
+// frame's milliseconds over that one's (median and quartiles of ROUNDS in turns).
+#include "options.h"
+
+#include "glint.h"
+#include "report/error_bound.h"
+#include "report/metrics.h"
+#include "report/statistics.h"
+#include "scene/built_in.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+enum { ROUNDS_MAX = 32, WAYS_MAX = 80, BOUNDS = 4 };
+
+static const double bounds[BOUNDS] = {0.1, 0.01, 0.001, 0.0001};
+
+// One way of rendering, and what came of it.
+typedef struct way {
+    glint_rung rung;
+    double error, ms;
+} way;
+
+typedef struct contest {
+    const char *name;
+    int view;
+    glint_device *device;
+    const glint_environment *studio;
+    glint_scene scene;
+    glint_camera camera;
+    glint_settings settings;
+    glint_renderer *renderer;
+    glint_image reference, image;
+    double reference_ms;
+    way ways[WAYS_MAX];
+    size_t way_count;
+    int rounds;
+} contest;
+
+static glint_status load(const char *name, contest *c, glint_error *error)
+{
+    struct stat facts;
+    glint_status status = stat(name, &facts) == 0
+                              ? glint_scene_load(name, NULL, &c->scene, NULL, error)
+                              : glint_built_in_scene(name, &c->scene, error);
+    c->name = name;
+    return status == GLINT_OK ? glint_scene_camera(&c->scene, NULL, &c->camera, error) : status;
+}
+
+static glint_status render(contest *c, const glint_settings *settings, glint_image *image,
+                           double *ms, glint_error *error)
+{
+    glint_frame_report report;
+    glint_status status = glint_renderer_set_settings(c->renderer, settings, error);
+    if (status == GLINT_OK) {
+        status = glint_renderer_frame(c->renderer, &c->camera, NULL, image, &report, error);
+        *ms = report.kernel_ms;
+    }
+    return status;
+}
+
+static double error_of(const contest *c)
+{
+    glint_metrics metrics;
+    glint_error error = {0};
+    if (glint_metrics_find(&c->image, &c->reference, NULL, &metrics, &error) != GLINT_OK) {
+        glint_error_free(&error);
+        return (double)NAN;
+    }
+    return metrics.relative_rmse;
+}
+
+// All that --max-error chooses among.
+static void list_ways(contest *c)
+{
+    const bool splits = glint_renderer_plan(c->renderer)->features[GLINT_FEATURE_SPLIT].compiled;
+    c->way_count = 0;
+    for (int step = 4; splits && step < 32; step++) {
+        const double weight = exp2(-0.5 * step);
+        glint_rung_by_weight(&c->settings, GLINT_PRECISION_FLOAT, GLINT_TEXELS_AUTO, weight,
+                             &c->ways[c->way_count++].rung);
+        glint_rung_by_weight(&c->settings, GLINT_PRECISION_DOUBLE, GLINT_TEXELS_AUTO, weight,
+                             &c->ways[c->way_count++].rung);
+    }
+    for (int depth = 0; !splits && depth <= 8; depth = depth == 0 ? 1 : 2 * depth) {
+        glint_rung_by_depth(&c->settings, depth, &c->ways[c->way_count++].rung);
+    }
+    for (int i = 0; !splits && i < 2; i++) {
+        glint_rung_by_weight(&c->settings, i == 0 ? GLINT_PRECISION_FLOAT : GLINT_PRECISION_DOUBLE,
+                             GLINT_TEXELS_FLOAT, GLINT_DEFAULT_MIN_WEIGHT,
+                             &c->ways[c->way_count++].rung);
+    }
+}
+
+static glint_status try_ways(contest *c, glint_error *error)
+{
+    glint_rung reference;
+    glint_rung_reference(&c->settings, &reference);
+    glint_status status = render(c, &reference.settings, &c->reference, &c->reference_ms, error);
+    list_ways(c);
+    for (size_t i = 0; status == GLINT_OK && i < c->way_count; i++) {
+        status = render(c, &c->ways[i].rung.settings, &c->image, &c->ways[i].ms, error);
+        c->ways[i].error = error_of(c);
+    }
+    return status;
+}
+
+static const way *best_within(const contest *c, double bound)
+{
+    const way *best = NULL;
+    for (size_t i = 0; i < c->way_count; i++) {
+        const way *w = &c->ways[i];
+        best = w->error <= bound && (best == NULL || w->ms < best->ms) ? w : best;
+    }
+    return best;
+}
+
+// Both in turns.
+static glint_status compare(contest *c, const glint_settings *chosen, const glint_settings *best,
+                            double *ms, glint_summary *ratio, glint_error *error)
+{
+    double ratios[ROUNDS_MAX], times[ROUNDS_MAX], of_best = 1;
+    glint_status status = GLINT_OK;
+    for (int i = 0; status == GLINT_OK && i < c->rounds; i++) {
+        status = render(c, chosen, &c->image, &times[i], error);
+        if (status == GLINT_OK) {
+            status = render(c, best, &c->image, &of_best, error);
+        }
+        ratios[i] = times[i] / of_best;
+    }
+    *ratio = glint_summarize(ratios, (size_t)c->rounds);
+    *ms = glint_summarize(times, (size_t)c->rounds).median;
+    return status;
+}
+
+static glint_status judge(contest *c, double bound, glint_error *error)
+{
+    glint_error_bound asked;
+    glint_error_choice choice;
+    glint_frame_report report;
+    glint_error_bound_begin(&asked, bound, &c->settings);
+    glint_error_bound_set_environment(&asked, &c->studio->radiance);
+    glint_status status = glint_renderer_set_settings(c->renderer, &c->settings, error);
+    if (status == GLINT_OK) {
+        status = glint_error_bound_frame(&asked, c->renderer, &c->camera, NULL, &c->image, &report,
+                                         &choice, error);
+    }
+    if (status != GLINT_OK) {
+        return status;
+    }
+    const double is = error_of(c);
+    const way *best = best_within(c, bound);
+    glint_rung reference;
+    glint_rung_reference(&c->settings, &reference);
+    const glint_rung *faster = best != NULL ? &best->rung : &reference;
+    glint_summary ratio;
+    double ms;
+    status = compare(c, &choice.rung.settings, &faster->settings, &ms, &ratio, error);
+    printf("%s\t%d\t%g\t%s\t%.2g\t%.2g\t%s\t%d\t%.0f\t%.1f\t%.2f\t%s\t%.2f\t%.2f\t%.2f\n", c->name,
+           c->view, bound, choice.rung.options, choice.error, is, is <= bound ? "kept" : "MISSED",
+           choice.frames, choice.choosing_ms, ms, c->reference_ms / ms, faster->options,
+           ratio.median, ratio.lower_quartile, ratio.upper_quartile);
+    fflush(stdout);
+    return status;
+}
+
+static glint_status run_view(contest *c, int view, int views, glint_error *error)
+{
+    const glint_camera first = c->camera;
+    const glint_vec3 low = c->scene.low, high = c->scene.high;
+    const glint_vec3 middle = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
+    c->view = view;
+    c->camera = glint_camera_orbit(&first, middle, view - 1, views);
+    glint_status status = try_ways(c, error);
+    for (int i = 0; status == GLINT_OK && i < BOUNDS; i++) {
+        status = judge(c, bounds[i], error);
+    }
+    c->camera = first;
+    return status;
+}
+
+static glint_status run_scene(const char *name, contest *c, int views, glint_error *error)
+{
+    glint_status status = load(name, c, error);
+    if (status == GLINT_OK) {
+        const glint_renderer_inputs inputs = {.device = c->device,
+                                              .scene = &c->scene,
+                                              .environment = c->studio,
+                                              .settings = &c->settings};
+        status = glint_renderer_create(&inputs, &c->renderer, error);
+    }
+    for (int view = 1; status == GLINT_OK && view <= views; view++) {
+        status = run_view(c, view, views, error);
+    }
+    glint_renderer_free(c->renderer);
+    c->renderer = NULL;
+    glint_scene_free(&c->scene);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    glint_error error = {0};
+    glint_environment studio = {0};
+    double views = 1, rounds = 1;
+    static contest c;
+    c.settings = glint_settings_default;
+    glint_status status =
+        argc > 4 ? bench_parse_size(argv[1], &c.settings.width, &c.settings.height, &error)
+                 : glint_fail(&error, GLINT_USAGE, "WIDTHxHEIGHT VIEWS ROUNDS SCENE… are expected");
+    if (status == GLINT_OK) {
+        status = bench_parse_count("views", argv[2], 1000, &views, &error);
+    }
+    if (status == GLINT_OK) {
+        status = bench_parse_count("rounds", argv[3], ROUNDS_MAX, &rounds, &error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_environment_studio(&studio, &error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_device_open(NULL, &c.device, &error);
+    }
+    c.studio = &studio;
+    c.rounds = (int)rounds;
+    for (int i = 4; status == GLINT_OK && i < argc; i++) {
+        status = run_scene(argv[i], &c, (int)views, &error);
+    }
+    glint_image_free(&c.image);
+    glint_image_free(&c.reference);
+    glint_device_close(c.device);
+    glint_environment_free(&studio);
+    return bench_finish("bench_bound", status, &error);
+}
