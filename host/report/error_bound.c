@@ -125,7 +125,19 @@ static void take_reference(const search *s, trial *t)
 
 // ---- Where paths split -------------------------------------------------------------------------
 
-// Branches below 2^(−step/2) of a pixel are not followed.
+// 2^(−step/2) to three digits, so that the options that are told of make the same picture.
+static double weight_of(int step)
+{
+    const double weight = exp2(-0.5 * step), digits = pow(10, 2 - floor(log10(weight)));
+    return round(weight * digits) / digits;
+}
+
+static int step_of(double weight)
+{
+    return (int)lround(-2 * log2(weight));
+}
+
+// Branches below a weight are not followed.
 static glint_rung weights(const search *s, glint_precision precision, int step)
 {
     const bool is_float = precision == GLINT_PRECISION_FLOAT;
@@ -133,7 +145,7 @@ static glint_rung weights(const search *s, glint_precision precision, int step)
     glint_rung rung;
     glint_rung_by_weight(&s->bound->settings, precision,
                          is_float && !coarse ? GLINT_TEXELS_FLOAT : GLINT_TEXELS_AUTO,
-                         exp2(-0.5 * step), &rung);
+                         weight_of(step), &rung);
     return rung;
 }
 
@@ -326,7 +338,7 @@ static glint_status refine_frame(search *s, double estimate, const glint_rung *r
         return search_rungs(s, rungs, *taken + 1, count, taken, t, error);
     }
     const double by = log2(estimate / s->bound->bound) / OCTAVES_PER_STEP;
-    const int step = (int)ceil(-2 * log2(t->rung.settings.min_weight) + fmax(1, by));
+    const int step = step_of(t->rung.settings.min_weight) + (int)ceil(fmax(1, by));
     if (step >= LAST_STEP) {
         take_reference(s, t);
         return GLINT_OK;

@@ -60,7 +60,7 @@ mkdir in/folder.gltf in/empty
 # ---- help ---------------------------------------------------------------------------------------
 
 render_options='output exposure compression exr-type preview aov directions stats progress frames turntable
-    fps skip-existing shard surroundings capture-size proxy env-at env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without
+    fps skip-existing shard max-error surroundings capture-size proxy env-at env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without
     scene size samples depth min-weight background precision fresnel texels filter irradiance shading device
     kernel-width kernel-tile kernel-dir help'
 info_options='json env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without scene size samples depth min-weight background
