@@ -101,6 +101,30 @@ static void bounds_are_kept(void **state)
     check_bounds("water", 480, 270, false);
 }
 
+// Where the environment is the same everywhere, what is lost is what shines and has a colour
+// itself.
+static void contrast_may_be_the_scenes_own(void **state)
+{
+    (void)state;
+    stage s;
+    open_stage("materials", 480, 270, &s);
+    glint_cube *cube = &s.at.environment.radiance;
+    for (size_t i = 0; i < glint_cube_size(cube); i++) {
+        cube->texels[i] = 0.25f;
+    }
+    assert_int_equal(glint_renderer_set_environment(s.at.renderer, &s.at.environment, NULL),
+                     GLINT_OK);
+    for (int i = 1; i <= 3; i++) {
+        glint_image image = {0};
+        glint_error_choice choice;
+        render_within(&s, pow(0.1, i), &image, &choice);
+        assert_false(choice.grid_is_frame);
+        assert_true(choice.error > 0 && error_of(&s, &image) <= pow(0.1, i));
+        glint_image_free(&image);
+    }
+    close_stage(&s);
+}
+
 // In the gallery single precision is off by 0.07 or so, in a few pixels that a grid may miss.
 static void what_a_grid_cannot_see_is_reckoned_with(void **state)
 {
@@ -226,6 +250,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_are_kept),
+        cmocka_unit_test(contrast_may_be_the_scenes_own),
         cmocka_unit_test(what_a_grid_cannot_see_is_reckoned_with),
         cmocka_unit_test(each_frame_is_judged_by_itself),
         cmocka_unit_test(looser_bounds_cost_no_more),

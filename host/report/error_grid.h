@@ -32,9 +32,13 @@ glint_status glint_error_grid_render(glint_error_grid *grid, const glint_setting
                                      const glint_camera *camera, glint_image *image,
                                      glint_frame_report *report, glint_error *error);
 
+// How far the reference's pixels are from their mean, root mean square over R, G and B; pixels that
+// are not finite do not count.
+double glint_error_grid_contrast(const glint_error_grid *grid);
+
 // Relative RMSE against the grid's reference, infinite where pixels are not finite that the
-// reference's are; and the same with two standard errors added to the mean square: about what it is
-// at most over the whole frame, as far as a grid can tell.
+// reference's are; and what it is at most over the whole frame, as far as a grid can tell, with a
+// confidence of 97.5%.
 typedef struct glint_grid_error {
     double measured, at_most;
 } glint_grid_error;
@@ -44,10 +48,11 @@ glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settin
                                       glint_error *error);
 
 // How much of the grid hangs on digits that single precision does not have: of the pixels whose
-// light beyond `depth` surfaces matters (by a hundredth of the mean), by how much a shift of the
-// camera by a thousandth of a pixel changes them, in parts of `contrast` and one at most; the mean
-// over all pixels. Rounding in single precision shifts a path by less at its begin, but again at
-// each surface. Found in double precision.
+// light beyond `depth` surfaces matters (by a hundredth of the mean), how far each is from the mean
+// of itself with the camera a thousandth of a pixel to the left and to the right, in parts of
+// `contrast` and one at most; the mean over all pixels. What changes evenly with the camera is not
+// counted: rounding shifts paths by less than that, and the grid shows what comes of it; a jump
+// counts in full. Found in double precision.
 glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_settings *settings,
                                          int depth, double contrast, double *share,
                                          glint_error *error);
