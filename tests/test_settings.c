@@ -153,6 +153,11 @@ static void bad_ones_are_refused_until_there_are_good_ones(void **state)
     glint_error_free(&error);
     assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &image, NULL, NULL),
                      GLINT_USAGE);
+    bad = first;
+    bad.fresnel = GLINT_FRESNEL_NONE;
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &bad, &error), GLINT_USAGE);
+    assert_non_null(strstr(error.message, "a renderer of their own"));
+    glint_error_free(&error);
     assert_int_equal(glint_renderer_set_settings(s.renderer, &first, NULL), GLINT_OK);
     check_frame(&s, &first);
     test_stage_close(&s);

@@ -111,6 +111,10 @@ typedef struct glint_settings {
 // the middle of the first n × n.
 void glint_settings_pixels(const glint_settings *settings, int size[2]);
 
+// Whether `settings` are those of `first` but for what glint_plan_vary may change, and so need no
+// renderer of their own.
+bool glint_settings_are_variation(const glint_settings *settings, const glint_settings *first);
+
 extern const glint_settings glint_settings_default; // 1280 × 720, 1 sample, auto, 1/1024, float
 
 // How a feature was decided.
@@ -178,8 +182,8 @@ glint_status glint_plan_check_settings(const glint_plan_inputs *inputs, glint_er
 glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
 
 // The plan for other settings of the same scene, environment and device, of which precision,
-// texels, depth, least weight, layers, terms and truncation_squares may differ from those that
-// `plan` was made of, and shade pixels. Scene and topology are not read. Errors: as
+// texels, depth, least weight, grid_step, layers, terms and truncation_squares may differ from
+// those that `plan` was made of, and shade pixels. Scene and topology are not read. Errors: as
 // glint_plan_make; *plan is then not to be used.
 glint_status glint_plan_vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error);
 

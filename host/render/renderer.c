@@ -232,7 +232,10 @@ glint_status glint_renderer_set_settings(glint_renderer *r, const glint_settings
                                       .settings = settings,
                                       .half = &r->half};
     glint_plan plan = r->shown.plan;
-    glint_status status = measure_half(r, settings, error);
+    glint_status status =
+        glint_settings_are_variation(settings, &r->first_settings)
+            ? measure_half(r, settings, error)
+            : glint_fail(error, GLINT_USAGE, "these settings need a renderer of their own");
     if (status == GLINT_OK) {
         status = glint_plan_vary(&inputs, &plan, error);
     }

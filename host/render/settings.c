@@ -20,6 +20,18 @@ void glint_settings_pixels(const glint_settings *settings, int size[2])
     size[1] = (settings->height - step / 2 + step - 1) / step;
 }
 
+bool glint_settings_are_variation(const glint_settings *settings, const glint_settings *first)
+{
+    const glint_settings *a = settings, *b = first;
+    return a->shading == GLINT_SHADING_PIXEL && b->shading == GLINT_SHADING_PIXEL &&
+           a->width == b->width && a->height == b->height &&
+           a->samples_per_axis == b->samples_per_axis && a->transparent == b->transparent &&
+           a->env_rotate == b->env_rotate && a->fresnel == b->fresnel && a->output == b->output &&
+           a->filter == b->filter && a->irradiance == b->irradiance && a->proxy == b->proxy &&
+           a->kernel_width == b->kernel_width && a->tile_packets == b->tile_packets &&
+           a->all_features == b->all_features && a->build_tag == b->build_tag;
+}
+
 const char *glint_shading_name(glint_shading shading)
 {
     static const char *const names[] = {"pixel", "vertex-direction", "vertex-color"};

@@ -114,6 +114,11 @@ static double least_error(const search *s, double truncation)
     return LEAST_TRUNCATION * s->another * truncation;
 }
 
+static double with_chaos(const search *s, const glint_rung *rung, double error)
+{
+    return rung->settings.precision == GLINT_PRECISION_FLOAT ? hypot(error, s->chaos) : error;
+}
+
 static glint_status try_rung(search *s, const glint_rung *rung, trial *t, glint_error *error)
 {
     glint_frame_report report;
@@ -121,10 +126,8 @@ static glint_status try_rung(search *s, const glint_rung *rung, trial *t, glint_
     glint_status status =
         glint_error_grid_measure(&s->grid, &rung->settings, &t->grid, &report, error);
     if (status == GLINT_OK) {
-        const bool is_float = rung->settings.precision == GLINT_PRECISION_FLOAT;
         t->truncation = report.truncation.rms;
-        const double of_grid = fmax(t->grid.at_most, least_error(s, t->truncation));
-        t->error = is_float ? hypot(of_grid, s->chaos) : of_grid;
+        t->error = with_chaos(s, rung, fmax(t->grid.at_most, least_error(s, t->truncation)));
         t->rays = glint_stats_rays(&report.rays);
         if (t->truncation > 0) {
             s->per_weight = fmax(s->per_weight, t->grid.measured / t->truncation);
@@ -326,8 +329,19 @@ static bool is_reference(const search *s, const glint_rung *rung)
            rung->settings.precision == reference.settings.precision;
 }
 
-// Renders the whole frame, and says how much it errs: what its pixels were cut short of beyond what
-// the grid's were is taken to err by as much for its weight as anything that was seen.
+// What a frame errs by: what its pixels were cut short of beyond what the grid's were is taken to
+// err by as much for its weight as anything that was seen.
+static double estimate_of(const search *s, const trial *t, double whole)
+{
+    const double seen = t->truncation;
+    if (s->grid.step == 1 || is_reference(s, &t->rung)) {
+        return t->error;
+    }
+    const double unseen = s->per_weight * sqrt(fmax(0, whole * whole - seen * seen));
+    const double known = fmax(t->grid.at_most, hypot(t->grid.measured, unseen));
+    return with_chaos(s, &t->rung, fmax(known, least_error(s, whole)));
+}
+
 static glint_status render(search *s, const trial *t, glint_image *image,
                            glint_frame_report *report, double *estimate, glint_error *error)
 {
@@ -340,11 +354,7 @@ static glint_status render(search *s, const trial *t, glint_image *image,
                                       error);
     }
     if (status == GLINT_OK) {
-        const double whole = report->truncation.rms, seen = t->truncation;
-        const bool is_known = grid->step == 1 || is_reference(s, &t->rung);
-        const double unseen = is_known ? 0 : whole * whole - seen * seen;
-        *estimate = hypot(t->error, s->per_weight * sqrt(fmax(0, unseen)));
-        *estimate = is_known ? *estimate : fmax(*estimate, least_error(s, whole));
+        *estimate = estimate_of(s, t, report->truncation.rms);
     }
     return status;
 }

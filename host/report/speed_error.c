@@ -32,7 +32,8 @@ typedef struct run {
     glint_speed_error_result *result;
     glint_device *device;
     glint_ladder ladder;
-    glint_renderer *renderers[RENDERERS];
+    glint_renderer *shared;         // by all whose settings are variations of the scene's defaults
+    glint_renderer *own[RENDERERS]; // of the others
     times times[RENDERERS];
     glint_image reference, again;
     glint_layers reference_layers;
@@ -47,8 +48,8 @@ static void show(const run *r, const char *doing, const char *what)
     }
 }
 
-static glint_status create(run *r, const glint_settings *settings, bool without_frames,
-                           glint_renderer **renderer, glint_error *error)
+static glint_status create(run *r, const glint_settings *settings, glint_renderer **renderer,
+                           glint_error *error)
 {
     const glint_renderer_inputs inputs = {
         .device = r->device,
@@ -56,7 +57,6 @@ static glint_status create(run *r, const glint_settings *settings, bool without_
         .environment = r->inputs->environment,
         .settings = settings,
         .kernel_dir = r->inputs->kernel_dir,
-        .without_frames = without_frames,
     };
     return glint_renderer_create(&inputs, renderer, error);
 }
@@ -66,6 +66,20 @@ static glint_status render(run *r, glint_renderer *renderer, glint_image *image,
 {
     const glint_progress progress = glint_bench_progress(&r->watcher);
     return glint_renderer_frame(renderer, r->inputs->camera, &progress, image, report, error);
+}
+
+// The one that renders with these settings: the shared one, or one of their own, which is then made
+// if there is none yet.
+static glint_status provide(run *r, const glint_settings *settings, glint_renderer **own,
+                            glint_renderer **renderer, glint_error *error)
+{
+    if (glint_settings_are_variation(settings, r->inputs->settings)) {
+        *renderer = r->shared;
+        return glint_renderer_set_settings(r->shared, settings, error);
+    }
+    glint_status status = *own == NULL ? create(r, settings, own, error) : GLINT_OK;
+    *renderer = *own;
+    return status;
 }
 
 static glint_status open_device(run *r, glint_error *error)
@@ -87,17 +101,15 @@ static glint_status open_device(run *r, glint_error *error)
 
 static glint_status make_ladder(run *r, glint_error *error)
 {
-    glint_renderer *renderer;
-    glint_status status = create(r, r->inputs->settings, true, &renderer, error);
+    glint_status status = create(r, r->inputs->settings, &r->shared, error);
     if (status == GLINT_OK) {
-        glint_plan plan = *glint_renderer_plan(renderer);
+        glint_plan plan = *glint_renderer_plan(r->shared);
         const glint_stored_space space = glint_stored_space_of(r->inputs->scene);
         glint_plan_suit(&plan, &space, r->inputs->camera);
         glint_ladder_make(&plan, r->inputs->settings, &r->ladder);
-        r->result->bvh = *glint_renderer_bvh(renderer);
+        r->result->bvh = *glint_renderer_bvh(r->shared);
         r->result->count = r->ladder.count;
         r->result->reference = r->ladder.reference;
-        glint_renderer_free(renderer);
     }
     return status;
 }
@@ -111,9 +123,9 @@ static glint_status find_change(run *r, int times_depth, double times_weight, gl
     glint_settings settings = r->ladder.reference.settings;
     settings.depth *= times_depth;
     settings.min_weight *= times_weight;
-    glint_renderer *renderer = NULL;
+    glint_renderer *own = NULL, *renderer;
     glint_image image = {0};
-    glint_status status = create(r, &settings, false, &renderer, error);
+    glint_status status = provide(r, &settings, &own, &renderer, error);
     if (status == GLINT_OK) {
         status = render(r, renderer, &image, NULL, error);
     }
@@ -121,24 +133,25 @@ static glint_status find_change(run *r, int times_depth, double times_weight, gl
         status = glint_metrics_find(&image, &r->reference, NULL, change, error);
     }
     glint_image_free(&image);
-    glint_renderer_free(renderer);
+    glint_renderer_free(own);
     return status;
 }
 
 static glint_status render_reference(run *r, glint_error *error)
 {
     glint_speed_error_result *result = r->result;
-    glint_renderer **renderer = &r->renderers[REFERENCE];
+    glint_renderer *renderer;
     glint_frame_report report;
     show(r, "rendering ", r->ladder.reference.name);
-    glint_status status = create(r, &r->ladder.reference.settings, false, renderer, error);
+    glint_status status =
+        provide(r, &r->ladder.reference.settings, &r->own[REFERENCE], &renderer, error);
     if (status == GLINT_OK) {
-        status = render(r, *renderer, &r->reference, &report, error);
+        status = render(r, renderer, &r->reference, &report, error);
     }
     if (status != GLINT_OK) {
         return status;
     }
-    result->reference_plan = *glint_renderer_plan(*renderer);
+    result->reference_plan = *glint_renderer_plan(renderer);
     result->reference_truncation = report.truncation;
     show(r, "how good is ", r->ladder.reference.name);
     status = find_change(r, 1, 4, &result->change_by_weights, error);
@@ -147,22 +160,35 @@ static glint_status render_reference(run *r, glint_error *error)
 
 // ---- Errors ------------------------------------------------------------------------------------
 
+// What of the phases was for these settings: kernels may have been compiled for others before.
+static glint_phases phases_since(const run *r, const glint_phases *before,
+                                 const glint_renderer *renderer)
+{
+    glint_phases phases = *glint_renderer_phases(renderer);
+    if (renderer == r->shared) {
+        phases.kernel_build -= before->kernel_build;
+        phases.irradiance -= before->irradiance;
+    }
+    return phases;
+}
+
 static glint_status judge_rung(run *r, size_t which, glint_error *error)
 {
     glint_rung_result *rung = &r->result->rungs[which];
-    glint_renderer **renderer = &r->renderers[which];
+    const glint_phases before = *glint_renderer_phases(r->shared);
+    glint_renderer *renderer;
     glint_image image = {0};
     glint_frame_report report;
     rung->rung = r->ladder.rungs[which];
     rung->dominated_by = -1;
     show(r, "rendering ", rung->rung.name);
-    glint_status status = create(r, &rung->rung.settings, false, renderer, error);
+    glint_status status = provide(r, &rung->rung.settings, &r->own[which], &renderer, error);
     if (status == GLINT_OK) {
-        status = render(r, *renderer, &image, &report, error);
+        status = render(r, renderer, &image, &report, error);
     }
     if (status == GLINT_OK) {
-        rung->plan = *glint_renderer_plan(*renderer);
-        rung->phases = *glint_renderer_phases(*renderer);
+        rung->plan = *glint_renderer_plan(renderer);
+        rung->phases = phases_since(r, &before, renderer);
         rung->rays = report.rays;
         rung->truncation = report.truncation;
         status = glint_metrics_find(&image, &r->reference, NULL, &rung->error, error);
@@ -185,15 +211,15 @@ static glint_status render_directions(run *r, const glint_settings *settings, gl
     with.terms = 1;
     with.aovs = GLINT_AOV_BIT(GLINT_AOV_TRIANGLE);
     *layers = (glint_layers){0};
-    glint_renderer *renderer = NULL;
-    glint_status status = create(r, &with, false, &renderer, error);
+    glint_renderer *own = NULL, *renderer;
+    glint_status status = provide(r, &with, &own, &renderer, error);
     if (status == GLINT_OK) {
         status = render(r, renderer, &r->again, NULL, error);
     }
     if (status == GLINT_OK) {
         status = glint_renderer_layers(renderer, layers, error);
     }
-    glint_renderer_free(renderer);
+    glint_renderer_free(own);
     return status;
 }
 
@@ -267,11 +293,17 @@ static glint_status keep_time(times *t, double ms, glint_error *error)
     return GLINT_OK;
 }
 
-static glint_status time_frame(run *r, glint_renderer *renderer, times *t, glint_error *error)
+// A frame of a rung, or of the reference.
+static glint_status time_frame(run *r, size_t which, glint_error *error)
 {
+    const glint_rung *rung = which == REFERENCE ? &r->ladder.reference : &r->ladder.rungs[which];
+    glint_renderer *renderer;
     glint_frame_report report;
-    glint_status status = render(r, renderer, &r->again, &report, error);
-    return status == GLINT_OK ? keep_time(t, report.kernel_ms, error) : status;
+    glint_status status = provide(r, &rung->settings, &r->own[which], &renderer, error);
+    if (status == GLINT_OK) {
+        status = render(r, renderer, &r->again, &report, error);
+    }
+    return status == GLINT_OK ? keep_time(&r->times[which], report.kernel_ms, error) : status;
 }
 
 // Whether there is another round after `done`, of which `measured` took so many milliseconds in
@@ -294,10 +326,11 @@ static glint_status time_rungs(run *r, glint_error *error)
          done++) {
         snprintf(round, sizeof round, "%zu", done + 1);
         show(r, "measuring, round ", round);
-        for (size_t i = 0; status == GLINT_OK && i < RENDERERS; i++) {
-            if (r->renderers[i] != NULL) {
-                status = time_frame(r, r->renderers[i], &r->times[i], error);
-            }
+        for (size_t i = 0; status == GLINT_OK && i < r->ladder.count; i++) {
+            status = time_frame(r, i, error);
+        }
+        if (status == GLINT_OK) {
+            status = time_frame(r, REFERENCE, error);
         }
     }
     for (size_t i = 0; i < r->ladder.count; i++) {
@@ -346,9 +379,9 @@ static glint_status render_samples(run *r, int axis, bool is_mip, glint_image *i
     glint_settings settings = *r->inputs->settings;
     settings.samples_per_axis = axis;
     settings.filter = is_mip ? GLINT_FILTER_MIP : GLINT_FILTER_BILINEAR;
-    glint_renderer *renderer = NULL;
+    glint_renderer *own = NULL, *renderer;
     glint_frame_report report;
-    glint_status status = create(r, &settings, false, &renderer, error);
+    glint_status status = provide(r, &settings, &own, &renderer, error);
     const int frames = t != NULL ? 4 : 1;
     for (int i = 0; status == GLINT_OK && i < frames; i++) {
         status = render(r, renderer, image, &report, error);
@@ -356,7 +389,7 @@ static glint_status render_samples(run *r, int axis, bool is_mip, glint_image *i
             status = keep_time(t, report.kernel_ms, error);
         }
     }
-    glint_renderer_free(renderer);
+    glint_renderer_free(own);
     return status;
 }
 
@@ -422,9 +455,10 @@ glint_status glint_speed_error_measure(const glint_bench_inputs *inputs,
     run r = {.inputs = inputs, .options = options, .watcher = *watcher, .result = result};
     glint_status status = measure(&r, error);
     for (size_t i = 0; i < RENDERERS; i++) {
-        glint_renderer_free(r.renderers[i]);
+        glint_renderer_free(r.own[i]);
         free(r.times[i].values);
     }
+    glint_renderer_free(r.shared);
     glint_layers_free(&r.reference_layers);
     glint_image_free(&r.reference);
     glint_image_free(&r.again);
