@@ -62,11 +62,12 @@
 typedef struct search {
     const glint_error_bound *bound;
     glint_error_grid grid;
-    bool splits, glass; // paths split; there is glass
-    double another;     // by how much light from another direction differs, over the mean
-    double chaos;       // what single precision is taken to add beyond what the grid shows
-    uint64_t rays;      // of the grid's reference
-    double per_weight;  // the largest error seen, for each truncated weight
+    bool splits, glass;          // paths split; there is glass
+    double another;              // by how much light from another direction differs, over the mean
+    double reference_truncation; // of the grid, see glint_truncation.rms
+    double chaos;                // what single precision is taken to add beyond what the grid shows
+    uint64_t rays;               // of the grid's reference
+    double per_weight;           // the largest error seen, for each truncated weight
 } search;
 
 // A rung that has been tried.
@@ -108,10 +109,13 @@ static bool keeps(const search *s, const trial *t)
     return factor * t->error <= s->bound->bound;
 }
 
-// A truncated weight cannot be taken to err by less; 0 where the grid is the frame.
+// What is truncated that the reference follows cannot be taken to err by less; 0 where the grid is
+// the frame.
 static double least_error(const search *s, double truncation)
 {
-    return LEAST_TRUNCATION * s->another * truncation;
+    const double of_reference = s->reference_truncation;
+    const double more = truncation * truncation - of_reference * of_reference;
+    return LEAST_TRUNCATION * s->another * sqrt(fmax(0, more));
 }
 
 static double with_chaos(const search *s, const glint_rung *rung, double error)
@@ -297,6 +301,7 @@ static glint_status look(search *s, glint_error *error)
         return status;
     }
     s->rays = glint_stats_rays(&report.rays);
+    s->reference_truncation = report.truncation.rms;
     grid->mean = glint_metrics_mean(&grid->reference, &grid->reference);
     if (grid->mean == 0 || grid->step == 1) {
         return GLINT_OK;
