@@ -66,7 +66,9 @@ typedef struct search {
     double another;              // by how much light from another direction differs, over the mean
     double reference_truncation; // of the grid, see glint_truncation.rms
     double chaos;                // what single precision is taken to add beyond what the grid shows
-    uint64_t rays;               // of the grid's reference
+    double contrast;             // `another`, as radiance
+    uint32_t deepest;            // surfaces of a path of the grid's reference
+    uint64_t rays;               // likewise
     double per_weight;           // the largest error seen, for each truncated weight
 } search;
 
@@ -146,6 +148,23 @@ static void take_reference(const search *s, trial *t)
     glint_rung_reference(&s->bound->settings, &t->rung);
 }
 
+// What single precision is up against, where it may be taken at all. `image` is the grid by
+// `settings`, in double precision.
+static glint_status find_chaos(search *s, const glint_image *image, const glint_settings *settings,
+                               glint_error *error)
+{
+    double share;
+    if (s->another == 0 || s->deepest <= CHAOS_DEPTH || SAFETY * s->chaos > s->bound->bound) {
+        return GLINT_OK;
+    }
+    glint_status status = glint_error_grid_find_chaos(&s->grid, image, settings, CHAOS_DEPTH,
+                                                      s->contrast, &share, error);
+    if (status == GLINT_OK) {
+        s->chaos = hypot(s->chaos, CHAOS_FACTOR * s->another * sqrt(share));
+    }
+    return status;
+}
+
 // ---- Where paths split -------------------------------------------------------------------------
 
 // 2^(−step/2) to three digits, so that the options that are told of make the same picture.
@@ -185,18 +204,15 @@ static double steps_from(const search *s, double error)
     return log2(SAFETY * error / s->bound->bound) / OCTAVES_PER_STEP;
 }
 
-// In double precision: *step is LAST_STEP where nothing but the reference will do.
-static glint_status find_weights(search *s, int *step, trial *best, glint_error *error)
+// In double precision, from what was tried first: *step is LAST_STEP where nothing but the
+// reference will do.
+static glint_status find_weights(search *s, const trial *first, int *step, trial *best,
+                                 glint_error *error)
 {
     int failing = 1, at = COARSE_STEP;
+    trial t = *first;
     *step = LAST_STEP;
-    glint_status status = GLINT_OK;
-    while (status == GLINT_OK && at > failing && at < *step) {
-        trial t;
-        status = try_weights(s, GLINT_PRECISION_DOUBLE, at, &t, error);
-        if (status != GLINT_OK) {
-            break;
-        }
+    for (;;) {
         if (keeps(s, &t)) {
             *step = at;
             *best = t;
@@ -204,12 +220,18 @@ static glint_status find_weights(search *s, int *step, trial *best, glint_error 
             failing = at;
         }
         const double next = ceil(at + steps_from(s, t.error));
-        at = next > failing ? next < *step ? (int)next : *step - 1 : failing + 1;
         if (keeps(s, &t) && next >= *step) {
-            break; // there is no room for larger weights
+            return GLINT_OK; // there is no room for larger weights
+        }
+        at = next > failing ? next < *step ? (int)next : *step - 1 : failing + 1;
+        if (at <= failing || at >= *step) {
+            return GLINT_OK;
+        }
+        const glint_status status = try_weights(s, GLINT_PRECISION_DOUBLE, at, &t, error);
+        if (status != GLINT_OK) {
+            return status;
         }
     }
-    return status;
 }
 
 // Single precision errs by what double precision does and more, so that it needs no larger weights;
@@ -217,29 +239,35 @@ static glint_status find_weights(search *s, int *step, trial *best, glint_error 
 static glint_status try_float(search *s, int of_double, trial *best, glint_error *error)
 {
     const int last = of_double + DOUBLE_STEPS < LAST_STEP ? of_double + DOUBLE_STEPS : LAST_STEP;
-    int failing = of_double - 1, keeping = last, at = last - 1;
+    double expected = best->error;
+    int at = of_double;
+    for (; at < last && SAFETY * hypot(expected, s->chaos) > s->bound->bound; at++) {
+        expected *= exp2(-OCTAVES_PER_STEP);
+    }
     glint_status status = GLINT_OK;
-    while (status == GLINT_OK && at > failing && SAFETY * s->chaos <= s->bound->bound) {
+    for (; status == GLINT_OK && at < last; at++) {
         trial t;
         status = try_weights(s, GLINT_PRECISION_FLOAT, at, &t, error);
         if (status == GLINT_OK && keeps(s, &t)) {
-            keeping = at;
             *best = t;
-        } else if (keeping == last) {
-            break; // not even with the smallest of them
-        } else {
-            failing = at;
+            break;
         }
-        at = (failing + keeping) / 2;
     }
     return status;
 }
 
 static glint_status search_weights(search *s, trial *best, glint_error *error)
 {
-    int step;
+    trial first;
+    int step = LAST_STEP;
     take_reference(s, best);
-    glint_status status = find_weights(s, &step, best, error);
+    glint_status status = try_weights(s, GLINT_PRECISION_DOUBLE, COARSE_STEP, &first, error);
+    if (status == GLINT_OK) {
+        status = find_chaos(s, &s->grid.image, &first.rung.settings, error);
+    }
+    if (status == GLINT_OK) {
+        status = find_weights(s, &first, &step, best, error);
+    }
     return status == GLINT_OK && step < LAST_STEP ? try_float(s, step, best, error) : status;
 }
 
@@ -286,7 +314,16 @@ static glint_status search_rungs(search *s, const glint_rung *rungs, size_t firs
 
 // ---- The frame ---------------------------------------------------------------------------------
 
-// The grid's reference, and what single precision is up against.
+static glint_status search_all_rungs(search *s, const glint_rung *rungs, size_t count,
+                                     size_t *taken, trial *best, glint_error *error)
+{
+    glint_rung reference;
+    glint_rung_reference(&s->bound->settings, &reference);
+    glint_status status = find_chaos(s, &s->grid.reference, &reference.settings, error);
+    return status == GLINT_OK ? search_rungs(s, rungs, 0, count, taken, best, error) : status;
+}
+
+// The grid's reference, and what it tells of the frame.
 static glint_status look(search *s, glint_error *error)
 {
     const glint_error_bound *b = s->bound;
@@ -301,28 +338,18 @@ static glint_status look(search *s, glint_error *error)
         return status;
     }
     s->rays = glint_stats_rays(&report.rays);
+    s->deepest = report.deepest;
     s->reference_truncation = report.truncation.rms;
     grid->mean = glint_metrics_mean(&grid->reference, &grid->reference);
     if (grid->mean == 0 || grid->step == 1) {
         return GLINT_OK;
     }
     // Of what shines itself, paint and lamps in the scene, the picture tells.
-    const double contrast = fmax(b->contrast, glint_error_grid_contrast(grid));
-    s->another = contrast / fabs(grid->mean);
+    s->contrast = fmax(b->contrast, glint_error_grid_contrast(grid));
+    s->another = s->contrast / fabs(grid->mean);
     s->chaos = s->glass ? FLOAT_IN_GLASS : 0;
     s->per_weight = s->splits ? 0 : s->another;
-    if (report.deepest <= CHAOS_DEPTH) {
-        return GLINT_OK;
-    }
-    glint_rung coarse;
-    glint_rung_by_weight(&b->settings, GLINT_PRECISION_DOUBLE, GLINT_TEXELS_AUTO, 1.0 / 64,
-                         &coarse);
-    coarse.settings.depth = GLINT_DEPTH_MAX;
-    double share;
-    status =
-        glint_error_grid_find_chaos(grid, &coarse.settings, CHAOS_DEPTH, contrast, &share, error);
-    s->chaos = hypot(s->chaos, CHAOS_FACTOR * s->another * sqrt(share));
-    return status;
+    return GLINT_OK;
 }
 
 static bool is_reference(const search *s, const glint_rung *rung)
@@ -394,7 +421,7 @@ static glint_status choose_and_render(search *s, glint_image *image, glint_frame
     glint_status status = look(s, error);
     if (status == GLINT_OK) {
         status = s->splits ? search_weights(s, &t, error)
-                           : search_rungs(s, rungs, 0, count, &taken, &t, error);
+                           : search_all_rungs(s, rungs, count, &taken, &t, error);
     }
     for (choice->frames = 1; status == GLINT_OK; choice->frames++) {
         choice->choosing_ms += glint_lap_ms(&begun);

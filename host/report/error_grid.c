@@ -162,9 +162,9 @@ static double bend(const glint_image *image, const glint_image sides[2], size_t 
     return most;
 }
 
-glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_settings *settings,
-                                         int depth, double contrast, double *share,
-                                         glint_error *error)
+glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_image *image,
+                                         const glint_settings *settings, int depth, double contrast,
+                                         double *share, glint_error *error)
 {
     const size_t count = glint_error_grid_pixel_count(grid);
     glint_settings shallow = *settings;
@@ -173,17 +173,14 @@ glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_set
     glint_frame_report unused;
     *share = 0;
     glint_status status =
-        glint_error_grid_render(grid, settings, grid->camera, &grid->image, &unused, error);
-    if (status == GLINT_OK) {
-        status = glint_error_grid_render(grid, &shallow, grid->camera, &cut, &unused, error);
-    }
+        glint_error_grid_render(grid, &shallow, grid->camera, &cut, &unused, error);
     for (int i = 0; status == GLINT_OK && i < 2; i++) {
         const glint_camera side = shifted(grid->camera, settings->height, i == 0 ? SHIFT : -SHIFT);
         status = glint_error_grid_render(grid, settings, &side, &sides[i], &unused, error);
     }
     for (size_t i = 0; status == GLINT_OK && i < count; i++) {
-        if (difference(&cut, &grid->image, i) > MATTERS * fabs(grid->mean)) {
-            *share += fmin(1, bend(&grid->image, sides, i) / contrast) / (double)count;
+        if (difference(&cut, image, i) > MATTERS * fabs(grid->mean)) {
+            *share += fmin(1, bend(image, sides, i) / contrast) / (double)count;
         }
     }
     glint_image_free(&cut);

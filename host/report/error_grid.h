@@ -52,10 +52,10 @@ glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settin
 // of itself with the camera a thousandth of a pixel to the left and to the right, in parts of
 // `contrast` and one at most; the mean over all pixels. What changes evenly with the camera is not
 // counted: rounding shifts paths by less than that, and the grid shows what comes of it; a jump
-// counts in full. Found in double precision.
-glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_settings *settings,
-                                         int depth, double contrast, double *share,
-                                         glint_error *error);
+// counts in full. `image` is the grid by `settings`, in double precision.
+glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_image *image,
+                                         const glint_settings *settings, int depth, double contrast,
+                                         double *share, glint_error *error);
 
 size_t glint_error_grid_pixel_count(const glint_error_grid *grid);
 
