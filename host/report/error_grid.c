@@ -162,6 +162,17 @@ static double bend(const glint_image *image, const glint_image sides[2], size_t 
     return most;
 }
 
+// The next pixel, from `pixel` on, whose light beyond where `cut` ends matters; else their number.
+static size_t next_that_matters(const glint_error_grid *grid, const glint_image *image,
+                                const glint_image *cut, size_t pixel)
+{
+    const size_t count = glint_error_grid_pixel_count(grid);
+    while (pixel < count && difference(cut, image, pixel) <= MATTERS * fabs(grid->mean)) {
+        pixel++;
+    }
+    return pixel;
+}
+
 glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_image *image,
                                          const glint_settings *settings, int depth, double contrast,
                                          double *share, glint_error *error)
@@ -174,14 +185,14 @@ glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_ima
     *share = 0;
     glint_status status =
         glint_error_grid_render(grid, &shallow, grid->camera, &cut, &unused, error);
-    for (int i = 0; status == GLINT_OK && i < 2; i++) {
+    const size_t first = status == GLINT_OK ? next_that_matters(grid, image, &cut, 0) : count;
+    for (int i = 0; status == GLINT_OK && first < count && i < 2; i++) {
         const glint_camera side = shifted(grid->camera, settings->height, i == 0 ? SHIFT : -SHIFT);
         status = glint_error_grid_render(grid, settings, &side, &sides[i], &unused, error);
     }
-    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
-        if (difference(&cut, image, i) > MATTERS * fabs(grid->mean)) {
-            *share += fmin(1, bend(image, sides, i) / contrast) / (double)count;
-        }
+    for (size_t i = first; status == GLINT_OK && i < count;
+         i = next_that_matters(grid, image, &cut, i + 1)) {
+        *share += fmin(1, bend(image, sides, i) / contrast) / (double)count;
     }
     glint_image_free(&cut);
     glint_image_free(&sides[0]);
