@@ -407,9 +407,25 @@ static glint_status refine_frame(search *s, double estimate, const glint_rung *r
     return try_weights(s, t->rung.settings.precision, step, t, error);
 }
 
+static glint_status choose(search *s, const glint_rung *rungs, size_t count, size_t *taken,
+                           trial *t, glint_error *error)
+{
+    glint_status status = look(s, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    return s->splits ? search_weights(s, t, error)
+                     : search_all_rungs(s, rungs, count, taken, t, error);
+}
+
 static glint_status choose_and_render(search *s, glint_image *image, glint_frame_report *report,
                                       glint_error_choice *choice, glint_error *error)
 {
+    // The plan is that of the frame before otherwise.
+    glint_status status = glint_renderer_set_settings(s->grid.renderer, &s->bound->settings, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
     const glint_plan plan = *glint_renderer_plan(s->grid.renderer);
     glint_rung rungs[RUNGS];
     s->splits = plan.features[GLINT_FEATURE_SPLIT].compiled;
@@ -418,11 +434,7 @@ static glint_status choose_and_render(search *s, glint_image *image, glint_frame
     size_t taken = 0;
     trial t = {0};
     double begun = glint_now_ms(), estimate = INFINITY;
-    glint_status status = look(s, error);
-    if (status == GLINT_OK) {
-        status = s->splits ? search_weights(s, &t, error)
-                           : search_all_rungs(s, rungs, count, &taken, &t, error);
-    }
+    status = choose(s, rungs, count, &taken, &t, error);
     for (choice->frames = 1; status == GLINT_OK; choice->frames++) {
         choice->choosing_ms += glint_lap_ms(&begun);
         status = render(s, &t, image, report, &estimate, error);
