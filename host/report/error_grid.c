@@ -55,14 +55,14 @@ double glint_error_grid_contrast(const glint_error_grid *grid)
     const size_t count = glint_error_grid_pixel_count(grid);
     double sums[3] = {0}, squares = 0, finite = 0;
     for (size_t i = 0; i < count; i++) {
-        const float *rgb = &grid->reference.pixels[4 * i];
-        if (isfinite(rgb[0]) && isfinite(rgb[1]) && isfinite(rgb[2])) {
-            finite++;
-            for (int c = 0; c < 3; c++) {
-                sums[c] += (double)rgb[c];
-                squares += (double)rgb[c] * (double)rgb[c] / 3;
-            }
+        const glint_pixel_error same =
+            glint_metrics_pixel(&grid->reference, &grid->reference, i, 0);
+        for (size_t c = 0; same.is_finite && c < 3; c++) {
+            const double value = (double)grid->reference.pixels[4 * i + c];
+            sums[c] += value;
+            squares += value * value / 3;
         }
+        finite += same.is_finite;
     }
     double of_means = 0;
     for (int c = 0; c < 3; c++) {
