@@ -14,7 +14,7 @@
 
 typedef struct glint_kernels {
     char *options;      // that they were built with, owned; NULL: none
-    cl_kernel render;   // NULL where they failed to build
+    cl_kernel render;   // NULL: none
     cl_kernel vertices; // NULL where pixels are shaded
 } glint_kernels;
 

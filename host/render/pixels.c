@@ -30,8 +30,12 @@ glint_status glint_pixels_create(const struct glint_device *device, int width, i
     if (device->capabilities.shares_memory && scalar_bytes == sizeof(float)) {
         return GLINT_OK;
     }
-    return glint_buffer_create(device, "the frame", value_count(pixels) * scalar_bytes, NULL,
-                               &pixels->own, error);
+    glint_status status = glint_buffer_create(
+        device, "the frame", value_count(pixels) * scalar_bytes, NULL, &pixels->own, error);
+    if (status != GLINT_OK) {
+        glint_pixels_free(pixels);
+    }
+    return status;
 }
 
 void glint_pixels_free(glint_pixels *pixels)

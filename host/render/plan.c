@@ -505,6 +505,9 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     decide_optics(&census, settings->fresnel, plan);
     decide_scene(in, plan);
     decide_settings(settings, plan);
+    if (settings->all_features) {
+        compile_everything(plan); // media as well
+    }
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
     return vary(in, in->sight != NULL ? in->sight : &(glint_sight){0}, plan, error);

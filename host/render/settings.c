@@ -26,7 +26,8 @@ bool glint_settings_are_variation(const glint_settings *settings, const glint_se
     return a->shading == GLINT_SHADING_PIXEL && b->shading == GLINT_SHADING_PIXEL &&
            a->width == b->width && a->height == b->height &&
            a->samples_per_axis == b->samples_per_axis && a->transparent == b->transparent &&
-           a->env_rotate == b->env_rotate && a->fresnel == b->fresnel && a->output == b->output &&
+           a->env_rotate == b->env_rotate && a->fresnel == b->fresnel &&
+           a->output == GLINT_OUTPUT_COLOR && b->output == GLINT_OUTPUT_COLOR &&
            a->filter == b->filter && a->irradiance == b->irradiance && a->proxy == b->proxy &&
            a->kernel_width == b->kernel_width && a->tile_packets == b->tile_packets &&
            a->all_features == b->all_features && a->build_tag == b->build_tag;

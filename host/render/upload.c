@@ -87,7 +87,12 @@ glint_status glint_buffer_create(const struct glint_device *device, const char *
     if (code == CL_SUCCESS && data != NULL && bytes > 0) {
         code = clEnqueueWriteBuffer(device->queue, *buffer, CL_TRUE, 0, bytes, data, 0, NULL, NULL);
     }
-    return code == CL_SUCCESS ? GLINT_OK : glint_fail_opencl(error, device, what, code);
+    if (code == CL_SUCCESS) {
+        return GLINT_OK;
+    }
+    glint_buffer_release(*buffer);
+    *buffer = NULL;
+    return glint_fail_opencl(error, device, what, code);
 }
 
 size_t glint_buffer_bytes(cl_mem buffer)

@@ -89,26 +89,34 @@ void glint_error_bound_begin(glint_error_bound *bound, double max_error,
 
 void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cube *environment)
 {
-    enum { DIRECTIONS = 16384 }; // on a spiral that covers the sphere evenly
-    double sum[3] = {0}, squares = 0;
-    for (int i = 0; i < DIRECTIONS; i++) {
-        const double y = 1 - (2 * i + 1.0) / DIRECTIONS, r = sqrt(1 - y * y);
-        const double turn = GLINT_PI * (3 - sqrt(5)) * i;
-        double rgb[3];
-        glint_cube_sample(environment, (glint_vec3){r * cos(turn), y, r * sin(turn)}, rgb);
+    double sum[3] = {0}, squares = 0, all = 0;
+    const int edge = environment->edge;
+    for (int i = 0; i < 6 * edge * edge; i++) {
+        const int column = i % edge, row = i / edge % edge;
+        const double x = (2.0 * column + 1) / edge - 1, y = (2.0 * row + 1) / edge - 1;
+        const double distance = 1 + x * x + y * y;                  // squared
+        const double solid_angle = 1 / (distance * sqrt(distance)); // but for a factor
+        const float *texel = glint_cube_texel(environment, i / (edge * edge), column, row);
+        all += solid_angle;
         for (int c = 0; c < 3; c++) {
-            sum[c] += rgb[c] / DIRECTIONS;
-            squares += rgb[c] * rgb[c] / (3.0 * DIRECTIONS);
+            sum[c] += solid_angle * (double)texel[c];
+            squares += solid_angle * (double)texel[c] * (double)texel[c] / 3;
         }
     }
-    const double means = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / 3;
-    bound->contrast = sqrt(fmax(0, squares - means));
+    const double means = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (3 * all * all);
+    bound->contrast = all > 0 ? sqrt(fmax(0, squares / all - means)) : 0;
 }
 
 static bool keeps(const search *s, const trial *t)
 {
     const double factor = s->grid.step > 1 ? SAFETY : 1;
     return factor * t->error <= s->bound->bound;
+}
+
+// A picture that is dark at all of a sparse grid's places says nothing of what lies between them.
+static bool is_blind(const search *s)
+{
+    return s->grid.step > 1 && s->grid.mean == 0;
 }
 
 // What is truncated that the reference follows cannot be taken to err by less; 0 where the grid is
@@ -135,7 +143,7 @@ static glint_status try_rung(search *s, const glint_rung *rung, trial *t, glint_
         t->truncation = report.truncation.rms;
         t->error = with_chaos(s, rung, fmax(t->grid.at_most, least_error(s, t->truncation)));
         t->rays = glint_stats_rays(&report.rays);
-        if (t->truncation > 0) {
+        if (t->truncation > 0 && t->grid.measured < (double)INFINITY) {
             s->per_weight = fmax(s->per_weight, t->grid.measured / t->truncation);
         }
     }
@@ -331,7 +339,9 @@ static glint_status look(search *s, glint_error *error)
     glint_frame_report report;
     glint_rung reference;
     glint_rung_reference(&b->settings, &reference);
-    reference.settings.min_weight = fmax(reference.settings.min_weight, b->bound / REFERENCE_SHARE);
+    // A grid that is the frame is a small one, and has time for all.
+    const double least = grid->step > 1 ? b->bound / REFERENCE_SHARE : 0;
+    reference.settings.min_weight = fmax(reference.settings.min_weight, least);
     glint_status status = glint_error_grid_render(grid, &reference.settings, grid->camera,
                                                   &grid->reference, &report, error);
     if (status != GLINT_OK) {
@@ -398,7 +408,7 @@ static glint_status refine_frame(search *s, double estimate, const glint_rung *r
     if (!s->splits) {
         return search_rungs(s, rungs, *taken + 1, count, taken, t, error);
     }
-    const double by = log2(estimate / s->bound->bound) / OCTAVES_PER_STEP;
+    const double by = fmin(LAST_STEP, log2(estimate / s->bound->bound) / OCTAVES_PER_STEP);
     const int step = step_of(t->rung.settings.min_weight) + (int)ceil(fmax(1, by));
     if (step >= LAST_STEP) {
         take_reference(s, t);
@@ -413,6 +423,10 @@ static glint_status choose(search *s, const glint_rung *rungs, size_t count, siz
     glint_status status = look(s, error);
     if (status != GLINT_OK) {
         return status;
+    }
+    if (is_blind(s)) {
+        take_reference(s, t);
+        return GLINT_OK;
     }
     return s->splits ? search_weights(s, t, error)
                      : search_all_rungs(s, rungs, count, taken, t, error);

@@ -26,7 +26,7 @@ typedef struct glint_error_choice {
     int grids;          // pictures of the grid that it took
     int frames;         // of the whole frame: 1, more where the first turned out not to keep it
     double choosing_ms; // all that the frame took beside its last picture
-    uint64_t choosing_rays;
+    uint64_t choosing_rays; // the grid's
 } glint_error_choice;
 
 // What frames have in common. glint_error_bound_begin fills it.

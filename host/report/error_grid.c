@@ -12,7 +12,8 @@
 int glint_error_grid_step(int width, int height)
 {
     const double pixels = (double)width * height;
-    return (int)fmax(1, floor(sqrt(pixels / GLINT_ERROR_GRID_PIXELS)));
+    const double step = floor(sqrt(pixels / GLINT_ERROR_GRID_PIXELS));
+    return (int)fmax(1, fmin(step, fmin(width, height)));
 }
 
 size_t glint_error_grid_pixel_count(const glint_error_grid *grid)
