@@ -94,12 +94,12 @@ static void check_frame(test_stage *s, const glint_settings *settings)
     test_frame_free(&own);
 }
 
-static void check_variations(const char *scene)
+static void check_variations(const char *scene, size_t count)
 {
     const glint_settings first = test_small_frame(0);
     test_stage s;
     test_stage_open(scene, &first, &s);
-    for (int i = 0; i < VARIATIONS; i++) {
+    for (size_t i = 0; i < count; i++) {
         const glint_settings settings = vary(&first, &variations[i]);
         assert_int_equal(glint_renderer_set_settings(s.renderer, &settings, NULL), GLINT_OK);
         check_frame(&s, &settings);
@@ -112,9 +112,28 @@ static void check_variations(const char *scene)
 static void frames_are_those_of_a_renderer_made_with_them(void **state)
 {
     (void)state;
-    check_variations("gallery");
-    check_variations("mirror_sphere"); // where depth 1 is proved, for eyes outside
-    check_variations("lecture_example_2");
+    check_variations("gallery", VARIATIONS);
+    check_variations("mirror_sphere", VARIATIONS); // where depth 1 is proved, for eyes outside
+    check_variations("lecture_example_2", 4);
+}
+
+// What is proved of a scene is heeded by whatever settings may, and by these alone.
+static void proofs_are_for_all_settings(void **state)
+{
+    (void)state;
+    const glint_settings automatic = test_small_frame(0), two = test_small_frame(2);
+    glint_settings layers = automatic;
+    layers.aovs = GLINT_AOV_ALL;
+    test_stage s;
+    test_stage_open("mirror_sphere", &layers, &s);
+    check_frame(&s, &layers);
+    assert_false(glint_renderer_plan(s.renderer)->depth_is_exact);
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &automatic, NULL), GLINT_OK);
+    check_frame(&s, &automatic);
+    assert_true(glint_renderer_plan(s.renderer)->depth_is_exact);
+    test_stage_close(&s);
+    assert_true(glint_settings_are_variation(&two, &automatic));
+    assert_false(glint_settings_are_variation(&automatic, &two)); // nothing has been looked for
 }
 
 static void another_scene_or_environment_brings_the_first_settings_back(void **state)
@@ -230,6 +249,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_are_those_of_a_renderer_made_with_them),
+        cmocka_unit_test(proofs_are_for_all_settings),
         cmocka_unit_test(another_scene_or_environment_brings_the_first_settings_back),
         cmocka_unit_test(bad_ones_are_refused_until_there_are_good_ones),
         cmocka_unit_test(truncated_weight_is_counted_pixel_by_pixel),

@@ -74,7 +74,8 @@ typedef struct glint_renderer_inputs {
     const glint_environment *environment; // borrowed during creation; as long as the renderer lives
                                           // where it is given other scenes or settings
     const glint_settings *settings;       // borrowed during creation only
-    const char *kernel_dir;               // NULL: the embedded kernels; borrowed likewise
+    const char *kernel_dir;               // NULL: the embedded kernels; borrowed as long as the
+                                          // renderer lives
     bool without_frames;                  // no frame will be asked for (see probe.h)
 } glint_renderer_inputs;
 
@@ -113,7 +114,7 @@ glint_status glint_renderer_set_environment(glint_renderer *renderer,
 // a finer frame of the same scene, or of a grid of its pixels (grid_step). What the last few need
 // is kept, so that going back is quick. Another scene or environment brings the settings of the
 // creation back. Errors: as creating; a renderer that failed may be given other settings, and
-// renders no frame until then.
+// renders no frame until then; one that failed to take a scene or an environment needs that first.
 glint_status glint_renderer_set_settings(glint_renderer *renderer, const glint_settings *settings,
                                          glint_error *error);
 

@@ -353,11 +353,12 @@ glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *p
     return GLINT_OK;
 }
 
-// The path goes on with the lighter of two branches, which has at most half of the weight, so that
-// at most 1 + log2(1/min_weight) wait; one more slot tells that the stack is nearly full.
-// What does not fill a stack costs nothing, so that all weights down to 2^−16 share a kernel.
+// What does not fill a stack of waiting branches costs nothing, so that all weights down to 2^−16
+// share a kernel.
 #define STACK_LEAST 18
 
+// The path goes on with the lighter of two branches, which has at most half of the weight, so that
+// at most 1 + log2(1/min_weight) wait; one more slot tells that the stack is nearly full.
 static void choose_stack(const glint_settings *settings, glint_plan *plan)
 {
     plan->stack_capacity = 0;
@@ -434,6 +435,12 @@ static void compile_everything(glint_plan *plan)
     }
 }
 
+// Layers tell what took the environment untraced, which rests on paths being followed.
+static bool heeds_sight(const glint_settings *settings)
+{
+    return glint_plan_may_heed_sight(settings) && settings->aovs == 0;
+}
+
 static void choose_depth(const glint_settings *settings, const glint_sight *sight, glint_plan *plan)
 {
     plan->depth_is_auto = settings->depth == 0;
@@ -444,7 +451,8 @@ static void choose_depth(const glint_settings *settings, const glint_sight *sigh
         plan->depth = 1;
         plan->depth_is_auto = false;
     }
-    plan->sight = glint_plan_heeds_sight(settings) ? *sight : (glint_sight){0};
+    const bool heeds = sight != NULL && heeds_sight(settings);
+    plan->sight = heeds ? *sight : (glint_sight){0};
     plan->depth_is_exact = plan->sight.depth > 0;
     if (plan->depth_is_exact) {
         plan->depth = plan->sight.depth;
@@ -463,12 +471,11 @@ void glint_plan_heed_sight(glint_plan *plan, bool heed)
 }
 
 // The part of a plan that rests on neither scene nor topology.
-static glint_status vary(const glint_plan_inputs *in, const glint_sight *sight, glint_plan *plan,
-                         glint_error *error)
+static glint_status vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     const glint_settings *settings = in->settings;
     plan->precision = settings->precision;
-    choose_depth(settings, sight, plan);
+    choose_depth(settings, in->sight, plan);
     decide_depth(plan);
     decide_extras(settings, plan);
     if (settings->all_features) {
@@ -510,14 +517,13 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     }
     choose_media(in->scene, plan);
     plan->traversal_stack = 64;
-    return vary(in, in->sight != NULL ? in->sight : &(glint_sight){0}, plan, error);
+    return vary(in, plan, error);
 }
 
 glint_status glint_plan_vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     glint_status status = glint_plan_check_settings(in, error);
-    const glint_sight sight = plan->sight;
-    return status == GLINT_OK ? vary(in, &sight, plan, error) : status;
+    return status == GLINT_OK ? vary(in, plan, error) : status;
 }
 
 int glint_plan_feature_count(const glint_plan *plan)

@@ -111,8 +111,9 @@ typedef struct glint_settings {
 // the middle of the first n × n.
 void glint_settings_pixels(const glint_settings *settings, int size[2]);
 
-// Whether `settings` are those of `first` but for what glint_plan_vary may change, and so need no
-// renderer of their own.
+// Whether `settings` are those of `first`, which shade pixels, but for precision, texels, depth,
+// least weight, grid_step, layers, terms and truncation_squares, and so need no renderer of their
+// own. Depth auto is no variation of a depth by number, with which nothing is proved of the scene.
 bool glint_settings_are_variation(const glint_settings *settings, const glint_settings *first);
 
 extern const glint_settings glint_settings_default; // 1280 × 720, 1 sample, auto, 1/1024, float
@@ -138,7 +139,7 @@ typedef struct glint_plan {
     glint_shading shading;
     int depth; // surfaces at most
     bool depth_is_auto;
-    glint_sight sight;   // with depth auto, what is proved of the scene
+    glint_sight sight;   // what is proved of the scene, where the settings heed that
     bool depth_is_exact; // `depth` is what sight proved: nothing changes beyond
     int stack_capacity;  // waiting branches of a pixel; 0 without SPLIT
     char stack_reason[120];
@@ -181,10 +182,9 @@ glint_status glint_plan_check_settings(const glint_plan_inputs *inputs, glint_er
 // cl_khr_fp64).
 glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
 
-// The plan for other settings of the same scene, environment and device, of which precision,
-// texels, depth, least weight, grid_step, layers, terms and truncation_squares may differ from
-// those that `plan` was made of, and shade pixels. Scene and topology are not read. Errors: as
-// glint_plan_make; *plan is then not to be used.
+// The plan for other settings of the same scene, environment and device, which are a variation of
+// those that `plan` was made of. Scene and topology are not read. Errors: as glint_plan_make; *plan
+// is then not to be used.
 glint_status glint_plan_vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error);
 
 // Chooses the texels for another environment alone. Scene and topology are not read. Errors: as
@@ -201,11 +201,10 @@ glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *sc
 // glint_bvh_refit.
 bool glint_plan_refit_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh);
 
-// Whether a plan of these settings heeds what is proved of the scene. Layers tell what took the
-// environment untraced, which rests on paths being followed.
-static inline bool glint_plan_heeds_sight(const glint_settings *settings)
+// Whether a plan of these settings, or of a variation of them, heeds what is proved of the scene.
+static inline bool glint_plan_may_heed_sight(const glint_settings *settings)
 {
-    return settings->depth == 0 && settings->output == GLINT_OUTPUT_COLOR && settings->aovs == 0 &&
+    return settings->depth == 0 && settings->output == GLINT_OUTPUT_COLOR &&
            settings->shading == GLINT_SHADING_PIXEL;
 }
 

@@ -23,25 +23,25 @@ static bool has_solids(const glint_scene *scene)
 // The topology is found only where solids may nest, or where what paths meet may be proved of it:
 // of millions of triangles it takes seconds.
 static glint_status analyse(const glint_renderer_inputs *in, const glint_half_rounding *half,
-                            glint_plan *plan, glint_error *error)
+                            glint_prepared_scene *p, glint_error *error)
 {
     glint_topology topology = {0};
-    const bool sees = glint_plan_heeds_sight(in->settings);
+    const bool sees = glint_plan_may_heed_sight(in->settings);
     const bool wanted = !in->scene->moves &&
                         (has_solids(in->scene) || (sees && glint_sight_wants_topology(in->scene)));
     glint_status status = wanted ? glint_topology_find(in->scene, &topology, error) : GLINT_OK;
     if (status == GLINT_OK) {
-        const glint_sight sight = sees ? glint_sight_find(in->scene, &topology) : (glint_sight){0};
+        p->sight = sees ? glint_sight_find(in->scene, &topology) : (glint_sight){0};
         const glint_plan_inputs inputs = {
             .scene = in->scene,
             .topology = &topology,
-            .sight = &sight,
+            .sight = &p->sight,
             .environment = &in->environment->radiance,
             .device = glint_device_capabilities(in->device),
             .settings = in->settings,
             .half = half,
         };
-        status = glint_plan_make(&inputs, plan, error);
+        status = glint_plan_make(&inputs, &p->plan, error);
     }
     glint_topology_free(&topology);
     return status;
@@ -83,9 +83,15 @@ static glint_status make_tree(const glint_scene *scene, glint_prepared_scene *p,
     return status;
 }
 
+static bool may_choose_half(const glint_settings *settings)
+{
+    return settings->texels == GLINT_TEXELS_HALF ||
+           (settings->texels == GLINT_TEXELS_AUTO && settings->precision != GLINT_PRECISION_DOUBLE);
+}
+
 // Plan and tree of the scene, and whether the device can hold them. Of the renderer nothing is
 // changed, and nothing is read that a frame or other settings change: frames may be rendered
-// meanwhile.
+// meanwhile. What other settings may want to know of half texels is none of its business.
 static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
                             glint_prepared_scene *prepared, glint_error *error)
 {
@@ -94,7 +100,8 @@ static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
     glint_renderer_inputs in = r->inputs;
     in.scene = scene;
     glint_upload_sizes sizes = {0};
-    glint_status status = analyse(&in, r->half_is_known ? &r->half : NULL, &prepared->plan, error);
+    glint_status status =
+        analyse(&in, may_choose_half(settings) ? &r->half : NULL, prepared, error);
     if (status == GLINT_OK) {
         int size[2];
         glint_settings_pixels(settings, size);
@@ -120,10 +127,7 @@ static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
 static glint_status measure_half(glint_renderer *r, const glint_settings *settings,
                                  glint_error *error)
 {
-    const bool is_asked =
-        settings->texels == GLINT_TEXELS_HALF ||
-        (settings->texels == GLINT_TEXELS_AUTO && settings->precision != GLINT_PRECISION_DOUBLE);
-    if (r->half_is_known || !is_asked) {
+    if (r->half_is_known || !may_choose_half(settings)) {
         return GLINT_OK;
     }
     glint_status status =
@@ -227,7 +231,8 @@ glint_status glint_renderer_suit(glint_renderer *r, const glint_camera *camera, 
 glint_status glint_renderer_set_settings(glint_renderer *r, const glint_settings *settings,
                                          glint_error *error)
 {
-    const glint_plan_inputs inputs = {.environment = &r->inputs.environment->radiance,
+    const glint_plan_inputs inputs = {.sight = &r->shown.sight,
+                                      .environment = &r->inputs.environment->radiance,
                                       .device = glint_device_capabilities(r->device),
                                       .settings = settings,
                                       .half = &r->half};

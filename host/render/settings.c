@@ -24,7 +24,7 @@ bool glint_settings_are_variation(const glint_settings *settings, const glint_se
 {
     const glint_settings *a = settings, *b = first;
     return a->shading == GLINT_SHADING_PIXEL && b->shading == GLINT_SHADING_PIXEL &&
-           a->width == b->width && a->height == b->height &&
+           (a->depth > 0 || b->depth == 0) && a->width == b->width && a->height == b->height &&
            a->samples_per_axis == b->samples_per_axis && a->transparent == b->transparent &&
            a->env_rotate == b->env_rotate && a->fresnel == b->fresnel &&
            a->output == GLINT_OUTPUT_COLOR && b->output == GLINT_OUTPUT_COLOR &&
