@@ -157,6 +157,39 @@ static void another_scene_or_environment_brings_the_first_settings_back(void **s
     test_stage_close(&s);
 }
 
+// More plans than kernels are kept of, small frames and large ones in turns: the two that take
+// turns with all of the others are as they were.
+static void there_may_be_any_number_of_them(void **state)
+{
+    (void)state;
+    const glint_settings first = test_small_frame(0);
+    glint_settings grid = first;
+    grid.precision = GLINT_PRECISION_DOUBLE;
+    grid.grid_step = 4;
+    test_stage s;
+    test_stage_open("facing_mirrors", &first, &s);
+    for (int i = 0; i < 8; i++) {
+        const variation other = {.precision = i & 1,
+                                 .texels = i & 2 ? GLINT_TEXELS_HALF : GLINT_TEXELS_FLOAT,
+                                 .depth = i & 4 ? 1 : 3,
+                                 .min_weight = first.min_weight,
+                                 .terms = 1 + i,
+                                 .truncation_squares = i & 1};
+        const glint_settings turns[] = {vary(&first, &other), first, grid};
+        for (int j = 0; j < 3; j++) {
+            glint_image image = {0};
+            assert_int_equal(glint_renderer_set_settings(s.renderer, &turns[j], NULL), GLINT_OK);
+            assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &image, NULL, NULL),
+                             GLINT_OK);
+            glint_image_free(&image);
+        }
+    }
+    check_frame(&s, &grid);
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &first, NULL), GLINT_OK);
+    check_frame(&s, &first);
+    test_stage_close(&s);
+}
+
 static void bad_ones_are_refused_until_there_are_good_ones(void **state)
 {
     (void)state;
@@ -251,6 +284,7 @@ int main(void)
         cmocka_unit_test(frames_are_those_of_a_renderer_made_with_them),
         cmocka_unit_test(proofs_are_for_all_settings),
         cmocka_unit_test(another_scene_or_environment_brings_the_first_settings_back),
+        cmocka_unit_test(there_may_be_any_number_of_them),
         cmocka_unit_test(bad_ones_are_refused_until_there_are_good_ones),
         cmocka_unit_test(truncated_weight_is_counted_pixel_by_pixel),
     };

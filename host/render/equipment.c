@@ -126,12 +126,11 @@ size_t glint_terms_bytes(const glint_settings *settings)
     return pixel_count(settings) * places * GLINT_TERM_VALUES * sizeof(float);
 }
 
-// Keeps a buffer that has the size already.
+// Keeps a buffer that is large enough.
 static glint_status resize(const glint_renderer *r, const char *what, size_t bytes, cl_mem *buffer,
                            glint_error *error)
 {
-    const size_t least = bytes > 16 ? bytes : 16;
-    if (*buffer != NULL && glint_buffer_bytes(*buffer) == least) {
+    if (*buffer != NULL && glint_buffer_bytes(*buffer) >= bytes) {
         return GLINT_OK;
     }
     glint_buffer_release(*buffer);
@@ -139,24 +138,14 @@ static glint_status resize(const glint_renderer *r, const char *what, size_t byt
     return glint_buffer_create(r->device, what, bytes, NULL, buffer, error);
 }
 
-static glint_status equip_pixels(glint_renderer *r, glint_error *error)
-{
-    int size[2];
-    glint_settings_pixels(&r->settings, size);
-    const size_t scalar = glint_plan_scalar_bytes(&r->plan);
-    const glint_pixels *p = &r->pixels;
-    if (p->width == size[0] && p->height == size[1] && p->scalar_bytes == scalar) {
-        return GLINT_OK;
-    }
-    glint_pixels_free(&r->pixels);
-    return glint_pixels_create(r->device, size[0], size[1], scalar, &r->pixels, error);
-}
-
 static glint_status equip_outputs(glint_renderer *r, glint_error *error)
 {
     const size_t counters = GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2 * sizeof(cl_uint);
     double clock = glint_now_ms();
-    glint_status status = equip_pixels(r, error);
+    int size[2];
+    glint_settings_pixels(&r->settings, size);
+    glint_status status = glint_pixels_resize(r->device, size[0], size[1],
+                                              glint_plan_scalar_bytes(&r->plan), &r->pixels, error);
     if (status == GLINT_OK) {
         status = resize(r, "the counters", counters, &r->counters, error);
     }
@@ -254,15 +243,18 @@ static glint_status build(glint_renderer *r, const char *options, glint_kernels 
     return status;
 }
 
-static const glint_kernels *find(const glint_equipment *e, const char *options)
+// Kernels of these options; else those that have not been used for the longest time.
+static glint_kernels *find(glint_equipment *e, const char *options)
 {
+    glint_kernels *oldest = &e->kernels[0];
     for (size_t i = 0; i < GLINT_KERNELS_KEPT; i++) {
-        const glint_kernels *k = &e->kernels[i];
+        glint_kernels *k = &e->kernels[i];
         if (k->options != NULL && strcmp(k->options, options) == 0) {
             return k;
         }
+        oldest = k->last_use < oldest->last_use ? k : oldest;
     }
-    return NULL;
+    return oldest;
 }
 
 static glint_status equip_kernels(glint_renderer *r, glint_error *error)
@@ -270,20 +262,19 @@ static glint_status equip_kernels(glint_renderer *r, glint_error *error)
     glint_equipment *e = &r->equipment;
     char options[4096];
     glint_plan_build_options(&r->plan, options, sizeof options);
-    const glint_kernels *kept = find(e, options);
-    if (kept != NULL) {
-        use(r, kept);
+    glint_kernels *k = find(e, options);
+    if (k->options != NULL && strcmp(k->options, options) == 0) {
+        k->last_use = ++e->uses;
+        use(r, k);
         return set_buffers(r, error);
     }
     double clock = glint_now_ms();
-    glint_kernels *k = &e->kernels[e->next];
     release(k);
     k->options = strdup(options);
+    k->last_use = ++e->uses;
     glint_status status = k->options != NULL ? build(r, options, k, error)
                                              : glint_fail_memory(error, "a kernel's options");
-    if (status == GLINT_OK) {
-        e->next = (e->next + 1) % GLINT_KERNELS_KEPT;
-    } else {
+    if (status != GLINT_OK) {
         release(k);
     }
     r->phases.kernel_build += glint_lap_ms(&clock);

@@ -10,12 +10,17 @@
 #include "render/plan.h"
 #include "render/upload.h"
 
-#define GLINT_KERNELS_KEPT 8 // of as many plans; the oldest then makes way
+#include <stddef.h>
+#include <stdint.h>
+
+// Of as many plans; those that have not been used for the longest time then make way.
+#define GLINT_KERNELS_KEPT 8
 
 typedef struct glint_kernels {
     char *options;      // that they were built with, owned; NULL: none
     cl_kernel render;   // NULL: none
     cl_kernel vertices; // NULL where pixels are shaded
+    uint64_t last_use;  // which of the equipment's it was; 0: none
 } glint_kernels;
 
 // What lights matte paint.
@@ -29,7 +34,7 @@ typedef enum glint_irradiance_kind {
 // Zero is valid.
 typedef struct glint_equipment {
     glint_kernels kernels[GLINT_KERNELS_KEPT];
-    size_t next;                                // which makes way
+    uint64_t uses;                              // of kernels, so far
     glint_environment_memory environments[2];   // with float texels, with half texels
     cl_mem irradiances[GLINT_IRRADIANCE_KINDS]; // see kernels/layout.h
 } glint_equipment;

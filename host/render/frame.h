@@ -19,8 +19,8 @@ typedef struct glint_phases {
     double bvh;          // tree
     double irradiance;   // irradiance map, where paint needs one: all of them
     double kernel_build; // compiling, or fetching from the driver's cache: all kernels so far
-    double upload;
-    double kernel; // all launches of the frame
+    double upload;       // since there is this scene
+    double kernel;       // all launches of the frame
     double readback;
 } glint_phases;
 
@@ -118,7 +118,10 @@ glint_status glint_renderer_set_environment(glint_renderer *renderer,
 glint_status glint_renderer_set_settings(glint_renderer *renderer, const glint_settings *settings,
                                          glint_error *error);
 
+// The plan of the settings that there are, and for the last frame's camera; that of the creation's
+// settings, for any camera from which what is proved of the scene holds.
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
+const glint_plan *glint_renderer_first_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);
 const glint_phases *glint_renderer_phases(const glint_renderer *renderer);
 

@@ -22,16 +22,27 @@ glint_status glint_pixels_size(int width, int height, size_t scalar_bytes, size_
     return GLINT_OK;
 }
 
-glint_status glint_pixels_create(const struct glint_device *device, int width, int height,
+static bool are_written_into_images(const glint_pixels *p)
+{
+    return p->device->capabilities.shares_memory && p->scalar_bytes == sizeof(float);
+}
+
+glint_status glint_pixels_resize(const struct glint_device *device, int width, int height,
                                  size_t scalar_bytes, glint_pixels *pixels, glint_error *error)
 {
-    *pixels = (glint_pixels){
-        .device = device, .width = width, .height = height, .scalar_bytes = scalar_bytes};
-    if (device->capabilities.shares_memory && scalar_bytes == sizeof(float)) {
+    *pixels = (glint_pixels){.device = device,
+                             .width = width,
+                             .height = height,
+                             .scalar_bytes = scalar_bytes,
+                             .own = pixels->own};
+    const size_t bytes = glint_pixels_bytes(pixels);
+    if (are_written_into_images(pixels) || glint_buffer_bytes(pixels->own) >= bytes) {
         return GLINT_OK;
     }
-    glint_status status = glint_buffer_create(
-        device, "the frame", value_count(pixels) * scalar_bytes, NULL, &pixels->own, error);
+    glint_buffer_release(pixels->own);
+    pixels->own = NULL;
+    glint_status status =
+        glint_buffer_create(device, "the frame", bytes, NULL, &pixels->own, error);
     if (status != GLINT_OK) {
         glint_pixels_free(pixels);
     }
@@ -57,7 +68,7 @@ glint_status glint_pixels_begin(glint_pixels *pixels, glint_image *image, cl_mem
     if (status != GLINT_OK) {
         return status;
     }
-    if (pixels->own != NULL) {
+    if (!are_written_into_images(pixels)) {
         *target = pixels->own;
         return GLINT_OK;
     }
@@ -117,8 +128,8 @@ glint_status glint_pixels_end(glint_pixels *pixels, bool rendered, glint_image *
 {
     glint_status status = GLINT_OK;
     if (rendered) {
-        status = pixels->own != NULL ? read_rounded(pixels, image->pixels, error)
-                                     : map_image(pixels, error);
+        status = are_written_into_images(pixels) ? map_image(pixels, error)
+                                                 : read_rounded(pixels, image->pixels, error);
     }
     glint_buffer_release(pixels->around_image);
     pixels->around_image = NULL;

@@ -16,7 +16,7 @@ typedef struct glint_pixels {
     const struct glint_device *device; // borrowed
     int width, height;
     size_t scalar_bytes; // of float or double
-    cl_mem own;          // NULL where frames are written into images
+    cl_mem own;          // at least a frame's bytes; not used where it is written into the image
     cl_mem around_image; // while a frame is rendered
 } glint_pixels;
 
@@ -24,8 +24,10 @@ typedef struct glint_pixels {
 glint_status glint_pixels_size(int width, int height, size_t scalar_bytes, size_t *bytes,
                                glint_error *error);
 
-// Errors: GLINT_DEVICE_FAILED.
-glint_status glint_pixels_create(const struct glint_device *device, int width, int height,
+// For frames of another size or precision. A buffer that is large enough is kept, and one that is
+// not needed, too: small frames in double precision and large ones take turns (see
+// report/error_grid.h). On failure *pixels is as zero. Errors: GLINT_DEVICE_FAILED.
+glint_status glint_pixels_resize(const struct glint_device *device, int width, int height,
                                  size_t scalar_bytes, glint_pixels *pixels, glint_error *error);
 void glint_pixels_free(glint_pixels *pixels);
 

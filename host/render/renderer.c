@@ -330,6 +330,11 @@ const glint_plan *glint_renderer_plan(const glint_renderer *renderer)
     return &renderer->plan;
 }
 
+const glint_plan *glint_renderer_first_plan(const glint_renderer *renderer)
+{
+    return &renderer->shown.plan;
+}
+
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer)
 {
     return &renderer->shown.bvh;

@@ -25,7 +25,7 @@ typedef struct glint_rung_result {
     glint_rung rung;
     glint_plan plan;
     glint_phases phases;  // before the first frame; what it shares with others counts in each, but
-                          // kernels and irradiance where they were made
+                          // kernels, irradiance and uploads where they were made
     glint_summary kernel; // of its frames, milliseconds, in turns with all the others'
     glint_ray_counts rays;
     glint_truncation truncation;
