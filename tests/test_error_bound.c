@@ -46,20 +46,20 @@ static void render_within(stage *s, double bound, glint_image *image, glint_erro
                      GLINT_OK);
     assert_int_equal(image->width, s->at.settings.width);
     assert_int_equal(image->height, s->at.settings.height);
-    assert_true(choice->bound == bound && choice->error <= bound);
+    assert_true(choice->bound == bound);
 }
 
 static double error_of(stage *s, const glint_image *image)
 {
     glint_metrics metrics;
     if (s->reference.pixels == NULL) {
-        test_frame frame;
         glint_rung rung;
         glint_rung_reference(&s->at.settings, &rung);
-        test_render(&s->at.scene, &s->at.environment, NULL, &rung.settings, &frame);
-        s->reference = frame.image;
-        frame.image = (glint_image){0};
-        test_frame_free(&frame);
+        assert_int_equal(glint_renderer_set_settings(s->at.renderer, &rung.settings, NULL),
+                         GLINT_OK);
+        assert_int_equal(
+            glint_renderer_frame(s->at.renderer, &s->at.camera, NULL, &s->reference, NULL, NULL),
+            GLINT_OK);
     }
     assert_int_equal(glint_metrics_find(image, &s->reference, NULL, &metrics, NULL), GLINT_OK);
     return metrics.relative_rmse;
@@ -125,7 +125,8 @@ static void contrast_may_be_the_scenes_own(void **state)
     close_stage(&s);
 }
 
-// In the gallery single precision is off by 0.07 or so, in a few pixels that a grid may miss.
+// In the gallery single precision is off by 0.07 or so, in a few pixels that a grid may miss: here
+// it does, and single precision is not taken.
 static void what_a_grid_cannot_see_is_reckoned_with(void **state)
 {
     (void)state;
@@ -135,9 +136,118 @@ static void what_a_grid_cannot_see_is_reckoned_with(void **state)
     open_stage("gallery", 320, 180, &s);
     render_within(&s, 0.02, &image, &choice);
     assert_int_equal(choice.rung.settings.precision, GLINT_PRECISION_DOUBLE);
-    assert_true(error_of(&s, &image) <= 0.02);
+    assert_true(choice.unseen_of_float == 0 && error_of(&s, &image) <= 0.02);
+    glint_settings in_float = choice.rung.settings;
+    in_float.precision = GLINT_PRECISION_FLOAT;
+    assert_int_equal(glint_renderer_set_settings(s.at.renderer, &in_float, NULL), GLINT_OK);
+    assert_int_equal(glint_renderer_frame(s.at.renderer, &s.at.camera, NULL, &image, NULL, NULL),
+                     GLINT_OK);
+    assert_true(error_of(&s, &image) > 0.02);
     glint_image_free(&image);
     close_stage(&s);
+}
+
+// A ball of glass that a few pixels see, between those of the grid or hardly among them: what they
+// are cut short of is known once the frame is there, which is then rendered once more.
+static void what_lies_between_is_seen_of_the_frame(void **state)
+{
+    (void)state;
+    stage s;
+    int again = 0;
+    open_stage("glass_sphere", 480, 270, &s);
+    glint_camera *c = &s.at.camera;
+    for (int i = 0; i < 4; i++) {
+        glint_image image = {0};
+        glint_error_choice choice;
+        c->eye = glint_vec3_add(c->eye, glint_vec3_scale(c->back, 120));
+        c->eye = glint_vec3_add(c->eye, glint_vec3_scale(c->right, 0.3));
+        glint_image_free(&s.reference);
+        render_within(&s, 1e-4, &image, &choice);
+        assert_true(error_of(&s, &image) <= 1e-4);
+        again += choice.frames > 1;
+        glint_image_free(&image);
+    }
+    assert_true(again > 0);
+    close_stage(&s);
+}
+
+// Light that is nowhere, or no number somewhere: the frame is the reference then, and no pixel of
+// it is compared that cannot be.
+static void odd_light_gets_the_reference(void **state)
+{
+    (void)state;
+    static const float odd[] = {0, INFINITY};
+    stage s;
+    open_stage("glass_sphere", 480, 270, &s);
+    glint_cube *cube = &s.at.environment.radiance;
+    for (int i = 0; i < 2; i++) {
+        for (size_t k = 0; k < glint_cube_size(cube); k++) {
+            cube->texels[k] = i == 0 || k % 997 == 0 ? odd[i] : cube->texels[k] + 1;
+        }
+        assert_int_equal(glint_renderer_set_environment(s.at.renderer, &s.at.environment, NULL),
+                         GLINT_OK);
+        glint_image image = {0};
+        glint_error_choice choice;
+        render_within(&s, 0.01, &image, &choice);
+        glint_image_free(&s.reference);
+        assert_true(choice.error == 0 && error_of(&s, &image) == 0);
+        assert_int_equal(test_count_different(&image, &s.reference), 0);
+        glint_image_free(&image);
+    }
+    close_stage(&s);
+}
+
+// Thin pictures, and one of which a grid's step is a part.
+static void frames_may_have_any_shape(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{40000, 1}, {3, 13000}, {1, 1}};
+    for (int i = 0; i < 3; i++) {
+        stage s;
+        glint_image image = {0};
+        glint_error_choice choice;
+        open_stage("mirror_sphere", sizes[i][0], sizes[i][1], &s);
+        render_within(&s, 0.01, &image, &choice);
+        assert_true(error_of(&s, &image) <= 0.01);
+        glint_image_free(&image);
+        close_stage(&s);
+    }
+}
+
+// The layers are the frame's, by what was chosen for it, and the pixels what they are without.
+static void layers_are_those_of_the_frame(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"materials", "mirror_sphere"};
+    for (int i = 0; i < 2; i++) {
+        stage s;
+        glint_image image = {0}, with_layers = {0};
+        glint_error_choice choice, same;
+        open_stage(scenes[i], 240, 160, &s);
+        render_within(&s, 0.02, &image, &choice);
+        s.at.settings.aovs = GLINT_AOV_ALL;
+        render_within(&s, 0.02, &with_layers, &same);
+        assert_string_equal(choice.rung.options, same.rung.options);
+        assert_int_equal(same.rung.settings.aovs, GLINT_AOV_ALL);
+        glint_layers layers;
+        assert_int_equal(glint_renderer_layers(s.at.renderer, &layers, NULL), GLINT_OK);
+        test_frame own;
+        test_render(&s.at.scene, &s.at.environment, NULL, &same.rung.settings, &own);
+        assert_int_equal(test_count_different(&with_layers, &own.image), 0);
+        assert_int_equal(layers.count, own.layers.count);
+        for (size_t k = 0; k < layers.count; k++) {
+            assert_memory_equal(layers.channels[k].values, own.layers.channels[k].values,
+                                sizeof(float) * 240 * 160);
+        }
+        glint_metrics off;
+        assert_int_equal(glint_metrics_find(&image, &with_layers, NULL, &off, NULL), GLINT_OK);
+        assert_true(off.relative_rmse < 1e-4); // another kernel where depth 1 is proved
+        glint_layers_free(&layers);
+        test_frame_free(&own);
+        glint_image_free(&image);
+        glint_image_free(&with_layers);
+        close_stage(&s);
+    }
 }
 
 // Whatever was rendered before: parts of a sequence come out alike on all machines.
@@ -258,6 +368,10 @@ int main(void)
         cmocka_unit_test(bounds_are_kept),
         cmocka_unit_test(contrast_may_be_the_scenes_own),
         cmocka_unit_test(what_a_grid_cannot_see_is_reckoned_with),
+        cmocka_unit_test(what_lies_between_is_seen_of_the_frame),
+        cmocka_unit_test(odd_light_gets_the_reference),
+        cmocka_unit_test(frames_may_have_any_shape),
+        cmocka_unit_test(layers_are_those_of_the_frame),
         cmocka_unit_test(each_frame_is_judged_by_itself),
         cmocka_unit_test(looser_bounds_cost_no_more),
         cmocka_unit_test(it_can_be_stopped_while_it_chooses),

@@ -15,17 +15,17 @@
 
 // What was chosen for a frame. Plain data.
 typedef struct glint_error_choice {
-    glint_rung rung;    // how the frame was rendered
-    double bound;       // what was asked for
-    double error;       // of the frame: relative RMSE against the reference, which is 0 of itself
-    double grid_error;  // as the grid showed it
-    double chaos;       // of `error`, what single precision is taken to add where paths are
-                        // longer than its digits last; 0 in double precision
-    int grid_pixels;    // that the error was measured on
-    bool grid_is_frame; // these were all there are: `error` is exact
-    int grids;          // pictures of the grid that it took
-    int frames;         // of the whole frame: 1, more where the first turned out not to keep it
-    double choosing_ms; // all that the frame took beside its last picture
+    glint_rung rung;   // how the frame was rendered
+    double bound;      // what was asked for
+    double error;      // of the frame: relative RMSE against the reference, which is 0 of itself
+    double grid_error; // as the grid showed it
+    double unseen_of_float; // of `error`, what single precision is taken to add beyond what the
+                            // grid showed; 0 in double precision
+    int grid_pixels;        // that the error was measured on
+    bool grid_is_frame;     // these were all there are: `error` is exact
+    int grids;              // pictures of the grid that it took
+    int frames;             // of the whole frame: 1, more where the first turned out not to keep it
+    double choosing_ms;     // all that the frame took beside its last picture
     uint64_t choosing_rays; // the grid's
 } glint_error_choice;
 
@@ -46,9 +46,9 @@ void glint_error_bound_begin(glint_error_bound *bound, double max_error,
 void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cube *environment);
 
 // As glint_renderer_frame, but with the settings that keep the bound, which the renderer has
-// afterwards; its report and its layers are those of the frame. Errors: as
-// glint_renderer_set_settings and glint_renderer_frame; GLINT_DEVICE_FAILED where the device has no
-// double precision.
+// afterwards; its layers are those of the frame, and so is *report, which may not be NULL. Errors:
+// as glint_renderer_set_settings and glint_renderer_frame; GLINT_DEVICE_FAILED where the device has
+// no double precision.
 glint_status glint_error_bound_frame(const glint_error_bound *bound, glint_renderer *renderer,
                                      const glint_camera *camera, const glint_progress *progress,
                                      glint_image *image, glint_frame_report *report,

@@ -12,8 +12,11 @@
 int glint_error_grid_step(int width, int height)
 {
     const double pixels = (double)width * height;
+    if (pixels < GLINT_ERROR_GRID_WHOLE) {
+        return 1;
+    }
     const double step = floor(sqrt(pixels / GLINT_ERROR_GRID_PIXELS));
-    return (int)fmax(1, fmin(step, fmin(width, height)));
+    return (int)fmin(step, fmin(width, height));
 }
 
 size_t glint_error_grid_pixel_count(const glint_error_grid *grid)
@@ -28,17 +31,18 @@ static bool go_on(void *context, uint64_t done, uint64_t total)
     return progress->step(progress->context, 0, 1);
 }
 
-glint_status glint_error_grid_render(glint_error_grid *grid, const glint_settings *settings,
-                                     const glint_camera *camera, glint_image *image,
-                                     glint_frame_report *report, glint_error *error)
+// Through `camera` into *image.
+static glint_status render(glint_error_grid *grid, const glint_settings *settings,
+                           const glint_camera *camera, glint_image *image,
+                           glint_frame_report *report, glint_error *error)
 {
     glint_settings of_grid = *settings;
     of_grid.grid_step = grid->step > 1 ? grid->step : 0;
     of_grid.aovs = 0;
     of_grid.terms = 0;
     of_grid.truncation_squares = true;
-    const bool asks = grid->progress != NULL && grid->progress->step != NULL;
-    const glint_progress progress = {asks ? go_on : NULL, (void *)grid->progress};
+    const glint_progress progress = {go_on, (void *)grid->progress};
+    const bool asks = grid->progress != NULL;
     glint_status status = glint_renderer_set_settings(grid->renderer, &of_grid, error);
     if (status == GLINT_OK) {
         status = glint_renderer_frame(grid->renderer, camera, asks ? &progress : NULL, image,
@@ -47,6 +51,16 @@ glint_status glint_error_grid_render(glint_error_grid *grid, const glint_setting
     if (status == GLINT_OK) {
         grid->rays += glint_stats_rays(&report->rays);
         grid->pictures++;
+    }
+    return status;
+}
+
+glint_status glint_error_grid_set_reference(glint_error_grid *grid, const glint_settings *settings,
+                                            glint_frame_report *report, glint_error *error)
+{
+    glint_status status = render(grid, settings, grid->camera, &grid->reference, report, error);
+    if (status == GLINT_OK) {
+        grid->mean = glint_metrics_mean(&grid->reference, &grid->reference);
     }
     return status;
 }
@@ -84,44 +98,53 @@ static double at_most(double chance)
 static glint_grid_error compare(const glint_error_grid *grid)
 {
     const size_t count = glint_error_grid_pixel_count(grid);
+    double n = 0, off = 0;
     double sum = 0, squares = 0; // of the pixels' square errors
     for (size_t i = 0; i < count; i++) {
-        const glint_pixel_error e =
-            glint_metrics_pixel(&grid->image, &grid->reference, i, grid->mean);
         const glint_pixel_error same =
             glint_metrics_pixel(&grid->reference, &grid->reference, i, grid->mean);
-        if (same.is_finite && !e.is_finite) {
-            return (glint_grid_error){(double)INFINITY, (double)INFINITY};
+        if (!same.is_finite) {
+            continue;
+        }
+        const glint_pixel_error e =
+            glint_metrics_pixel(&grid->image, &grid->reference, i, grid->mean);
+        if (!e.is_finite) {
+            return (glint_grid_error){(double)INFINITY, (double)INFINITY, 0};
         }
         double square = 0;
         for (int c = 0; c < 3; c++) {
             square += e.difference[c] * e.difference[c] / 3;
+            off += e.difference[c] / 3;
         }
         sum += square;
         squares += square * square;
+        n++;
     }
     if (sum == 0) {
-        return (glint_grid_error){0, 0};
+        return (glint_grid_error){0};
     }
-    const double n = (double)count, mean = sum / n;
-    const double variance = fmax(0, squares / n - mean * mean);
+    const double mean = sum / n, variance = fmax(0, squares / n - mean * mean);
     const double chance = grid->step > 1 ? sqrt(variance / n) / mean : 0;
-    glint_grid_error result;
-    result.measured = sqrt(mean) / fabs(grid->mean);
-    result.at_most = result.measured * sqrt(at_most(chance));
-    return result;
+    const double measured = sqrt(mean) / fabs(grid->mean);
+    return (glint_grid_error){measured, measured * sqrt(at_most(chance)), off / n};
 }
 
 glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
                                       glint_grid_error *result, glint_frame_report *report,
                                       glint_error *error)
 {
-    glint_status status =
-        glint_error_grid_render(grid, settings, grid->camera, &grid->image, report, error);
+    glint_status status = render(grid, settings, grid->camera, &grid->image, report, error);
     if (status == GLINT_OK) {
         *result = compare(grid);
     }
     return status;
+}
+
+void glint_error_grid_keep(glint_error_grid *grid, glint_image *image)
+{
+    const glint_image measured = grid->image;
+    grid->image = *image;
+    *image = measured;
 }
 
 // ---- Chaos -------------------------------------------------------------------------------------
@@ -174,26 +197,25 @@ static size_t next_that_matters(const glint_error_grid *grid, const glint_image 
     return pixel;
 }
 
-glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_image *image,
-                                         const glint_settings *settings, int depth, double contrast,
+glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_error_chaos *chaos,
                                          double *share, glint_error *error)
 {
     const size_t count = glint_error_grid_pixel_count(grid);
-    glint_settings shallow = *settings;
-    shallow.depth = depth;
+    const glint_image *image = chaos->image;
+    glint_settings shallow = *chaos->settings;
+    shallow.depth = chaos->depth;
     glint_image cut = {0}, sides[2] = {{0}, {0}};
     glint_frame_report unused;
     *share = 0;
-    glint_status status =
-        glint_error_grid_render(grid, &shallow, grid->camera, &cut, &unused, error);
+    glint_status status = render(grid, &shallow, grid->camera, &cut, &unused, error);
     const size_t first = status == GLINT_OK ? next_that_matters(grid, image, &cut, 0) : count;
     for (int i = 0; status == GLINT_OK && first < count && i < 2; i++) {
-        const glint_camera side = shifted(grid->camera, settings->height, i == 0 ? SHIFT : -SHIFT);
-        status = glint_error_grid_render(grid, settings, &side, &sides[i], &unused, error);
+        const glint_camera side = shifted(grid->camera, shallow.height, i == 0 ? SHIFT : -SHIFT);
+        status = render(grid, chaos->settings, &side, &sides[i], &unused, error);
     }
     for (size_t i = first; status == GLINT_OK && i < count;
          i = next_that_matters(grid, image, &cut, i + 1)) {
-        *share += fmin(1, bend(image, sides, i) / contrast) / (double)count;
+        *share += fmin(1, bend(image, sides, i) / chaos->contrast) / (double)count;
     }
     glint_image_free(&cut);
     glint_image_free(&sides[0]);

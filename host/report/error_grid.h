@@ -7,11 +7,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Zero is valid.
+// Zero is valid; glint_error_grid_free frees the pictures.
 typedef struct glint_error_grid {
     glint_renderer *renderer;       // borrowed
     const glint_camera *camera;     // likewise
-    const glint_progress *progress; // likewise; may be NULL. It is asked whether to go on, no more
+    const glint_progress *progress; // likewise; may be NULL. It is asked whether to go on, and told
+                                    // nothing of how far it is
     glint_image reference;
     glint_image image; // the last one that was measured
     double mean;       // the reference's
@@ -20,41 +21,53 @@ typedef struct glint_error_grid {
     uint64_t rays;     // likewise
 } glint_error_grid;
 
-// About so many pixels are a grid's.
-#define GLINT_ERROR_GRID_PIXELS 9000
+// About so many pixels are a grid's; a frame of less than so many is its own grid.
+#define GLINT_ERROR_GRID_PIXELS 5000
+#define GLINT_ERROR_GRID_WHOLE 36000
 
 // The step of the grid of a frame.
 int glint_error_grid_step(int width, int height);
 
-// Renders the grid's pixels with `settings`, but for their grid_step and extras, through `camera`
-// into *image.
-glint_status glint_error_grid_render(glint_error_grid *grid, const glint_settings *settings,
-                                     const glint_camera *camera, glint_image *image,
-                                     glint_frame_report *report, glint_error *error);
+// Renders the grid's pixels with `settings`, but for their grid_step and extras, as the reference.
+// Errors, here and below: as glint_renderer_set_settings and glint_renderer_frame.
+glint_status glint_error_grid_set_reference(glint_error_grid *grid, const glint_settings *settings,
+                                            glint_frame_report *report, glint_error *error);
 
 // How far the reference's pixels are from their mean, root mean square over R, G and B; pixels that
 // are not finite do not count.
 double glint_error_grid_contrast(const glint_error_grid *grid);
 
-// Relative RMSE against the grid's reference, infinite where pixels are not finite that the
-// reference's are; and what it is at most over the whole frame, as far as a grid can tell, with a
-// confidence of 97.5%.
+// Over the pixels that are finite in the reference. Plain data.
 typedef struct glint_grid_error {
-    double measured, at_most;
+    double measured;   // relative RMSE; infinite where the picture is not finite
+    double at_most;    // what that is at most over the whole frame, as far as a grid can tell, with
+                       // a confidence of 97.5%
+    double mean_error; // the picture's mean less the reference's
 } glint_grid_error;
 
+// Renders the grid as above, and compares it to its reference.
 glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
                                       glint_grid_error *result, glint_frame_report *report,
                                       glint_error *error);
+
+// Takes the picture that was measured last into *image, whose own memory is used for the next one.
+void glint_error_grid_keep(glint_error_grid *grid, glint_image *image);
+
+// What chaos is looked for in. Pointers are borrowed.
+typedef struct glint_error_chaos {
+    const glint_image *image;       // of the grid by `settings`, in double precision
+    const glint_settings *settings; // likewise
+    int depth;                      // surfaces after which it may begin
+    double contrast;                // how far light from another direction is off
+} glint_error_chaos;
 
 // How much of the grid hangs on digits that single precision does not have: of the pixels whose
 // light beyond `depth` surfaces matters (by a hundredth of the mean), how far each is from the mean
 // of itself with the camera a thousandth of a pixel to the left and to the right, in parts of
 // `contrast` and one at most; the mean over all pixels. What changes evenly with the camera is not
 // counted: rounding shifts paths by less than that, and the grid shows what comes of it; a jump
-// counts in full. `image` is the grid by `settings`, in double precision.
-glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_image *image,
-                                         const glint_settings *settings, int depth, double contrast,
+// counts in full.
+glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_error_chaos *chaos,
                                          double *share, glint_error *error);
 
 size_t glint_error_grid_pixel_count(const glint_error_grid *grid);

@@ -65,7 +65,7 @@ static void put_choice(json_t *root, const glint_error_choice *choice)
     glint_json_put_real(object, "error", choice->error);
     glint_json_put_text(object, "options", choice->rung.options);
     glint_json_put_real(object, "grid_error", choice->grid_error);
-    glint_json_put_real(object, "unseen_of_single_precision", choice->chaos);
+    glint_json_put_real(object, "unseen_of_single_precision", choice->unseen_of_float);
     glint_json_put_count(object, "grid_pixels", (uint64_t)choice->grid_pixels);
     glint_json_put_flag(object, "grid_is_frame", choice->grid_is_frame);
     glint_json_put_count(object, "grids", (uint64_t)choice->grids);

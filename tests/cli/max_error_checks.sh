@@ -4,7 +4,7 @@
 scenes=$(readlink -f -- "$3")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
-cp "$scenes"/prism.* "$scenes"/mirror_sphere.* in/
+cp "$scenes"/prism.* "$scenes"/mirror_sphere.* "$scenes"/clockwork.* "$scenes"/axes.hdr in/
 scene=in/prism.gltf
 size=(--size 96x54)
 ok=("$scene" -o out/a.exr "${size[@]}")
@@ -63,8 +63,8 @@ else
     skip 'what the file says' 'exrheader is not installed'
 fi
 run render "$scene" -o out/a.exr "${exact[@]}" --max-error 0.01
-check 'its layers are those of the frame' "$glint" render "$scene" -o out/layers.exr "${exact[@]}" --max-error 0.01 --aov all
-check 'and change no pixel' same_pixels out/a.exr out/layers.exr
+check 'layers beside it' "$glint" render "$scene" -o out/layers.exr "${exact[@]}" --max-error 0.01 --aov all
+check 'change no pixel' same_pixels out/a.exr out/layers.exr
 run render in/mirror_sphere.gltf -o out/b.exr "${exact[@]}" --max-error 0.01 --stats out/stats.json
 check 'what is proved exact is taken' stat_is '--depth auto' max_error options
 run render "$scene" -o out/a.png --max-error 5 --size 8x8
@@ -98,5 +98,22 @@ run "${turn[@]}" -o out/f.#.exr --skip-existing --max-error 0.03
 check 'another bound: all again' test "$(find out -name '*.exr' -newermt 2021-01-01 | wc -l)" -eq 4
 run render "$scene" --turntable 4 --progress none "${size[@]}" -o out/f.#.exr --skip-existing
 check 'none: all again' test "$(grep -c 'made from other settings\|made from another' stderr)" -eq 4
+clean
+
+# What moves, under light that changes: frame by frame, as each is by itself.
+for k in 1 2 3; do
+    "$glint" env in/axes.hdr in/light.$k.exr --env-rotate $((k * 50)) --to latlong --size 128 2>/dev/null
+done
+moving=(render in/clockwork.gltf --fps 1 --env in/light.#.exr --progress none "${size[@]}" --exr-type float)
+run "${moving[@]}" --frames 1-3 --max-error 0.02 -o out/m.#.exr
+check 'moving, the light too: exit status 0' test "$status" -eq 0
+for k in 1 2 3; do
+    run "${moving[@]}" --frames $k --max-error 0.02 -o parts/m.#.exr
+    check "frame $k: by itself it is the same" same_pixels out/m.$k.exr parts/m.$k.exr
+    run "${moving[@]}" --frames $k --precision double --depth 64 --min-weight 0.0000152587890625 -o parts/r.#.exr
+    check "frame $k: within the bound" within 0.02 out/m.$k.exr parts/r.$k.exr
+done
+check 'and they are three pictures' apart 0.01 out/m.1.exr out/m.2.exr
+check 'all of them' apart 0.01 out/m.2.exr out/m.3.exr
 clean
 finish

@@ -1,0 +1,482 @@
+// The search for the cheapest way of rendering that keeps a bound. See error_search.h.
+//
+// A grid of some thousand pixels tells the mean of an error well as long as it is spread over many
+// pixels. Some things are not, and each is met in its own way:
+//  - Where light bounces so often between curved surfaces that single precision has no digits left,
+//    one pixel in ten thousand is off by many times the mean. How likely that is of the grid's
+//    pixels is found in double precision (error_grid.h), and those are taken to show what another
+//    direction of the environment would.
+//  - Near critical angles reflectance has no slope that digits could be counted on: in glass single
+//    precision is taken to add FLOAT_IN_GLASS whatever the grid shows.
+//  - What truncation takes from a few pixels alone: the kernels add up the squares of what each
+//    pixel was cut short of, of the whole frame (with_truncated). A frame that then exceeds the
+//    bound is rendered again.
+//  - What is cut short mostly shows another direction than what it would have shown, by a fifth to
+//    the whole of the environment's contrast; but it may also be right nearly everywhere, as of an
+//    open sea, and wrong in two pixels of a frame. So truncated weight is never taken to err by
+//    less than LEAST_TRUNCATION of that.
+//  - The mean that errors are relative to: that of the frame itself, once there is one.
+//  - Chance: that of error_grid.h, and a safety factor, which only the choice heeds: what is said
+//    of the frame is without.
+// The reference keeps every bound, as errors are counted from it.
+#include "report/error_search.h"
+
+#include "report/metrics.h"
+#include "report/stats.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define SAFETY 1.05 // beside chance
+// Where no path splits a rung of fewer surfaces is taken if it has no more than this share of rays.
+#define SHALLOW_RAYS 0.9
+// Surfaces after which single precision may have no digits left: light that glass focuses as it
+// passes loses a digit at each or at every other one.
+#define CHAOS_DEPTH 12
+// By 1 what follows of it is 0.65 to 5 times what single precision errs by, of 12 views of three
+// scenes of curved glass (built-in glass and mixed, gallery), and more of others.
+#define CHAOS_FACTOR 2
+// One pixel that shows what its neighbour does, at a fold of curved glass: of 36 views (640 x 352)
+// of nine scenes without chaos the sea's had the most, 9.6e-4, and no grid can tell.
+#define FLOAT_IN_GLASS 1e-3
+// Of what another direction would make of the truncated weight: ten scenes' frames have 0.15 to 1
+// of it, with weights of 1/4 to 1/4096, where more than two pixels err. Where few do, as in nested
+// glass with 1/16000, a frame had 0.35 of it and its grid 0.09.
+#define LEAST_TRUNCATION 0.35
+// Of truncated weight, how much more there may be of a frame than of the grid for its errors to be
+// alike; and what others err by at their worst, of what another direction would make of it.
+#define ALIKE 2
+#define UNLIKE 2
+// The grid's own reference may end branches of the bound over this: what that leaves out is some
+// hundredths of the bound.
+#define REFERENCE_SHARE 256
+// Half texels err by up to some 10⁻⁴ (render/plan.c).
+#define HALF_TEXELS_FROM 1e-3
+// Least weights are 2^(−step/2).
+#define CHAOS_STEP 12 // 1/64: what single precision errs by is looked for with no finer weights
+#define LAST_STEP 32  // the reference's
+// What is tried first: for a bound of 0.1, and how much finer for a tenth of it.
+#define FIRST_STEP 8
+#define STEPS_PER_TENTH 6
+// How the error falls: as about the 0.8th power of the weight, and between these.
+#define OCTAVES_PER_STEP 0.4
+#define OCTAVES_PER_STEP_LEAST 0.2
+#define OCTAVES_PER_STEP_MOST 0.8
+// Weights that fail with this share of the rays of those that keep the bound: what lies between
+// saves nothing.
+#define USELESS_RAYS 0.99
+// In double precision a frame takes what it takes in float with a quarter of the weight, about.
+#define DOUBLE_STEPS 4
+
+static bool keeps(const glint_error_search *s, const glint_error_trial *t)
+{
+    const double factor = s->grid.step > 1 ? SAFETY : 1;
+    return factor * t->error <= s->bound;
+}
+
+// A picture that is dark at all of a sparse grid's places says nothing of what lies between them.
+static bool is_blind(const glint_error_search *s)
+{
+    return s->grid.step > 1 && s->grid.mean == 0;
+}
+
+// What is truncated that the reference follows cannot be taken to err by less; 0 where the grid is
+// the frame.
+static double least_error(const glint_error_search *s, double truncation)
+{
+    const double more = truncation * truncation - s->truncation * s->truncation;
+    return LEAST_TRUNCATION * s->off * sqrt(fmax(0, more));
+}
+
+static double with_unseen(const glint_error_search *s, const glint_rung *rung, double error)
+{
+    return rung->settings.precision == GLINT_PRECISION_FLOAT ? hypot(error, s->unseen) : error;
+}
+
+static glint_status try_rung(glint_error_search *s, const glint_rung *rung, glint_error_trial *t,
+                             glint_error *error)
+{
+    glint_frame_report report;
+    *t = (glint_error_trial){.rung = *rung};
+    glint_status status =
+        glint_error_grid_measure(&s->grid, &rung->settings, &t->grid, &report, error);
+    if (status == GLINT_OK) {
+        t->truncation = report.truncation.rms;
+        t->error = with_unseen(s, rung, fmax(t->grid.at_most, least_error(s, t->truncation)));
+        t->rays = glint_stats_rays(&report.rays);
+        t->deepest = report.deepest;
+    }
+    return status;
+}
+
+void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *t)
+{
+    *t = (glint_error_trial){.is_reference = true};
+    glint_rung_reference(s->settings, &t->rung);
+}
+
+// Whether single precision may be taken at all, and may have no digits left in paths of so many
+// surfaces.
+static bool is_unseen_open(const glint_error_search *s, uint32_t deepest)
+{
+    return s->off > 0 && deepest > CHAOS_DEPTH && SAFETY * s->unseen <= s->bound;
+}
+
+// What single precision is up against beyond what the grid shows. `image` is the grid by
+// `settings`, in double precision, its longest path `deepest`.
+static glint_status find_unseen(glint_error_search *s, const glint_image *image, uint32_t deepest,
+                                const glint_settings *settings, glint_error *error)
+{
+    double share;
+    if (!is_unseen_open(s, deepest)) {
+        return GLINT_OK;
+    }
+    const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
+    glint_status status = glint_error_grid_find_chaos(&s->grid, &chaos, &share, error);
+    if (status == GLINT_OK) {
+        s->unseen = hypot(s->unseen, CHAOS_FACTOR * s->off * sqrt(share));
+    }
+    return status;
+}
+
+// ---- Where paths split -------------------------------------------------------------------------
+
+// 2^(−step/2) to three digits, so that the options that are told of make the same picture.
+static double weight_of(int step)
+{
+    const double weight = exp2(-0.5 * step), digits = pow(10, 2 - floor(log10(weight)));
+    return round(weight * digits) / digits;
+}
+
+static int step_of(double weight)
+{
+    return (int)lround(-2 * log2(weight));
+}
+
+// Branches below a weight are not followed.
+static glint_rung weights(const glint_error_search *s, glint_precision precision, int step)
+{
+    const bool is_float = precision == GLINT_PRECISION_FLOAT;
+    const bool coarse = s->bound >= HALF_TEXELS_FROM;
+    glint_rung rung;
+    glint_rung_by_weight(s->settings, precision,
+                         is_float && !coarse ? GLINT_TEXELS_FLOAT : GLINT_TEXELS_AUTO,
+                         weight_of(step), &rung);
+    return rung;
+}
+
+static glint_status try_weights(glint_error_search *s, glint_precision precision, int step,
+                                glint_error_trial *t, glint_error *error)
+{
+    const glint_rung rung = weights(s, precision, step);
+    return try_rung(s, &rung, t, error);
+}
+
+// What has been tried of weights in double precision: the largest that keep the bound, and the
+// smallest that do not.
+typedef struct tried {
+    int step; // LAST_STEP and 1 while nothing has been
+    double error;
+    uint64_t rays;
+} tried;
+
+typedef struct bracket {
+    tried keeping, failing, last;
+    double octaves_per_step; // by which the error falls
+    bool halve;              // the last step left most of what lay between
+} bracket;
+
+static int width_of(const bracket *b)
+{
+    return b->keeping.step - b->failing.step;
+}
+
+static void narrow(const glint_error_search *s, const glint_error_trial *t, int step, bracket *b)
+{
+    const int before = width_of(b);
+    if (b->last.error > 0 && t->error > 0 && b->last.step != step) {
+        const double slope = log2(b->last.error / t->error) / (step - b->last.step);
+        b->octaves_per_step = fmin(fmax(slope, OCTAVES_PER_STEP_LEAST), OCTAVES_PER_STEP_MOST);
+    }
+    b->last = (tried){step, t->error, t->rays};
+    *(keeps(s, t) ? &b->keeping : &b->failing) = b->last;
+    b->halve = 2 * width_of(b) > before;
+}
+
+// Where between the two the bound would be kept, on a straight line.
+static double step_between(const glint_error_search *s, const bracket *b)
+{
+    const double fall = log2(b->failing.error / b->keeping.error);
+    const double above = log2(SAFETY * b->failing.error / s->bound);
+    const bool is_known = b->keeping.error > 0 && b->failing.error < (double)INFINITY;
+    return is_known && !b->halve ? b->failing.step + above / fall * width_of(b)
+                                 : b->failing.step + 0.5 * width_of(b);
+}
+
+// The step to try next; the one that keeps the bound where none is expected to do better.
+static int next_step(const glint_error_search *s, const bracket *b)
+{
+    const int first = b->failing.step + 1, last = b->keeping.step - 1;
+    const bool has_failed = b->failing.step > 1, has_kept = b->keeping.step < LAST_STEP;
+    const double beyond =
+        b->last.step + log2(SAFETY * b->last.error / s->bound) / b->octaves_per_step;
+    const double next = ceil(has_failed && has_kept ? step_between(s, b) : beyond);
+    const bool is_no_use = (double)b->failing.rays >= USELESS_RAYS * (double)b->keeping.rays;
+    if (first > last || (has_failed && has_kept && is_no_use) || (has_kept && next > last)) {
+        return b->keeping.step;
+    }
+    return next > first ? next < last ? (int)next : last : first;
+}
+
+// The largest weights in double precision, whose picture is kept. *step is LAST_STEP where nothing
+// but the reference will do.
+static glint_status find_weights(glint_error_search *s, int *step, glint_error_trial *best,
+                                 glint_error *error)
+{
+    const double guess = FIRST_STEP + STEPS_PER_TENTH * log10(0.1 / s->bound);
+    bracket b = {
+        .keeping.step = LAST_STEP, .failing.step = 1, .octaves_per_step = OCTAVES_PER_STEP};
+    glint_status status = GLINT_OK;
+    int at = (int)fmin(fmax(guess, 2), LAST_STEP - 1);
+    for (; status == GLINT_OK && at != b.keeping.step; at = next_step(s, &b)) {
+        glint_error_trial t;
+        status = try_weights(s, GLINT_PRECISION_DOUBLE, at, &t, error);
+        if (status == GLINT_OK) {
+            narrow(s, &t, at, &b);
+        }
+        if (status == GLINT_OK && b.keeping.step == at) {
+            *best = t;
+            glint_error_grid_keep(&s->grid, &s->coarsest);
+        }
+    }
+    *step = b.keeping.step;
+    return status;
+}
+
+// With those weights or, where they are finer, with CHAOS_STEP's.
+static glint_status find_unseen_of_weights(glint_error_search *s, int step,
+                                           const glint_error_trial *best, glint_error *error)
+{
+    if (step <= CHAOS_STEP) {
+        return find_unseen(s, &s->coarsest, best->deepest, &best->rung.settings, error);
+    }
+    glint_error_trial t;
+    glint_status status = try_weights(s, GLINT_PRECISION_DOUBLE, CHAOS_STEP, &t, error);
+    return status == GLINT_OK ? find_unseen(s, &s->grid.image, t.deepest, &t.rung.settings, error)
+                              : status;
+}
+
+// Single precision errs by what double precision does and more, so that it needs no larger weights;
+// it is worth its while with weights that are smaller by less than what it is faster.
+static glint_status try_float(glint_error_search *s, int of_double, glint_error_trial *best,
+                              glint_error *error)
+{
+    const int last = of_double + DOUBLE_STEPS < LAST_STEP ? of_double + DOUBLE_STEPS : LAST_STEP;
+    double expected = best->error;
+    int at = of_double;
+    for (; at < last && SAFETY * hypot(expected, s->unseen) > s->bound; at++) {
+        expected *= exp2(-OCTAVES_PER_STEP);
+    }
+    glint_status status = GLINT_OK;
+    for (; status == GLINT_OK && at < last; at++) {
+        glint_error_trial t;
+        status = try_weights(s, GLINT_PRECISION_FLOAT, at, &t, error);
+        if (status == GLINT_OK && keeps(s, &t)) {
+            *best = t;
+            break;
+        }
+    }
+    return status;
+}
+
+static glint_status search_weights(glint_error_search *s, glint_error_trial *best,
+                                   glint_error *error)
+{
+    int step;
+    glint_error_search_give_up(s, best);
+    glint_status status = find_weights(s, &step, best, error);
+    if (status != GLINT_OK || best->is_reference) {
+        return status;
+    }
+    if (is_unseen_open(s, s->deepest)) {
+        status = find_unseen_of_weights(s, step, best, error);
+    }
+    return status == GLINT_OK ? try_float(s, step, best, error) : status;
+}
+
+// What is finer in the same precision, by the grid as well.
+static glint_status refine_weights(glint_error_search *s, double estimate, glint_error_trial *t,
+                                   glint_error *error)
+{
+    const glint_precision precision = t->rung.settings.precision;
+    double step = step_of(t->rung.settings.min_weight);
+    do {
+        step += ceil(fmax(1, log2(estimate / s->bound) / OCTAVES_PER_STEP));
+        if (!(step < LAST_STEP)) {
+            glint_error_search_give_up(s, t);
+            return GLINT_OK;
+        }
+        const glint_status status = try_weights(s, precision, (int)step, t, error);
+        if (status != GLINT_OK) {
+            return status;
+        }
+        estimate = t->error;
+    } while (!keeps(s, t));
+    return GLINT_OK;
+}
+
+// ---- Where they do not -------------------------------------------------------------------------
+
+static glint_rung *append_rung(glint_error_search *s)
+{
+    return &s->rungs[s->count++];
+}
+
+static void list_rungs(glint_error_search *s, const glint_plan *plan)
+{
+    for (int depth = 1; depth <= 8 && depth < plan->depth; depth *= 2) {
+        glint_rung_by_depth(s->settings, depth, append_rung(s));
+    }
+    glint_rung_by_depth(s->settings, 0, append_rung(s));
+    if (plan->half_texels && s->settings->texels == GLINT_TEXELS_AUTO) {
+        glint_rung *floats = append_rung(s);
+        *floats = (glint_rung){.settings = *s->settings};
+        floats->settings.texels = GLINT_TEXELS_FLOAT;
+        snprintf(floats->name, sizeof floats->name, "float texels");
+        snprintf(floats->options, sizeof floats->options, "--texels float");
+    }
+    glint_rung *doubles = append_rung(s);
+    *doubles = (glint_rung){.settings = *s->settings};
+    doubles->settings.precision = GLINT_PRECISION_DOUBLE;
+    snprintf(doubles->name, sizeof doubles->name, "double precision");
+    snprintf(doubles->options, sizeof doubles->options, "--precision double");
+}
+
+// The first from `taken` on that keeps the bound.
+static glint_status search_rungs(glint_error_search *s, glint_error_trial *best, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    for (; status == GLINT_OK && s->taken < s->count; s->taken++) {
+        status = try_rung(s, &s->rungs[s->taken], best, error);
+        const bool is_shallow = best->rung.settings.depth > 0;
+        if (status == GLINT_OK && keeps(s, best) &&
+            (!is_shallow || (double)best->rays <= SHALLOW_RAYS * (double)s->rays)) {
+            return status;
+        }
+    }
+    glint_error_search_give_up(s, best);
+    return status;
+}
+
+// ---- The search --------------------------------------------------------------------------------
+
+// What the reference tells of the frame, beside its mean.
+static void look(glint_error_search *s, const glint_frame_report *report, double contrast)
+{
+    s->rays = glint_stats_rays(&report->rays);
+    s->deepest = report->deepest;
+    s->truncation = report->truncation.rms;
+    if (s->grid.mean != 0 && s->grid.step > 1) {
+        // Of what shines itself, paint and lamps in the scene, the picture tells.
+        s->contrast = fmax(contrast, glint_error_grid_contrast(&s->grid));
+        s->off = s->contrast / fabs(s->grid.mean);
+        s->unseen = s->glass ? FLOAT_IN_GLASS : 0;
+    }
+}
+
+glint_status glint_error_search_begin(glint_error_search *s, double bound,
+                                      const glint_settings *settings, const glint_plan *plan,
+                                      double contrast, glint_error *error)
+{
+    *s = (glint_error_search){.settings = settings, .bound = bound, .grid = s->grid};
+    s->splits = plan->features[GLINT_FEATURE_SPLIT].compiled;
+    s->glass = plan->features[GLINT_FEATURE_GLASS].compiled;
+    if (!s->splits) {
+        list_rungs(s, plan);
+    }
+    glint_rung reference;
+    glint_rung_reference(settings, &reference);
+    // A grid that is the frame is a small one, and has time for all.
+    const double least = s->grid.step > 1 ? bound / REFERENCE_SHARE : 0;
+    reference.settings.min_weight = fmax(reference.settings.min_weight, least);
+    glint_frame_report report;
+    glint_status status =
+        glint_error_grid_set_reference(&s->grid, &reference.settings, &report, error);
+    if (status == GLINT_OK) {
+        look(s, &report, contrast);
+    }
+    return status;
+}
+
+glint_status glint_error_search_choose(glint_error_search *s, glint_error_trial *t,
+                                       glint_error *error)
+{
+    if (is_blind(s)) {
+        glint_error_search_give_up(s, t);
+        return GLINT_OK;
+    }
+    if (s->splits) {
+        return search_weights(s, t, error);
+    }
+    glint_rung reference;
+    glint_rung_reference(s->settings, &reference);
+    glint_status status =
+        find_unseen(s, &s->grid.reference, s->deepest, &reference.settings, error);
+    return status == GLINT_OK ? search_rungs(s, t, error) : status;
+}
+
+glint_status glint_error_search_refine(glint_error_search *s, double estimate, glint_error_trial *t,
+                                       glint_error *error)
+{
+    if (s->splits) {
+        return refine_weights(s, estimate, t, error);
+    }
+    s->taken++;
+    return search_rungs(s, t, error);
+}
+
+// What a frame errs by whose pixels were cut short of `whole`, by what the grid's errs: where no
+// path splits, and depth is what cuts them short, more than those as another direction would; else
+// up to twice of it by as much for its weight as they do, and the rest, of pixels like which there
+// were none, as another direction would at its worst.
+static double with_truncated(const glint_error_search *s, const glint_error_trial *t, double whole)
+{
+    const double seen = t->truncation, measured = t->grid.measured;
+    if (!s->splits) {
+        return hypot(measured, s->off * sqrt(fmax(0, whole * whole - seen * seen)));
+    }
+    const double alike = seen > 0 ? measured * fmin(fmax(1, whole / seen), ALIKE) : measured;
+    const double unlike = sqrt(fmax(0, whole * whole - ALIKE * ALIKE * seen * seen));
+    return hypot(alike, UNLIKE * s->off * unlike);
+}
+
+// The reference's mean over the whole frame, over that of the grid: the frame's, less what it errs
+// by on the grid's pixels.
+static double mean_over_grids(const glint_error_search *s, const glint_error_trial *t,
+                              const glint_image *frame)
+{
+    const double mean = glint_metrics_mean(frame, frame) - t->grid.mean_error;
+    return fabs(mean / s->grid.mean);
+}
+
+double glint_error_search_estimate(const glint_error_search *s, const glint_error_trial *t,
+                                   const glint_image *frame, const glint_frame_report *report)
+{
+    if (s->grid.step == 1 || t->is_reference) {
+        return t->error;
+    }
+    if (report->nonfinite_pixels > 0) {
+        return (double)INFINITY;
+    }
+    const double whole = report->truncation.rms;
+    const double known = fmax(t->grid.at_most, with_truncated(s, t, whole));
+    const double error = with_unseen(s, &t->rung, fmax(known, least_error(s, whole)));
+    return error == 0 ? 0 : error / mean_over_grids(s, t, frame);
+}
+
+void glint_error_search_end(glint_error_search *s)
+{
+    glint_error_grid_free(&s->grid);
+    glint_image_free(&s->coarsest);
+    *s = (glint_error_search){0};
+}
