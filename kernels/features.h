@@ -18,6 +18,7 @@
     FEATURE(SOLID, "light refracts into and out of solids by Snell's law")                         \
     FEATURE(THIN_WALL, "light passes straight through walls without thickness")                    \
     FEATURE(NESTED_MEDIA, "a path keeps the stack of solids that it is inside")                    \
+    FEATURE(CONVEX_SOLID, "what leaves the one convex solid that there is meets nothing")          \
     FEATURE(ABSORPTION, "light is absorbed inside solids by Beer and Lambert's law")               \
     FEATURE(PAINT, "matte paint is lit by the environment's irradiance")                           \
     FEATURE(GLOSS, "smooth paint reflects under its Fresnel term")                                 \

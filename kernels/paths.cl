@@ -95,6 +95,10 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     path branch = *ray;
     branch.direction = direction;
     branch.met = ray->met + (lane_int)1;
+#if GLINT_CONVEX_SOLID
+    const mask leaves = sign > R(0.0) ? s->outside : !s->outside;
+    branch.looked_up = SELECT(leaves, int_of(1), int_of(0));
+#endif
 #if HAS_PLACES
     branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
     branch.from = hit->place;
@@ -119,12 +123,14 @@ static inline mask ended(const glint_frame_record *frame, real weight, lanes_int
     return deep | light;
 }
 
-// Such a branch takes the environment along its direction.
+// Such a branch takes the environment along its direction; one that would not be traced anyway is
+// none of them.
 static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
                               const pixels *pixels, tally *tally)
 {
-    mask ends = ended(frame, largest3(branch->weight), branch->met, exists, pixels, tally);
-    branch->looked_up = SELECT(ends, int_of(1), int_of(0));
+    mask traced = branch->looked_up == (lane_int)0;
+    mask ends = ended(frame, largest3(branch->weight), branch->met, exists & traced, pixels, tally);
+    branch->looked_up = SELECT(ends, int_of(1), branch->looked_up);
 }
 
 #if GLINT_ABSORPTION

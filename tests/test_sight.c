@@ -202,6 +202,68 @@ static void render(const glint_scene *scene, const glint_camera *camera, int dep
     glint_environment_free(&environment);
 }
 
+// Whose exits are proved to meet nothing: glass alone, and convex.
+static void glass_on_paint(shape *s)
+{
+    a_glass_ball(s);
+    add_quad(s, -0.7, -2, 2, 0, MATERIAL_TINTED);
+}
+
+static void two_glass_balls(shape *s)
+{
+    shape_add_ball(s, (double[3]){-0.6, 0, 0}, 0.5, 3, NULL, true, MATERIAL_GLASS);
+    shape_add_ball(s, (double[3]){0.6, 0, 0}, 0.5, 3, NULL, true, MATERIAL_GLASS);
+}
+
+static const struct {
+    const char *name;
+    void (*build)(shape *s);
+    bool escape;
+} glasses[] = {
+    {"a glass ball", a_glass_ball, true},    {"two of them", two_glass_balls, false},
+    {"one on paint", glass_on_paint, false}, {"a mirror ball", one_ball, false},
+    {"a bubble", a_bubble, false},
+};
+
+// Where it is proved that what leaves glass meets nothing, all that it meets when it is traced all
+// the same, as with a depth by number, is nothing: bit by bit, from outside and from within.
+static void exits_escape_as_is_proved(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof glasses / sizeof *glasses; i++) {
+        const sight_case c = {.build = glasses[i].build};
+        glint_scene scene;
+        glint_topology topology;
+        build(&c, &scene);
+        assert_int_equal(glint_topology_find(&scene, &topology, NULL), GLINT_OK);
+        const glint_sight sight = glint_sight_find(&scene, &topology);
+        assert_int_equal(sight.exits_escape, glasses[i].escape);
+        scene.moves = true;
+        assert_false(glint_sight_find(&scene, &topology).exits_escape);
+        scene.moves = false;
+        const glint_camera cameras[] = {camera_at(0.4, 0.3, 3), camera_at(0.1, 0, 0.2)};
+        for (int k = 0; k < 2; k++) {
+            test_frame proved, traced;
+            render(&scene, &cameras[k], 0, &proved);
+            render(&scene, &cameras[k], GLINT_DEPTH_MAX, &traced);
+            assert_int_equal(proved.plan.features[GLINT_FEATURE_CONVEX_SOLID].compiled,
+                             glasses[i].escape);
+            assert_false(traced.plan.features[GLINT_FEATURE_CONVEX_SOLID].compiled);
+            if (glasses[i].escape) {
+                assert_int_equal(test_count_different(&proved.image, &traced.image), 0);
+                assert_memory_equal(&proved.report.rays, &traced.report.rays,
+                                    sizeof traced.report.rays);
+                assert_true(proved.report.truncation.by_min_weight <=
+                            traced.report.truncation.by_min_weight);
+            }
+            test_frame_free(&proved);
+            test_frame_free(&traced);
+        }
+        glint_topology_free(&topology);
+        glint_scene_free(&scene);
+    }
+}
+
 static void is_proved_as_it_must_be(void **state)
 {
     (void)state;
@@ -366,9 +428,8 @@ static void an_eye_inside_is_noticed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(is_proved_as_it_must_be),
-        cmocka_unit_test(materials_end_paths_or_not),
-        cmocka_unit_test(no_path_goes_deeper),
+        cmocka_unit_test(is_proved_as_it_must_be),    cmocka_unit_test(exits_escape_as_is_proved),
+        cmocka_unit_test(materials_end_paths_or_not), cmocka_unit_test(no_path_goes_deeper),
         cmocka_unit_test(an_eye_inside_is_noticed),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

@@ -186,6 +186,11 @@ static void print_sight(const glint_plan *plan)
     } else if (sight->reason[0] != '\0') {
         printf("  no depth is proved to be exact: %s\n", sight->reason);
     }
+    if (sight->exits_escape) {
+        printf(
+            "  what leaves the glass is not traced: it is closed, convex and alone, so that there "
+            "is nothing but the environment\n");
+    }
 }
 
 static void print_plan(const glint_subject *subject)

@@ -174,8 +174,14 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
-static void decide_depth(glint_plan *plan)
+// From the depth, and from what is proved of the scene.
+static void decide_paths(glint_plan *plan)
 {
+    const bool escapes = plan->sight.exits_escape;
+    decide(plan, GLINT_FEATURE_CONVEX_SOLID, escapes, "%s",
+           escapes ? "all that there is is one closed, convex solid"
+                   : "not proved of this scene, with these settings");
+
     decide(plan, GLINT_FEATURE_INTERREFLECTION,
            plan->features[GLINT_FEATURE_GEOMETRY].compiled && plan->depth > 1,
            plan->depth_is_exact  ? "depth %d is exact here"
@@ -425,7 +431,7 @@ static void compile_everything(glint_plan *plan)
                      i == GLINT_FEATURE_MIP_LEVELS || i == GLINT_FEATURE_IRRADIANCE_HARMONICS ||
                      i == GLINT_FEATURE_SMOOTH_NORMALS || i == GLINT_FEATURE_DIAGNOSTICS ||
                      i == GLINT_FEATURE_TERMS || i == GLINT_FEATURE_VERTEX_COLOR ||
-                     i == GLINT_FEATURE_VERTEX_DIRECTION ||
+                     i == GLINT_FEATURE_VERTEX_DIRECTION || i == GLINT_FEATURE_CONVEX_SOLID ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {
@@ -466,7 +472,7 @@ void glint_plan_heed_sight(glint_plan *plan, bool heed)
     }
     plan->depth_is_exact = heed;
     plan->depth = heed ? plan->sight.depth : GLINT_DEPTH_MAX;
-    decide_depth(plan);
+    decide_paths(plan);
     describe_secondary_rays(plan);
 }
 
@@ -476,7 +482,7 @@ static glint_status vary(const glint_plan_inputs *in, glint_plan *plan, glint_er
     const glint_settings *settings = in->settings;
     plan->precision = settings->precision;
     choose_depth(settings, in->sight, plan);
-    decide_depth(plan);
+    decide_paths(plan);
     decide_extras(settings, plan);
     if (settings->all_features) {
         compile_everything(plan);

@@ -399,6 +399,9 @@ glint_status glint_error_search_begin(glint_error_search *s, double bound,
     // A grid that is the frame is a small one, and has time for all.
     const double least = s->grid.step > 1 ? bound / REFERENCE_SHARE : 0;
     reference.settings.min_weight = fmax(reference.settings.min_weight, least);
+    // Truncated weights are compared to its own, so that it heeds what they heed.
+    reference.settings.depth =
+        plan->features[GLINT_FEATURE_CONVEX_SOLID].compiled ? 0 : reference.settings.depth;
     glint_frame_report report;
     glint_status status =
         glint_error_grid_set_reference(&s->grid, &reference.settings, &report, error);

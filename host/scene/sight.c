@@ -218,9 +218,12 @@ glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *top
     if (c.refracted == 0 && c.passes == 0 && is_convex) {
         return proved(alone, true, "a closed, convex mirror");
     }
-    return not_proved(
-        c.reflected + c.passes == 0 && is_convex
-            ? "light that leaves the convex glass does not come back, but inside it is "
-              "reflected any number of times"
-            : "what sends paths on is neither one convex mirror nor flat");
+    if (alone && c.reflected + c.passes == 0 && is_convex) {
+        glint_sight sight = not_proved("inside of glass light is reflected any number of times");
+        sight.exits_escape = true;
+        return sight;
+    }
+    return not_proved(c.refracted > 0
+                          ? "what sends paths on is not one convex body alone"
+                          : "what sends paths on is neither one convex mirror nor flat");
 }

@@ -16,6 +16,7 @@ extern "C" {
 typedef struct glint_sight {
     int depth;         // that is exact, 1 or 2; 0: none is proved
     bool from_outside; // for paths that begin outside of the scene's bounds alone
+    bool exits_escape; // what leaves a solid, refracted or reflected, meets nothing; without depth
     char reason[120];  // "a closed, convex mirror sees nothing but the environment"; without a
                        // depth what stands in the way
 } glint_sight;
