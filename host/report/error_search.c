@@ -304,7 +304,8 @@ static glint_status search_weights(glint_error_search *s, glint_error_trial *bes
     return status == GLINT_OK ? try_float(s, step, best, error) : status;
 }
 
-// What is finer in the same precision, by the grid as well.
+// What is finer in the same precision, by the grid as well; where that takes nearly as long as the
+// reference, this.
 static glint_status refine_weights(glint_error_search *s, double estimate, glint_error_trial *t,
                                    glint_error *error)
 {
@@ -312,7 +313,7 @@ static glint_status refine_weights(glint_error_search *s, double estimate, glint
     double step = step_of(t->rung.settings.min_weight);
     do {
         step += ceil(fmax(1, log2(estimate / s->bound) / OCTAVES_PER_STEP));
-        if (!(step < LAST_STEP)) {
+        if (!(step < LAST_STEP - DOUBLE_STEPS)) {
             glint_error_search_give_up(s, t);
             return GLINT_OK;
         }
