@@ -183,11 +183,8 @@ static glint_status judge(contest *c, double bound, glint_error *error)
     glint_frame_report report;
     glint_error_bound_begin(&asked, bound, &c->settings);
     glint_error_bound_set_environment(&asked, &c->studio->radiance);
-    glint_status status = glint_renderer_set_settings(c->renderer, &c->settings, error);
-    if (status == GLINT_OK) {
-        status = glint_error_bound_frame(&asked, c->renderer, &c->camera, NULL, &c->image, &report,
-                                         &choice, error);
-    }
+    glint_status status = glint_error_bound_frame(&asked, c->renderer, &c->camera, NULL, &c->image,
+                                                  &report, &choice, error);
     if (status != GLINT_OK) {
         return status;
     }

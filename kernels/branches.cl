@@ -23,9 +23,10 @@ typedef int pixels;
 
 #if GLINT_SPLIT
 
-// Kinds of branches: six for the ways they run, and those that are looked up without being traced.
-#define BRANCH_KINDS 7
-#define LOOKED_UP 6
+// Kinds of branches: six for the ways they run, and those that are looked up without being traced,
+// by what path.looked_up says.
+#define BRANCH_KINDS (CUT_SHORT + ESCAPES)
+#define CUT_SHORT 6
 
 typedef struct branch {
     scalar origin[3], direction[3], weight[3];
@@ -84,7 +85,7 @@ static inline lanes_int kinds_of_rays(const path *ray)
     real along = SELECT(x_major, d.x, SELECT(y_major, d.y, d.z));
     lanes_int kind = SELECT(x_major, int_of(0), SELECT(y_major, int_of(2), int_of(4)));
     kind += SELECT(along > R(0.0), int_of(1), int_of(0));
-    return SELECT(ray->looked_up != (lane_int)0, int_of(LOOKED_UP), kind);
+    return SELECT(ray->looked_up != (lane_int)0, ray->looked_up + (lane_int)(CUT_SHORT - 1), kind);
 }
 
 static inline void save_branch(const path *ray, const pixels *pixels, lanes_int kinds, int lane,
@@ -172,7 +173,7 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
 #endif
         LANE_INT(ray->from, lane) = list[i].from;
         LANE_INT(ray->media, lane) = list[i].media;
-        LANE_INT(ray->looked_up, lane) = list[i].kind == LOOKED_UP;
+        LANE_INT(ray->looked_up, lane) = max(list[i].kind - CUT_SHORT + 1, 0);
         LANE_INT(pixels[place / GLINT_WIDTH], lane) = list[i].pixel;
     }
     for (int g = 0; g < TILE_GROUPS; g++) {

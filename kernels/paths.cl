@@ -97,7 +97,7 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     branch.met = ray->met + (lane_int)1;
 #if GLINT_CONVEX_SOLID
     const mask leaves = sign > R(0.0) ? s->outside : !s->outside;
-    branch.looked_up = SELECT(leaves, int_of(1), int_of(0));
+    branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
 #endif
 #if HAS_PLACES
     branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
@@ -222,8 +222,8 @@ static inline void split_path(paths *all, int slot, path *reflected, path *trans
                                   SELECT(unended_t, largest3(transmitted->weight), zero);
         count_truncated(tally, pixels, unended_r, largest3(reflected->weight));
         count_truncated(tally, pixels, unended_t, largest3(transmitted->weight));
-        reflected->looked_up = SELECT(full, int_of(1), reflected->looked_up);
-        transmitted->looked_up = SELECT(full, int_of(1), transmitted->looked_up);
+        reflected->looked_up = SELECT(unended_r, int_of(1), reflected->looked_up);
+        transmitted->looked_up = SELECT(unended_t, int_of(1), transmitted->looked_up);
     }
     mask reflected_waits = both & (largest3(reflected->weight) > largest3(transmitted->weight));
     mask transmitted_waits = both & !reflected_waits;
@@ -360,7 +360,7 @@ static inline void note_look_ups(const cube_map *map, real3 direction, const pat
 {
     const cube_point point = find_on_cube(direction, int_of(map->edge), int_of(0));
     note_faces(layers, pixels, escaped, ray->weight, face_of(map, &point));
-    note_truncation(layers, pixels, escaped & (ray->looked_up != (lane_int)0), ray->weight);
+    note_truncation(layers, pixels, escaped & (ray->looked_up == (lane_int)1), ray->weight);
 }
 #endif
 

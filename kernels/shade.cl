@@ -1,6 +1,8 @@
 // What happens where a ray meets a surface: light that is added there, and the directions in which
 // the path goes on. The rules are those of ARCHITECTURE.md, "Light transport".
 
+#define ESCAPES 2
+
 // A path on its way: a ray, its weight and what it has passed.
 typedef struct path {
     real3 origin, direction; // the direction is a unit vector
@@ -14,7 +16,8 @@ typedef struct path {
     lanes_int from;      // place of the triangle that the ray starts on, −1: none
     lanes_int met;       // surfaces met so far
     lanes_int media;     // see media.cl
-    lanes_int looked_up; // 1: takes the environment along its direction, without being traced
+    lanes_int looked_up; // takes the environment along its direction, without being traced: 1 as
+                         // it is cut short, ESCAPES as it meets nothing; else 0
 } path;
 
 // A hit, ready for optics.

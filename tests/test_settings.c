@@ -173,20 +173,14 @@ static void there_may_be_any_number_of_them(void **state)
                                  .texels = i & 2 ? GLINT_TEXELS_HALF : GLINT_TEXELS_FLOAT,
                                  .depth = i & 4 ? 1 : 3,
                                  .min_weight = first.min_weight,
-                                 .terms = 1 + i,
+                                 .terms = 8 - i,
                                  .truncation_squares = i & 1};
         const glint_settings turns[] = {vary(&first, &other), first, grid};
         for (int j = 0; j < 3; j++) {
-            glint_image image = {0};
             assert_int_equal(glint_renderer_set_settings(s.renderer, &turns[j], NULL), GLINT_OK);
-            assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &image, NULL, NULL),
-                             GLINT_OK);
-            glint_image_free(&image);
+            check_frame(&s, &turns[j]);
         }
     }
-    check_frame(&s, &grid);
-    assert_int_equal(glint_renderer_set_settings(s.renderer, &first, NULL), GLINT_OK);
-    check_frame(&s, &first);
     test_stage_close(&s);
 }
 

@@ -243,16 +243,24 @@ static glint_status build(glint_renderer *r, const char *options, glint_kernels 
     return status;
 }
 
-// Kernels of these options; else those that have not been used for the longest time.
+// Of these options; NULL: none.
 static glint_kernels *find(glint_equipment *e, const char *options)
 {
-    glint_kernels *oldest = &e->kernels[0];
     for (size_t i = 0; i < GLINT_KERNELS_KEPT; i++) {
         glint_kernels *k = &e->kernels[i];
         if (k->options != NULL && strcmp(k->options, options) == 0) {
             return k;
         }
-        oldest = k->last_use < oldest->last_use ? k : oldest;
+    }
+    return NULL;
+}
+
+// Those that have not been used for the longest time.
+static glint_kernels *find_oldest(glint_equipment *e)
+{
+    glint_kernels *oldest = &e->kernels[0];
+    for (size_t i = 1; i < GLINT_KERNELS_KEPT; i++) {
+        oldest = e->kernels[i].last_use < oldest->last_use ? &e->kernels[i] : oldest;
     }
     return oldest;
 }
@@ -263,12 +271,13 @@ static glint_status equip_kernels(glint_renderer *r, glint_error *error)
     char options[4096];
     glint_plan_build_options(&r->plan, options, sizeof options);
     glint_kernels *k = find(e, options);
-    if (k->options != NULL && strcmp(k->options, options) == 0) {
+    if (k != NULL) {
         k->last_use = ++e->uses;
         use(r, k);
         return set_buffers(r, error);
     }
     double clock = glint_now_ms();
+    k = find_oldest(e);
     release(k);
     k->options = strdup(options);
     k->last_use = ++e->uses;

@@ -125,7 +125,8 @@ const glint_plan *glint_renderer_first_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);
 const glint_phases *glint_renderer_phases(const glint_renderer *renderer);
 
-// Bytes of the buffers that the device works on; a CPU's lie in the host's memory.
+// Bytes that the device works on; a CPU's lie in the host's memory. Buffers that were needed for
+// larger frames of other settings stay, and are not counted.
 typedef struct glint_device_bytes {
     size_t scene;       // clusters of triangles, normals, materials
     size_t tree;        // nodes

@@ -441,10 +441,14 @@ static void compile_everything(glint_plan *plan)
     }
 }
 
-// Layers tell what took the environment untraced, which rests on paths being followed.
-static bool heeds_sight(const glint_settings *settings)
+// Layers tell what was cut short, which a depth that is proved would be told of as.
+static void choose_sight(const glint_settings *settings, const glint_sight *sight, glint_plan *plan)
 {
-    return glint_plan_may_heed_sight(settings) && settings->aovs == 0;
+    plan->sight = (glint_sight){0};
+    if (sight != NULL && glint_plan_may_heed_sight(settings)) {
+        plan->sight =
+            settings->aovs == 0 ? *sight : (glint_sight){.exits_escape = sight->exits_escape};
+    }
 }
 
 static void choose_depth(const glint_settings *settings, const glint_sight *sight, glint_plan *plan)
@@ -457,8 +461,7 @@ static void choose_depth(const glint_settings *settings, const glint_sight *sigh
         plan->depth = 1;
         plan->depth_is_auto = false;
     }
-    const bool heeds = sight != NULL && heeds_sight(settings);
-    plan->sight = heeds ? *sight : (glint_sight){0};
+    choose_sight(settings, sight, plan);
     plan->depth_is_exact = plan->sight.depth > 0;
     if (plan->depth_is_exact) {
         plan->depth = plan->sight.depth;

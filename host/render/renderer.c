@@ -258,6 +258,7 @@ glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scen
                                       glint_error *error)
 {
     const glint_plan before = r->shown.plan;
+    const glint_sight sight = r->shown.sight;
     glint_geometry_take_back(&r->geometry, &r->shown.tree);
     r->has_failed = true;
     glint_status status = prepare(r, scene, &r->shown, error);
@@ -265,6 +266,7 @@ glint_status glint_renderer_set_scene(glint_renderer *r, const glint_scene *scen
         status = show(r, scene, error);
     } else {
         r->shown.plan = before;
+        r->shown.sight = sight;
     }
     r->has_failed = status != GLINT_OK;
     return status;

@@ -24,6 +24,9 @@ void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cub
         const double distance = 1 + x * x + y * y;                  // squared
         const double solid_angle = 1 / (distance * sqrt(distance)); // but for a factor
         const float *texel = glint_cube_texel(environment, i / (edge * edge), column, row);
+        if (!isfinite(texel[0]) || !isfinite(texel[1]) || !isfinite(texel[2])) {
+            continue;
+        }
         all += solid_angle;
         for (int c = 0; c < 3; c++) {
             sum[c] += solid_angle * (double)texel[c];
@@ -63,8 +66,7 @@ static glint_status choose(judged_frame *f, const glint_error_bound *bound, glin
 {
     glint_error_search *s = &f->search;
     const glint_plan *plan = glint_renderer_first_plan(s->grid.renderer);
-    glint_status status =
-        glint_error_search_begin(s, bound->bound, &bound->settings, plan, bound->contrast, error);
+    glint_status status = glint_error_search_begin(s, bound, plan, error);
     return status == GLINT_OK ? glint_error_search_choose(s, &f->trial, error) : status;
 }
 

@@ -34,7 +34,8 @@ typedef struct glint_error_bound {
     double bound;            // relative RMSE, > 0
     glint_settings settings; // of the renderer's creation
     double contrast;         // of the environment: how far radiances are from their mean over all
-                             // directions, root mean square over R, G and B
+                             // directions, root mean square over R, G and B; what is not
+                             // finite does not count
 } glint_error_bound;
 
 // `settings`: what glint_ladder_make wants, layers and directions being allowed, which are not

@@ -98,7 +98,7 @@ static double at_most(double chance)
 static glint_grid_error compare(const glint_error_grid *grid)
 {
     const size_t count = glint_error_grid_pixel_count(grid);
-    double n = 0, off = 0;
+    double n = 0, sum_of_differences = 0;
     double sum = 0, squares = 0; // of the pixels' square errors
     for (size_t i = 0; i < count; i++) {
         const glint_pixel_error same =
@@ -114,7 +114,7 @@ static glint_grid_error compare(const glint_error_grid *grid)
         double square = 0;
         for (int c = 0; c < 3; c++) {
             square += e.difference[c] * e.difference[c] / 3;
-            off += e.difference[c] / 3;
+            sum_of_differences += e.difference[c] / 3;
         }
         sum += square;
         squares += square * square;
@@ -126,7 +126,7 @@ static glint_grid_error compare(const glint_error_grid *grid)
     const double mean = sum / n, variance = fmax(0, squares / n - mean * mean);
     const double chance = grid->step > 1 ? sqrt(variance / n) / mean : 0;
     const double measured = sqrt(mean) / fabs(grid->mean);
-    return (glint_grid_error){measured, measured * sqrt(at_most(chance)), off / n};
+    return (glint_grid_error){measured, measured * sqrt(at_most(chance)), sum_of_differences / n};
 }
 
 glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,

@@ -1,4 +1,4 @@
-// Pictures of a sparse grid of a frame's pixels, and their errors. For error_bound.c only.
+// Pictures of a sparse grid of a frame's pixels, and their errors. For error_search.c only.
 #ifndef GLINT_REPORT_ERROR_GRID_H
 #define GLINT_REPORT_ERROR_GRID_H
 

@@ -65,13 +65,15 @@
 // Weights that fail with this share of the rays of those that keep the bound: what lies between
 // saves nothing.
 #define USELESS_RAYS 0.99
+// So many steps before the reference's a frame in double precision takes nearly as long as it.
+#define NEAR_STEPS 4
 // In double precision a frame takes what it takes in float with a quarter of the weight, about.
 #define DOUBLE_STEPS 4
 
 static bool keeps(const glint_error_search *s, const glint_error_trial *t)
 {
     const double factor = s->grid.step > 1 ? SAFETY : 1;
-    return factor * t->error <= s->bound;
+    return factor * t->error <= s->asked->bound;
 }
 
 // A picture that is dark at all of a sparse grid's places says nothing of what lies between them.
@@ -85,7 +87,7 @@ static bool is_blind(const glint_error_search *s)
 static double least_error(const glint_error_search *s, double truncation)
 {
     const double more = truncation * truncation - s->truncation * s->truncation;
-    return LEAST_TRUNCATION * s->off * sqrt(fmax(0, more));
+    return LEAST_TRUNCATION * s->relative_contrast * sqrt(fmax(0, more));
 }
 
 static double with_unseen(const glint_error_search *s, const glint_rung *rung, double error)
@@ -112,14 +114,15 @@ static glint_status try_rung(glint_error_search *s, const glint_rung *rung, glin
 void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *t)
 {
     *t = (glint_error_trial){.is_reference = true};
-    glint_rung_reference(s->settings, &t->rung);
+    glint_rung_reference(&s->asked->settings, &t->rung);
 }
 
 // Whether single precision may be taken at all, and may have no digits left in paths of so many
 // surfaces.
 static bool is_unseen_open(const glint_error_search *s, uint32_t deepest)
 {
-    return s->off > 0 && deepest > CHAOS_DEPTH && SAFETY * s->unseen <= s->bound;
+    return s->relative_contrast > 0 && deepest > CHAOS_DEPTH &&
+           SAFETY * s->unseen <= s->asked->bound;
 }
 
 // What single precision is up against beyond what the grid shows. `image` is the grid by
@@ -134,7 +137,7 @@ static glint_status find_unseen(glint_error_search *s, const glint_image *image,
     const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
     glint_status status = glint_error_grid_find_chaos(&s->grid, &chaos, &share, error);
     if (status == GLINT_OK) {
-        s->unseen = hypot(s->unseen, CHAOS_FACTOR * s->off * sqrt(share));
+        s->unseen = hypot(s->unseen, CHAOS_FACTOR * s->relative_contrast * sqrt(share));
     }
     return status;
 }
@@ -154,12 +157,12 @@ static int step_of(double weight)
 }
 
 // Branches below a weight are not followed.
-static glint_rung weights(const glint_error_search *s, glint_precision precision, int step)
+static glint_rung rung_of_step(const glint_error_search *s, glint_precision precision, int step)
 {
     const bool is_float = precision == GLINT_PRECISION_FLOAT;
-    const bool coarse = s->bound >= HALF_TEXELS_FROM;
+    const bool coarse = s->asked->bound >= HALF_TEXELS_FROM;
     glint_rung rung;
-    glint_rung_by_weight(s->settings, precision,
+    glint_rung_by_weight(&s->asked->settings, precision,
                          is_float && !coarse ? GLINT_TEXELS_FLOAT : GLINT_TEXELS_AUTO,
                          weight_of(step), &rung);
     return rung;
@@ -168,18 +171,18 @@ static glint_rung weights(const glint_error_search *s, glint_precision precision
 static glint_status try_weights(glint_error_search *s, glint_precision precision, int step,
                                 glint_error_trial *t, glint_error *error)
 {
-    const glint_rung rung = weights(s, precision, step);
+    const glint_rung rung = rung_of_step(s, precision, step);
     return try_rung(s, &rung, t, error);
 }
 
-// What has been tried of weights in double precision: the largest that keep the bound, and the
-// smallest that do not.
+// Weights in double precision that have been tried.
 typedef struct tried {
     int step; // LAST_STEP and 1 while nothing has been
     double error;
     uint64_t rays;
 } tried;
 
+// The largest that keep the bound, the smallest that do not, and the last.
 typedef struct bracket {
     tried keeping, failing, last;
     double octaves_per_step; // by which the error falls
@@ -191,7 +194,7 @@ static int width_of(const bracket *b)
     return b->keeping.step - b->failing.step;
 }
 
-static void narrow(const glint_error_search *s, const glint_error_trial *t, int step, bracket *b)
+static void take_note(const glint_error_search *s, const glint_error_trial *t, int step, bracket *b)
 {
     const int before = width_of(b);
     if (b->last.error > 0 && t->error > 0 && b->last.step != step) {
@@ -207,7 +210,7 @@ static void narrow(const glint_error_search *s, const glint_error_trial *t, int 
 static double step_between(const glint_error_search *s, const bracket *b)
 {
     const double fall = log2(b->failing.error / b->keeping.error);
-    const double above = log2(SAFETY * b->failing.error / s->bound);
+    const double above = log2(SAFETY * b->failing.error / s->asked->bound);
     const bool is_known = b->keeping.error > 0 && b->failing.error < (double)INFINITY;
     return is_known && !b->halve ? b->failing.step + above / fall * width_of(b)
                                  : b->failing.step + 0.5 * width_of(b);
@@ -219,7 +222,7 @@ static int next_step(const glint_error_search *s, const bracket *b)
     const int first = b->failing.step + 1, last = b->keeping.step - 1;
     const bool has_failed = b->failing.step > 1, has_kept = b->keeping.step < LAST_STEP;
     const double beyond =
-        b->last.step + log2(SAFETY * b->last.error / s->bound) / b->octaves_per_step;
+        b->last.step + log2(SAFETY * b->last.error / s->asked->bound) / b->octaves_per_step;
     const double next = ceil(has_failed && has_kept ? step_between(s, b) : beyond);
     const bool is_no_use = (double)b->failing.rays >= USELESS_RAYS * (double)b->keeping.rays;
     if (first > last || (has_failed && has_kept && is_no_use) || (has_kept && next > last)) {
@@ -233,7 +236,7 @@ static int next_step(const glint_error_search *s, const bracket *b)
 static glint_status find_weights(glint_error_search *s, int *step, glint_error_trial *best,
                                  glint_error *error)
 {
-    const double guess = FIRST_STEP + STEPS_PER_TENTH * log10(0.1 / s->bound);
+    const double guess = FIRST_STEP + STEPS_PER_TENTH * log10(0.1 / s->asked->bound);
     bracket b = {
         .keeping.step = LAST_STEP, .failing.step = 1, .octaves_per_step = OCTAVES_PER_STEP};
     glint_status status = GLINT_OK;
@@ -242,7 +245,7 @@ static glint_status find_weights(glint_error_search *s, int *step, glint_error_t
         glint_error_trial t;
         status = try_weights(s, GLINT_PRECISION_DOUBLE, at, &t, error);
         if (status == GLINT_OK) {
-            narrow(s, &t, at, &b);
+            take_note(s, &t, at, &b);
         }
         if (status == GLINT_OK && b.keeping.step == at) {
             *best = t;
@@ -274,7 +277,7 @@ static glint_status try_float(glint_error_search *s, int of_double, glint_error_
     const int last = of_double + DOUBLE_STEPS < LAST_STEP ? of_double + DOUBLE_STEPS : LAST_STEP;
     double expected = best->error;
     int at = of_double;
-    for (; at < last && SAFETY * hypot(expected, s->unseen) > s->bound; at++) {
+    for (; at < last && SAFETY * hypot(expected, s->unseen) > s->asked->bound; at++) {
         expected *= exp2(-OCTAVES_PER_STEP);
     }
     glint_status status = GLINT_OK;
@@ -310,10 +313,11 @@ static glint_status refine_weights(glint_error_search *s, double estimate, glint
                                    glint_error *error)
 {
     const glint_precision precision = t->rung.settings.precision;
+    const int last = precision == GLINT_PRECISION_DOUBLE ? LAST_STEP - NEAR_STEPS : LAST_STEP;
     double step = step_of(t->rung.settings.min_weight);
     do {
-        step += ceil(fmax(1, log2(estimate / s->bound) / OCTAVES_PER_STEP));
-        if (!(step < LAST_STEP - DOUBLE_STEPS)) {
+        step += ceil(fmax(1, log2(estimate / s->asked->bound) / OCTAVES_PER_STEP));
+        if (!(step < last)) {
             glint_error_search_give_up(s, t);
             return GLINT_OK;
         }
@@ -336,18 +340,18 @@ static glint_rung *append_rung(glint_error_search *s)
 static void list_rungs(glint_error_search *s, const glint_plan *plan)
 {
     for (int depth = 1; depth <= 8 && depth < plan->depth; depth *= 2) {
-        glint_rung_by_depth(s->settings, depth, append_rung(s));
+        glint_rung_by_depth(&s->asked->settings, depth, append_rung(s));
     }
-    glint_rung_by_depth(s->settings, 0, append_rung(s));
-    if (plan->half_texels && s->settings->texels == GLINT_TEXELS_AUTO) {
+    glint_rung_by_depth(&s->asked->settings, 0, append_rung(s));
+    if (plan->half_texels && s->asked->settings.texels == GLINT_TEXELS_AUTO) {
         glint_rung *floats = append_rung(s);
-        *floats = (glint_rung){.settings = *s->settings};
+        *floats = (glint_rung){.settings = s->asked->settings};
         floats->settings.texels = GLINT_TEXELS_FLOAT;
         snprintf(floats->name, sizeof floats->name, "float texels");
         snprintf(floats->options, sizeof floats->options, "--texels float");
     }
     glint_rung *doubles = append_rung(s);
-    *doubles = (glint_rung){.settings = *s->settings};
+    *doubles = (glint_rung){.settings = s->asked->settings};
     doubles->settings.precision = GLINT_PRECISION_DOUBLE;
     snprintf(doubles->name, sizeof doubles->name, "double precision");
     snprintf(doubles->options, sizeof doubles->options, "--precision double");
@@ -371,43 +375,44 @@ static glint_status search_rungs(glint_error_search *s, glint_error_trial *best,
 
 // ---- The search --------------------------------------------------------------------------------
 
-// What the reference tells of the frame, beside its mean.
-static void look(glint_error_search *s, const glint_frame_report *report, double contrast)
+// What the grid's reference tells of the frame, beside its mean.
+static void learn(glint_error_search *s, const glint_frame_report *report)
 {
     s->rays = glint_stats_rays(&report->rays);
     s->deepest = report->deepest;
     s->truncation = report->truncation.rms;
     if (s->grid.mean != 0 && s->grid.step > 1) {
         // Of what shines itself, paint and lamps in the scene, the picture tells.
-        s->contrast = fmax(contrast, glint_error_grid_contrast(&s->grid));
-        s->off = s->contrast / fabs(s->grid.mean);
+        s->contrast = fmax(s->asked->contrast, glint_error_grid_contrast(&s->grid));
+        s->relative_contrast = s->contrast / fabs(s->grid.mean);
         s->unseen = s->glass ? FLOAT_IN_GLASS : 0;
     }
 }
 
-glint_status glint_error_search_begin(glint_error_search *s, double bound,
-                                      const glint_settings *settings, const glint_plan *plan,
-                                      double contrast, glint_error *error)
+glint_status glint_error_search_begin(glint_error_search *s, const glint_error_bound *asked,
+                                      const glint_plan *plan, glint_error *error)
 {
-    *s = (glint_error_search){.settings = settings, .bound = bound, .grid = s->grid};
+    *s = (glint_error_search){.asked = asked, .grid = s->grid};
     s->splits = plan->features[GLINT_FEATURE_SPLIT].compiled;
     s->glass = plan->features[GLINT_FEATURE_GLASS].compiled;
     if (!s->splits) {
         list_rungs(s, plan);
     }
     glint_rung reference;
-    glint_rung_reference(settings, &reference);
-    // A grid that is the frame is a small one, and has time for all.
-    const double least = s->grid.step > 1 ? bound / REFERENCE_SHARE : 0;
-    reference.settings.min_weight = fmax(reference.settings.min_weight, least);
-    // Truncated weights are compared to its own, so that it heeds what they heed.
-    reference.settings.depth =
-        plan->features[GLINT_FEATURE_CONVEX_SOLID].compiled ? 0 : reference.settings.depth;
+    glint_rung_reference(&asked->settings, &reference);
+    s->of_reference = reference.settings;
+    if (s->grid.step > 1) { // one that is the frame is a small one, and has time for all
+        const double least = fmin(1, asked->bound / REFERENCE_SHARE);
+        s->of_reference.min_weight = fmax(s->of_reference.min_weight, least);
+    }
+    if (plan->features[GLINT_FEATURE_CONVEX_SOLID].compiled) {
+        s->of_reference.depth = 0; // so that what is cut short of it is what may be of others
+    }
     glint_frame_report report;
     glint_status status =
-        glint_error_grid_set_reference(&s->grid, &reference.settings, &report, error);
+        glint_error_grid_set_reference(&s->grid, &s->of_reference, &report, error);
     if (status == GLINT_OK) {
-        look(s, &report, contrast);
+        learn(s, &report);
     }
     return status;
 }
@@ -422,16 +427,17 @@ glint_status glint_error_search_choose(glint_error_search *s, glint_error_trial 
     if (s->splits) {
         return search_weights(s, t, error);
     }
-    glint_rung reference;
-    glint_rung_reference(s->settings, &reference);
-    glint_status status =
-        find_unseen(s, &s->grid.reference, s->deepest, &reference.settings, error);
+    glint_status status = find_unseen(s, &s->grid.reference, s->deepest, &s->of_reference, error);
     return status == GLINT_OK ? search_rungs(s, t, error) : status;
 }
 
 glint_status glint_error_search_refine(glint_error_search *s, double estimate, glint_error_trial *t,
                                        glint_error *error)
 {
+    if (estimate == (double)INFINITY) {
+        glint_error_search_give_up(s, t);
+        return GLINT_OK;
+    }
     if (s->splits) {
         return refine_weights(s, estimate, t, error);
     }
@@ -447,11 +453,11 @@ static double with_truncated(const glint_error_search *s, const glint_error_tria
 {
     const double seen = t->truncation, measured = t->grid.measured;
     if (!s->splits) {
-        return hypot(measured, s->off * sqrt(fmax(0, whole * whole - seen * seen)));
+        return hypot(measured, s->relative_contrast * sqrt(fmax(0, whole * whole - seen * seen)));
     }
     const double alike = seen > 0 ? measured * fmin(fmax(1, whole / seen), ALIKE) : measured;
     const double unlike = sqrt(fmax(0, whole * whole - ALIKE * ALIKE * seen * seen));
-    return hypot(alike, UNLIKE * s->off * unlike);
+    return hypot(alike, UNLIKE * s->relative_contrast * unlike);
 }
 
 // The reference's mean over the whole frame, over that of the grid: the frame's, less what it errs

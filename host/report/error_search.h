@@ -6,21 +6,23 @@
 #include "base/status.h"
 #include "render/frame.h"
 #include "render/ladder.h"
+#include "report/error_bound.h"
 #include "report/error_grid.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-// A rung that has been tried. Plain data.
+// A rung that has been tried; or the reference, of which nothing is: only `rung` is set then. Plain
+// data.
 typedef struct glint_error_trial {
     glint_rung rung;
-    bool is_reference;     // of which nothing is tried: all else is 0 then
+    bool is_reference;
     glint_grid_error grid; // as the grid showed it
     double error;          // at most, with what a grid cannot see
     double truncation;     // of the grid, see glint_truncation.rms
-    uint64_t rays;         // likewise
-    uint32_t deepest;      // surfaces of its longest path
+    uint64_t rays;         // of the grid
+    uint32_t deepest;      // surfaces of the grid's longest path
 } glint_error_trial;
 
 #define GLINT_ERROR_RUNGS 8
@@ -28,32 +30,32 @@ typedef struct glint_error_trial {
 // glint_error_search_begin fills it but for `grid`, of which renderer, camera, progress and step
 // are the caller's, and glint_error_search_end frees it.
 typedef struct glint_error_search {
-    const glint_settings *settings; // of the renderer's creation; borrowed
-    double bound;                   // relative RMSE, > 0
+    const glint_error_bound *asked; // borrowed
     glint_error_grid grid;
-    bool splits, glass;   // paths split; there is glass
-    uint32_t deepest;     // surfaces of the longest path of the grid's reference
-    uint64_t rays;        // likewise
-    double contrast;      // by how much light from another direction differs, as radiance
-    double off;           // likewise, over the mean
-    double truncation;    // of the reference, see glint_truncation.rms
-    double unseen;        // what single precision is taken to add beyond what the grid shows
-    glint_image coarsest; // in double precision, of the trial that was taken of these
+    glint_settings of_reference; // of the grid
+    bool splits, glass;          // paths split; there is glass
+    uint32_t deepest;            // surfaces of the longest path of the grid's reference
+    uint64_t rays;               // of the grid's reference
+    double truncation;           // of the grid's reference, see glint_truncation.rms
+    double contrast;             // by how much light from another direction differs, as radiance
+    double relative_contrast;    // that over the reference's mean; 0 where the grid is the frame
+    double unseen;               // what single precision is taken to add beyond what the grid shows
+    glint_image coarsest;        // in double precision: by the largest weights that keep the bound
     glint_rung rungs[GLINT_ERROR_RUNGS]; // where paths do not split, in the order of what they cost
-    size_t count, taken;                 // likewise; the one that was tried last
+    size_t count, taken;                 // of the rungs; the one that was tried last
 } glint_error_search;
 
-// Renders the grid's reference. `plan` is of `settings`, `contrast` the environment's (see
-// glint_error_bound). Errors: as glint_renderer_set_settings and glint_renderer_frame.
-glint_status glint_error_search_begin(glint_error_search *search, double bound,
-                                      const glint_settings *settings, const glint_plan *plan,
-                                      double contrast, glint_error *error);
+// Renders the grid's reference. `plan` is that of asked->settings. Errors: as
+// glint_renderer_set_settings and glint_renderer_frame.
+glint_status glint_error_search_begin(glint_error_search *search, const glint_error_bound *asked,
+                                      const glint_plan *plan, glint_error *error);
 
 // The cheapest rung that keeps the bound. Errors as above.
 glint_status glint_error_search_choose(glint_error_search *search, glint_error_trial *trial,
                                        glint_error *error);
 
-// A finer rung than *trial, whose frame turned out to err by `estimate`. Errors as above.
+// A finer rung than *trial, whose frame turned out to err by `estimate`; the reference where that
+// is infinite. Errors as above.
 glint_status glint_error_search_refine(glint_error_search *search, double estimate,
                                        glint_error_trial *trial, glint_error *error);
 
