@@ -147,6 +147,22 @@ static void what_a_grid_cannot_see_is_reckoned_with(void **state)
     close_stage(&s);
 }
 
+// No more than a few of a grid's pixels can be without one of them being seen: where even that many
+// keep the bound, single precision is taken, and taken to have them.
+static void what_a_grid_may_miss_can_be_afforded(void **state)
+{
+    (void)state;
+    stage s;
+    glint_image image = {0};
+    glint_error_choice choice;
+    open_stage("gallery", 480, 270, &s);
+    render_within(&s, 0.3, &image, &choice);
+    assert_int_not_equal(choice.rung.settings.precision, GLINT_PRECISION_DOUBLE);
+    assert_true(choice.unseen_of_float > 0.1 && error_of(&s, &image) <= 0.3);
+    glint_image_free(&image);
+    close_stage(&s);
+}
+
 // A ball of glass that a few pixels see, between those of the grid or hardly among them: what they
 // are cut short of is known once the frame is there, which is then rendered once more.
 static void what_lies_between_is_seen_of_the_frame(void **state)
@@ -368,6 +384,7 @@ int main(void)
         cmocka_unit_test(bounds_are_kept),
         cmocka_unit_test(contrast_may_be_the_scenes_own),
         cmocka_unit_test(what_a_grid_cannot_see_is_reckoned_with),
+        cmocka_unit_test(what_a_grid_may_miss_can_be_afforded),
         cmocka_unit_test(what_lies_between_is_seen_of_the_frame),
         cmocka_unit_test(odd_light_gets_the_reference),
         cmocka_unit_test(frames_may_have_any_shape),

@@ -53,6 +53,21 @@ glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settin
 // Takes the picture that was measured last into *image, whose own memory is used for the next one.
 void glint_error_grid_keep(glint_error_grid *grid, glint_image *image);
 
+// What edges are looked for in. Pointers are borrowed.
+typedef struct glint_error_edges {
+    const glint_image *image; // of the grid
+    const glint_settings
+        *settings; // that make about the same, in the precision that is asked about
+} glint_error_edges;
+
+// What a frame in single precision errs by, relative to the reference's mean, as its light jumps at
+// edges and folds and a sample here and there shows the other side: at most, with a confidence of
+// 97.5%. Jumps are where a pixel is not the mean of itself with the camera a little to the right
+// and up and as much to the left and down; how often one is taken on the wrong side follows from
+// what single precision is off by.
+glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_error_edges *edges,
+                                         double *at_most, glint_error *error);
+
 // What chaos is looked for in. Pointers are borrowed.
 typedef struct glint_error_chaos {
     const glint_image *image;       // of the grid by `settings`, in double precision

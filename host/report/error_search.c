@@ -6,8 +6,9 @@
 //    one pixel in ten thousand is off by many times the mean. How likely that is of the grid's
 //    pixels is found in double precision (error_grid.h), and those are taken to show what another
 //    direction of the environment would.
-//  - Near critical angles reflectance has no slope that digits could be counted on: in glass single
-//    precision is taken to add FLOAT_IN_GLASS whatever the grid shows.
+//  - At edges and folds of glass single precision shows the other side in a pixel here and there,
+//    which may be off by ten times the mean. How many there may be, and of what size, follows from
+//    the jumps between the grid's pixels and places beside them (error_grid.h).
 //  - What truncation takes from a few pixels alone: the kernels add up the squares of what each
 //    pixel was cut short of, of the whole frame (with_truncated). A frame that then exceeds the
 //    bound is rendered again.
@@ -36,9 +37,16 @@
 // By 1 what follows of it is 0.65 to 5 times what single precision errs by, of 12 views of three
 // scenes of curved glass (built-in glass and mixed, gallery), and more of others.
 #define CHAOS_FACTOR 2
-// One pixel that shows what its neighbour does, at a fold of curved glass: of 36 views (640 x 352)
-// of nine scenes without chaos the sea's had the most, 9.6e-4, and no grid can tell.
-#define FLOAT_IN_GLASS 1e-3
+// Of events of which none was seen there may be so many, with a confidence of 97.5%: an upper bound
+// of a Poisson distribution's mean. With it need not be found how likely they are, where they may
+// take this share of the bound.
+#define NONE_SEEN 3.7
+#define AFFORDABLE 0.5
+// The mean square of how far two directions' light is apart, in squares of the contrast.
+#define UNRELATED 2
+// In glass single precision is taken to add this at least: it errs by 1e-4 to 3e-4 where no pixel
+// shows the other side of an edge (seven scenes).
+#define FLOAT_IN_GLASS 2e-4
 // Of what another direction would make of the truncated weight: ten scenes' frames have 0.15 to 1
 // of it, with weights of 1/4 to 1/4096, where more than two pixels err. Where few do, as in nested
 // glass with 1/16000, a frame had 0.35 of it and its grid 0.09.
@@ -117,28 +125,65 @@ void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *
     glint_rung_reference(&s->asked->settings, &t->rung);
 }
 
-// Whether single precision may be taken at all, and may have no digits left in paths of so many
-// surfaces.
-static bool is_unseen_open(const glint_error_search *s, uint32_t deepest)
+static bool may_be_float(const glint_error_search *s)
 {
-    return s->relative_contrast > 0 && deepest > CHAOS_DEPTH &&
-           SAFETY * s->unseen <= s->asked->bound;
+    return SAFETY * s->unseen <= s->asked->bound;
 }
 
-// What single precision is up against beyond what the grid shows. `image` is the grid by
-// `settings`, in double precision, its longest path `deepest`.
-static glint_status find_unseen(glint_error_search *s, const glint_image *image, uint32_t deepest,
-                                const glint_settings *settings, glint_error *error)
+// Whether single precision may have no digits left in paths of so many surfaces.
+static bool may_be_chaos(const glint_error_search *s, uint32_t deepest)
 {
-    double share;
-    if (!is_unseen_open(s, deepest)) {
+    return s->relative_contrast > 0 && deepest > CHAOS_DEPTH;
+}
+
+// How much light that shows another direction may add, when none of the grid's pixels does.
+static double none_seen(const glint_error_search *s)
+{
+    const double pixels = (double)glint_error_grid_pixel_count(&s->grid);
+    return s->relative_contrast * sqrt(UNRELATED * NONE_SEEN / pixels);
+}
+
+static bool is_affordable(const glint_error_search *s)
+{
+    return none_seen(s) <= AFFORDABLE * s->asked->bound;
+}
+
+// What edges make of single precision in glass. `image` is the grid by `settings`, whatever their
+// precision.
+static glint_status find_edges(glint_error_search *s, const glint_image *image,
+                               const glint_settings *settings, glint_error *error)
+{
+    if (s->grid.step == 1 || !s->glass || !may_be_float(s)) {
         return GLINT_OK;
     }
-    const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
-    glint_status status = glint_error_grid_find_chaos(&s->grid, &chaos, &share, error);
-    if (status == GLINT_OK) {
-        s->unseen = hypot(s->unseen, CHAOS_FACTOR * s->relative_contrast * sqrt(share));
+    double at_most = 0;
+    glint_settings in_float = *settings;
+    in_float.precision = GLINT_PRECISION_FLOAT;
+    const glint_error_edges edges = {image, &in_float};
+    glint_status status = glint_error_grid_find_edges(&s->grid, &edges, &at_most, error);
+    s->unseen = hypot(s->unseen, at_most);
+    return status;
+}
+
+// What long paths make of single precision. `image` is the grid by `settings`, in double precision,
+// its longest path `deepest`.
+static glint_status find_chaos(glint_error_search *s, const glint_image *image, uint32_t deepest,
+                               const glint_settings *settings, glint_error *error)
+{
+    if (!may_be_float(s) || !may_be_chaos(s, deepest)) {
+        return GLINT_OK;
     }
+    double unseen = none_seen(s);
+    glint_status status = GLINT_OK;
+    if (!is_affordable(s)) {
+        const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
+        double share;
+        status = glint_error_grid_find_chaos(&s->grid, &chaos, &share, error);
+        if (status == GLINT_OK) {
+            unseen = fmin(unseen, CHAOS_FACTOR * s->relative_contrast * sqrt(share));
+        }
+    }
+    s->unseen = hypot(s->unseen, unseen);
     return status;
 }
 
@@ -257,15 +302,15 @@ static glint_status find_weights(glint_error_search *s, int *step, glint_error_t
 }
 
 // With those weights or, where they are finer, with CHAOS_STEP's.
-static glint_status find_unseen_of_weights(glint_error_search *s, int step,
-                                           const glint_error_trial *best, glint_error *error)
+static glint_status find_chaos_of_weights(glint_error_search *s, int step,
+                                          const glint_error_trial *best, glint_error *error)
 {
-    if (step <= CHAOS_STEP) {
-        return find_unseen(s, &s->coarsest, best->deepest, &best->rung.settings, error);
+    if (step <= CHAOS_STEP || is_affordable(s)) {
+        return find_chaos(s, &s->coarsest, best->deepest, &best->rung.settings, error);
     }
     glint_error_trial t;
     glint_status status = try_weights(s, GLINT_PRECISION_DOUBLE, CHAOS_STEP, &t, error);
-    return status == GLINT_OK ? find_unseen(s, &s->grid.image, t.deepest, &t.rung.settings, error)
+    return status == GLINT_OK ? find_chaos(s, &s->grid.image, t.deepest, &t.rung.settings, error)
                               : status;
 }
 
@@ -301,10 +346,12 @@ static glint_status search_weights(glint_error_search *s, glint_error_trial *bes
     if (status != GLINT_OK || best->is_reference) {
         return status;
     }
-    if (is_unseen_open(s, s->deepest)) {
-        status = find_unseen_of_weights(s, step, best, error);
+    const glint_rung in_float = rung_of_step(s, GLINT_PRECISION_FLOAT, step);
+    status = find_edges(s, &s->coarsest, &in_float.settings, error);
+    if (status == GLINT_OK && may_be_float(s) && may_be_chaos(s, s->deepest)) {
+        status = find_chaos_of_weights(s, step, best, error);
     }
-    return status == GLINT_OK ? try_float(s, step, best, error) : status;
+    return status == GLINT_OK && may_be_float(s) ? try_float(s, step, best, error) : status;
 }
 
 // What is finer in the same precision, by the grid as well; where that takes nearly as long as the
@@ -427,7 +474,10 @@ glint_status glint_error_search_choose(glint_error_search *s, glint_error_trial 
     if (s->splits) {
         return search_weights(s, t, error);
     }
-    glint_status status = find_unseen(s, &s->grid.reference, s->deepest, &s->of_reference, error);
+    glint_status status = find_edges(s, &s->grid.reference, &s->asked->settings, error);
+    if (status == GLINT_OK) {
+        status = find_chaos(s, &s->grid.reference, s->deepest, &s->of_reference, error);
+    }
     return status == GLINT_OK ? search_rungs(s, t, error) : status;
 }
 
