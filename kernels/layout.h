@@ -132,7 +132,8 @@ typedef struct glint_frame_record {
     int proxy_is_sphere;
     float min_weight;  // a branch whose largest weight is below takes the environment
     int width, height; // pixels that are rendered: of the image's every `step`th of every
-                       // `step`th row, from `first_pixel` on; all of them where step is 1
+                       // `step`th row, from `first_pixel` on; all of them where step is 1. With
+                       // GLINT_PIXEL_LIST [height][width] ints name them, row by row of the image
     int image_width, image_height;
     int step, first_pixel;
     int samples_per_axis; // k

@@ -15,6 +15,7 @@
     {nodes, clusters, normals, numbers, materials, media,                                          \
      {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
      {irradiance, frame.irradiance_edge, false},                                                   \
+     0,                                                                                            \
      0}
 
 // Value `which` of the elements of a packet, of `values` each.
@@ -267,8 +268,8 @@ static inline path probe_pixels(const glint_frame_record *frame, global const sc
                                 size_t packet)
 {
     primary first;
-    first.x = place_x(frame, to_int_truncated(PROBE_IN(0)), R(0.5));
-    first.y = place_y(frame, to_int_truncated(PROBE_IN(1)), R(0.5));
+    first.x = place_x(frame, image_column(frame, to_int_truncated(PROBE_IN(0))), R(0.5));
+    first.y = place_y(frame, image_row(frame, to_int_truncated(PROBE_IN(1))), R(0.5));
     return primary_rays(frame, &first);
 }
 

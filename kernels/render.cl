@@ -19,6 +19,9 @@
 #if GLINT_SPLIT && !GLINT_GLASS
 #error "SPLIT needs GLASS"
 #endif
+#if GLINT_PIXEL_LIST && GLINT_TILES
+#error "PIXEL_LIST needs tiles of one packet"
+#endif
 #if GLINT_HITS && !GLINT_GEOMETRY
 #error "HITS needs GEOMETRY"
 #endif
@@ -269,8 +272,9 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
     const int k = SAMPLES_PER_AXIS(frame);
     for (int sample = 0; sample < k * k; sample++) {
         tile t;
-        begin_tile(&image, frame, column, row, ((scalar)(sample % k) + R(0.5)) / (scalar)k,
-                   ((scalar)(sample / k) + R(0.5)) / (scalar)k, &t);
+        const scalar right = ((scalar)(sample % k) + R(0.5)) / (scalar)k;
+        const scalar down = ((scalar)(sample / k) + R(0.5)) / (scalar)k;
+        begin_tile(&image, frame, scene->pixels, column, row, right, down, &t);
 #if GLINT_GEOMETRY
         trace_tile(&image, &t, scene);
 #endif
@@ -346,8 +350,8 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
 }
 
 // Renders one tile a work-item.
-//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms and
-// vertices: see layout.h.
+//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms, vertices
+// and listed: see layout.h.
 // counters: see layout.h. The other buffers are described in layout.h too; those that no compiled
 // feature needs may be of any size.
 kernel void render_tiles(global const float *nodes, global const float *clusters,
@@ -357,7 +361,7 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                          global const float *irradiance, global scalar *pixels,
                          global uint *counters, global glint_layers_record *layers,
                          global float *terms, global const float *vertices,
-                         const glint_frame_record frame)
+                         global const int *listed, const glint_frame_record frame)
 {
     const scene_buffers scene = {nodes,
                                  clusters,
@@ -367,7 +371,8 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                                  media,
                                  {environment, frame.environment_edge, GLINT_HALF_TEXELS},
                                  {irradiance, frame.irradiance_edge, false},
-                                 vertices};
+                                 vertices,
+                                 listed};
     int column, row;
     find_tile(&frame, (int)get_global_id(0), (int)get_global_id(1), &column, &row);
     if (column >= frame.width || row >= frame.height) {

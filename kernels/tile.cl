@@ -32,7 +32,8 @@ typedef struct tile {
     block center_x, center_y;
     scalar middle_x, middle_y;
     scalar largest_x, largest_y;
-    scalar step;                           // from a pixel to its neighbour
+    scalar step;                           // from a pixel to its neighbour; no PIXEL_LIST
+    scalar half_x, half_y;                 // with PIXEL_LIST: of what the tile's pixels take up
     scalar planes[4][3], plane_offsets[4]; // inside is ≥ 0
     real key[TILE_GROUPS];                 // of the nearest hit; see image_key
     lanes_int place[TILE_GROUPS];          // of the triangle hit, −1: none
@@ -96,10 +97,17 @@ static inline void bound_tile(const image_space *s, tile *t, int plane, int row,
 }
 
 // How far the outermost pixels of a group and of the tile lie from its middle.
+#if GLINT_PIXEL_LIST
+#define GROUP_HALF_X(t) ((t)->half_x)
+#define GROUP_HALF_Y(t) ((t)->half_y)
+#define TILE_HALF_X(t) ((t)->half_x)
+#define TILE_HALF_Y(t) ((t)->half_y)
+#else
 #define GROUP_HALF_X(t) (R(0.5) * (scalar)(PACKET_WIDTH - 1) * (t)->step)
 #define GROUP_HALF_Y(t) (R(0.5) * (scalar)(PACKET_HEIGHT - 1) * (t)->step)
 #define TILE_HALF_X(t) (R(0.5) * (scalar)(PACKET_WIDTH * TILE_COLUMNS - 1) * (t)->step)
 #define TILE_HALF_Y(t) (R(0.5) * (scalar)(PACKET_HEIGHT * TILE_ROWS - 1) * (t)->step)
+#endif
 
 // Columns and rows of a group's pixels, counted among those that are rendered.
 static inline lanes_int group_columns(int tile_column, int group)
@@ -133,18 +141,26 @@ static inline size_t pixel_place(const glint_frame_record *frame, int column, in
     return 4 * pixel_number(frame, column, row);
 }
 
+// Columns and rows of the image, of those that are rendered.
+static inline lanes_int image_column(const glint_frame_record *frame, lanes_int columns)
+{
+    return columns * (lane_int)frame->step + (lane_int)frame->first_pixel;
+}
+static inline lanes_int image_row(const glint_frame_record *frame, lanes_int rows)
+{
+    return rows * (lane_int)frame->step + (lane_int)frame->first_pixel;
+}
+
 // The places on the image plane of samples that lie (right, down) from the upper left corner of
 // their pixels. All but the last operation is exact: the same for every size of tiles, and for
-// every grid of pixels that are rendered of the image (see glint_frame_record).
+// every choice of pixels that are rendered of the image (see glint_frame_record).
 static inline real place_x(const glint_frame_record *frame, lanes_int columns, scalar right)
 {
-    const lanes_int x = columns * (lane_int)frame->step + (lane_int)frame->first_pixel;
-    return to_real(x) - R(0.5) * (scalar)frame->image_width + right;
+    return to_real(columns) - R(0.5) * (scalar)frame->image_width + right;
 }
 static inline real place_y(const glint_frame_record *frame, lanes_int rows, scalar down)
 {
-    const lanes_int y = rows * (lane_int)frame->step + (lane_int)frame->first_pixel;
-    return R(0.5) * (scalar)frame->image_height - to_real(y) - down;
+    return R(0.5) * (scalar)frame->image_height - to_real(rows) - down;
 }
 
 // Nothing is met yet. Pixels outside the image hide everything, even what has no depth: nothing is
@@ -169,33 +185,70 @@ static inline void clear_tile(const image_space *s, const glint_frame_record *fr
     t->z_far = s->end;
 }
 
-// `column` and `row` name the tile's first pixel.
-static inline void begin_tile(const image_space *s, const glint_frame_record *frame, int column,
-                              int row, scalar right, scalar down, tile *t)
+// Where the tile's samples lie, and the bounds of them: low x, high x, low y and high y.
+#if GLINT_PIXEL_LIST
+static inline void place_tile(const glint_frame_record *frame, global const int *listed, int column,
+                              int row, scalar right, scalar down, tile *t, scalar bounds[4])
+{
+    lanes_int x, y;
+    for (int i = 0; i < GLINT_WIDTH; i++) {
+        const int c = column + i % PACKET_WIDTH, r = row + i / PACKET_WIDTH;
+        const bool is_there = c < frame->width && r < frame->height;
+        // Where there is none: at the tile's first one.
+        const int number = listed[pixel_number(frame, is_there ? c : column, is_there ? r : row)];
+        LANE_INT(x, i) = number % frame->image_width;
+        LANE_INT(y, i) = number / frame->image_width;
+    }
+    t->x[0] = place_x(frame, x, right);
+    t->y[0] = place_y(frame, y, down);
+    bounds[0] = smallest_lane(t->x[0]);
+    bounds[1] = largest_lane(t->x[0]);
+    bounds[2] = smallest_lane(t->y[0]);
+    bounds[3] = largest_lane(t->y[0]);
+    t->half_x = R(0.5) * (bounds[1] - bounds[0]);
+    t->half_y = R(0.5) * (bounds[3] - bounds[2]);
+    t->center_x = block_of(bounds[0] + t->half_x);
+    t->center_y = block_of(bounds[3] - t->half_y);
+}
+#else
+static inline void place_tile(const glint_frame_record *frame, global const int *listed, int column,
+                              int row, scalar right, scalar down, tile *t, scalar bounds[4])
 {
     for (int i = 0; i < TILE_COLUMNS; i++) {
-        t->x[i] = place_x(frame, group_columns(column, i), right);
+        t->x[i] = place_x(frame, image_column(frame, group_columns(column, i)), right);
     }
     for (int i = 0; i < TILE_ROWS; i++) {
-        t->y[i] = place_y(frame, group_rows(row, i * TILE_COLUMNS), down);
+        t->y[i] = place_y(frame, image_row(frame, group_rows(row, i * TILE_COLUMNS)), down);
     }
     t->step = (scalar)frame->step;
-    scalar low_x = LANE(t->x[0], 0), high_y = LANE(t->y[0], 0);
-    scalar high_x = low_x + R(2.0) * TILE_HALF_X(t), low_y = high_y - R(2.0) * TILE_HALF_Y(t);
-    t->middle_x = low_x + TILE_HALF_X(t);
-    t->middle_y = high_y - TILE_HALF_Y(t);
-    t->largest_x = LARGER(fabs(low_x), fabs(high_x));
-    t->largest_y = LARGER(fabs(low_y), fabs(high_y));
+    bounds[0] = LANE(t->x[0], 0);
+    bounds[1] = bounds[0] + R(2.0) * TILE_HALF_X(t);
+    bounds[3] = LANE(t->y[0], 0);
+    bounds[2] = bounds[3] - R(2.0) * TILE_HALF_Y(t);
     const block_mask groups = BLOCK_NUMBERS;
     t->center_x = to_block(groups % (lane_int)TILE_COLUMNS * (lane_int)PACKET_WIDTH);
     t->center_y = to_block(groups / (lane_int)TILE_COLUMNS * (lane_int)-PACKET_HEIGHT);
     t->center_x *= t->step;
     t->center_y *= t->step;
-    t->center_x += low_x + GROUP_HALF_X(t);
-    t->center_y += high_y - GROUP_HALF_Y(t);
-    bound_tile(s, t, 0, 0, low_x, R(1.0));
-    bound_tile(s, t, 1, 0, high_x, R(-1.0));
-    bound_tile(s, t, 2, 1, low_y, R(1.0));
-    bound_tile(s, t, 3, 1, high_y, R(-1.0));
+    t->center_x += bounds[0] + GROUP_HALF_X(t);
+    t->center_y += bounds[3] - GROUP_HALF_Y(t);
+}
+#endif
+
+// `column` and `row` name the tile's first pixel.
+static inline void begin_tile(const image_space *s, const glint_frame_record *frame,
+                              global const int *listed, int column, int row, scalar right,
+                              scalar down, tile *t)
+{
+    scalar bounds[4];
+    place_tile(frame, listed, column, row, right, down, t, bounds);
+    t->middle_x = bounds[0] + TILE_HALF_X(t);
+    t->middle_y = bounds[3] - TILE_HALF_Y(t);
+    t->largest_x = LARGER(fabs(bounds[0]), fabs(bounds[1]));
+    t->largest_y = LARGER(fabs(bounds[2]), fabs(bounds[3]));
+    bound_tile(s, t, 0, 0, bounds[0], R(1.0));
+    bound_tile(s, t, 1, 0, bounds[1], R(-1.0));
+    bound_tile(s, t, 2, 1, bounds[2], R(1.0));
+    bound_tile(s, t, 3, 1, bounds[3], R(-1.0));
     clear_tile(s, frame, column, row, t);
 }

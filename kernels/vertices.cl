@@ -202,7 +202,8 @@ kernel void shade_vertices(global const float *clusters, global const float *nor
                                  media,
                                  {environment, frame.environment_edge, GLINT_HALF_TEXELS},
                                  {irradiance, frame.irradiance_edge, false},
-                                 vertices};
+                                 vertices,
+                                 0};
     const size_t cluster = get_global_id(0);
     for (int first = 0; first < GLINT_CLUSTER_LANES; first += GLINT_WIDTH) {
         shade_packet(&scene, &frame, cluster, first, vertices + cluster * VERTEX_CLUSTER_VALUES);

@@ -1,4 +1,5 @@
-// A grid of an image's pixels: each is the image's own, bit by bit, whatever is rendered beside it.
+// A grid of an image's pixels, or a list of them: each is the image's own, bit by bit, whatever is
+// rendered beside it.
 #include "support/render.h"
 
 #include <math.h>
@@ -28,6 +29,35 @@ static const grid_case cases[] = {
     {"orthographic", 320, 181, 5, 2, 0, GLINT_PRECISION_FLOAT, GLINT_FILTER_MIP},
     {"facing_mirrors", 64, 48, 48, 1, 8, GLINT_PRECISION_FLOAT, GLINT_FILTER_BILINEAR},
 };
+
+static void assert_same_pixel(const glint_image *a, size_t of_a, const glint_image *b, size_t of_b)
+{
+    assert_memory_equal(a->pixels + 4 * of_a, b->pixels + 4 * of_b, 4 * sizeof *a->pixels);
+}
+
+// Of no order: the corners, and what comes of multiplying by a number that shares no divisor with
+// theirs, some of it twice. Its rows fill no tile.
+static void check_list(const glint_scene *scene, const glint_environment *environment,
+                       const glint_settings *whole_settings, const glint_image *whole)
+{
+    enum { ROWS = 21, COUNT = ROWS * GLINT_LIST_COLUMNS };
+    const int32_t all = whole->width * whole->height;
+    int32_t list[COUNT] = {0, whole->width - 1, all - whole->width, all - 1};
+    for (int i = 4; i < COUNT; i++) {
+        list[i] = (int32_t)((int64_t)(i / 3) * 7919 % all);
+    }
+    glint_settings settings = *whole_settings;
+    settings.list = list;
+    settings.list_rows = ROWS;
+    test_frame listed;
+    test_render(scene, environment, NULL, &settings, &listed);
+    assert_int_equal(listed.image.width, GLINT_LIST_COLUMNS);
+    assert_int_equal(listed.image.height, ROWS);
+    for (size_t i = 0; i < COUNT; i++) {
+        assert_same_pixel(&listed.image, i, whole, (size_t)list[i]);
+    }
+    test_frame_free(&listed);
+}
 
 static void check_case(const grid_case *c, int depth)
 {
@@ -61,13 +91,14 @@ static void check_case(const grid_case *c, int depth)
         for (int x = 0; x < size[0]; x++) {
             const size_t row = (size_t)y * (size_t)c->step + (size_t)(c->step / 2);
             const size_t column = (size_t)x * (size_t)c->step + (size_t)(c->step / 2);
-            const float *one = grid.image.pixels + 4 * ((size_t)y * (size_t)size[0] + (size_t)x);
-            const float *same = whole.image.pixels + 4 * (row * (size_t)c->width + column);
-            assert_memory_equal(one, same, 4 * sizeof *one);
+            const size_t place = (size_t)y * (size_t)size[0] + (size_t)x;
+            assert_same_pixel(&grid.image, place, &whole.image, row * (size_t)c->width + column);
         }
     }
-    test_frame_free(&whole);
     test_frame_free(&grid);
+    settings.grid_step = 0;
+    check_list(&scene, &environment, &settings, &whole.image);
+    test_frame_free(&whole);
     glint_environment_free(&environment);
     glint_scene_free(&scene);
 }
@@ -96,11 +127,29 @@ static void a_step_beyond_the_image_is_refused(void **state)
     }
 }
 
+static void a_list_of_nothing_is_refused(void **state)
+{
+    (void)state;
+    const glint_scene nothing = {0};
+    const int32_t pixels[GLINT_LIST_COLUMNS] = {0};
+    glint_settings settings = glint_settings_default;
+    const glint_plan_inputs inputs = {.scene = &nothing,
+                                      .device = glint_device_capabilities(test_device()),
+                                      .settings = &settings};
+    settings.list = pixels;
+    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+    settings.list_rows = 1;
+    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_OK);
+    settings.grid_step = 2;
+    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(its_pixels_are_the_images),
         cmocka_unit_test(a_step_beyond_the_image_is_refused),
+        cmocka_unit_test(a_list_of_nothing_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

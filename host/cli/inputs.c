@@ -202,6 +202,7 @@ const char *glint_error_option(const glint_settings *settings)
     return settings->depth != usual->depth             ? "--depth"
            : settings->min_weight != usual->min_weight ? "--min-weight"
            : settings->precision != usual->precision   ? "--precision"
+           : settings->mend != usual->mend             ? "--mend"
            : settings->fresnel != usual->fresnel       ? "--fresnel"
            : settings->texels != usual->texels         ? "--texels"
            : settings->irradiance != usual->irradiance ? "--irradiance"
@@ -234,6 +235,12 @@ const glint_option glint_settings_options[] = {
     {GLINT_OPTION_CHOICE, .name = "precision", .argument = "KIND",
      .help = "float or double arithmetic on the device.", .fallback = "float",
      .offset = OFFSET(precision), .choices = "float|double"},
+    {GLINT_OPTION_REAL, .name = "mend", .argument = "JUMP",
+     .help =
+         "With --precision float, render pixels again in double that differ from a neighbour "
+         "by more than this, in parts of the frame's mean, 0.3 say: at edges and folds of glass "
+         "float shows the other side in a pixel here and there. 0 mends nothing.",
+     .fallback = "0", .offset = OFFSET(settings.mend), .minimum = 0, .maximum = 1e6},
     {GLINT_OPTION_CHOICE, .name = "fresnel", .argument = "KIND",
      .help = "exact: reflectance depends on the angle. none: metal reflects its base colour, glass "
              "only where it reflects all, paint nothing.",

@@ -12,6 +12,7 @@ glint_settings glint_capture_settings(const glint_settings *settings, int edge)
     square.terms = 0;
     square.proxy = false;
     square.grid_step = 0;
+    square.list = NULL;
     square.shading = GLINT_SHADING_PIXEL;
     return square;
 }
@@ -52,6 +53,7 @@ static void add_report(const glint_frame_report *view, glint_frame_report *sum)
     sum->truncation.media_overflows += view->truncation.media_overflows;
     sum->deepest = view->deepest > sum->deepest ? view->deepest : sum->deepest;
     sum->nonfinite_pixels += view->nonfinite_pixels;
+    sum->mended_pixels += view->mended_pixels;
     sum->kernel_ms += view->kernel_ms;
     sum->readback_ms += view->readback_ms;
 }

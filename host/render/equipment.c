@@ -138,6 +138,22 @@ static glint_status resize(const glint_renderer *r, const char *what, size_t byt
     return glint_buffer_create(r->device, what, bytes, NULL, buffer, error);
 }
 
+// Without a list it is a stand-in.
+static glint_status upload_list(glint_renderer *r, glint_error *error)
+{
+    const size_t count = r->settings.list != NULL ? glint_renderer_pixel_count(r) : 1;
+    const size_t bytes = count * sizeof *r->settings.list;
+    glint_status status = resize(r, "the list of pixels", bytes, &r->list, error);
+    if (status != GLINT_OK || r->settings.list == NULL) {
+        return status;
+    }
+    const cl_int code = clEnqueueWriteBuffer(r->device->queue, r->list, CL_TRUE, 0, bytes,
+                                             r->settings.list, 0, NULL, NULL);
+    return code == CL_SUCCESS
+               ? GLINT_OK
+               : glint_fail_opencl(error, r->device, "writing the list of pixels", code);
+}
+
 static glint_status equip_outputs(glint_renderer *r, glint_error *error)
 {
     const size_t counters = GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2 * sizeof(cl_uint);
@@ -154,6 +170,9 @@ static glint_status equip_outputs(glint_renderer *r, glint_error *error)
     }
     if (status == GLINT_OK) {
         status = resize(r, "the directions", glint_terms_bytes(&r->settings), &r->terms, error);
+    }
+    if (status == GLINT_OK) {
+        status = upload_list(r, error);
     }
     r->phases.upload += glint_lap_ms(&clock);
     return status;
@@ -184,7 +203,8 @@ static glint_status set_buffers(const glint_renderer *r, glint_error *error)
                               r->counters,
                               r->layers,
                               r->terms,
-                              r->vertices};
+                              r->vertices,
+                              r->list};
     glint_status status = GLINT_OK;
     for (cl_uint i = 0; status == GLINT_OK && i < sizeof buffers / sizeof *buffers; i++) {
         status = glint_renderer_set_argument(r, i, sizeof buffers[i], &buffers[i], error);

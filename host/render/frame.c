@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "kernels/layout.h"
+#include "render/mend.h"
 #include "render/renderer.h"
 #include "render/terms.h"
 #include "render/vertices.h"
@@ -282,6 +283,14 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
     if (status == GLINT_OK) {
         status = read_counters(r, report, error);
         report->readback_ms = glint_lap_ms(&clock);
+    }
+    if (status != GLINT_OK) {
+        glint_image_free(image);
+        return status;
+    }
+    const bool is_whole = r->settings.list == NULL && r->settings.grid_step == 0;
+    if (r->settings.mend > 0 && is_whole) {
+        status = glint_mend(r, camera, progress, image, report, error);
     }
     if (status != GLINT_OK) {
         glint_image_free(image);

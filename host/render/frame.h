@@ -55,6 +55,9 @@ typedef struct glint_frame_report {
     uint32_t deepest; // surfaces met by the longest path
     uint64_t
         nonfinite_pixels; // pixels with a NaN or infinite component (0 unless something is wrong)
+    uint64_t
+        mended_pixels; // that were rendered again in double precision, see glint_settings.mend;
+                       // rays and times count them, the rest is of single precision
     double kernel_ms, readback_ms; // of this frame
 } glint_frame_report;
 

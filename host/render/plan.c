@@ -230,6 +230,8 @@ static void decide_extras(const glint_settings *settings, glint_plan *plan)
     } else {
         decide(plan, GLINT_FEATURE_TERMS, false, "no directions were asked for");
     }
+    decide(plan, GLINT_FEATURE_PIXEL_LIST, settings->list != NULL, "%s",
+           settings->list != NULL ? "a list was given" : "all pixels, or a grid of them");
     decide(plan, GLINT_FEATURE_TRUNCATION_SQUARES, settings->truncation_squares, "%s",
            settings->truncation_squares ? "errors are to be bounded" : "no error is to be bounded");
     decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
@@ -268,10 +270,11 @@ static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
 // many at once; a GPU needs its work in many small pieces.
 static void choose_tiles(const glint_settings *settings, glint_plan *plan)
 {
-    plan->tiles = plan->kernel_width > 1;
-    const char *reason =
-        plan->tiles ? "primary rays share nodes and triangles" : "one ray a work-item";
-    if (settings->tile_packets != 0) {
+    plan->tiles = plan->kernel_width > 1 && settings->list == NULL;
+    const char *reason = plan->tiles              ? "primary rays share nodes and triangles"
+                         : settings->list != NULL ? "pixels of a list need not be neighbours"
+                                                  : "one ray a work-item";
+    if (settings->tile_packets != 0 && settings->list == NULL) {
         plan->tiles = settings->tile_packets > 1;
         reason = "asked for";
     }
@@ -428,10 +431,11 @@ static void compile_everything(glint_plan *plan)
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         bool stays = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
                      i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_PROXY ||
-                     i == GLINT_FEATURE_MIP_LEVELS || i == GLINT_FEATURE_IRRADIANCE_HARMONICS ||
-                     i == GLINT_FEATURE_SMOOTH_NORMALS || i == GLINT_FEATURE_DIAGNOSTICS ||
-                     i == GLINT_FEATURE_TERMS || i == GLINT_FEATURE_VERTEX_COLOR ||
-                     i == GLINT_FEATURE_VERTEX_DIRECTION || i == GLINT_FEATURE_CONVEX_SOLID ||
+                     i == GLINT_FEATURE_PIXEL_LIST || i == GLINT_FEATURE_MIP_LEVELS ||
+                     i == GLINT_FEATURE_IRRADIANCE_HARMONICS || i == GLINT_FEATURE_SMOOTH_NORMALS ||
+                     i == GLINT_FEATURE_DIAGNOSTICS || i == GLINT_FEATURE_TERMS ||
+                     i == GLINT_FEATURE_VERTEX_COLOR || i == GLINT_FEATURE_VERTEX_DIRECTION ||
+                     i == GLINT_FEATURE_CONVEX_SOLID ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

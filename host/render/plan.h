@@ -71,6 +71,7 @@ typedef enum glint_feature {
         GLINT_FEATURE_COUNT
 } glint_feature;
 
+#define GLINT_LIST_COLUMNS 16
 #define GLINT_SAMPLES_PER_AXIS_MAX 64
 #define GLINT_DEPTH_MAX 64 // what --depth auto stops at; larger depths may be asked for by number
 #define GLINT_DEFAULT_MIN_WEIGHT (1.0 / 1024)
@@ -80,12 +81,22 @@ typedef struct glint_settings {
     int width, height; // pixels, ≥ 1
     int grid_step;     // 0, or n ≥ 2: of an image of width × height pixels render every nth of
                        // every nth row alone, see glint_settings_pixels
+    // Or of these alone: [list_rows][GLINT_LIST_COLUMNS] numbers of pixels, row by row of the
+    // image, borrowed while they are the renderer's settings; NULL and 0: no list. Neighbours in it
+    // are rendered together, in blocks of up to 4 × 4. No grid_step beside it, nor shading at
+    // vertices.
+    const int32_t *list;
+    int list_rows;
     int samples_per_axis; // k of k² samples a pixel, ≥ 1
     int depth;            // surfaces a path meets, ≥ 1; 0: auto
     double min_weight;    // in [0, 1]; 0 follows every branch to the depth
     bool transparent;     // background transparent, else the environment
     double env_rotate;    // degrees about +Y, counter-clockwise seen from above
     glint_precision precision;
+    // Above 0, in single precision: pixels that differ from a neighbour by more than `mend` times
+    // the frame's mean are rendered again in double precision, see mend.h. Only beside colours that
+    // pixels shade; a grid or a list of pixels is not mended.
+    double mend;
     glint_fresnel fresnel;
     glint_output output;
     glint_texels texels;
@@ -107,13 +118,14 @@ typedef struct glint_settings {
     uint32_t build_tag;
 } glint_settings;
 
-// The pixels that are rendered: columns and rows of the frame. Of a grid, its first pixel stands in
-// the middle of the first n × n.
+// The pixels that are rendered: columns and rows of the frame, or of the list. Of a grid, its first
+// pixel stands in the middle of the first n × n.
 void glint_settings_pixels(const glint_settings *settings, int size[2]);
 
-// Whether `settings` are those of `first`, which shade pixels, but for precision, texels, depth,
-// least weight, grid_step, layers, terms and truncation_squares, and so need no renderer of their
-// own. Depth auto is no variation of a depth by number, with which nothing is proved of the scene.
+// Whether `settings` are those of `first`, which shade pixels, but for precision, mend, texels,
+// depth, least weight, grid_step, list, layers, terms and truncation_squares, and so need no
+// renderer of their own. Depth auto is no variation of a depth by number, with which nothing is
+// proved of the scene.
 bool glint_settings_are_variation(const glint_settings *settings, const glint_settings *first);
 
 extern const glint_settings glint_settings_default; // 1280 × 720, 1 sample, auto, 1/1024, float

@@ -382,7 +382,7 @@ void glint_renderer_free(glint_renderer *renderer)
         return;
     }
     cl_mem const buffers[] = {renderer->counters, renderer->layers, renderer->terms,
-                              renderer->vertices};
+                              renderer->vertices, renderer->list};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) {
         glint_buffer_release(buffers[i]);
     }

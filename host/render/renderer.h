@@ -47,7 +47,7 @@ struct glint_renderer {
     cl_kernel vertex_kernel; // likewise; NULL where pixels are shaded
     cl_mem vertices;         // what it finds
     glint_pixels pixels;
-    cl_mem counters, layers, terms;
+    cl_mem counters, layers, terms, list;
     bool has_failed;     // to take another scene
     bool is_dark;        // it failed to take another environment
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
@@ -56,7 +56,7 @@ struct glint_renderer {
 // The kernel's arguments that change from frame to frame; the others are the renderer's buffers, in
 // the order of set_buffers in equipment.c.
 #define GLINT_PIXELS_ARGUMENT 8
-#define GLINT_FRAME_ARGUMENT 13
+#define GLINT_FRAME_ARGUMENT 14
 
 // Of a frame, whose size has been checked.
 static inline size_t glint_renderer_pixel_count(const glint_renderer *r)

@@ -16,6 +16,11 @@ const glint_settings glint_settings_default = {
 void glint_settings_pixels(const glint_settings *settings, int size[2])
 {
     const int step = settings->grid_step > 0 ? settings->grid_step : 1;
+    if (settings->list != NULL) {
+        size[0] = GLINT_LIST_COLUMNS;
+        size[1] = settings->list_rows;
+        return;
+    }
     size[0] = (settings->width - step / 2 + step - 1) / step;
     size[1] = (settings->height - step / 2 + step - 1) / step;
 }
@@ -47,6 +52,10 @@ static glint_status check_numbers(const glint_settings *s, glint_error *error)
     if (s->grid_step < 0 || s->grid_step > s->width || s->grid_step > s->height) {
         return glint_fail(error, GLINT_USAGE, "a grid's step is no larger than the image");
     }
+    if (s->list != NULL &&
+        (s->list_rows < 1 || s->grid_step > 0 || s->shading != GLINT_SHADING_PIXEL)) {
+        return glint_fail(error, GLINT_USAGE, "a list has pixels, of no grid and no vertices");
+    }
     if (s->samples_per_axis < 1 || s->samples_per_axis > GLINT_SAMPLES_PER_AXIS_MAX) {
         return glint_fail(error, GLINT_USAGE, "--samples: a square number from 1 to %d",
                           GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX);
@@ -62,6 +71,9 @@ static glint_status check_numbers(const glint_settings *s, glint_error *error)
     }
     if (!(s->min_weight >= 0 && s->min_weight <= 1)) {
         return glint_fail(error, GLINT_USAGE, "--min-weight: 0 to 1");
+    }
+    if (!(s->mend >= 0 && isfinite(s->mend))) {
+        return glint_fail(error, GLINT_USAGE, "--mend: 0 or more");
     }
     if (!isfinite(s->env_rotate)) {
         return glint_fail(error, GLINT_USAGE, "--env-rotate: a finite number of degrees");
@@ -113,6 +125,24 @@ static glint_status check_vertex_shading(const glint_settings *s, glint_error *e
                             other, name);
 }
 
+// Double precision is what single precision is mended with; elsewhere there are no pixels' colours.
+static glint_status check_mend(const glint_plan_inputs *in, glint_error *error)
+{
+    const glint_settings *s = in->settings;
+    if (!in->device->has_double) {
+        return glint_fail(error, GLINT_DEVICE_FAILED,
+                          "device '%s' has no double precision (leave --mend out)",
+                          in->device->name);
+    }
+    const char *beside = s->precision == GLINT_PRECISION_DOUBLE ? "--precision double"
+                         : s->shading != GLINT_SHADING_PIXEL    ? "shading at vertices"
+                         : s->output != GLINT_OUTPUT_COLOR      ? "hits"
+                                                                : NULL;
+    return beside == NULL ? GLINT_OK
+                          : glint_fail(error, GLINT_USAGE,
+                                       "--mend: %s has nothing to mend (leave it out)", beside);
+}
+
 // A ray comes to a proxy at one point of it, and from a point.
 static glint_status check_proxy(const glint_settings *s, glint_error *error)
 {
@@ -147,6 +177,9 @@ glint_status glint_plan_check_settings(const glint_plan_inputs *in, glint_error 
     }
     if (status == GLINT_OK && s->proxy) {
         status = check_proxy(s, error);
+    }
+    if (status == GLINT_OK && s->mend > 0) {
+        status = check_mend(in, error);
     }
     if (status == GLINT_OK && s->precision == GLINT_PRECISION_DOUBLE && !in->device->has_double) {
         return glint_fail(error, GLINT_DEVICE_FAILED,

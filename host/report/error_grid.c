@@ -256,8 +256,11 @@ glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_err
     const double shift = samples > 1 ? 1 : 0.5;
     glint_image sides[2] = {{0}, {0}};
     glint_status status = render_sides(grid, settings, shift, shift, sides, error);
+    double *squares = glint_allocate(count, sizeof *squares);
+    if (status == GLINT_OK && squares == NULL) {
+        status = glint_fail_memory(error, "the grid's jumps");
+    }
     if (status == GLINT_OK) {
-        double *squares = glint_allocate(count, sizeof *squares);
         for (size_t i = 0; i < count; i++) {
             double bend[3];
             find_bend(edges->image, sides, i, bend);
@@ -268,8 +271,8 @@ glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_err
         const double off = ULPS / pixel_size(grid->camera, settings->height);
         const double sum = jumps_at_most(squares, count, off * all / (double)count);
         *at_most = sqrt(sum / samples / all) / fabs(grid->mean);
-        free(squares);
     }
+    free(squares);
     glint_image_free(&sides[0]);
     glint_image_free(&sides[1]);
     return status;

@@ -82,7 +82,7 @@ static void add_settings(XXH3_state_t *state, const glint_settings *s)
                               s->env_rotate,    s->precision,  s->fresnel,
                               s->output,        s->filter,     s->aovs,
                               s->irradiance,    s->terms,      s->shading,
-                              s->proxy ? 1 : 0, s->grid_step};
+                              s->proxy ? 1 : 0, s->grid_step,  s->mend};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
 }
 

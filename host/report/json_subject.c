@@ -160,6 +160,7 @@ json_t *glint_json_settings(const glint_settings *settings)
     glint_json_put_text(object, "background", settings->transparent ? "transparent" : "env");
     glint_json_put_real(object, "env_rotate_degrees", settings->env_rotate);
     glint_json_put_text(object, "precision", is_double ? "double" : "float");
+    glint_json_put_real(object, "mend", settings->mend);
     glint_json_put_text(object, "fresnel",
                         settings->fresnel == GLINT_FRESNEL_NONE ? "none" : "exact");
     glint_json_put_text(object, "texels", texels[settings->texels]);

@@ -53,6 +53,7 @@ static void put_frame(json_t *root, const glint_frame_report *frame)
     glint_json_put(root, "truncated_weight", glint_json_truncation(&frame->truncation));
     glint_json_put_count(root, "deepest_path", frame->deepest);
     glint_json_put_count(root, "nonfinite_pixels", frame->nonfinite_pixels);
+    glint_json_put_count(root, "mended_pixels", frame->mended_pixels);
 }
 
 static void put_choice(json_t *root, const glint_error_choice *choice)

@@ -99,6 +99,10 @@ refuses 2 "unexpected argument 'in/rough.gltf'" render "${ok[@]}" in/rough.gltf
 refuses 2 "unexpected argument '--depth'" render -o out/x.png -- in/rough.gltf --depth
 refuses 2 "unexpected argument" devices extra
 refuses 2 'unknown option --fraems' render "${ok[@]}" --fraems 3
+refuses 2 '--mend: --precision double has nothing to mend' \
+    render "${ok[@]}" --mend 0.3 --precision double
+refuses 2 '--mend' render "${ok[@]}" --mend -1
+refuses 2 '--mend' render "${ok[@]}" --mend inf
 refuses 2 'did you mean --depth?' render "${ok[@]}" --dept 3
 refuses 2 'did you mean --samples?' render "${ok[@]}" --sample=4
 refuses 2 'unknown option -x' render "${ok[@]}" -x

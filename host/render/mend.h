@@ -1,0 +1,19 @@
+// Mending frames in single precision: where light jumps from one pixel to the next, at edges and
+// folds and where curved glass scatters it, single precision shows the other side now and then, and
+// double precision does not. For frame.c only.
+#ifndef GLINT_RENDER_MEND_H
+#define GLINT_RENDER_MEND_H
+
+#include "render/renderer.h"
+
+// Renders again in double precision, with the renderer's settings but for layers and terms, the
+// pixels that differ from one of their four neighbours by more than settings.mend times the
+// frame's mean: root mean square over R, G and B; the mean over them of all pixels that are finite,
+// those that are not differ from all. Puts them into *image, which is the renderer's last frame,
+// and adds what it took to *report. The settings are what they were. Errors: as
+// glint_renderer_set_settings and glint_renderer_frame; *image is then half mended.
+glint_status glint_mend(glint_renderer *renderer, const glint_camera *camera,
+                        const glint_progress *progress, glint_image *image,
+                        glint_frame_report *report, glint_error *error);
+
+#endif
