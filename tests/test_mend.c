@@ -46,7 +46,8 @@ static double largest_jump(const glint_image *image, int x, int y)
 
 static bool is_same(const glint_image *a, const glint_image *b, size_t pixel)
 {
-    return memcmp(a->pixels + 4 * pixel, b->pixels + 4 * pixel, 4 * sizeof *a->pixels) == 0;
+    const void *of_a = a->pixels + 4 * pixel, *of_b = b->pixels + 4 * pixel; // as bits
+    return memcmp(of_a, of_b, 4 * sizeof *a->pixels) == 0;
 }
 
 static void check_mended(const glint_image *mended, const glint_image *in_float,

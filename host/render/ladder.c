@@ -2,6 +2,7 @@
 #include "render/ladder.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 // A rung that is the settings but for what the caller then changes.
@@ -60,6 +61,20 @@ void glint_rung_by_weight(const glint_settings *settings, glint_precision precis
              is_double  ? " --precision double"
              : is_float ? " --texels float"
                         : "");
+}
+
+void glint_rung_mend(double mend, glint_rung *rung)
+{
+    if (!(mend > 0)) {
+        return;
+    }
+    char text[32]; // so that the options make the same picture
+    snprintf(text, sizeof text, "%.3g", mend);
+    rung->settings.mend = strtod(text, NULL);
+    const size_t name = strlen(rung->name), options = strlen(rung->options);
+    snprintf(rung->name + name, sizeof rung->name - name, ", mended");
+    snprintf(rung->options + options, sizeof rung->options - options, "%s--mend %s",
+             options > 0 ? " " : "", text);
 }
 
 static void add_depth(const glint_settings *settings, int depth, glint_ladder *ladder)

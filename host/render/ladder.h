@@ -29,6 +29,8 @@ typedef struct glint_rung {
 void glint_rung_by_depth(const glint_settings *settings, int depth, glint_rung *rung);
 void glint_rung_by_weight(const glint_settings *settings, glint_precision precision,
                           glint_texels texels, double min_weight, glint_rung *rung);
+// A rung in single precision, mended by so much, to three digits; 0: not at all.
+void glint_rung_mend(double mend, glint_rung *rung);
 void glint_rung_reference(const glint_settings *settings, glint_rung *reference);
 
 // Plain data.

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "report/error_search.h"
+#include "report/error_unseen.h"
 
 #include <math.h>
 
@@ -107,11 +108,10 @@ glint_status glint_error_bound_frame(const glint_error_bound *bound, glint_rende
     *choice = (glint_error_choice){.bound = bound->bound};
     glint_status status = choose_and_render(&f, bound, choice, error);
     const glint_error_search *s = &f.search;
-    const bool is_float = f.trial.rung.settings.precision == GLINT_PRECISION_FLOAT;
     choice->rung = f.trial.rung;
     choice->error = f.estimate;
     choice->grid_error = f.trial.grid.measured;
-    choice->unseen_of_float = is_float ? s->unseen : 0;
+    choice->unseen_of_float = glint_error_with_unseen(s, &f.trial.rung, 0);
     choice->grid_is_frame = s->grid.step == 1;
     choice->grid_pixels = (int)glint_error_grid_pixel_count(&s->grid);
     choice->grids = s->grid.pictures;

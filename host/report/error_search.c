@@ -2,13 +2,7 @@
 //
 // A grid of some thousand pixels tells the mean of an error well as long as it is spread over many
 // pixels. Some things are not, and each is met in its own way:
-//  - Where light bounces so often between curved surfaces that single precision has no digits left,
-//    one pixel in ten thousand is off by many times the mean. How likely that is of the grid's
-//    pixels is found in double precision (error_grid.h), and those are taken to show what another
-//    direction of the environment would.
-//  - At edges and folds of glass single precision shows the other side in a pixel here and there,
-//    which may be off by ten times the mean. How many there may be, and of what size, follows from
-//    the jumps between the grid's pixels and places beside them (error_grid.h).
+//  - What single precision makes of a pixel here and there: error_unseen.c.
 //  - What truncation takes from a few pixels alone: the kernels add up the squares of what each
 //    pixel was cut short of, of the whole frame (with_truncated). A frame that then exceeds the
 //    bound is rendered again.
@@ -22,31 +16,15 @@
 // The reference keeps every bound, as errors are counted from it.
 #include "report/error_search.h"
 
+#include "report/error_unseen.h"
 #include "report/metrics.h"
 #include "report/stats.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#define SAFETY 1.05 // beside chance
 // Where no path splits a rung of fewer surfaces is taken if it has no more than this share of rays.
 #define SHALLOW_RAYS 0.9
-// Surfaces after which single precision may have no digits left: light that glass focuses as it
-// passes loses a digit at each or at every other one.
-#define CHAOS_DEPTH 12
-// By 1 what follows of it is 0.65 to 5 times what single precision errs by, of 12 views of three
-// scenes of curved glass (built-in glass and mixed, gallery), and more of others.
-#define CHAOS_FACTOR 2
-// Of events of which none was seen there may be so many, with a confidence of 97.5%: an upper bound
-// of a Poisson distribution's mean. With it need not be found how likely they are, where they may
-// take this share of the bound.
-#define NONE_SEEN 3.7
-#define AFFORDABLE 0.5
-// The mean square of how far two directions' light is apart, in squares of the contrast.
-#define UNRELATED 2
-// In glass single precision is taken to add this at least: it errs by 1e-4 to 3e-4 where no pixel
-// shows the other side of an edge (seven scenes).
-#define FLOAT_IN_GLASS 2e-4
 // Of what another direction would make of the truncated weight: ten scenes' frames have 0.15 to 1
 // of it, with weights of 1/4 to 1/4096, where more than two pixels err. Where few do, as in nested
 // glass with 1/16000, a frame had 0.35 of it and its grid 0.09.
@@ -75,12 +53,17 @@
 #define USELESS_RAYS 0.99
 // So many steps before the reference's a frame in double precision takes nearly as long as it.
 #define NEAR_STEPS 4
-// In double precision a frame takes what it takes in float with a quarter of the weight, about.
+// In double precision a frame takes what it takes in float with a quarter of the weight, about;
+// mended with half of it.
 #define DOUBLE_STEPS 4
+#define MENDED_STEPS 3
+// Of the rays of a frame in double precision, how many mending may take: single precision takes
+// about 0.4 of its time, and what is listed a third more than what is not.
+#define MOST_MENDED 0.35
 
 static bool keeps(const glint_error_search *s, const glint_error_trial *t)
 {
-    const double factor = s->grid.step > 1 ? SAFETY : 1;
+    const double factor = s->grid.step > 1 ? GLINT_ERROR_SAFETY : 1;
     return factor * t->error <= s->asked->bound;
 }
 
@@ -98,11 +81,6 @@ static double least_error(const glint_error_search *s, double truncation)
     return LEAST_TRUNCATION * s->relative_contrast * sqrt(fmax(0, more));
 }
 
-static double with_unseen(const glint_error_search *s, const glint_rung *rung, double error)
-{
-    return rung->settings.precision == GLINT_PRECISION_FLOAT ? hypot(error, s->unseen) : error;
-}
-
 static glint_status try_rung(glint_error_search *s, const glint_rung *rung, glint_error_trial *t,
                              glint_error *error)
 {
@@ -112,7 +90,8 @@ static glint_status try_rung(glint_error_search *s, const glint_rung *rung, glin
         glint_error_grid_measure(&s->grid, &rung->settings, &t->grid, &report, error);
     if (status == GLINT_OK) {
         t->truncation = report.truncation.rms;
-        t->error = with_unseen(s, rung, fmax(t->grid.at_most, least_error(s, t->truncation)));
+        t->error =
+            glint_error_with_unseen(s, rung, fmax(t->grid.at_most, least_error(s, t->truncation)));
         t->rays = glint_stats_rays(&report.rays);
         t->deepest = report.deepest;
     }
@@ -123,68 +102,6 @@ void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *
 {
     *t = (glint_error_trial){.is_reference = true};
     glint_rung_reference(&s->asked->settings, &t->rung);
-}
-
-static bool may_be_float(const glint_error_search *s)
-{
-    return SAFETY * s->unseen <= s->asked->bound;
-}
-
-// Whether single precision may have no digits left in paths of so many surfaces.
-static bool may_be_chaos(const glint_error_search *s, uint32_t deepest)
-{
-    return s->relative_contrast > 0 && deepest > CHAOS_DEPTH;
-}
-
-// How much light that shows another direction may add, when none of the grid's pixels does.
-static double none_seen(const glint_error_search *s)
-{
-    const double pixels = (double)glint_error_grid_pixel_count(&s->grid);
-    return s->relative_contrast * sqrt(UNRELATED * NONE_SEEN / pixels);
-}
-
-static bool is_affordable(const glint_error_search *s)
-{
-    return none_seen(s) <= AFFORDABLE * s->asked->bound;
-}
-
-// What edges make of single precision in glass. `image` is the grid by `settings`, whatever their
-// precision.
-static glint_status find_edges(glint_error_search *s, const glint_image *image,
-                               const glint_settings *settings, glint_error *error)
-{
-    if (s->grid.step == 1 || !s->glass || !may_be_float(s)) {
-        return GLINT_OK;
-    }
-    double at_most = 0;
-    glint_settings in_float = *settings;
-    in_float.precision = GLINT_PRECISION_FLOAT;
-    const glint_error_edges edges = {image, &in_float};
-    glint_status status = glint_error_grid_find_edges(&s->grid, &edges, &at_most, error);
-    s->unseen = hypot(s->unseen, at_most);
-    return status;
-}
-
-// What long paths make of single precision. `image` is the grid by `settings`, in double precision,
-// its longest path `deepest`.
-static glint_status find_chaos(glint_error_search *s, const glint_image *image, uint32_t deepest,
-                               const glint_settings *settings, glint_error *error)
-{
-    if (!may_be_float(s) || !may_be_chaos(s, deepest)) {
-        return GLINT_OK;
-    }
-    double unseen = none_seen(s);
-    glint_status status = GLINT_OK;
-    if (!is_affordable(s)) {
-        const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
-        double share;
-        status = glint_error_grid_find_chaos(&s->grid, &chaos, &share, error);
-        if (status == GLINT_OK) {
-            unseen = fmin(unseen, CHAOS_FACTOR * s->relative_contrast * sqrt(share));
-        }
-    }
-    s->unseen = hypot(s->unseen, unseen);
-    return status;
 }
 
 // ---- Where paths split -------------------------------------------------------------------------
@@ -202,7 +119,8 @@ static int step_of(double weight)
 }
 
 // Branches below a weight are not followed.
-static glint_rung rung_of_step(const glint_error_search *s, glint_precision precision, int step)
+static glint_rung rung_of_step(const glint_error_search *s, glint_precision precision, double mend,
+                               int step)
 {
     const bool is_float = precision == GLINT_PRECISION_FLOAT;
     const bool coarse = s->asked->bound >= HALF_TEXELS_FROM;
@@ -210,13 +128,14 @@ static glint_rung rung_of_step(const glint_error_search *s, glint_precision prec
     glint_rung_by_weight(&s->asked->settings, precision,
                          is_float && !coarse ? GLINT_TEXELS_FLOAT : GLINT_TEXELS_AUTO,
                          weight_of(step), &rung);
+    glint_rung_mend(mend, &rung);
     return rung;
 }
 
-static glint_status try_weights(glint_error_search *s, glint_precision precision, int step,
-                                glint_error_trial *t, glint_error *error)
+static glint_status try_weights(glint_error_search *s, glint_precision precision, double mend,
+                                int step, glint_error_trial *t, glint_error *error)
 {
-    const glint_rung rung = rung_of_step(s, precision, step);
+    const glint_rung rung = rung_of_step(s, precision, mend, step);
     return try_rung(s, &rung, t, error);
 }
 
@@ -255,7 +174,7 @@ static void take_note(const glint_error_search *s, const glint_error_trial *t, i
 static double step_between(const glint_error_search *s, const bracket *b)
 {
     const double fall = log2(b->failing.error / b->keeping.error);
-    const double above = log2(SAFETY * b->failing.error / s->asked->bound);
+    const double above = log2(GLINT_ERROR_SAFETY * b->failing.error / s->asked->bound);
     const bool is_known = b->keeping.error > 0 && b->failing.error < (double)INFINITY;
     return is_known && !b->halve ? b->failing.step + above / fall * width_of(b)
                                  : b->failing.step + 0.5 * width_of(b);
@@ -267,7 +186,8 @@ static int next_step(const glint_error_search *s, const bracket *b)
     const int first = b->failing.step + 1, last = b->keeping.step - 1;
     const bool has_failed = b->failing.step > 1, has_kept = b->keeping.step < LAST_STEP;
     const double beyond =
-        b->last.step + log2(SAFETY * b->last.error / s->asked->bound) / b->octaves_per_step;
+        b->last.step +
+        log2(GLINT_ERROR_SAFETY * b->last.error / s->asked->bound) / b->octaves_per_step;
     const double next = ceil(has_failed && has_kept ? step_between(s, b) : beyond);
     const bool is_no_use = (double)b->failing.rays >= USELESS_RAYS * (double)b->keeping.rays;
     if (first > last || (has_failed && has_kept && is_no_use) || (has_kept && next > last)) {
@@ -288,7 +208,7 @@ static glint_status find_weights(glint_error_search *s, int *step, glint_error_t
     int at = (int)fmin(fmax(guess, 2), LAST_STEP - 1);
     for (; status == GLINT_OK && at != b.keeping.step; at = next_step(s, &b)) {
         glint_error_trial t;
-        status = try_weights(s, GLINT_PRECISION_DOUBLE, at, &t, error);
+        status = try_weights(s, GLINT_PRECISION_DOUBLE, 0, at, &t, error);
         if (status == GLINT_OK) {
             take_note(s, &t, at, &b);
         }
@@ -301,39 +221,65 @@ static glint_status find_weights(glint_error_search *s, int *step, glint_error_t
     return status;
 }
 
-// With those weights or, where they are finer, with CHAOS_STEP's.
-static glint_status find_chaos_of_weights(glint_error_search *s, int step,
-                                          const glint_error_trial *best, glint_error *error)
+// What the grid does not show of single precision, with those weights; of long paths, where the
+// weights are finer, with CHAOS_STEP's.
+static glint_status find_unseen_of_weights(glint_error_search *s, int step,
+                                           const glint_error_trial *best, glint_error *error)
 {
-    if (step <= CHAOS_STEP || is_affordable(s)) {
-        return find_chaos(s, &s->coarsest, best->deepest, &best->rung.settings, error);
+    const glint_rung in_float = rung_of_step(s, GLINT_PRECISION_FLOAT, 0, step);
+    s->grid.in_double = &s->coarsest;
+    glint_status status = glint_error_find_edges(s, &s->coarsest, &in_float.settings, error);
+    if (status != GLINT_OK || !glint_error_wants_chaos(s, s->deepest)) {
+        return status;
+    }
+    if (step <= CHAOS_STEP) {
+        return glint_error_find_chaos(s, &s->coarsest, best->deepest, &best->rung.settings, error);
     }
     glint_error_trial t;
-    glint_status status = try_weights(s, GLINT_PRECISION_DOUBLE, CHAOS_STEP, &t, error);
-    return status == GLINT_OK ? find_chaos(s, &s->grid.image, t.deepest, &t.rung.settings, error)
-                              : status;
+    status = try_weights(s, GLINT_PRECISION_DOUBLE, 0, CHAOS_STEP, &t, error);
+    return status == GLINT_OK
+               ? glint_error_find_chaos(s, &s->grid.image, t.deepest, &t.rung.settings, error)
+               : status;
 }
 
 // Single precision errs by what double precision does and more, so that it needs no larger weights;
 // it is worth its while with weights that are smaller by less than what it is faster.
-static glint_status try_float(glint_error_search *s, int of_double, glint_error_trial *best,
-                              glint_error *error)
+static glint_status try_float(glint_error_search *s, double mend, int of_double,
+                              glint_error_trial *best, glint_error *error)
 {
-    const int last = of_double + DOUBLE_STEPS < LAST_STEP ? of_double + DOUBLE_STEPS : LAST_STEP;
+    const int more = mend > 0 ? MENDED_STEPS : DOUBLE_STEPS;
+    const int last = of_double + more < LAST_STEP ? of_double + more : LAST_STEP;
+    const double unseen = mend > 0 ? s->mended_unseen : s->unseen;
     double expected = best->error;
     int at = of_double;
-    for (; at < last && SAFETY * hypot(expected, s->unseen) > s->asked->bound; at++) {
+    for (; at < last && GLINT_ERROR_SAFETY * hypot(expected, unseen) > s->asked->bound; at++) {
         expected *= exp2(-OCTAVES_PER_STEP);
     }
     glint_status status = GLINT_OK;
     for (; status == GLINT_OK && at < last; at++) {
         glint_error_trial t;
-        status = try_weights(s, GLINT_PRECISION_FLOAT, at, &t, error);
+        status = try_weights(s, GLINT_PRECISION_FLOAT, mend, at, &t, error);
         if (status == GLINT_OK && keeps(s, &t)) {
             *best = t;
             break;
         }
     }
+    return status;
+}
+
+// Whether mending is worth while beside a frame in double precision, by `settings`, whose grid
+// takes so many rays.
+static glint_status may_mend(glint_error_search *s, const glint_settings *settings, uint64_t rays,
+                             bool *is_worth, glint_error *error)
+{
+    *is_worth = false;
+    if (!(s->mend > 0) || !glint_error_may_be_float(s, s->mend)) {
+        return GLINT_OK;
+    }
+    double mended = 0;
+    glint_status status =
+        glint_error_grid_count_mended(&s->grid, settings, s->mend, &mended, error);
+    *is_worth = status == GLINT_OK && mended <= MOST_MENDED * (double)rays;
     return status;
 }
 
@@ -346,12 +292,15 @@ static glint_status search_weights(glint_error_search *s, glint_error_trial *bes
     if (status != GLINT_OK || best->is_reference) {
         return status;
     }
-    const glint_rung in_float = rung_of_step(s, GLINT_PRECISION_FLOAT, step);
-    status = find_edges(s, &s->coarsest, &in_float.settings, error);
-    if (status == GLINT_OK && may_be_float(s) && may_be_chaos(s, s->deepest)) {
-        status = find_chaos_of_weights(s, step, best, error);
+    status = find_unseen_of_weights(s, step, best, error);
+    if (status == GLINT_OK && glint_error_may_be_float(s, 0)) {
+        status = try_float(s, 0, step, best, error);
     }
-    return status == GLINT_OK && may_be_float(s) ? try_float(s, step, best, error) : status;
+    bool is_worth = best->rung.settings.precision == GLINT_PRECISION_DOUBLE;
+    if (status == GLINT_OK && is_worth) {
+        status = may_mend(s, &best->rung.settings, best->rays, &is_worth, error);
+    }
+    return status == GLINT_OK && is_worth ? try_float(s, s->mend, step, best, error) : status;
 }
 
 // What is finer in the same precision, by the grid as well; where that takes nearly as long as the
@@ -360,6 +309,7 @@ static glint_status refine_weights(glint_error_search *s, double estimate, glint
                                    glint_error *error)
 {
     const glint_precision precision = t->rung.settings.precision;
+    const double mend = t->rung.settings.mend;
     const int last = precision == GLINT_PRECISION_DOUBLE ? LAST_STEP - NEAR_STEPS : LAST_STEP;
     double step = step_of(t->rung.settings.min_weight);
     do {
@@ -368,7 +318,7 @@ static glint_status refine_weights(glint_error_search *s, double estimate, glint
             glint_error_search_give_up(s, t);
             return GLINT_OK;
         }
-        const glint_status status = try_weights(s, precision, (int)step, t, error);
+        const glint_status status = try_weights(s, precision, mend, (int)step, t, error);
         if (status != GLINT_OK) {
             return status;
         }
@@ -397,6 +347,8 @@ static void list_rungs(glint_error_search *s, const glint_plan *plan)
         snprintf(floats->name, sizeof floats->name, "float texels");
         snprintf(floats->options, sizeof floats->options, "--texels float");
     }
+    s->mended_rung = s->count;
+    append_rung(s); // prepare_mended fills it
     glint_rung *doubles = append_rung(s);
     *doubles = (glint_rung){.settings = s->asked->settings};
     doubles->settings.precision = GLINT_PRECISION_DOUBLE;
@@ -404,11 +356,36 @@ static void list_rungs(glint_error_search *s, const glint_plan *plan)
     snprintf(doubles->options, sizeof doubles->options, "--precision double");
 }
 
+// The finest in single precision, mended: whether that is worth trying.
+static glint_status prepare_mended(glint_error_search *s, bool *is_worth, glint_error *error)
+{
+    glint_rung *rung = &s->rungs[s->mended_rung];
+    *rung = s->rungs[s->mended_rung - 1];
+    s->grid.in_double = &s->grid.reference;
+    glint_status status = GLINT_OK;
+    if (s->grid.jumps == NULL) {
+        status = glint_error_find_edges(s, &s->grid.reference, &rung->settings, error);
+    }
+    *is_worth = false;
+    if (status == GLINT_OK) {
+        status = may_mend(s, &s->of_reference, s->rays, is_worth, error);
+    }
+    glint_rung_mend(s->mend, rung);
+    return status;
+}
+
 // The first from `taken` on that keeps the bound.
 static glint_status search_rungs(glint_error_search *s, glint_error_trial *best, glint_error *error)
 {
     glint_status status = GLINT_OK;
     for (; status == GLINT_OK && s->taken < s->count; s->taken++) {
+        bool is_worth = true;
+        if (s->taken == s->mended_rung) {
+            status = prepare_mended(s, &is_worth, error);
+        }
+        if (status != GLINT_OK || !is_worth) {
+            continue;
+        }
         status = try_rung(s, &s->rungs[s->taken], best, error);
         const bool is_shallow = best->rung.settings.depth > 0;
         if (status == GLINT_OK && keeps(s, best) &&
@@ -432,7 +409,7 @@ static void learn(glint_error_search *s, const glint_frame_report *report)
         // Of what shines itself, paint and lamps in the scene, the picture tells.
         s->contrast = fmax(s->asked->contrast, glint_error_grid_contrast(&s->grid));
         s->relative_contrast = s->contrast / fabs(s->grid.mean);
-        s->unseen = s->glass ? FLOAT_IN_GLASS : 0;
+        s->unseen = s->mended_unseen = s->glass ? GLINT_ERROR_FLOAT_IN_GLASS : 0;
     }
 }
 
@@ -474,9 +451,9 @@ glint_status glint_error_search_choose(glint_error_search *s, glint_error_trial 
     if (s->splits) {
         return search_weights(s, t, error);
     }
-    glint_status status = find_edges(s, &s->grid.reference, &s->asked->settings, error);
-    if (status == GLINT_OK) {
-        status = find_chaos(s, &s->grid.reference, s->deepest, &s->of_reference, error);
+    glint_status status = glint_error_find_edges(s, &s->grid.reference, &s->asked->settings, error);
+    if (status == GLINT_OK && glint_error_wants_chaos(s, s->deepest)) {
+        status = glint_error_find_chaos(s, &s->grid.reference, s->deepest, &s->of_reference, error);
     }
     return status == GLINT_OK ? search_rungs(s, t, error) : status;
 }
@@ -530,7 +507,7 @@ double glint_error_search_estimate(const glint_error_search *s, const glint_erro
     }
     const double whole = report->truncation.rms;
     const double known = fmax(t->grid.at_most, with_truncated(s, t, whole));
-    const double error = with_unseen(s, &t->rung, fmax(known, least_error(s, whole)));
+    const double error = glint_error_with_unseen(s, &t->rung, fmax(known, least_error(s, whole)));
     return error == 0 ? 0 : error / mean_over_grids(s, t, frame);
 }
 

@@ -25,7 +25,8 @@ typedef struct glint_error_trial {
     uint32_t deepest;      // surfaces of the grid's longest path
 } glint_error_trial;
 
-#define GLINT_ERROR_RUNGS 8
+#define GLINT_ERROR_RUNGS 9
+#define GLINT_ERROR_SAFETY 1.05 // beside chance: what is chosen keeps the bound with it
 
 // glint_error_search_begin fills it but for `grid`, of which renderer, camera, progress and step
 // are the caller's, and glint_error_search_end frees it.
@@ -39,10 +40,13 @@ typedef struct glint_error_search {
     double truncation;           // of the grid's reference, see glint_truncation.rms
     double contrast;             // by how much light from another direction differs, as radiance
     double relative_contrast;    // that over the reference's mean; 0 where the grid is the frame
-    double unseen;               // what single precision is taken to add beyond what the grid shows
-    glint_image coarsest;        // in double precision: by the largest weights that keep the bound
+    // What single precision is taken to add beyond what the grid shows; and mended, where that is
+    // worth while, by so much (glint_settings.mend), else 0.
+    double unseen, mended_unseen, mend;
+    glint_image coarsest; // in double precision: by the largest weights that keep the bound
     glint_rung rungs[GLINT_ERROR_RUNGS]; // where paths do not split, in the order of what they cost
     size_t count, taken;                 // of the rungs; the one that was tried last
+    size_t mended_rung;                  // which of them is mended
 } glint_error_search;
 
 // Renders the grid's reference. `plan` is that of asked->settings. Errors: as
