@@ -163,8 +163,7 @@ static void count_scene(const char *scene, int samples_per_axis, tally *t)
     test_stage_close(&s);
 }
 
-// The bounds have a confidence of 97.5%: twice as many as that expects may be beyond them. And they
-// are not kept by being far too large.
+// The bounds have a confidence of some 95%. And they are not kept by being far too large.
 static void check_tally(const tally *t)
 {
     if (t->beyond > 0.05 * t->frames || t->far_beyond < 0.2 * t->far_frames) {

@@ -146,7 +146,8 @@ static const glint_option error_options[] = {
      .help = "Choose precision, depth and least weight frame by frame: the fastest that keep the "
              "picture within a relative RMSE of E, 0.01 say, of double precision that follows "
              "light to its end. What was chosen, and its error, stand in the file. In place of "
-             "--depth, --min-weight, --precision, --texels, --fresnel, --irradiance and --shading.",
+             "--depth, --min-weight, --precision, --mend, --texels, --fresnel, --irradiance and "
+             "--shading.",
      .offset = offsetof(render_request, max_error), .minimum = 1e-9, .maximum = 10},
     GLINT_OPTION_END,
 };

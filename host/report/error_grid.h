@@ -66,7 +66,7 @@ typedef struct glint_error_edges {
 
 // What a frame in single precision errs by, relative to the reference's mean, as its light jumps at
 // edges and folds and a sample here and there shows the other side: at most, with a confidence of
-// 97.5%. Plain data.
+// some 95% and as far as the grid has seen such jumps. Plain data.
 typedef struct glint_edge_errors {
     double at_most;
     double mend;   // glint_settings.mend with which it is no more than what is allowed

@@ -92,7 +92,7 @@ glint_status glint_error_find_chaos(glint_error_search *s, const glint_image *im
         return GLINT_OK;
     }
     double unseen = none_seen(s);
-    if (unseen > AFFORDABLE * s->asked->bound) {
+    if (hypot(s->unseen, unseen) > AFFORDABLE * s->asked->bound) {
         const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
         double share;
         glint_status status = glint_error_grid_find_chaos(&s->grid, &chaos, &share, error);

@@ -14,7 +14,7 @@ ok=("$scene" -o out/a.exr "${size[@]}")
 for value in 0 -0.1 nan inf 11 1e-10 x ''; do
     refuses 2 '--max-error' render "${ok[@]}" --max-error "$value"
 done
-for own in '--depth 2' '--min-weight 0.5' '--precision double' '--fresnel none' '--texels half' \
+for own in '--depth 2' '--min-weight 0.5' '--precision double' '--mend 0.3' '--fresnel none' '--texels half' \
     '--irradiance sh' '--shading vertex-color'; do
     # shellcheck disable=SC2086 # an option and its value
     refuses 2 "--max-error: it chooses what ${own%% *} says" render "${ok[@]}" --max-error 0.1 $own
