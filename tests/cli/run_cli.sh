@@ -61,10 +61,10 @@ mkdir in/folder.gltf in/empty
 
 render_options='output exposure compression exr-type preview aov directions stats progress frames turntable
     fps skip-existing shard max-error surroundings capture-size proxy env-at env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without
-    scene size samples depth min-weight background precision fresnel texels filter irradiance shading device
+    scene size samples depth min-weight background precision mend fresnel texels filter irradiance shading device
     kernel-width kernel-tile kernel-dir help'
 info_options='json env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without scene size samples depth min-weight background
-    precision fresnel texels filter irradiance shading device kernel-width kernel-tile help'
+    precision mend fresnel texels filter irradiance shading device kernel-width kernel-tile help'
 
 # shellcheck disable=SC2086 # lists of words
 {
@@ -110,7 +110,7 @@ refuses 2 '--json takes no value' info in/mirror.gltf --json=yes
 refuses 2 '--output' render in/mirror.gltf -o
 refuses 2 '--output' render in/mirror.gltf -o ''
 for option in env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera scene size samples depth min-weight background \
-    precision texels device kernel-width exposure compression exr-type aov stats progress kernel-dir; do
+    precision mend texels device kernel-width exposure compression exr-type aov stats progress kernel-dir; do
     refuses 2 "--$option" render "${ok[@]}" "--$option"
 done
 for size in 0x10 10x0 -4x4 10 x10 10x 10x10x10 1.5x2 axb 100000x10 99999999999999999999x1 '10 x10'; do
