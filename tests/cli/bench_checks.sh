@@ -15,7 +15,7 @@ no_temporaries() {
 # ---- help and mistakes --------------------------------------------------------------------------
 
 check 'bench --help tells every option' help_mentions bench seconds rounds no-check error no-sampling list html json baseline \
-    margin env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without scene size samples depth min-weight background precision \
+    margin env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without scene size samples depth min-weight background precision mend \
     fresnel texels filter irradiance shading device kernel-width kernel-tile kernel-dir help
 check 'and its own default size' grep -q '\[1920x1080;' help.txt
 run --help

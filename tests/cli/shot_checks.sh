@@ -15,7 +15,7 @@ cp "$scenes"/mirror_sphere.* "$scenes"/clockwork.* in/
 
 check 'capture --help tells every option' help_mentions capture at around to size exposure \
     compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without \
-    scene samples depth min-weight background precision fresnel texels filter irradiance shading device kernel-width \
+    scene samples depth min-weight background precision mend fresnel texels filter irradiance shading device kernel-width \
     kernel-tile kernel-dir help
 run --help
 check 'glint --help lists it' grep -q '^  capture ' stdout
