@@ -350,8 +350,8 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
 }
 
 // Renders one tile a work-item.
-//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms, vertices
-// and listed: see layout.h.
+//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms,
+// vertices and listed: see layout.h.
 // counters: see layout.h. The other buffers are described in layout.h too; those that no compiled
 // feature needs may be of any size.
 kernel void render_tiles(global const float *nodes, global const float *clusters,

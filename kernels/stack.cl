@@ -10,7 +10,7 @@ typedef struct scene_buffers {
     global const glint_medium_record *media;
     cube_map environment, irradiance;
     global const float *vertices; // what was found at them, with VERTEX_COLOR and VERTEX_DIRECTION
-    global const int *pixels; // with PIXEL_LIST: their numbers, see layout.h
+    global const int *pixels;     // with PIXEL_LIST: their numbers, see layout.h
 } scene_buffers;
 
 typedef global const float *node_pointer;
