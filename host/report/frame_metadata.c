@@ -143,6 +143,9 @@ void glint_frame_metadata_fill(const glint_subject *subject, int frame, double e
     glint_frame_metadata_add_text(metadata, "glint:plan", metadata->plan);
     glint_frame_metadata_add_text(metadata, "glint:device", metadata->device);
     add_int(metadata, "glint:samples", settings->samples_per_axis * settings->samples_per_axis);
+    if (settings->mend > 0) {
+        glint_frame_metadata_add_real(metadata, "glint:mend", settings->mend);
+    }
     glint_frame_metadata_add_real(metadata, "glint:exposure", exposure);
     glint_frame_metadata_add_real(metadata, "glint:render_ms", render_ms);
 }
