@@ -2,7 +2,7 @@
 #ifndef GLINT_BENCH_AGREEMENT_H
 #define GLINT_BENCH_AGREEMENT_H
 
-#include "embree_reference.h"
+#include "embree/reference.h"
 #include "image/image.h"
 #include "scenes.h"
 

@@ -9,10 +9,10 @@
 // frame's milliseconds over that one's (median and quartiles of ROUNDS in turns).
 #include "options.h"
 
+#include "base/statistics.h"
+#include "bound/error_bound.h"
 #include "glint.h"
-#include "report/error_bound.h"
-#include "report/metrics.h"
-#include "report/statistics.h"
+#include "image/metrics.h"
 #include "scene/built_in.h"
 
 #include <math.h>

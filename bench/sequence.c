@@ -5,10 +5,10 @@
 #include "render/sequence.h"
 #include "base/clock.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "device/device.h"
 #include "environment/environment.h"
 #include "image/image_io.h"
-#include "report/statistics.h"
 #include "scene/scene.h"
 
 #include <stdio.h>

@@ -55,6 +55,7 @@
 #include "light.cl"
 #include "cones.cl"
 #include "shade.cl"
+#include "doubts.cl"
 #include "scatter.cl"
 #include "branches.cl"
 #include "lookups.cl"
@@ -146,6 +147,9 @@ static inline primary primary_of(const tile *t, int group)
     first.x = t->x[group % TILE_COLUMNS];
     first.y = t->y[group / TILE_COLUMNS];
     first.places = t->place[group];
+#if GLINT_DOUBTS
+    first.beside = t->beside[group] > t->key[group];
+#endif
     return first;
 }
 
@@ -295,12 +299,34 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #endif
 }
 
+#if GLINT_DOUBTS
+// Writes those of the tile's pixels that lie inside the image: their samples' mean.
+static inline void store_doubts(const tally *tally, const glint_frame_record *frame, int column,
+                                int row, global float *stored)
+{
+    const int k = SAMPLES_PER_AXIS(frame);
+    const scalar share = R(1.0) / (scalar)(k * k);
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        const int x0 = column + g % TILE_COLUMNS * PACKET_WIDTH;
+        const int y0 = row + g / TILE_COLUMNS * PACKET_HEIGHT;
+        for (int i = 0; i < GLINT_WIDTH; i++) {
+            const int x = x0 + i % PACKET_WIDTH, y = y0 + i / PACKET_WIDTH;
+            if (x < frame->width && y < frame->height) {
+                stored[pixel_number(frame, x, y)] =
+                    (float)(tally->doubts[g * GLINT_WIDTH + i] * share);
+            }
+        }
+    }
+}
+#endif
+
 // What is written, see render_tiles.
 typedef struct outputs {
     global scalar *pixels;
     global uint *counters;
     global glint_layers_record *layers;
     global float *terms;
+    global float *doubts;
 } outputs;
 
 // Renders the tile whose first pixel is in the given column and row.
@@ -329,6 +355,9 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
 #if GLINT_TERMS
     store_terms(&terms);
 #endif
+#if GLINT_DOUBTS
+    store_doubts(&tally, frame, column, row, out->doubts);
+#endif
     const int k = SAMPLES_PER_AXIS(frame);
     scalar share = R(1.0) / (scalar)(k * k);
     for (int g = 0; g < TILE_GROUPS; g++) {
@@ -350,8 +379,9 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
 }
 
 // Renders one tile a work-item.
-//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. terms,
-// vertices and listed: see layout.h.
+//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. doubts:
+// [height][width], the weight that is in doubt (doubts.cl). terms, vertices and listed: see
+// layout.h.
 // counters: see layout.h. The other buffers are described in layout.h too; those that no compiled
 // feature needs may be of any size.
 kernel void render_tiles(global const float *nodes, global const float *clusters,
@@ -360,7 +390,7 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
                          global const glint_medium_record *media, global const void *environment,
                          global const float *irradiance, global scalar *pixels,
                          global uint *counters, global glint_layers_record *layers,
-                         global float *terms, global const float *vertices,
+                         global float *terms, global float *doubts, global const float *vertices,
                          global const int *listed, const glint_frame_record frame)
 {
     const scene_buffers scene = {nodes,
@@ -378,6 +408,6 @@ kernel void render_tiles(global const float *nodes, global const float *clusters
     if (column >= frame.width || row >= frame.height) {
         return;
     }
-    const outputs out = {pixels, counters, layers, terms};
+    const outputs out = {pixels, counters, layers, terms, doubts};
     render_tile(&scene, &frame, column, row, &out);
 }

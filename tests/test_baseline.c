@@ -1,5 +1,5 @@
 // Properties of the comparison with an earlier run, on crafted reports.
-#include "report/baseline.h"
+#include "report/bench/baseline.h"
 #include "support/scratch.h"
 
 #include <math.h>

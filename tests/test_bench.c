@@ -1,5 +1,5 @@
 // Properties of a measurement. There is one, as it must begin before a driver is loaded.
-#include "report/bench.h"
+#include "report/bench/bench.h"
 #include "scene/built_in.h"
 
 #include <setjmp.h>

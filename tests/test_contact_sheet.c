@@ -1,5 +1,5 @@
 // Contact sheets: where pictures come to lie, and what a pixel of the sheet is the mean of.
-#include "report/contact_sheet.h"
+#include "report/compare/contact_sheet.h"
 
 #include <math.h>
 #include <setjmp.h>

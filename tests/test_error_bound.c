@@ -1,7 +1,7 @@
 // Bounds on the error of frames: what is chosen keeps them, over all of the frame's pixels and
 // against a reference that is rendered here, whatever the frames before were.
-#include "report/error_bound.h"
-#include "report/metrics.h"
+#include "bound/error_bound.h"
+#include "image/metrics.h"
 #include "support/render.h"
 
 #include <math.h>

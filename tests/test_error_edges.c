@@ -1,7 +1,7 @@
 // What a frame of glass may err by where single precision shows the other side of an edge, as found
 // with a sparse grid: against what frames differ by, in double precision, whose cameras are as far
 // apart as single precision is taken to be off.
-#include "report/error_grid.h"
+#include "bound/error_grid.h"
 #include "support/render.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // Bounds on error figures: which verdict they come to, and what is said.
-#include "report/figures.h"
+#include "report/compare/figures.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 // The matrices of a frame's file, against the definition of the camera.
-#include "report/frame_metadata.h"
+#include "report/frame/frame_metadata.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,8 +1,8 @@
 // Properties of heat maps: what has which colour, and where the scale stands.
 #include "image/color.h"
 #include "image/image_io.h"
-#include "report/heat_map.h"
-#include "report/heat_scale.h"
+#include "report/compare/heat_map.h"
+#include "report/compare/heat_scale.h"
 #include "support/scratch.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // Properties of the error figures of pictures.
-#include "report/metrics.h"
+#include "image/metrics.h"
 
 #include <math.h>
 #include <setjmp.h>

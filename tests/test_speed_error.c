@@ -1,8 +1,8 @@
 // The arithmetic of speed against error: which rungs a ladder has, which of them are beaten, how
 // far directions are off, and how a page puts texts and points.
 #include "render/ladder.h"
-#include "report/page_plot.h"
-#include "report/speed_error.h"
+#include "report/speed_error/page_plot.h"
+#include "report/speed_error/speed_error.h"
 
 #include <math.h>
 #include <setjmp.h>

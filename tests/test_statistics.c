@@ -1,5 +1,5 @@
 // Properties of the statistics that measurements are reported by.
-#include "report/statistics.h"
+#include "base/statistics.h"
 
 #include <math.h>
 #include <setjmp.h>

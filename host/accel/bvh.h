@@ -13,7 +13,8 @@
 typedef struct glint_cluster {
     float positions[3][GLINT_CLUSTER_LANES]; // x, y, z of each vertex
     uint8_t corners[3][GLINT_CLUSTER_LANES]; // first, second, third corner of each triangle
-    int32_t count, material, unused[2];
+    int32_t count, material;
+    float longest, curvature;
 } glint_cluster;
 
 // What was built, for `info` and statistics.
@@ -60,7 +61,7 @@ typedef struct glint_bvh_inputs {
 // Deterministic: the same input gives the same tree. Triangles without area, whose corners are in
 // line as they are stored (a loader keeps them out, but scenes are made by hand too), are left out:
 // no ray hits them, whatever rounding makes of them. Two triangles of a cluster share a vertex
-// where its position and normal have the same bits. Errors: GLINT_DEVICE_FAILED (memory),
+// where its position and normal have the same bits. Errors: GLINT_OUT_OF_MEMORY,
 // GLINT_BAD_INPUT (too many triangles for the layout).
 glint_status glint_bvh_build(const glint_bvh_inputs *inputs, glint_bvh *bvh, glint_error *error);
 void glint_bvh_free(glint_bvh *bvh);

@@ -4,6 +4,7 @@
 #ifndef GLINT_BASE_STATUS_H
 #define GLINT_BASE_STATUS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -15,12 +16,19 @@ typedef enum glint_status {
     GLINT_OK = 0,
     GLINT_USAGE = 2,         // the command line makes no sense
     GLINT_BAD_INPUT = 3,     // a scene, environment or image that cannot be used
-    GLINT_DEVICE_FAILED = 4, // no device, too little memory, or the driver reported an error
+    GLINT_DEVICE_FAILED = 4, // no device, too little memory on it, or the driver reported an error
     GLINT_OUTPUT_FAILED = 5, // an output file could not be written
     GLINT_FRAMES_FAILED = 6, // some frames of a sequence failed
     GLINT_MISMATCH = 7,      // a comparison or a self-test found an error
+    GLINT_OUT_OF_MEMORY = 8, // the host has too little memory
     GLINT_INTERRUPTED = 130, // stopped on request (signal), nothing half-written
 } glint_status;
+
+// Whether the machine failed, not the input: what comes next would fail as well.
+static inline bool glint_status_is_of_machine(glint_status status)
+{
+    return status == GLINT_DEVICE_FAILED || status == GLINT_OUT_OF_MEMORY;
+}
 
 #define GLINT_MESSAGE_CAPACITY 1024
 
@@ -39,7 +47,26 @@ typedef struct glint_error {
 glint_status glint_fail(glint_error *error, glint_status code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// glint_fail for an allocation of `what` that did not succeed.
+// Returns from the calling function with the status of `call`, unless that is GLINT_OK.
+#define TRY(call)                                                                                  \
+    do {                                                                                           \
+        const glint_status status_of_call = (call);                                                \
+        if (status_of_call != GLINT_OK) {                                                          \
+            return status_of_call;                                                                 \
+        }                                                                                          \
+    } while (0)
+
+// Sets the variable `status` to the status of `call`, and goes to `label` unless that is GLINT_OK:
+// for functions with something to release.
+#define TRY_OR(label, status, call)                                                                \
+    do {                                                                                           \
+        (status) = (call);                                                                         \
+        if ((status) != GLINT_OK) {                                                                \
+            goto label;                                                                            \
+        }                                                                                          \
+    } while (0)
+
+// Fails with GLINT_OUT_OF_MEMORY: an allocation of `what` did not succeed.
 glint_status glint_fail_memory(glint_error *error, const char *what);
 
 void glint_error_free(glint_error *error);

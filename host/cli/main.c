@@ -1,10 +1,12 @@
 // The program: dispatches to a command, prints errors and warnings, decides the exit status.
 // Nothing else prints an error or exits.
-#include "cli/cli.h"
+#include "cli/commands.h"
+#include "cli/common/options.h"
+#include "cli/common/say.h"
+#include "cli/common/signals.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,36 +18,6 @@ static const glint_command *const commands[] = {
     &glint_command_capture,  &glint_command_relight, &glint_command_compare, &glint_command_bench,
     &glint_command_selftest, &glint_command_info,    &glint_command_devices};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
-
-void glint_say(const char *format, ...)
-{
-    char text[GLINT_MESSAGE_CAPACITY + 64];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    fprintf(stderr, "glint: %s\n", text);
-}
-
-void glint_say_error(const glint_error *error)
-{
-    glint_say("%s", error->message[0] != '\0' ? error->message : "failed without a reason");
-    const char *details = error->details;
-    if (details != NULL) {
-        const bool ends_line = details[0] != '\0' && details[strlen(details) - 1] == '\n';
-        fprintf(stderr, "%s%s", details, ends_line ? "" : "\n");
-    }
-}
-
-void glint_say_warnings(const glint_warnings *warnings, size_t first)
-{
-    for (size_t i = first; i < warnings->count; i++) {
-        glint_say("warning: %s", warnings->texts[i]);
-    }
-    if (warnings->lost > 0) {
-        glint_say("warning: %zu more warnings found no memory", warnings->lost);
-    }
-}
 
 // The width for texts on stdout: the terminal's within [80, 100], 80 where there is none.
 static int text_columns(void)
@@ -72,7 +44,7 @@ static void print_overview(void)
            "Exit status\n"
            "  0 done, 2 usage, 3 bad input, 4 no device or it failed, 5 output could not be\n"
            "  written, 6 some frames of a sequence failed, 7 a comparison or a self-test\n"
-           "  found an error, 130 or 143 stopped by a signal\n"
+           "  found an error, 8 not enough memory, 130 or 143 stopped by a signal\n"
            "\n"
            "Examples\n"
            "  glint render scenes/gallery.gltf -o gallery.png\n"

@@ -1,8 +1,7 @@
-// OpenCL's handles behind glint_device, and the text of its errors: for floors 4 and 5 only.
+// OpenCL's handles behind glint_device: for floors 4 and 5 only.
 #ifndef GLINT_DEVICE_OPENCL_H
 #define GLINT_DEVICE_OPENCL_H
 
-#include "base/status.h"
 #include "device/capabilities.h"
 
 #include <CL/cl.h>
@@ -19,12 +18,5 @@ struct glint_device {
     glint_capabilities capabilities;
     struct glint_built_program *programs; // owned
 };
-
-// "CL_OUT_OF_RESOURCES"; "unknown OpenCL error" for a code without a name here. Static text.
-const char *glint_opencl_error_name(cl_int code);
-
-// Fails with GLINT_DEVICE_FAILED and "device 'NAME': what: CL_NAME (−5)".
-glint_status glint_fail_opencl(glint_error *error, const struct glint_device *device,
-                               const char *what, cl_int code);
 
 #endif

@@ -1,6 +1,7 @@
 // Compiling the kernels. See program.h. The driver's own cache (PoCL's, for one) makes the second
 // build of the same source with the same options fast.
 #include "device/program.h"
+#include "device/opencl_error.h"
 
 #include "device/kernel_sources.h"
 

@@ -48,7 +48,7 @@ glint_vec3 glint_cube_direction(int face, double s, double t);
 int glint_cube_place(glint_vec3 direction, double *s, double *t);
 
 // Mirrors the cube along the axes that are named in `flip` ("x" exchanges left and right, "xz" is
-// half a turn): each texel is another one as it was. Errors: GLINT_DEVICE_FAILED (memory), with the
+// half a turn): each texel is another one as it was. Errors: GLINT_OUT_OF_MEMORY, with the
 // cube unchanged.
 glint_status glint_cube_mirror(glint_cube *cube, const char *flip, glint_error *error);
 

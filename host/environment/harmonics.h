@@ -14,7 +14,7 @@ extern "C" {
 // environment's radiance lies in the bands 0, 1 and 2 (Ramamoorthi and Hanrahan 2001); the
 // polynomial stands in kernels/layout.h. Band 3 brings nothing, and what is left out is little: of
 // a single distant light 8.8% (root mean square), of wide ones below 1%. The environment is
-// taken as its texels, each right to 2e-5. Errors: GLINT_DEVICE_FAILED (memory).
+// taken as its texels, each right to 2e-5. Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_irradiance_harmonics(const glint_cube *radiance,
                                         float coefficients[GLINT_HARMONICS][4], glint_error *error);
 

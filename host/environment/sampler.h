@@ -19,7 +19,7 @@ typedef struct glint_sampler {
     bool owns_cube;
 } glint_sampler;
 
-// `image` has the chart's size, and must outlive the sampler. Errors: GLINT_DEVICE_FAILED (memory),
+// `image` has the chart's size, and must outlive the sampler. Errors: GLINT_OUT_OF_MEMORY,
 // GLINT_BAD_INPUT (faces that are too large for a cube).
 glint_status glint_sampler_of_image(const glint_image *image, const glint_chart *chart,
                                     glint_sampler *sampler, glint_error *error);
@@ -49,7 +49,7 @@ glint_turn glint_turn_of(double degrees, const char *flip);
 // Draws a picture of three channels in another layout: each pixel is the look-up along its
 // direction or, where it covers more than one pixel of what is sampled, the mean of a grid of
 // look-ups over it. What the layout leaves open (beside a cross, outside a disc) is 0. The same for
-// any number of threads. Errors: GLINT_DEVICE_FAILED (memory).
+// any number of threads. Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_resample(const glint_sampler *from, const glint_turn *turn,
                             const glint_chart *to, glint_image *image, glint_error *error);
 

@@ -117,8 +117,7 @@ static glint_status place_split(place *where, glint_error *error)
     where->name = strdup(name);
     where->folder = slash == NULL ? strdup(".") : strndup(where->path, folder);
     if (where->name == NULL || where->folder == NULL) {
-        glint_fail_memory(error, "a file name");
-        return GLINT_DEVICE_FAILED;
+        return glint_fail_memory(error, "a file name");
     }
     return GLINT_OK;
 }

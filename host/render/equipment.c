@@ -2,6 +2,7 @@
 #include "render/equipment.h"
 
 #include "base/clock.h"
+#include "device/opencl_error.h"
 #include "device/program.h"
 #include "environment/harmonics.h"
 #include "environment/irradiance.h"
@@ -126,6 +127,11 @@ size_t glint_terms_bytes(const glint_settings *settings)
     return pixel_count(settings) * places * GLINT_TERM_VALUES * sizeof(float);
 }
 
+size_t glint_doubts_bytes(const glint_settings *settings)
+{
+    return settings->mend > 0 ? pixel_count(settings) * sizeof(float) : 0;
+}
+
 // Keeps a buffer that is large enough.
 static glint_status resize(const glint_renderer *r, const char *what, size_t bytes, cl_mem *buffer,
                            glint_error *error)
@@ -172,6 +178,9 @@ static glint_status equip_outputs(glint_renderer *r, glint_error *error)
         status = resize(r, "the directions", glint_terms_bytes(&r->settings), &r->terms, error);
     }
     if (status == GLINT_OK) {
+        status = resize(r, "the doubts", glint_doubts_bytes(&r->settings), &r->doubts, error);
+    }
+    if (status == GLINT_OK) {
         status = upload_list(r, error);
     }
     r->phases.upload += glint_lap_ms(&clock);
@@ -203,6 +212,7 @@ static glint_status set_buffers(const glint_renderer *r, glint_error *error)
                               r->counters,
                               r->layers,
                               r->terms,
+                              r->doubts,
                               r->vertices,
                               r->list};
     glint_status status = GLINT_OK;

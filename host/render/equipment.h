@@ -56,5 +56,6 @@ void glint_equipment_free(glint_equipment *equipment);
 // What a frame of the renderer's settings is written into beside its pixels.
 size_t glint_layers_bytes(const glint_settings *settings);
 size_t glint_terms_bytes(const glint_settings *settings);
+size_t glint_doubts_bytes(const glint_settings *settings);
 
 #endif

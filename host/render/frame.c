@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "device/opencl_error.h"
 #include "kernels/layout.h"
 #include "render/mend.h"
 #include "render/renderer.h"
@@ -227,16 +228,6 @@ static glint_status run_frame(glint_renderer *r, glint_frame_record *record,
     return status;
 }
 
-void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more)
-{
-    sum->primary += more->primary;
-    sum->reflected += more->reflected;
-    sum->refracted_in += more->refracted_in;
-    sum->refracted_out += more->refracted_out;
-    sum->transmitted += more->transmitted;
-    sum->total_reflections += more->total_reflections;
-}
-
 glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,
                                   const glint_progress *progress, glint_image *image,
                                   glint_frame_report *report, glint_error *error)
@@ -321,9 +312,8 @@ glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixe
     return status;
 }
 
-// Reads a buffer of the device's into memory that the caller frees.
-static glint_status read_buffer(const glint_renderer *r, const char *what, cl_mem buffer,
-                                size_t bytes, void **copy, glint_error *error)
+glint_status glint_renderer_read(const glint_renderer *r, const char *what, cl_mem buffer,
+                                 size_t bytes, void **copy, glint_error *error)
 {
     *copy = malloc(bytes);
     if (*copy == NULL) {
@@ -338,8 +328,8 @@ static glint_status read_layers(glint_renderer *r, glint_layers *layers, glint_e
 {
     const glint_settings *settings = &r->settings;
     void *records = NULL;
-    glint_status status = read_buffer(r, "reading the layers", r->layers,
-                                      glint_layers_bytes(&r->settings), &records, error);
+    glint_status status = glint_renderer_read(r, "reading the layers", r->layers,
+                                              glint_layers_bytes(&r->settings), &records, error);
     if (status == GLINT_OK) {
         status = glint_layers_make(records, glint_renderer_pixel_count(r),
                                    settings->samples_per_axis * settings->samples_per_axis,
@@ -352,8 +342,8 @@ static glint_status read_layers(glint_renderer *r, glint_layers *layers, glint_e
 static glint_status read_terms(glint_renderer *r, glint_layers *layers, glint_error *error)
 {
     void *stored = NULL;
-    glint_status status = read_buffer(r, "reading the directions", r->terms,
-                                      glint_terms_bytes(&r->settings), &stored, error);
+    glint_status status = glint_renderer_read(r, "reading the directions", r->terms,
+                                              glint_terms_bytes(&r->settings), &stored, error);
     if (status == GLINT_OK) {
         status = glint_terms_add_channels(stored, glint_renderer_pixel_count(r), r->settings.terms,
                                           layers, error);

@@ -7,6 +7,7 @@
 #include "device/device.h"
 #include "environment/environment.h"
 #include "image/image.h"
+#include "render/counts.h"
 #include "render/plan.h"
 #include "scene/scene.h"
 
@@ -23,31 +24,6 @@ typedef struct glint_phases {
     double kernel;       // all launches of the frame
     double readback;
 } glint_phases;
-
-// Rays traced or looked up, by how they came about. A path's last direction counts even where it
-// was only looked up in the environment.
-typedef struct glint_ray_counts {
-    uint64_t primary;
-    uint64_t reflected;
-    uint64_t refracted_in;      // into a solid
-    uint64_t refracted_out;     // out of a solid
-    uint64_t transmitted;       // straight through a thin wall
-    uint64_t total_reflections; // of `reflected`, those by total internal reflection
-} glint_ray_counts;
-
-void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more);
-
-// Light that took the environment along its last direction without that direction being traced, as
-// a share of all weight (1 = every sample of every pixel, largest of R, G and B).
-typedef struct glint_truncation {
-    double by_depth;
-    double by_min_weight;
-    double by_stack;
-    double rms; // of pixels' truncated weight, its root mean square, where the settings ask for
-                // truncation_squares; without what the depth truncates where that is the
-                // reference's (see ladder.h) or proved to be exact
-    uint64_t media_overflows; // entries lost because solids nest deeper than the stack of media
-} glint_truncation;
 
 typedef struct glint_frame_report {
     glint_ray_counts rays;

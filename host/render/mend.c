@@ -12,47 +12,21 @@
 #define BLOCK_PIXELS (BLOCK * BLOCK)
 #define TILE 16
 
-static double mean_of(const glint_image *image)
+// Of each pixel, whether more than `limit` of its light is in doubt or it is not finite.
+static glint_status mark(const glint_renderer *r, const glint_image *image, uint8_t *marks,
+                         glint_error *error)
 {
-    double sum = 0, count = 0;
     const size_t pixels = (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < pixels; i++) {
+    float *doubts = NULL;
+    glint_status status = glint_renderer_read(r, "reading the doubts", r->doubts,
+                                              pixels * sizeof *doubts, (void **)&doubts, error);
+    const float limit = (float)r->settings.mend;
+    for (size_t i = 0; status == GLINT_OK && i < pixels; i++) {
         const float *p = image->pixels + 4 * i;
-        const double light = ((double)p[0] + (double)p[1] + (double)p[2]) / 3;
-        if (isfinite(light)) {
-            sum += light;
-            count++;
-        }
+        marks[i] = !(doubts[i] <= limit) || !isfinite(p[0] + p[1] + p[2]);
     }
-    return count > 0 ? sum / count : 0;
-}
-
-// Three times the mean square; infinite or NaN where one is not finite.
-static float square_difference(const float *a, const float *b)
-{
-    const float r = a[0] - b[0], g = a[1] - b[1], blue = a[2] - b[2];
-    return r * r + g * g + blue * blue;
-}
-
-// Marks both where two neighbours differ by more than this; of each pixel those are looked at that
-// come after it.
-static void mark(const glint_image *image, double limit, uint8_t *marks)
-{
-    const ptrdiff_t width = image->width;
-    const float square = (float)(3 * limit * limit);
-    for (ptrdiff_t y = 0; y < image->height; y++) {
-        for (ptrdiff_t x = 0; x < width; x++) {
-            const ptrdiff_t i = y * width + x;
-            const bool is_there[] = {x + 1 < width, y + 1 < image->height};
-            const ptrdiff_t steps[] = {1, width};
-            const float *pixel = image->pixels + 4 * i;
-            for (int k = 0; k < 2; k++) {
-                if (is_there[k] && !(square_difference(pixel, pixel + 4 * steps[k]) <= square)) {
-                    marks[i] = marks[i + steps[k]] = 1;
-                }
-            }
-        }
-    }
+    free(doubts);
+    return status;
 }
 
 // Where the list's number `k` stands.
@@ -111,7 +85,7 @@ static glint_status list_marked(const glint_image *image, const uint8_t *marks, 
     return GLINT_OK;
 }
 
-static glint_status find_pixels(const glint_image *image, double mend, pixel_list *list,
+static glint_status find_pixels(const glint_renderer *r, const glint_image *image, pixel_list *list,
                                 glint_error *error)
 {
     const size_t pixels = (size_t)image->width * (size_t)image->height;
@@ -120,8 +94,10 @@ static glint_status find_pixels(const glint_image *image, double mend, pixel_lis
     if (marks == NULL) {
         return glint_fail_memory(error, "the pixels to be mended");
     }
-    mark(image, mend * fabs(mean_of(image)), marks);
-    glint_status status = list_marked(image, marks, list, error);
+    glint_status status = mark(r, image, marks, error);
+    if (status == GLINT_OK) {
+        status = list_marked(image, marks, list, error);
+    }
     free(marks);
     return status;
 }
@@ -180,7 +156,7 @@ glint_status glint_mend(glint_renderer *renderer, const glint_camera *camera,
                         glint_frame_report *report, glint_error *error)
 {
     pixel_list list;
-    glint_status status = find_pixels(image, renderer->settings.mend, &list, error);
+    glint_status status = find_pixels(renderer, image, &list, error);
     if (status == GLINT_OK && list.count > 0) {
         status = render_again(renderer, camera, progress, &list, image, report, error);
     }

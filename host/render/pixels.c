@@ -2,6 +2,7 @@
 #include "render/pixels.h"
 
 #include "base/memory.h"
+#include "device/opencl_error.h"
 #include "render/upload.h"
 
 #include <stdlib.h>

@@ -26,7 +26,7 @@ glint_status glint_pixels_size(int width, int height, size_t scalar_bytes, size_
 
 // For frames of another size or precision. A buffer that is large enough is kept, and one that is
 // not needed, too: small frames in double precision and large ones take turns (see
-// report/error_grid.h). On failure *pixels is as zero. Errors: GLINT_DEVICE_FAILED.
+// bound/error_grid.h). On failure *pixels is as zero. Errors: GLINT_DEVICE_FAILED.
 glint_status glint_pixels_resize(const struct glint_device *device, int width, int height,
                                  size_t scalar_bytes, glint_pixels *pixels, glint_error *error);
 void glint_pixels_free(glint_pixels *pixels);

@@ -2,6 +2,7 @@
 #include "render/probe.h"
 
 #include "base/memory.h"
+#include "device/opencl_error.h"
 #include "device/program.h"
 #include "render/renderer.h"
 

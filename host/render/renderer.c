@@ -112,6 +112,7 @@ static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
         sizes.environment = prepared->plan.environment_bytes;
         sizes.layers = glint_layers_bytes(settings);
         sizes.terms = glint_terms_bytes(settings);
+        sizes.doubts = glint_doubts_bytes(settings);
         sizes.vertex = glint_vertices_bytes(&prepared->plan, 1);
         status = glint_upload_check(r->device, scene, &sizes, error);
     }
@@ -357,7 +358,7 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer)
         .tree = glint_buffer_bytes(geometry->nodes),
         .environment = glint_equipment_light_bytes(&renderer->equipment),
         .frame = glint_pixels_bytes(&renderer->pixels) + glint_layers_bytes(&renderer->settings) +
-                 glint_terms_bytes(&renderer->settings) +
+                 glint_terms_bytes(&renderer->settings) + glint_doubts_bytes(&renderer->settings) +
                  glint_vertices_bytes(&renderer->plan, renderer->shown.bvh.cluster_count),
     };
 }
@@ -382,7 +383,7 @@ void glint_renderer_free(glint_renderer *renderer)
         return;
     }
     cl_mem const buffers[] = {renderer->counters, renderer->layers, renderer->terms,
-                              renderer->vertices, renderer->list};
+                              renderer->vertices, renderer->list,   renderer->doubts};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++) {
         glint_buffer_release(buffers[i]);
     }

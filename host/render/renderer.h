@@ -47,7 +47,7 @@ struct glint_renderer {
     cl_kernel vertex_kernel; // likewise; NULL where pixels are shaded
     cl_mem vertices;         // what it finds
     glint_pixels pixels;
-    cl_mem counters, layers, terms, list;
+    cl_mem counters, layers, terms, doubts, list;
     bool has_failed;     // to take another scene
     bool is_dark;        // it failed to take another environment
     double bands_per_ms; // of tiles, in the last frame; 0 before the first
@@ -56,7 +56,7 @@ struct glint_renderer {
 // The kernel's arguments that change from frame to frame; the others are the renderer's buffers, in
 // the order of set_buffers in equipment.c.
 #define GLINT_PIXELS_ARGUMENT 8
-#define GLINT_FRAME_ARGUMENT 14
+#define GLINT_FRAME_ARGUMENT 15
 
 // Of a frame, whose size has been checked.
 static inline size_t glint_renderer_pixel_count(const glint_renderer *r)
@@ -78,5 +78,10 @@ glint_status glint_renderer_suit(glint_renderer *r, const glint_camera *camera, 
 glint_status glint_renderer_launch(glint_renderer *r, glint_frame_record *record, size_t first,
                                    size_t bands, cl_event *done, glint_error *error);
 glint_status glint_renderer_wait(const glint_renderer *r, cl_event done, glint_error *error);
+
+// Reads a buffer of the device's into memory that the caller frees; NULL on failure. `what` says
+// what that is, for messages.
+glint_status glint_renderer_read(const glint_renderer *r, const char *what, cl_mem buffer,
+                                 size_t bytes, void **copy, glint_error *error);
 
 #endif

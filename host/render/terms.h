@@ -17,7 +17,7 @@
 // the environment's radiance along it; 1: its irradiance over π of a surface with that normal),
 // .wr, .wg, .wb (the weight). Places that are not taken, behind the others, hold 0.
 // Adds those channels to a frame's layers, from what the kernels stored (see kernels/layout.h).
-// Errors: GLINT_DEVICE_FAILED where memory is short.
+// Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_terms_add_channels(const float *stored, size_t pixel_count, int capacity,
                                       glint_layers *layers, glint_error *error);
 
@@ -36,7 +36,7 @@ glint_status glint_terms_read(const char *path, glint_terms *terms, glint_error 
 void glint_terms_free(glint_terms *terms);
 
 // The picture under an environment that is turned about +Y by `degrees`, with the alpha that was
-// stored: premultiplied RGBA. *image need not be set. Errors: GLINT_DEVICE_FAILED (memory).
+// stored: premultiplied RGBA. *image need not be set. Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_terms_relight(const glint_terms *terms, const glint_environment *environment,
                                  double degrees, glint_image *image, glint_error *error);
 

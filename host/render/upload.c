@@ -2,6 +2,7 @@
 #include "render/upload.h"
 
 #include "base/memory.h"
+#include "device/opencl_error.h"
 #include "environment/half_texels.h"
 #include "environment/mip_levels.h"
 #include "kernels/layout.h"
@@ -15,7 +16,7 @@ _Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has g
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_layers_record) == 24, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 26 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 27 * 4, "glint_frame_record has gaps");
 
 #define MEBIBYTE 1048576.0
 #define LEAST_BYTES ((size_t)16) // of a buffer
@@ -51,6 +52,7 @@ glint_status glint_upload_check(const struct glint_device *device, const glint_s
         {"the frame", sizes->frame},
         {"the layers", sizes->layers},
         {"the directions", sizes->terms},
+        {"the doubts", sizes->doubts},
         {"the vertices", clusters * sizes->vertex},
     };
     double total = 0;

@@ -35,8 +35,8 @@ typedef struct glint_upload_inputs {
 
 // What takes memory beside the scene.
 typedef struct glint_upload_sizes {
-    size_t environment, frame, layers, terms; // bytes
-    size_t vertex;                            // what is found of a cluster's vertices
+    size_t environment, frame, layers, terms, doubts; // bytes
+    size_t vertex;                                    // what is found of a cluster's vertices
 } glint_upload_sizes;
 
 // Fails with GLINT_DEVICE_FAILED if one of the scene's buffers or of the others is larger than the

@@ -1,6 +1,8 @@
 // Shading at vertices. See vertices.h.
 #include "render/vertices.h"
 
+#include "device/opencl_error.h"
+
 size_t glint_vertices_bytes(const glint_plan *plan, size_t clusters)
 {
     static const size_t vectors[] = {

@@ -15,8 +15,8 @@
 //   begin ATTEMPT NODE
 //   end ATTEMPT STATUS     glint's exit status, as the shell has it
 //   retry ATTEMPT          it goes back into the queue
-// and each attempt writes the lines of report/stats.h to "JOB_PART.ATTEMPT.jsonl". Parts count from
-// 1, attempts from 0; numbers of attempts may be left out.
+// and each attempt writes the lines of report/frame/stats.h to "JOB_PART.ATTEMPT.jsonl". Parts
+// count from 1, attempts from 0; numbers of attempts may be left out.
 typedef struct glint_farm_job {
     char id[64];     // the engine's number of the job, "1234"
     char *output;    // the frames' name, "out/jewel.####.exr"; owned
@@ -55,7 +55,7 @@ typedef struct glint_farm_report {
 
 // Reads a job's folder, at any time; `job` is the job's number, NULL the folder's latest. Attempts
 // that were killed leave lines that end early; what is whole of them counts. Errors:
-// GLINT_BAD_INPUT (no folder of a job, or not readable), GLINT_DEVICE_FAILED (memory). Whatever the
+// GLINT_BAD_INPUT (no folder of a job, or not readable), GLINT_OUT_OF_MEMORY. Whatever the
 // outcome, it is for glint_farm_report_free.
 glint_status glint_farm_report_read(const char *folder, const char *job, glint_farm_report *report,
                                     glint_error *error);

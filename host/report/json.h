@@ -4,11 +4,11 @@
 #ifndef GLINT_REPORT_JSON_H
 #define GLINT_REPORT_JSON_H
 
+#include "base/statistics.h"
 #include "base/status.h"
+#include "image/metrics.h"
 #include "render/frame.h"
-#include "report/metrics.h"
-#include "report/statistics.h"
-#include "report/subject.h"
+#include "report/frame/subject.h"
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -36,7 +36,7 @@ typedef struct recipe {
 
 // Glass is smoother than metal and paint: a path meets it several times, and each time its
 // curvature multiplies the rounding; with all of the displacement a quarter of the pixels would be
-// beyond what a float can say (host/report/bench_check.c).
+// beyond what a float can say (host/report/bench/bench_check.c).
 #define GLASS_RELIEF 0.25
 #define DEGREES (GLINT_PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof *(array))

@@ -17,7 +17,7 @@ const char *glint_built_in_name(size_t index);
 const char *glint_built_in_summary(size_t index);
 
 // Makes the scene of that name, which is its path too, with one camera. Every surface but a floor
-// is closed. Errors: GLINT_BAD_INPUT for a name that is none, GLINT_DEVICE_FAILED (memory). On
+// is closed. Errors: GLINT_BAD_INPUT for a name that is none, GLINT_OUT_OF_MEMORY. On
 // failure `scene` is left empty.
 glint_status glint_built_in_scene(const char *name, glint_scene *scene, glint_error *error);
 

@@ -213,7 +213,7 @@ glint_status guard(const char *path, glint_error *error, Work work)
     } catch (const refusal &refused) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s", path, refused.what());
     } catch (const std::bad_alloc &) {
-        return glint_fail(error, GLINT_DEVICE_FAILED, "%s: not enough memory for the scene", path);
+        return glint_fail(error, GLINT_OUT_OF_MEMORY, "%s: not enough memory for the scene", path);
     } catch (const std::exception &unexpected) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: cannot be loaded: %s", path,
                           unexpected.what());

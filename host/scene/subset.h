@@ -10,7 +10,7 @@
 // moves a node may have nothing to show at a time: then it is nothing that is taken away, or kept.
 // The scene's bounds become those of what is left, its origin and unit stay, and so do its cameras.
 // Errors, with the scene unchanged: GLINT_BAD_INPUT, naming the nodes that there are;
-// GLINT_DEVICE_FAILED (memory).
+// GLINT_OUT_OF_MEMORY.
 
 // Takes the triangles of the nodes away.
 glint_status glint_scene_remove_nodes(glint_scene *scene, const char *nodes, glint_error *error);

@@ -112,7 +112,7 @@ glint_status glint_selftest_run(size_t index, const glint_selftest_options *opti
     glint_status status = c->run(&t);
     result->ms = glint_lap_ms(&clock);
     result->verdict = conclude(result);
-    if (status == GLINT_DEVICE_FAILED) {
+    if (glint_status_is_of_machine(status)) {
         result->verdict = GLINT_BROKEN;
         snprintf(result->reason, sizeof result->reason, "%s", error->message);
         status = GLINT_OK;

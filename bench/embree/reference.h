@@ -1,0 +1,103 @@
+// The same frames by Embree: the program that glint is measured against, as fast as Embree 3 lets
+// it be. bench/README.md says what is in and out of its times.
+#ifndef GLINT_BENCH_EMBREE_REFERENCE_H
+#define GLINT_BENCH_EMBREE_REFERENCE_H
+
+#include "base/status.h"
+#include "embree/aimed_rays.h"
+#include "embree/pool.h"
+#include "environment/environment.h"
+#include "scenes.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// How rays are handed to Embree.
+typedef enum embree_call {
+    EMBREE_INTERSECT_1,  // rtcIntersect1
+    EMBREE_INTERSECT_8,  // rtcIntersect8
+    EMBREE_INTERSECT_16, // rtcIntersect16
+    EMBREE_STREAM_16_1,  // rtcIntersectNM, N = 16, M = 1
+    EMBREE_STREAM_16_16, // rtcIntersectNM, N = 16, M = 16: a tile of 16 × 16 pixels at once
+    EMBREE_CALLS,
+} embree_call;
+
+typedef struct embree_query {
+    embree_call call;
+    bool coherent; // RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+} embree_query;
+
+typedef enum embree_quality {
+    EMBREE_MEDIUM, // RTC_BUILD_QUALITY_MEDIUM
+    EMBREE_HIGH,   // RTC_BUILD_QUALITY_HIGH: spatial splits
+    EMBREE_QUALITIES,
+} embree_quality;
+
+typedef enum embree_shading {
+    EMBREE_PLAIN,  // a packet's normals, directions and look-ups in one loop, texels of four floats
+    EMBREE_STAGED, // a tile's normals and directions, then its look-ups, prefetched, texels of
+                   // halves, stores past the caches
+    EMBREE_SHADINGS,
+} embree_shading;
+
+typedef struct embree_mode {
+    embree_query primary;
+    embree_query secondary; // of rays inside glass
+    bool rows;              // a packet is 16 × 1 pixels, else 4 × 4
+    embree_quality quality;
+    embree_shading shading;
+} embree_mode;
+
+// Writes "NM 16x16 coherent, then 16 incoherent, 4x4, MEDIUM, plain", as much of it as `job` has.
+void embree_mode_describe(const embree_mode *mode, bench_job job, char *text, size_t capacity);
+
+// What a primary ray met, where only that is wanted. `t` is in lengths of the ray's direction,
+// whose component along the axis of view is 1 stored unit: the depth in stored units.
+typedef struct embree_hit {
+    float t;
+    uint32_t triangle; // UINT32_MAX: none
+} embree_hit;
+
+typedef struct embree_inputs {
+    const bench_scene *scene;      // borrowed, must outlive the program
+    const glint_cube *environment; // likewise
+    bench_pool *pool;              // likewise
+    int width, height;             // pixels, multiples of 16
+    bool robust;                   // RTC_SCENE_FLAG_ROBUST
+    bool high;                     // build the tree of quality HIGH beside MEDIUM's
+} embree_inputs;
+
+typedef struct embree_program embree_program; // opaque
+
+// Errors: GLINT_DEVICE_FAILED.
+glint_status embree_program_create(const embree_inputs *inputs, embree_program **program,
+                                   glint_error *error);
+
+// NULL is allowed.
+void embree_program_free(embree_program *program);
+
+// Renders a frame and returns its milliseconds. TRAVERSE leaves hits, the other jobs pixels.
+// `depth` is the number of surfaces that a path of GLASS meets; the other jobs have theirs.
+double embree_program_frame(embree_program *program, bench_job job, int depth,
+                            const embree_mode *mode);
+
+const float *embree_program_pixels(const embree_program *program);    // [height][width][4]
+const embree_hit *embree_program_hits(const embree_program *program); // [height][width]
+
+// Builds the tree once more, throws it away and returns the milliseconds of rtcCommitScene.
+double embree_program_build(embree_program *program, embree_quality quality);
+
+// What Embree holds for the tree, with the triangles in its leaves, in bytes.
+size_t embree_program_bytes(const embree_program *program, embree_quality quality);
+
+// What the program holds beside it to shade with: normals.
+size_t embree_program_shading_bytes(const embree_program *program);
+
+// "3.13.5"
+void embree_version(char *text, size_t capacity);
+
+// What Embree lets through of the first `count` aimed rays, rounded down to whole packets.
+leak_count embree_program_leaks(embree_program *program, uint64_t count);
+
+#endif

@@ -1,0 +1,124 @@
+// Frames whose error stays within a bound. See error_bound.h.
+#include "bound/error_bound.h"
+
+#include "base/clock.h"
+#include "bound/error_search.h"
+#include "bound/error_unseen.h"
+
+#include <math.h>
+
+#define FRAMES_BEFORE_REFERENCE 3 // that turned out to err by too much
+
+void glint_error_bound_begin(glint_error_bound *bound, double max_error,
+                             const glint_settings *settings)
+{
+    *bound = (glint_error_bound){.bound = max_error, .settings = *settings};
+}
+
+void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cube *environment)
+{
+    double sum[3] = {0}, squares = 0, all = 0;
+    const int edge = environment->edge;
+    for (int i = 0; i < 6 * edge * edge; i++) {
+        const int column = i % edge, row = i / edge % edge;
+        const double x = (2.0 * column + 1) / edge - 1, y = (2.0 * row + 1) / edge - 1;
+        const double distance = 1 + x * x + y * y;                  // squared
+        const double solid_angle = 1 / (distance * sqrt(distance)); // but for a factor
+        const float *texel = glint_cube_texel(environment, i / (edge * edge), column, row);
+        if (!isfinite(texel[0]) || !isfinite(texel[1]) || !isfinite(texel[2])) {
+            continue;
+        }
+        all += solid_angle;
+        for (int c = 0; c < 3; c++) {
+            sum[c] += solid_angle * (double)texel[c];
+            squares += solid_angle * (double)texel[c] * (double)texel[c] / 3;
+        }
+    }
+    const double means = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (3 * all * all);
+    bound->contrast = all > 0 ? sqrt(fmax(0, squares / all - means)) : 0;
+}
+
+// A frame under way.
+typedef struct judged_frame {
+    glint_error_search search;
+    glint_error_trial trial; // what it is rendered by
+    glint_image *image;
+    glint_frame_report *report;
+    double estimate; // of the error
+} judged_frame;
+
+static glint_status render(judged_frame *f, glint_error *error)
+{
+    const glint_error_grid *grid = &f->search.grid;
+    glint_settings settings = f->trial.rung.settings;
+    settings.truncation_squares = true;
+    glint_status status = glint_renderer_set_settings(grid->renderer, &settings, error);
+    if (status == GLINT_OK) {
+        status = glint_renderer_frame(grid->renderer, grid->camera, grid->progress, f->image,
+                                      f->report, error);
+    }
+    if (status == GLINT_OK) {
+        f->estimate = glint_error_search_estimate(&f->search, &f->trial, f->image, f->report);
+    }
+    return status;
+}
+
+static glint_status choose(judged_frame *f, const glint_error_bound *bound, glint_error *error)
+{
+    glint_error_search *s = &f->search;
+    const glint_plan *plan = glint_renderer_first_plan(s->grid.renderer);
+    glint_status status = glint_error_search_begin(s, bound, plan, error);
+    return status == GLINT_OK ? glint_error_search_choose(s, &f->trial, error) : status;
+}
+
+static glint_status choose_and_render(judged_frame *f, const glint_error_bound *bound,
+                                      glint_error_choice *choice, glint_error *error)
+{
+    double begun = glint_now_ms();
+    glint_status status = choose(f, bound, error);
+    for (choice->frames = 1; status == GLINT_OK; choice->frames++) {
+        choice->choosing_ms += glint_lap_ms(&begun);
+        status = render(f, error);
+        if (status != GLINT_OK || f->estimate <= bound->bound || f->trial.is_reference) {
+            break;
+        }
+        if (choice->frames == FRAMES_BEFORE_REFERENCE) {
+            glint_error_search_give_up(&f->search, &f->trial);
+        } else {
+            status = glint_error_search_refine(&f->search, f->estimate, &f->trial, error);
+        }
+    }
+    return status;
+}
+
+glint_status glint_error_bound_frame(const glint_error_bound *bound, glint_renderer *renderer,
+                                     const glint_camera *camera, const glint_progress *progress,
+                                     glint_image *image, glint_frame_report *report,
+                                     glint_error_choice *choice, glint_error *error)
+{
+    const glint_settings *settings = &bound->settings;
+    judged_frame f = {
+        .search.grid = {.renderer = renderer,
+                        .camera = camera,
+                        .progress = progress,
+                        .step = glint_error_grid_step(settings->width, settings->height)},
+        .image = image,
+        .report = report,
+    };
+    *choice = (glint_error_choice){.bound = bound->bound};
+    glint_status status = choose_and_render(&f, bound, choice, error);
+    const glint_error_search *s = &f.search;
+    choice->rung = f.trial.rung;
+    choice->error = f.estimate;
+    choice->grid_error = f.trial.grid.measured;
+    choice->unseen_of_float = glint_error_with_unseen(s, &f.trial.rung, 0);
+    choice->grid_is_frame = s->grid.step == 1;
+    choice->grid_pixels = (int)glint_error_grid_pixel_count(&s->grid);
+    choice->grids = s->grid.pictures;
+    choice->choosing_rays = s->grid.rays;
+    glint_error_search_end(&f.search);
+    if (status != GLINT_OK) {
+        glint_image_free(image);
+    }
+    return status;
+}

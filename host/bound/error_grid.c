@@ -1,0 +1,449 @@
+// Pictures of a sparse grid of a frame's pixels. See error_grid.h.
+#include "bound/error_grid.h"
+
+#include "base/memory.h"
+#include "image/metrics.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define SHIFT 0.001  // of a pixel
+#define MATTERS 0.01 // of the mean
+#define SMOOTH 0.01  // of the contrast
+// By how much paths in single precision are off, as an angle: two units of its last place. That is
+// 1e-4 of a pixel of a frame of 352 rows and 40 degrees; cameras stood some two sizes of the scene
+// away from it, and much nearer it may be more. How often frames of glass (7 scenes, 80 each)
+// showed the other side of a jump of some size was what 0.2 to 0.8e-4 would have made of all such
+// jumps between their pixels, 2e-4 at the folds of the sea; of mirrors, 0.05e-4.
+#define ULPS 0x1p-22
+// Of samples on the wrong side, how many stand beside none that differs by as much: of 720 frames
+// of nine scenes, mended by 0.3 of the mean, three had a pixel that was off by half of it or more,
+// where ULPS makes some 360 of all jumps as large.
+#define HIDDEN 0.01
+// A pixel has neighbours on four sides, a whole pixel away; here two sides are looked at, half a
+// pixel away.
+#define NEIGHBOURS 2
+
+int glint_error_grid_step(int width, int height)
+{
+    const double pixels = (double)width * height;
+    if (pixels < GLINT_ERROR_GRID_WHOLE) {
+        return 1;
+    }
+    const double step = floor(sqrt(pixels / GLINT_ERROR_GRID_PIXELS));
+    return (int)fmin(step, fmin(width, height));
+}
+
+size_t glint_error_grid_pixel_count(const glint_error_grid *grid)
+{
+    return (size_t)grid->reference.width * (size_t)grid->reference.height;
+}
+
+static bool go_on(void *context, uint64_t done, uint64_t total)
+{
+    (void)done, (void)total;
+    const glint_progress *progress = context;
+    return progress->step(progress->context, 0, 1);
+}
+
+// Through `camera` into *image.
+static glint_status render(glint_error_grid *grid, const glint_settings *settings,
+                           const glint_camera *camera, glint_image *image,
+                           glint_frame_report *report, glint_error *error)
+{
+    glint_settings of_grid = *settings;
+    of_grid.grid_step = grid->step > 1 && settings->list == NULL ? grid->step : 0;
+    of_grid.aovs = 0;
+    of_grid.terms = 0;
+    of_grid.truncation_squares = true;
+    const glint_progress progress = {go_on, (void *)grid->progress};
+    const bool asks = grid->progress != NULL;
+    glint_status status = glint_renderer_set_settings(grid->renderer, &of_grid, error);
+    if (status == GLINT_OK) {
+        status = glint_renderer_frame(grid->renderer, camera, asks ? &progress : NULL, image,
+                                      report, error);
+    }
+    if (status == GLINT_OK) {
+        grid->rays += glint_ray_counts_all(&report->rays);
+        grid->pictures++;
+    }
+    return status;
+}
+
+glint_status glint_error_grid_set_reference(glint_error_grid *grid, const glint_settings *settings,
+                                            glint_frame_report *report, glint_error *error)
+{
+    glint_status status = render(grid, settings, grid->camera, &grid->reference, report, error);
+    if (status == GLINT_OK) {
+        grid->mean = glint_metrics_mean(&grid->reference, &grid->reference);
+    }
+    return status;
+}
+
+double glint_error_grid_contrast(const glint_error_grid *grid)
+{
+    const size_t count = glint_error_grid_pixel_count(grid);
+    double sums[3] = {0}, squares = 0, finite = 0;
+    for (size_t i = 0; i < count; i++) {
+        const glint_pixel_error same =
+            glint_metrics_pixel(&grid->reference, &grid->reference, i, 0);
+        for (size_t c = 0; same.is_finite && c < 3; c++) {
+            const double value = (double)grid->reference.pixels[4 * i + c];
+            sums[c] += value;
+            squares += value * value / 3;
+        }
+        finite += same.is_finite;
+    }
+    double of_means = 0;
+    for (int c = 0; c < 3; c++) {
+        of_means += sums[c] / finite * sums[c] / finite / 3;
+    }
+    return finite > 0 ? sqrt(fmax(0, squares / finite - of_means)) : 0;
+}
+
+// How much larger a mean may be than what was found of it with a relative standard error of
+// `chance`: two of these, and more where it rests on so few pixels that these are rare events. Of
+// one, 5.6 times; of ten, 1.9; of a hundred, 1.2, as upper bounds of 97.5% of a Poisson
+// distribution's mean are.
+static double at_most(double chance)
+{
+    return 1 + 2 * chance + 2.6 * chance * chance;
+}
+
+// Whether a frame's pixel there would be mended.
+static bool is_mended(const glint_error_grid *grid, double mend, size_t pixel)
+{
+    return mend > 0 && grid->jumps != NULL && grid->jumps[pixel] > mend * mend;
+}
+
+static glint_grid_error compare(const glint_error_grid *grid, double mend)
+{
+    const size_t count = glint_error_grid_pixel_count(grid);
+    double n = 0, sum_of_differences = 0;
+    double sum = 0, squares = 0; // of the pixels' square errors
+    for (size_t i = 0; i < count; i++) {
+        const glint_pixel_error same =
+            glint_metrics_pixel(&grid->reference, &grid->reference, i, grid->mean);
+        if (!same.is_finite) {
+            continue;
+        }
+        const glint_image *image = is_mended(grid, mend, i) ? grid->in_double : &grid->image;
+        const glint_pixel_error e = glint_metrics_pixel(image, &grid->reference, i, grid->mean);
+        if (!e.is_finite) {
+            return (glint_grid_error){(double)INFINITY, (double)INFINITY, 0};
+        }
+        double square = 0;
+        for (int c = 0; c < 3; c++) {
+            square += e.difference[c] * e.difference[c] / 3;
+            sum_of_differences += e.difference[c] / 3;
+        }
+        sum += square;
+        squares += square * square;
+        n++;
+    }
+    if (sum == 0) {
+        return (glint_grid_error){0};
+    }
+    const double mean = sum / n, variance = fmax(0, squares / n - mean * mean);
+    const double chance = grid->step > 1 ? sqrt(variance / n) / mean : 0;
+    const double measured = sqrt(mean) / fabs(grid->mean);
+    return (glint_grid_error){measured, measured * sqrt(at_most(chance)), sum_of_differences / n};
+}
+
+glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
+                                      glint_grid_error *result, glint_frame_report *report,
+                                      glint_error *error)
+{
+    glint_status status = render(grid, settings, grid->camera, &grid->image, report, error);
+    if (status == GLINT_OK) {
+        *result = compare(grid, settings->mend);
+    }
+    return status;
+}
+
+void glint_error_grid_keep(glint_error_grid *grid, glint_image *image)
+{
+    const glint_image measured = grid->image;
+    grid->image = *image;
+    *image = measured;
+}
+
+// ---- With the camera beside where it is ---------------------------------------------------------
+
+// Of a pixel: an angle, or of parallel rays a part of half the picture's height.
+static double pixel_size(const glint_camera *camera, int height)
+{
+    return (camera->orthographic ? 2 : 2 * tan(camera->yfov / 2)) / height;
+}
+
+// One axis of a camera and its back, turned so that it looks towards the axis.
+static void turn(glint_vec3 *axis, glint_vec3 *back, double angle)
+{
+    const double cosine = cos(angle), sine = sin(angle);
+    const glint_vec3 before = *back;
+    *back = glint_vec3_add(glint_vec3_scale(before, cosine), glint_vec3_scale(*axis, -sine));
+    *axis = glint_vec3_add(glint_vec3_scale(*axis, cosine), glint_vec3_scale(before, sine));
+}
+
+// The camera turned, or one of parallel rays moved, to the right and up by parts of a pixel.
+static glint_camera shifted(const glint_camera *camera, int height, double right, double up)
+{
+    const double size = pixel_size(camera, height);
+    glint_camera c = *camera;
+    if (camera->orthographic) {
+        const glint_vec3 sideways = glint_vec3_scale(c.right, size * right * c.ymag);
+        const glint_vec3 upwards = glint_vec3_scale(c.up, size * up * c.ymag);
+        c.eye = glint_vec3_add(c.eye, glint_vec3_add(sideways, upwards));
+        return c;
+    }
+    turn(&c.right, &c.back, size * right);
+    turn(&c.up, &c.back, size * up);
+    return c;
+}
+
+// The largest of the three differences; 0 where either is not finite.
+static double difference(const glint_image *a, const glint_image *b, size_t pixel)
+{
+    const glint_pixel_error e = glint_metrics_pixel(a, b, pixel, 0);
+    return e.is_finite ? e.absolute_most : 0;
+}
+
+// How far a pixel is from the mean of what it is with the camera on either side: R, G and B; 0
+// where that is not finite.
+static void find_bend(const glint_image *image, const glint_image sides[2], size_t pixel,
+                      double bend[3])
+{
+    for (size_t c = 0; c < 3; c++) {
+        const size_t i = 4 * pixel + c;
+        const double mean = ((double)sides[0].pixels[i] + (double)sides[1].pixels[i]) / 2;
+        const double off = fabs(mean - (double)image->pixels[i]);
+        bend[c] = off < (double)INFINITY ? off : 0;
+    }
+}
+
+// The grid with the camera so many pixels to the right and up, and as many to the left and down.
+static glint_status render_sides(glint_error_grid *grid, const glint_settings *settings,
+                                 double right, double up, glint_image sides[2], glint_error *error)
+{
+    glint_frame_report unused;
+    glint_status status = GLINT_OK;
+    for (int i = 0; status == GLINT_OK && i < 2; i++) {
+        const double sign = i == 0 ? 1 : -1;
+        const glint_camera side = shifted(grid->camera, settings->height, sign * right, sign * up);
+        status = render(grid, settings, &side, &sides[i], &unused, error);
+    }
+    return status;
+}
+
+// ---- Edges -------------------------------------------------------------------------------------
+
+static int falling(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x < y) - (x > y);
+}
+
+// Square jumps, largest first, each of which is made so often as `each` expects.
+typedef struct jumps {
+    const double *squares;
+    size_t count;
+    double each;
+} jumps;
+
+// The sum of those from `first` on that a frame's samples make, at most, if they are independent:
+// there may be two standard deviations more than are expected, or one more of the largest.
+static double sum_at_most(const jumps *j, size_t first)
+{
+    double mean = 0, variance = 0;
+    for (size_t i = first; i < j->count; i++) {
+        mean += j->each * j->squares[i];
+        variance += j->each * j->squares[i] * j->squares[i];
+    }
+    return first < j->count ? mean + fmax(2 * sqrt(variance), j->squares[first]) : 0;
+}
+
+// Of all: so many of the largest are not made at all, with a confidence of 97.5%.
+static double all_at_most(const jumps *j)
+{
+    return sum_at_most(j, (size_t)fmin(floor(0.025 / j->each), (double)j->count));
+}
+
+// Where the first `mended` are, but for HIDDEN of them.
+static double mended_at_most(const jumps *j, size_t mended)
+{
+    const jumps hidden = {j->squares, mended, HIDDEN * j->each};
+    return all_at_most(&hidden) + sum_at_most(j, mended);
+}
+
+// As few as leave no more than what is allowed; all where none do.
+static size_t fewest_mended(const jumps *j, double allowed)
+{
+    size_t low = 0, high = j->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (mended_at_most(j, middle) <= allowed) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+// `unit`: the frame's square error of a sum of squares of 1.
+static glint_edge_errors errors_of(const jumps *j, double unit, double allowed)
+{
+    const size_t mended = fewest_mended(j, allowed * allowed / unit);
+    return (glint_edge_errors){
+        .at_most = sqrt(all_at_most(j) * unit),
+        .mend = mended < j->count ? sqrt(j->squares[mended]) : 0,
+        .mended = sqrt(mended_at_most(j, mended) * unit),
+    };
+}
+
+// Keeps the jumps, and gives them sorted.
+static glint_status find_jumps(glint_error_grid *grid, const glint_image *image,
+                               const glint_image sides[2], double **sorted, glint_error *error)
+{
+    const size_t count = glint_error_grid_pixel_count(grid);
+    free(grid->jumps);
+    grid->jumps = glint_allocate(count, sizeof *grid->jumps);
+    *sorted = glint_allocate(count, sizeof **sorted);
+    if (grid->jumps == NULL || *sorted == NULL) {
+        return glint_fail_memory(error, "the grid's jumps");
+    }
+    for (size_t i = 0; i < count; i++) {
+        double bend[3], square = 0;
+        find_bend(image, sides, i, bend);
+        for (int c = 0; c < 3; c++) {
+            square += bend[c] / grid->mean * (bend[c] / grid->mean) / 3;
+        }
+        // An edge between a pixel and one side makes half of its jump.
+        (*sorted)[i] = grid->jumps[i] = 4 * square;
+    }
+    qsort(*sorted, count, sizeof **sorted, falling);
+    return GLINT_OK;
+}
+
+glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_error_edges *edges,
+                                         glint_edge_errors *result, glint_error *error)
+{
+    const glint_settings *settings = edges->settings;
+    const size_t count = glint_error_grid_pixel_count(grid);
+    const double samples = (double)settings->samples_per_axis * settings->samples_per_axis;
+    const double all = samples * settings->width * settings->height;
+    // A pixel of many samples goes over an edge little by little; a whole pixel on either side adds
+    // up to what half of one does to a single sample.
+    const double shift = samples > 1 ? 1 : 0.5;
+    glint_image sides[2] = {{0}, {0}};
+    double *sorted = NULL;
+    glint_status status = render_sides(grid, settings, shift, shift, sides, error);
+    if (status == GLINT_OK) {
+        status = find_jumps(grid, edges->image, sides, &sorted, error);
+    }
+    if (status == GLINT_OK && sorted != NULL) {
+        const double off = ULPS / pixel_size(grid->camera, settings->height);
+        const jumps found = {sorted, count, off * all / (double)count};
+        *result = errors_of(&found, 1 / (samples * all), edges->allowed);
+        // A pixel that is half on one side of an edge is half a jump from its neighbours.
+        result->mend *= samples > 1 ? 0.5 : 1;
+    }
+    free(sorted);
+    glint_image_free(&sides[0]);
+    glint_image_free(&sides[1]);
+    return status;
+}
+
+// The grid's pixels that would be mended, as numbers of the frame's, and the first again to the end
+// of their last row. NULL where memory is short.
+static int32_t *list_mended(const glint_error_grid *grid, const glint_settings *settings,
+                            double mend, size_t *count, int *rows)
+{
+    const size_t all = glint_error_grid_pixel_count(grid);
+    const size_t width = (size_t)grid->reference.width, step = (size_t)grid->step;
+    int32_t *list = glint_allocate(all + GLINT_LIST_COLUMNS, sizeof *list);
+    *count = 0;
+    for (size_t i = 0; list != NULL && i < all; i++) {
+        if (is_mended(grid, mend, i)) {
+            const size_t y = i / width * step + step / 2, x = i % width * step + step / 2;
+            list[(*count)++] = (int32_t)(y * (size_t)settings->width + x);
+        }
+    }
+    *rows = (int)((*count + GLINT_LIST_COLUMNS - 1) / GLINT_LIST_COLUMNS);
+    for (size_t i = *count; list != NULL && i < (size_t)*rows * GLINT_LIST_COLUMNS; i++) {
+        list[i] = list[0];
+    }
+    return list;
+}
+
+glint_status glint_error_grid_count_mended(glint_error_grid *grid, const glint_settings *settings,
+                                           double mend, double *rays, glint_error *error)
+{
+    glint_settings listed = *settings;
+    size_t count;
+    int32_t *list = list_mended(grid, settings, mend, &count, &listed.list_rows);
+    glint_image image = {0};
+    glint_frame_report report = {0};
+    glint_status status = list != NULL ? GLINT_OK : glint_fail_memory(error, "the grid's jumps");
+    listed.list = list;
+    if (status == GLINT_OK && count > 0) {
+        status = render(grid, &listed, grid->camera, &image, &report, error);
+    }
+    const size_t padded = (size_t)listed.list_rows * GLINT_LIST_COLUMNS;
+    *rays = count > 0 ? NEIGHBOURS * (double)glint_ray_counts_all(&report.rays) * (double)count /
+                            (double)padded
+                      : 0;
+    glint_image_free(&image);
+    free(list);
+    return status;
+}
+
+// ---- Chaos -------------------------------------------------------------------------------------
+
+// The next pixel, from `pixel` on, whose light beyond where `cut` ends matters; else their number.
+static size_t next_that_matters(const glint_error_grid *grid, const glint_image *image,
+                                const glint_image *cut, size_t pixel)
+{
+    const size_t count = glint_error_grid_pixel_count(grid);
+    while (pixel < count && difference(cut, image, pixel) <= MATTERS * fabs(grid->mean)) {
+        pixel++;
+    }
+    return pixel;
+}
+
+glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_error_chaos *chaos,
+                                         double *share, glint_error *error)
+{
+    const size_t count = glint_error_grid_pixel_count(grid);
+    const glint_image *image = chaos->image;
+    glint_settings shallow = *chaos->settings;
+    shallow.depth = chaos->depth;
+    glint_image cut = {0}, sides[2] = {{0}, {0}};
+    glint_frame_report unused;
+    *share = 0;
+    glint_status status = render(grid, &shallow, grid->camera, &cut, &unused, error);
+    const size_t first = status == GLINT_OK ? next_that_matters(grid, image, &cut, 0) : count;
+    if (status == GLINT_OK && first < count) {
+        status = render_sides(grid, chaos->settings, SHIFT, 0, sides, error);
+    }
+    for (size_t i = first; status == GLINT_OK && i < count;
+         i = next_that_matters(grid, image, &cut, i + 1)) {
+        double bend[3];
+        find_bend(image, sides, i, bend);
+        const double most = fmax(bend[0], fmax(bend[1], bend[2]));
+        const double bent = fmin(1, most / chaos->contrast);
+        *share += (bent < SMOOTH ? bent * bent : bent) / (double)count;
+    }
+    glint_image_free(&cut);
+    glint_image_free(&sides[0]);
+    glint_image_free(&sides[1]);
+    return status;
+}
+
+void glint_error_grid_free(glint_error_grid *grid)
+{
+    glint_image_free(&grid->reference);
+    glint_image_free(&grid->image);
+    free(grid->jumps);
+    *grid = (glint_error_grid){0};
+}

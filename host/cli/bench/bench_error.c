@@ -1,0 +1,70 @@
+// glint bench --error. See bench_error.h.
+#include "cli/bench/bench_error.h"
+
+#include "cli/common/json_output.h"
+#include "report/speed_error/speed_error_json.h"
+#include "report/speed_error/speed_error_page.h"
+
+#include <stdlib.h>
+
+glint_status bench_error_check(const glint_settings *settings, glint_error *error)
+{
+    const char *own =
+        settings->filter != GLINT_FILTER_BILINEAR ? "--filter" : glint_error_option(settings);
+    return own == NULL
+               ? GLINT_OK
+               : glint_fail(error, GLINT_USAGE,
+                            "%s: --error tries them one after the other (leave it out)", own);
+}
+
+glint_status bench_error_measure(const glint_input_request *request, const glint_inputs *loaded,
+                                 const glint_speed_error_options *options,
+                                 const glint_bench_watcher *watcher, char **text,
+                                 glint_error *error)
+{
+    const glint_bench_inputs inputs = {
+        .device = request->device,
+        .scene = &loaded->scene,
+        .environment = &loaded->environment,
+        .camera = &loaded->viewpoint.camera,
+        .settings = &request->settings,
+        .kernel_dir = request->kernel_dir,
+    };
+    glint_speed_error_result *result = malloc(sizeof *result);
+    if (result == NULL) {
+        return glint_fail_memory(error, "the errors");
+    }
+    glint_status status = glint_speed_error_measure(&inputs, options, watcher, result, error);
+    json_t *entry = NULL;
+    if (status == GLINT_OK) {
+        const glint_bench_scene scene = {
+            .name = request->scene,
+            .subject = {.scene = &loaded->scene,
+                        .environment = &loaded->environment,
+                        .camera = &loaded->viewpoint.camera,
+                        .settings = &request->settings,
+                        .warnings = &loaded->warnings},
+        };
+        status = glint_speed_error_scene_json(&scene, result, &entry, error);
+    }
+    if (status == GLINT_OK) {
+        status = glint_json_print(entry, text, error);
+    }
+    glint_speed_error_free(result);
+    free(result);
+    return status;
+}
+
+glint_status bench_error_write(json_t *document, const char *html, const char *json,
+                               glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    if (html != NULL) {
+        status = glint_speed_error_page_write(html, document, error);
+    }
+    glint_speed_error_drop_pictures(document);
+    if (status == GLINT_OK && json != NULL) {
+        status = glint_write_json(json, json_incref(document), error);
+    }
+    return status;
+}

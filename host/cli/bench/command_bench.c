@@ -1,0 +1,576 @@
+// glint bench: how fast scenes are rendered, phase by phase, with the picture's error beside.
+//
+// Each scene is measured in a process of its own, which answers with its part of the report: so
+// peak memory is that scene's, and what a driver did for one scene weighs on no other. Table and
+// comparison are made from the report.
+#include "cli/commands.h"
+#include "cli/common/options.h"
+#include "cli/common/say.h"
+#include "cli/common/signals.h"
+
+#include "base/child.h"
+#include "cli/bench/bench_error.h"
+#include "cli/bench/bench_table.h"
+#include "cli/bench/error_table.h"
+#include "cli/common/file_names.h"
+#include "cli/common/inputs.h"
+#include "cli/common/json_output.h"
+#include "cli/common/shell_word.h"
+#include "image/output_file.h"
+#include "report/bench/baseline.h"
+#include "report/bench/bench_json.h"
+#include "report/speed_error/speed_error_json.h"
+#include "scene/built_in.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define DEFAULT_MARGIN 10.0 // per cent
+
+typedef struct bench_request {
+    glint_input_request inputs; // first: the shared tables' offsets count from here
+    bool list;
+    double seconds; // 0: not given
+    int rounds;     // 0: not given
+    bool no_check;
+    bool error; // speed against error, of every rung
+    bool no_sampling;
+    const char *html;
+    const char *json; // "-" is stdout
+    const char *baseline;
+    double margin; // per cent; negative: not given
+} bench_request;
+
+static const glint_option bench_options[] = {
+    {GLINT_OPTION_HEADING, .help = "Measurement"},
+    {GLINT_OPTION_REAL, .name = "seconds", .argument = "S",
+     .help =
+         "Measure each scene's frames for so long, after the warm-up, with --error those of each "
+         "way; five frames at least.",
+     .fallback = "5", .offset = offsetof(bench_request, seconds), .minimum = 0.001,
+     .maximum = 86400},
+    {GLINT_OPTION_INT, .name = "rounds", .argument = "N",
+     .help = "Measure N frames instead, however long they take.",
+     .offset = offsetof(bench_request, rounds), .minimum = 1, .maximum = 1e6},
+    {GLINT_OPTION_FLAG, .name = "no-check",
+     .help = "Do not compare the picture with double precision first; for series in which that was "
+             "done.",
+     .offset = offsetof(bench_request, no_check)},
+    {GLINT_OPTION_FLAG, .name = "error",
+     .help =
+         "Speed against error: render each scene in up to a dozen ways, from colours at vertices "
+         "to double precision, and show what each takes and by how much it is off.",
+     .offset = offsetof(bench_request, error)},
+    {GLINT_OPTION_FLAG, .name = "no-sampling",
+     .help = "With --error, leave out what more samples a pixel give, which takes the time of some "
+             "hundred and fifty frames.",
+     .offset = offsetof(bench_request, no_sampling)},
+    {GLINT_OPTION_FLAG, .name = "list", .help = "List the built-in scenes and do nothing else.",
+     .offset = offsetof(bench_request, list)},
+    {GLINT_OPTION_HEADING, .help = "Results"},
+    {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE|-",
+     .help = "Write everything as JSON; - prints it instead of the table.",
+     .offset = offsetof(bench_request, json)},
+    {GLINT_OPTION_TEXT, .name = "html", .argument = "FILE",
+     .help = "With --error, write a page with a plot, and the picture of each way beside the "
+             "reference.",
+     .offset = offsetof(bench_request, html)},
+    {GLINT_OPTION_TEXT, .name = "baseline", .argument = "FILE",
+     .help = "Compare with the JSON of an earlier run on the same device, with the same settings.",
+     .offset = offsetof(bench_request, baseline)},
+    {GLINT_OPTION_REAL, .name = "margin", .argument = "PERCENT",
+     .help = "A scene is slower where its median is more than this above the baseline's and the "
+             "middle halves of both rows of times are apart.",
+     .fallback = "10", .offset = offsetof(bench_request, margin), .minimum = 0, .maximum = 1e6},
+    GLINT_OPTION_END,
+};
+
+static const glint_option size_options[] = {GLINT_SIZE_OPTIONS("1920x1080; with --error 640x360"),
+                                            GLINT_OPTION_END};
+
+static const glint_option *const groups[] = {
+    bench_options,          glint_input_options,      size_options,
+    glint_settings_options, glint_kernel_dir_options, NULL};
+
+// Everything a run holds. Zero is valid.
+typedef struct bench_work {
+    const bench_request *request;
+    glint_progress_display display;
+    json_t *baseline;    // NULL: none
+    json_t *comparisons; // a list, one entry for each scene that is not wrong
+    json_t *document;
+    char *command;                  // the command line, or NULL
+    size_t wrong, compared, slower; // scenes
+} bench_work;
+
+// Where there is a file of that name, it is meant.
+static bool is_built_in(const char *name)
+{
+    struct stat facts;
+    bool is_name = false;
+    for (size_t i = 0; glint_built_in_name(i) != NULL; i++) {
+        is_name = is_name || strcmp(glint_built_in_name(i), name) == 0;
+    }
+    return is_name && !(stat(name, &facts) == 0 && S_ISREG(facts.st_mode));
+}
+
+// ---- One scene, in its own process -------------------------------------------------------------
+
+typedef struct scene_task {
+    glint_input_request inputs;
+    glint_bench_options options;
+    bool error; // then by these options
+    glint_speed_error_options error_options;
+    glint_progress_display *display;
+} scene_task;
+
+// In the child: a signal of its own, or one that ended the program that waits for it.
+static bool stop_requested(void)
+{
+    return glint_stop_requested() || glint_child_is_abandoned();
+}
+
+static void show(void *context, const char *doing)
+{
+    const scene_task *task = context;
+    char text[GLINT_MESSAGE_CAPACITY];
+    snprintf(text, sizeof text, "%s: %s", task->inputs.scene, doing);
+    glint_progress_phase(task->display, "bench", text);
+}
+
+static glint_status measure(scene_task *task, glint_inputs *loaded, char **text, glint_error *error)
+{
+    const glint_input_request *request = &task->inputs;
+    const glint_bench_inputs inputs = {
+        .device = request->device,
+        .scene = &loaded->scene,
+        .environment = &loaded->environment,
+        .camera = &loaded->viewpoint.camera,
+        .settings = &request->settings,
+        .kernel_dir = request->kernel_dir,
+    };
+    const glint_bench_watcher watcher = {show, task, stop_requested};
+    glint_bench_result result;
+    glint_status status = glint_bench_measure(&inputs, &task->options, &watcher, &result, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    if (result.check.outcome == GLINT_CHECK_NO_DOUBLE) {
+        glint_warn(&loaded->warnings,
+                   "device '%s' has no double precision: the picture is not checked",
+                   result.device.name);
+    }
+    const glint_bench_scene scene = {
+        .name = request->scene,
+        .subject = {.scene = &loaded->scene,
+                    .environment = &loaded->environment,
+                    .camera = &loaded->viewpoint.camera,
+                    .settings = &request->settings,
+                    .warnings = &loaded->warnings},
+        .kernel_dir = request->kernel_dir,
+        .load_scene_ms = loaded->scene_ms,
+        .load_environment_ms = loaded->environment_ms,
+    };
+    return glint_json_print(glint_bench_scene_json(&scene, &result), text, error);
+}
+
+static glint_status run_task(void *context, char **text, glint_error *error)
+{
+    scene_task *task = context;
+    glint_inputs loaded;
+    glint_status status = glint_inputs_load(&task->inputs, task->display, &loaded, error);
+    if (status == GLINT_OK && task->error) {
+        const glint_bench_watcher watcher = {show, task, stop_requested};
+        status = bench_error_measure(&task->inputs, &loaded, &task->error_options, &watcher, text,
+                                     error);
+    } else if (status == GLINT_OK) {
+        status = measure(task, &loaded, text, error);
+    }
+    glint_progress_clear(task->display);
+    if (status == GLINT_OK) {
+        glint_say_warnings(&loaded.warnings, 0);
+    }
+    glint_inputs_free(&loaded);
+    return status;
+}
+
+// ---- All scenes --------------------------------------------------------------------------------
+
+static glint_bench_options options_of(const bench_request *request)
+{
+    return (glint_bench_options){
+        .seconds = request->seconds > 0 ? request->seconds : GLINT_BENCH_DEFAULT_SECONDS,
+        .rounds = request->rounds,
+        .no_check = request->no_check,
+    };
+}
+
+static glint_speed_error_options error_options_of(const bench_request *request)
+{
+    return (glint_speed_error_options){
+        .seconds = options_of(request).seconds,
+        .rounds = request->rounds,
+        .pictures = request->html != NULL,
+        .no_sampling = request->no_sampling,
+    };
+}
+
+// The scene's entry of the report, a new reference.
+static glint_status measure_scene(bench_work *work, const char *name, json_t **entry,
+                                  glint_error *error)
+{
+    const bench_request *request = work->request;
+    scene_task task = {
+        .inputs = request->inputs,
+        .options = options_of(request),
+        .error = request->error,
+        .error_options = error_options_of(request),
+        .display = &work->display,
+    };
+    task.inputs.scene = name;
+    task.inputs.is_built_in = is_built_in(name);
+    const glint_child child = {
+        .work = run_task, .context = &task, .stop_requested = glint_stop_requested};
+    char *text = NULL;
+    glint_status status = glint_child_run(&child, &text, error);
+    if (status == GLINT_OK) {
+        *entry = json_loads(text, 0, NULL);
+        status = *entry != NULL ? GLINT_OK : glint_fail_memory(error, "a report");
+    }
+    free(text);
+    return status;
+}
+
+static bool prints_table(const bench_request *request)
+{
+    return !glint_is_stdout(request->json);
+}
+
+static glint_status compare_scene(bench_work *work, const json_t *entry, glint_error *error)
+{
+    const bench_request *request = work->request;
+    const char *name = glint_json_text_at(entry, "name");
+    double margin = request->margin >= 0 ? request->margin : DEFAULT_MARGIN;
+    glint_comparison comparison;
+    glint_status status = glint_baseline_compare(work->baseline, request->baseline, entry,
+                                                 margin / 100, &comparison, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    work->compared += comparison.verdict != GLINT_VERDICT_MISSING;
+    work->slower += comparison.verdict == GLINT_VERDICT_SLOWER;
+    (void)json_array_append_new(work->comparisons, glint_comparison_json(name, &comparison));
+    if (comparison.verdict == GLINT_VERDICT_MISSING) {
+        glint_say("warning: %s: there is no scene %s to compare with", request->baseline, name);
+    } else if (comparison.verdict == GLINT_VERDICT_SLOWER) {
+        glint_say("%s: slower: %.3f ms a frame, was %.3f (%+.1f%%)", name, comparison.now,
+                  comparison.before, 100 * (comparison.now / comparison.before - 1));
+    }
+    return GLINT_OK;
+}
+
+// Takes the entry's reference.
+static glint_status take_scene(bench_work *work, json_t *entry, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    json_t *entries = json_object_get(work->document, "scenes");
+    if (prints_table(work->request)) {
+        if (json_array_size(entries) == 0) {
+            glint_bench_print_head(work->document, stdout);
+        }
+        if (work->request->error) {
+            glint_error_print_scene(entry, stdout);
+        } else {
+            glint_bench_print_scene(entry, stdout);
+        }
+        fflush(stdout);
+    }
+    if (work->request->error) {
+        (void)json_array_append_new(entries, entry);
+        return status;
+    }
+    if (glint_json_at(entry, "frames") == NULL) {
+        work->wrong++;
+        glint_say("%s: the picture is wrong: %s (its speed is not reported)",
+                  glint_json_text_at(entry, "name"), glint_json_text_at(entry, "check.reason"));
+    } else if (work->baseline != NULL) {
+        status = compare_scene(work, entry, error);
+    }
+    (void)json_array_append_new(entries, entry);
+    return status;
+}
+
+static glint_status measure_scenes(bench_work *work, const char *const *names, size_t count,
+                                   glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
+        json_t *entry = NULL;
+        glint_signals_cooperate(true);
+        status = measure_scene(work, names[i], &entry, error);
+        glint_signals_cooperate(false);
+        if (status == GLINT_OK && glint_stop_requested()) {
+            json_decref(entry);
+            return glint_fail(error, GLINT_INTERRUPTED, "stopped");
+        }
+        if (status == GLINT_OK) {
+            status = take_scene(work, entry, error);
+        }
+    }
+    return status;
+}
+
+// The comparison with the baseline, in the report and on the table.
+static void add_comparisons(bench_work *work)
+{
+    const bench_request *request = work->request;
+    json_t *object = json_object();
+    glint_json_put_text(object, "file", request->baseline);
+    glint_json_put_text(object, "glint", glint_json_text_at(work->baseline, "glint"));
+    glint_json_put_text(object, "date", glint_json_text_at(work->baseline, "date"));
+    glint_json_put_real(object, "margin_percent",
+                        request->margin >= 0 ? request->margin : DEFAULT_MARGIN);
+    glint_json_put(object, "scenes", json_incref(work->comparisons));
+    glint_json_put(work->document, "baseline", object);
+    if (prints_table(request)) {
+        printf("\nagainst %s\n", request->baseline);
+        for (size_t i = 0; i < json_array_size(work->comparisons); i++) {
+            glint_bench_print_comparison(json_array_get(work->comparisons, i), stdout);
+        }
+    }
+}
+
+static glint_status give_verdict(const bench_work *work, size_t count, glint_error *error)
+{
+    const bench_request *request = work->request;
+    if (work->wrong > 0) {
+        return glint_fail(error, GLINT_MISMATCH, "%zu of %zu pictures %s wrong", work->wrong, count,
+                          work->wrong == 1 ? "is" : "are");
+    }
+    if (work->baseline != NULL && work->compared == 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: it holds none of the scenes measured",
+                          request->baseline);
+    }
+    if (work->slower > 0) {
+        return glint_fail(error, GLINT_MISMATCH, "%zu of %zu scenes %s slower than in %s",
+                          work->slower, count, work->slower == 1 ? "is" : "are", request->baseline);
+    }
+    return GLINT_OK;
+}
+
+static glint_status bench(bench_work *work, const char *const *names, size_t count,
+                          glint_error *error)
+{
+    const bench_request *request = work->request;
+    glint_status status = GLINT_OK;
+    if (request->baseline != NULL) {
+        status = glint_baseline_load(request->baseline, &work->baseline, error);
+    }
+    if (status != GLINT_OK) {
+        return status;
+    }
+    const glint_bench_options options = options_of(request);
+    const glint_speed_error_options error_options = error_options_of(request);
+    glint_machine machine;
+    glint_machine_describe(&machine);
+    work->document = request->error
+                         ? glint_speed_error_document(&machine, &error_options, work->command)
+                         : glint_bench_document(&machine, &options);
+    work->comparisons = json_array();
+    status = measure_scenes(work, names, count, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    if (request->error) {
+        return bench_error_write(work->document, request->html, request->json, error);
+    }
+    if (work->baseline != NULL) {
+        add_comparisons(work);
+    }
+    if (request->json != NULL) {
+        status = glint_write_json(request->json, json_incref(work->document), error);
+    }
+    return status == GLINT_OK ? give_verdict(work, count, error) : status;
+}
+
+// ---- The request -------------------------------------------------------------------------------
+
+static glint_status check_scene(const bench_request *request, const char *name, glint_error *error)
+{
+    struct stat facts;
+    if (is_built_in(name) && request->inputs.scene_name != NULL) {
+        return glint_fail(error, GLINT_USAGE, "--scene: %s is built in, not a file with scenes",
+                          name);
+    }
+    if (!is_built_in(name) && stat(name, &facts) != 0) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: no such file, and no built-in scene (glint bench --list)", name);
+    }
+    return GLINT_OK;
+}
+
+// A report that would replace an input. `option` names it.
+static glint_status check_report(const bench_request *request, const char *option, const char *path,
+                                 const char *const *names, size_t count, glint_error *error)
+{
+    bool is_input =
+        glint_same_file(path, request->baseline) || glint_same_file(path, request->inputs.env);
+    for (size_t i = 0; i < count; i++) {
+        is_input = is_input || (!is_built_in(names[i]) && glint_same_file(path, names[i]));
+    }
+    if (is_input) {
+        return glint_fail(error, GLINT_USAGE, "--%s %s: this is an input (name another file)",
+                          option, path);
+    }
+    return glint_output_file_check(path, error);
+}
+
+static glint_status check_reports(const bench_request *request, const char *const *names,
+                                  size_t count, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    if (request->json != NULL && !glint_is_stdout(request->json)) {
+        status = check_report(request, "json", request->json, names, count, error);
+    }
+    if (status == GLINT_OK && request->html != NULL) {
+        if (glint_same_file(request->html, request->json)) {
+            return glint_fail(error, GLINT_USAGE,
+                              "--html %s: --json goes there, too (name another "
+                              "file)",
+                              request->html);
+        }
+        status = check_report(request, "html", request->html, names, count, error);
+    }
+    return status;
+}
+
+// What goes with --error and what without.
+static glint_status check_kind(bench_request *request, glint_error *error)
+{
+    const char *lone = request->html != NULL ? "--html" : "--no-sampling";
+    if (!request->error && (request->html != NULL || request->no_sampling)) {
+        return glint_fail(error, GLINT_USAGE, "%s: it belongs to --error (add that)", lone);
+    }
+    const char *other = request->baseline != NULL ? "--baseline" : "--no-check";
+    if (request->error && (request->baseline != NULL || request->no_check)) {
+        return glint_fail(error, GLINT_USAGE, "%s: it does not go with --error (leave one out)",
+                          other);
+    }
+    if (request->inputs.size[0] == 0) {
+        request->inputs.size[0] = request->error ? 640 : 1920;
+        request->inputs.size[1] = request->error ? 360 : 1080;
+    }
+    return GLINT_OK;
+}
+
+// All that can be found wrong before anything is measured.
+static glint_status check_request(bench_request *request, const char *const *names, size_t count,
+                                  glint_error *error)
+{
+    if (request->rounds > 0 && request->seconds > 0) {
+        return glint_fail(error, GLINT_USAGE, "--rounds and --seconds exclude each other");
+    }
+    if (request->margin >= 0 && request->baseline == NULL) {
+        return glint_fail(error, GLINT_USAGE, "--margin: there is no --baseline");
+    }
+    glint_status status = check_kind(request, error);
+    if (status == GLINT_OK) {
+        status = glint_input_request_finish(&request->inputs, error);
+    }
+    if (status == GLINT_OK && request->error) {
+        status = bench_error_check(&request->inputs.settings, error);
+    }
+    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
+        status = check_scene(request, names[i], error);
+        for (size_t k = 0; status == GLINT_OK && k < i; k++) {
+            if (strcmp(names[i], names[k]) == 0) {
+                status = glint_fail(error, GLINT_USAGE, "%s: named twice", names[i]);
+            }
+        }
+    }
+    return status == GLINT_OK ? check_reports(request, names, count, error) : status;
+}
+
+static void print_list(void)
+{
+    for (size_t i = 0; glint_built_in_name(i) != NULL; i++) {
+        printf("%-10s %s\n", glint_built_in_name(i), glint_built_in_summary(i));
+    }
+}
+
+static void set_defaults(void *context)
+{
+    bench_request *request = context;
+    glint_input_request_default(&request->inputs);
+    request->inputs.size[0] = request->inputs.size[1] = 0; // not given
+    request->margin = -1;
+}
+
+// The names on the command line or, without any, those of all built-in scenes; malloc'd.
+static const char **scene_names(const glint_arguments *arguments, size_t *count)
+{
+    *count = (size_t)arguments->positional_count;
+    bool all = *count == 0;
+    while (all && glint_built_in_name(*count) != NULL) {
+        (*count)++;
+    }
+    const char **names = calloc(*count + 1, sizeof *names);
+    for (size_t i = 0; names != NULL && i < *count; i++) {
+        names[i] = all ? glint_built_in_name(i) : arguments->positionals[i];
+    }
+    return names;
+}
+
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
+{
+    bench_request *request = context;
+    if (request->list) {
+        print_list();
+        return GLINT_OK;
+    }
+    size_t count;
+    const char **names = scene_names(arguments, &count);
+    if (names == NULL) {
+        return glint_fail_memory(error, "the scenes' names");
+    }
+    glint_status status = check_request(request, names, count, error);
+    if (status == GLINT_OK) {
+        bench_work work = {.request = request, .command = glint_command_line(arguments)};
+        glint_progress_begin(&work.display, GLINT_PROGRESS_AUTO);
+        if (work.display.mode != GLINT_PROGRESS_BAR) {
+            work.display.mode = GLINT_PROGRESS_NONE;
+        }
+        status = bench(&work, names, count, error);
+        json_decref(work.comparisons);
+        json_decref(work.baseline);
+        json_decref(work.document);
+        free(work.command);
+    }
+    free(names);
+    return status;
+}
+
+const glint_command glint_command_bench = {
+    .name = "bench",
+    .summary = "measure how fast scenes are rendered, and how right",
+    .synopsis = "[SCENE…] [options]",
+    .description =
+        "Measures the phases, the frames and the rays a second of each scene: a glTF file or one "
+        "that is built in (--list); without any, all that are built in. The picture is first "
+        "compared with double precision; one that is wrong has no speed, and gives exit status 7. "
+        "A frame's time is a median, with quartiles and range beside. With --error each scene is "
+        "rendered in many ways, and what each costs stands beside its error.",
+    .examples = "  glint bench\n"
+                "  glint bench mirror --json before.json\n"
+                "  glint bench mirror --baseline before.json --margin 5\n"
+                "  glint bench car.glb --device gpu --size 3840x2160 --seconds 20\n"
+                "  glint bench car.glb --error --html car.html\n",
+    .groups = groups,
+    .positional = "SCENE",
+    .takes_any_number = true,
+    .request_size = sizeof(bench_request),
+    .set_defaults = set_defaults,
+    .run = run,
+};

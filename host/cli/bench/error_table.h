@@ -1,0 +1,13 @@
+// What `glint bench --error` prints for people: the same figures that --json holds, read from
+// there.
+#ifndef GLINT_CLI_BENCH_ERROR_TABLE_H
+#define GLINT_CLI_BENCH_ERROR_TABLE_H
+
+#include "report/json.h"
+
+#include <stdio.h>
+
+// One scene of a document (report/speed_error/speed_error_json.h).
+void glint_error_print_scene(const json_t *scene, FILE *out);
+
+#endif

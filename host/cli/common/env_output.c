@@ -1,0 +1,235 @@
+// Writing environments. See env_output.h.
+#include "cli/common/env_output.h"
+
+#include "cli/common/file_names.h"
+#include "image/image_io.h"
+#include "image/output_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define HALF_MAX 65504.0f
+
+// ---- Names --------------------------------------------------------------------------------------
+
+bool env_output_is_set(const char *path)
+{
+    struct stat facts;
+    return stat(path, &facts) == 0 ? S_ISDIR(facts.st_mode) : strstr(path, "%s") != NULL;
+}
+
+char *env_output_face_path(const char *output, int k)
+{
+    static const char *const names[6] = {"posx", "negx", "posy", "negy", "posz", "negz"};
+    const char *gap = strstr(output, "%s");
+    const size_t capacity = strlen(output) + 16;
+    char *path = malloc(capacity);
+    if (path != NULL && gap != NULL) {
+        snprintf(path, capacity, "%.*s%s%s", (int)(gap - output), output, names[k], gap + 2);
+    } else if (path != NULL) {
+        snprintf(path, capacity, "%s/%s.exr", output, names[k]);
+    }
+    return path;
+}
+
+static glint_status refuse_folder(const char *folder, int cause, glint_error *error)
+{
+    return glint_fail(error, GLINT_OUTPUT_FAILED,
+                      "%s: no folder could be made there: %s (name another)", folder,
+                      strerror(cause));
+}
+
+static glint_status make_folder(const char *folder, glint_error *error)
+{
+    struct stat facts;
+    if (mkdir(folder, 0777) == 0 || (stat(folder, &facts) == 0 && S_ISDIR(facts.st_mode))) {
+        return GLINT_OK;
+    }
+    return refuse_folder(folder, errno, error);
+}
+
+// Whether a folder could be made there: where a file could be put. It is made when there is
+// something to put into it.
+static glint_status check_new_folder(const char *folder, glint_error *error)
+{
+    struct stat facts;
+    if (stat(folder, &facts) == 0) {
+        return refuse_folder(folder, ENOTDIR, error);
+    }
+    char *name = strdup(folder);
+    if (name == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    for (size_t end = strlen(name); end > 1 && name[end - 1] == '/'; end--) {
+        name[end - 1] = '\0';
+    }
+    glint_status status = glint_output_file_check(name, error);
+    free(name);
+    return status;
+}
+
+static glint_status check_faces(const char *output, const glint_write_options *options,
+                                glint_error *error)
+{
+    const bool is_there = env_output_is_set(output);
+    const char *gap = strstr(output, "%s");
+    if (gap != NULL && strstr(gap + 2, "%s") != NULL) {
+        return glint_fail(error, GLINT_USAGE, "%s: a pattern holds %%s once, for the face's name",
+                          output);
+    }
+    if (!is_there && glint_image_can_write(output)) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: one file's name, where six are written (name a folder or a pattern "
+                          "with %%s, or another layout: --to)",
+                          output);
+    }
+    glint_status status = is_there ? GLINT_OK : check_new_folder(output, error);
+    for (int k = 0; status == GLINT_OK && k < 6; k++) {
+        char *path = env_output_face_path(output, k);
+        status = path == NULL ? glint_fail_memory(error, "a file name")
+                              : glint_image_check_output(path, options, error);
+        if (status == GLINT_OK && is_there) {
+            status = glint_output_file_check(path, error);
+        }
+        free(path);
+    }
+    return status;
+}
+
+// ---- Pictures -----------------------------------------------------------------------------------
+
+// OpenEXR's attribute, which says that the outermost centres lie on the edges, is written where
+// there is one.
+static glint_envmap envmap_of(const char *path, glint_layout layout)
+{
+    return !glint_has_extension(path, ".exr") ? GLINT_ENVMAP_NONE
+           : layout == GLINT_LAYOUT_CUBE      ? GLINT_ENVMAP_CUBE
+           : layout == GLINT_LAYOUT_LATLONG   ? GLINT_ENVMAP_LATLONG
+                                              : GLINT_ENVMAP_NONE;
+}
+
+// Where nothing is asked for, that of what is read; a DDS, whose six faces are one file, is a
+// strip.
+static glint_layout layout_to_write(const env_output *output, glint_layout from)
+{
+    const glint_layout asked = output->request->to;
+    return output->as_faces                ? GLINT_LAYOUT_FACES
+           : asked != GLINT_LAYOUT_UNKNOWN ? asked
+           : from == GLINT_LAYOUT_FACES    ? GLINT_LAYOUT_VSTRIP
+                                           : from;
+}
+
+static glint_status choose_chart(env_output *output, const glint_chart *from, glint_error *error)
+{
+    const glint_layout to = layout_to_write(output, from->layout);
+    const bool on_edges = envmap_of(output->path, to) != GLINT_ENVMAP_NONE;
+    int size = output->request->size;
+    if (size == 0) {
+        size = glint_chart_size_for(to, glint_chart_quarter_turn(from));
+        size = on_edges && size < 2 ? 2 : size;
+    }
+    return glint_chart_make(to, size, on_edges, &output->chart, error);
+}
+
+// As far as it can be told before the input has been read.
+static glint_status check_size(const env_output *output, glint_error *error)
+{
+    glint_chart chart;
+    const glint_layout to = layout_to_write(output, GLINT_LAYOUT_UNKNOWN);
+    const bool on_edges = envmap_of(output->path, to) != GLINT_ENVMAP_NONE;
+    return to == GLINT_LAYOUT_UNKNOWN || output->request->size == 0
+               ? GLINT_OK
+               : glint_chart_make(to, output->request->size, on_edges, &chart, error);
+}
+
+glint_status env_output_open(const env_output_request *request, const char *path,
+                             glint_layout source, env_output *output, glint_error *error)
+{
+    const glint_write_options options = {.compression = request->compression};
+    const bool is_set = env_output_is_set(path);
+    *output = (env_output){.request = request, .path = path};
+    output->as_faces =
+        request->to == GLINT_LAYOUT_FACES ||
+        (request->to == GLINT_LAYOUT_UNKNOWN && (is_set || source == GLINT_LAYOUT_FACES));
+    if (output->as_faces) {
+        glint_status status = check_faces(path, &options, error);
+        return status == GLINT_OK ? check_size(output, error) : status;
+    }
+    if (is_set) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: a %s is for six faces (with --to faces; the layout %s is one file)",
+                          path, strstr(path, "%s") != NULL ? "pattern" : "folder",
+                          glint_layout_name(request->to));
+    }
+    glint_status status = glint_image_check_output(path, &options, error);
+    if (status == GLINT_OK) {
+        status = glint_output_file_check(path, error);
+    }
+    return status == GLINT_OK ? check_size(output, error) : status;
+}
+
+static glint_write_options write_options(const env_output *output, const glint_image *image)
+{
+    const size_t values = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    bool fits = true; // in half floats
+    for (size_t i = 0; i < values && fits; i++) {
+        fits = image->pixels[i] <= HALF_MAX;
+    }
+    return (glint_write_options){.exr_float = !fits,
+                                 .compression = output->request->compression,
+                                 .exposure = (float)output->request->exposure,
+                                 .envmap = envmap_of(output->path, output->chart.layout)};
+}
+
+// The strip's k-th face, in the order of the six names.
+static glint_status cut_face(const glint_image *strip, int k, glint_image *face, glint_error *error)
+{
+    const int edge = strip->width;
+    glint_status status = glint_image_create(edge, edge, strip->channels, face, error);
+    if (status == GLINT_OK) {
+        const size_t values = (size_t)edge * (size_t)edge * (size_t)strip->channels;
+        memcpy(face->pixels, strip->pixels + (size_t)k * values, values * sizeof *face->pixels);
+    }
+    return status;
+}
+
+static glint_status write_faces(const env_output *output, const glint_image *strip,
+                                glint_error *error)
+{
+    const glint_write_options options = write_options(output, strip);
+    glint_status status =
+        strstr(output->path, "%s") == NULL ? make_folder(output->path, error) : GLINT_OK;
+    for (int k = 0; status == GLINT_OK && k < 6; k++) {
+        glint_image face = {0};
+        char *path = env_output_face_path(output->path, k);
+        status = path != NULL ? cut_face(strip, k, &face, error)
+                              : glint_fail_memory(error, "a file name");
+        if (status == GLINT_OK) {
+            status = glint_image_write(path, &face, &options, error);
+        }
+        glint_image_free(&face);
+        free(path);
+    }
+    return status;
+}
+
+glint_status env_output_write(env_output *output, const glint_sampler *from, const glint_turn *turn,
+                              glint_error *error)
+{
+    glint_image image = {0};
+    glint_status status = choose_chart(output, &from->chart, error);
+    if (status == GLINT_OK) {
+        status = glint_resample(from, turn, &output->chart, &image, error);
+    }
+    if (status == GLINT_OK && output->as_faces) {
+        status = write_faces(output, &image, error);
+    } else if (status == GLINT_OK) {
+        const glint_write_options options = write_options(output, &image);
+        status = glint_image_write(output->path, &image, &options, error);
+    }
+    glint_image_free(&image);
+    return status;
+}

@@ -1,0 +1,152 @@
+// What the commands share that work on a scene: their common options, and loading scene,
+// environment and camera.
+#ifndef GLINT_CLI_COMMON_INPUTS_H
+#define GLINT_CLI_COMMON_INPUTS_H
+
+#include "base/status.h"
+#include "cli/common/options.h"
+#include "cli/common/progress.h"
+#include "environment/environment.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+// What the command line says of the inputs and of what is computed from them. Texts are borrowed
+// from argv.
+typedef struct glint_input_request {
+    const char *scene; // the file, or the name of a built-in scene
+    bool is_built_in;
+    const char *scene_name;
+    const char *camera;
+    const char *animation;
+    const char *only, *without; // lists of nodes, see scene/subset.h
+    const char *background;     // NULL, "env", "transparent", or a plate's file
+    bool is_for_render;         // set by the command: plates and captures are its business
+    const char *plate;          // set by glint_input_request_finish; NULL without one
+    bool camera_may_wait; // likewise: of a scene that moves, one that has no direction at time
+                          // 0 is no mistake, and viewpoint.camera.is_lost says so
+    const char *env;
+    glint_layout_request env_as;
+    const char *env_flip; // axes, NULL: none
+    const char *device;
+    const char *kernel_dir; // NULL: the embedded kernels
+    int size[2];
+    int precision;  // 0 float, 1 double
+    int fresnel;    // 0 exact, 1 none
+    int texels;     // a glint_texels, in the order of the choices
+    int filter;     // a glint_filter, likewise
+    int irradiance; // a glint_irradiance, likewise
+    int shading;    // a glint_shading, likewise
+    glint_settings settings;
+} glint_input_request;
+
+// Tables of options for a request whose first member is a glint_input_request. The settings and the
+// kernels' folder follow the size under the same heading.
+extern const glint_option glint_input_options[];
+extern const glint_option glint_size_options[];
+extern const glint_option glint_settings_options[];
+
+// The first option, by its name, that says something of what errors are weighed by: precision,
+// depth, weights and the like; NULL where all are at their defaults.
+const char *glint_error_option(const glint_settings *settings);
+extern const glint_option glint_kernel_dir_options[];
+
+// Rows that say how an environment's file is read, for a request with a glint_layout_request at
+// `member`; glint_layout_request_check looks at them together.
+glint_option_parser glint_parse_layout, glint_parse_circle, glint_parse_distance;
+
+// Axes to mirror along, "xz", into a const char *.
+glint_option_parser glint_parse_flip;
+
+#define GLINT_ENV_AS_OPTIONS(member)                                                               \
+    {GLINT_OPTION_CUSTOM,                                                                          \
+     .name = "env-layout",                                                                         \
+     .argument = "NAME",                                                                           \
+     .help = "How the environment's file holds directions, where that cannot be told: cube "       \
+             "(OpenEXR's strip), faces, hcross, vcross, vstrip, hstrip, latlong, ball (a mirror "  \
+             "ball's picture) or angular (a light probe's).",                                      \
+     .fallback = "recognised",                                                                     \
+     .offset = (member) + offsetof(glint_layout_request, layout),                                  \
+     .parse = glint_parse_layout},                                                                 \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "ball-circle",                                                                    \
+         .argument = "X,Y,R",                                                                      \
+         .help = "Where a ball or an angular map lies in its picture: the centre, from the top "   \
+                 "left, and the radius, in pixels.",                                               \
+         .fallback = "the circle that fills the picture's middle",                                 \
+         .offset = (member) + offsetof(glint_layout_request, circle),                              \
+         .parse = glint_parse_circle},                                                             \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "ball-distance",                                                                  \
+         .argument = "RADII",                                                                      \
+         .help = "How far the camera stood from the ball's centre, in radii of the ball.",         \
+         .fallback = "far away: all of its rays are parallel",                                     \
+         .offset = (member) + offsetof(glint_layout_request, ball_distance),                       \
+         .parse = glint_parse_distance},                                                           \
+    {                                                                                              \
+        GLINT_OPTION_REAL,                                                                         \
+            .name = "ball-fov", .argument = "DEG",                                                 \
+            .help = "The camera's vertical angle of view, of the whole picture, in place of the "  \
+                    "distance, which follows from it and the circle.",                             \
+            .offset = (member) + offsetof(glint_layout_request, ball_fov), .minimum = 0.01,        \
+            .maximum = 179                                                                         \
+    }
+
+// GLINT_USAGE where a ball is described and the layout is none, or twice.
+glint_status glint_layout_request_check(const glint_layout_request *request, glint_error *error);
+
+// The heading and the row of glint_size_options, for a command with a size of its own as default.
+#define GLINT_SIZE_OPTIONS(default_size)                                                           \
+    {GLINT_OPTION_HEADING, .help = "What is computed"},                                            \
+    {                                                                                              \
+        GLINT_OPTION_SIZE,                                                                         \
+            .name = "size", .argument = "WxH", .help = "Width and height of the frame in pixels.", \
+            .fallback = (default_size), .offset = offsetof(glint_input_request, size),             \
+            .minimum = 1, .maximum = GLINT_SIZE_MAX_PIXELS                                         \
+    }
+#define GLINT_SIZE_MAX_PIXELS 65536.0 // of one side: what the hard cases ask for, and formats hold
+
+// Fills the request with the defaults.
+void glint_input_request_default(glint_input_request *request);
+
+// Checks what the parser cannot see, options that only make sense together, and completes the
+// settings. Errors: GLINT_USAGE; GLINT_BAD_INPUT where --kernel-dir is no folder.
+glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
+
+// Where a scene is seen from. It is found in the whole scene, so that pictures of its parts fit
+// together.
+typedef struct glint_viewpoint {
+    glint_camera camera; // its strings are the scene's
+    glint_vec3 centre;   // of the bounds (metres, world space): what a turntable turns about
+} glint_viewpoint;
+
+// Finds the viewpoint, and takes away the nodes that are not to be there. Errors: as
+// glint_scene_camera and glint_scene_remove_nodes.
+glint_status glint_inputs_stage(const glint_input_request *request, glint_scene *scene,
+                                glint_viewpoint *viewpoint, glint_error *error);
+
+// What was loaded. Zero is valid and empty.
+typedef struct glint_inputs {
+    glint_scene scene;
+    glint_environment environment;
+    glint_viewpoint viewpoint;
+    glint_scene_source *source; // where something moves, else NULL; the scene is that of time 0
+    glint_motion motion;        // its clip's name is the source's
+    glint_warnings warnings;
+    double scene_ms, environment_ms;
+} glint_inputs;
+
+// Loads the scene and the viewpoint; the environment, of which a display (may be NULL) tells.
+// Whatever the outcome, `inputs`, of which all is set by the first, is for glint_inputs_free.
+glint_status glint_inputs_load_scene(const glint_input_request *request,
+                                     glint_progress_display *display, glint_inputs *inputs,
+                                     glint_error *error);
+glint_status glint_inputs_load_environment(const glint_input_request *request,
+                                           glint_progress_display *display, glint_inputs *inputs,
+                                           glint_error *error);
+
+// Both.
+glint_status glint_inputs_load(const glint_input_request *request, glint_progress_display *display,
+                               glint_inputs *inputs, glint_error *error);
+void glint_inputs_free(glint_inputs *inputs);
+
+#endif

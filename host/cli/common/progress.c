@@ -1,0 +1,270 @@
+// The bar, the plain lines and the JSON lines of progress. See progress.h.
+#include "cli/common/progress.h"
+
+#include "base/clock.h"
+#include "cli/common/say.h"
+#include "report/json.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#define BAR_INTERVAL 100.0   // milliseconds: ten redraws a second are as many as anybody sees
+#define LINE_INTERVAL 5000.0 // few enough lines for the log of a farm
+#define JSON_INTERVAL 250.0
+#define LINE_CAPACITY 256
+
+static int terminal_columns(void)
+{
+    struct winsize size;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+        return size.ws_col < LINE_CAPACITY ? size.ws_col : LINE_CAPACITY - 1;
+    }
+    return 80;
+}
+
+void glint_progress_begin(glint_progress_display *display, glint_progress_mode mode)
+{
+    *display = (glint_progress_display){.mode = mode, .begun = glint_now_ms()};
+    if (mode == GLINT_PROGRESS_AUTO) {
+        const char *terminal = getenv("TERM");
+        bool can_erase = terminal != NULL && strcmp(terminal, "dumb") != 0;
+        display->mode =
+            isatty(STDERR_FILENO) && can_erase ? GLINT_PROGRESS_BAR : GLINT_PROGRESS_PLAIN;
+    }
+}
+
+double glint_progress_elapsed(const glint_progress_display *display)
+{
+    return glint_now_ms() - display->begun;
+}
+
+void glint_progress_clear(glint_progress_display *display)
+{
+    if (display->line_is_drawn) {
+        fputs("\r\033[K", stderr);
+        display->line_is_drawn = false;
+    }
+}
+
+// One write a line: another process's output may come between lines, not into them.
+static void draw_line(glint_progress_display *display, const char *text)
+{
+    // The last column stays free: some terminals go to the next line when it is written.
+    fprintf(stderr, "\r%.*s\033[K", terminal_columns() - 1, text);
+    fflush(stderr);
+    display->line_is_drawn = true;
+}
+
+void glint_progress_phase(glint_progress_display *display, const char *name, const char *text)
+{
+    if (display->mode == GLINT_PROGRESS_BAR) {
+        draw_line(display, text);
+    } else if (display->mode == GLINT_PROGRESS_JSON) {
+        fprintf(stderr, "{\"event\": \"phase\", \"name\": \"%s\", \"ms\": %.1f}\n", name,
+                glint_progress_elapsed(display));
+    }
+    // Plain lines begin with the frame: an error before that is the only line there is.
+}
+
+void glint_progress_render(glint_progress_display *display, uint64_t frames, double rays,
+                           const char *text)
+{
+    display->render_begun = glint_now_ms();
+    display->last_shown = display->render_begun;
+    display->frames = frames;
+    display->rays = rays;
+    if (display->mode == GLINT_PROGRESS_PLAIN) {
+        glint_say("%s", text);
+    } else {
+        glint_progress_phase(display, "render", text);
+    }
+}
+
+static void format_seconds(double seconds, char *text, size_t capacity)
+{
+    if (!(seconds < 359999)) { // also NaN and infinity
+        snprintf(text, capacity, "--:--");
+        return;
+    }
+    long whole = (long)(seconds + 0.5);
+    if (whole >= 3600) {
+        snprintf(text, capacity, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+    } else {
+        snprintf(text, capacity, "%ld:%02ld", whole / 60, whole % 60);
+    }
+}
+
+static void draw_bar(glint_progress_display *display, double share, const char *figures)
+{
+    char line[LINE_CAPACITY];
+    int width = terminal_columns() - 1 - (int)strlen(figures) - 3;
+    if (width < 10) {
+        draw_line(display, figures);
+        return;
+    }
+    if (width > 60) {
+        width = 60;
+    }
+    int filled = (int)(share * width);
+    line[0] = '[';
+    memset(line + 1, '#', (size_t)filled);
+    memset(line + 1 + filled, '.', (size_t)(width - filled));
+    snprintf(line + 1 + width, sizeof line - 1 - (size_t)width, "] %s", figures);
+    draw_line(display, line);
+}
+
+// How far the work is, in frames.
+typedef struct stand {
+    double share;        // of all
+    double frames_a_ms;  // those that were traced, and the one that is
+    double seconds_left; // not finite before anything is known
+} stand;
+
+static stand stand_of(const glint_progress_display *display, double frame_share)
+{
+    const double frames = display->frames > 0 ? (double)display->frames : 1;
+    const double past = (double)display->past + frame_share;
+    const double traced = (double)display->traced + frame_share;
+    const double elapsed = fmax(1e-3, glint_now_ms() - display->render_begun - display->passing_ms);
+    return (stand){
+        .share = past < frames ? past / frames : 1,
+        .frames_a_ms = traced / elapsed,
+        .seconds_left = 1e-3 * elapsed * (frames - past) / traced,
+    };
+}
+
+static void show_figures(glint_progress_display *display, const stand *now)
+{
+    char left[32], figures[128];
+    const double rays = 1e3 * now->frames_a_ms * display->rays;
+    format_seconds(now->seconds_left, left, sizeof left);
+    if (display->frames > 0) {
+        snprintf(figures, sizeof figures,
+                 "%" PRIu64 "/%" PRIu64 "  %3.0f%%  %.3g frames/s  %.2f Mrays/s  %s left",
+                 display->through, display->frames, 100 * now->share, 1e3 * now->frames_a_ms,
+                 1e-6 * rays, left);
+    } else {
+        snprintf(figures, sizeof figures, "%3.0f%%  %.2f Mrays/s  %s left", 100 * now->share,
+                 1e-6 * rays, left);
+    }
+    if (display->mode == GLINT_PROGRESS_BAR) {
+        draw_bar(display, now->share, figures);
+    } else {
+        glint_say("%s", figures);
+    }
+}
+
+// One line, one write.
+static void print_event(json_t *event)
+{
+    char *text = event != NULL ? json_dumps(event, JSON_REAL_PRECISION(9)) : NULL;
+    if (text != NULL) {
+        fprintf(stderr, "%s\n", text);
+    }
+    free(text);
+    json_decref(event);
+}
+
+static void put_frames(json_t *event, const glint_progress_display *display)
+{
+    if (display->frames > 0) {
+        glint_json_put_count(event, "frames_done", display->through);
+        glint_json_put_count(event, "frames", display->frames);
+    }
+}
+
+static void print_progress(const glint_progress_display *display, const stand *now)
+{
+    json_t *event = json_object();
+    glint_json_put_text(event, "event", "progress");
+    glint_json_put_real(event, "share", now->share);
+    put_frames(event, display);
+    if (display->frames > 0) {
+        glint_json_put_real(event, "frames_per_second", 1e3 * now->frames_a_ms);
+    }
+    glint_json_put_real(event, "primary_rays_per_second", 1e3 * now->frames_a_ms * display->rays);
+    glint_json_put_real(event, "seconds_left", now->seconds_left);
+    print_event(event);
+}
+
+void glint_progress_step(glint_progress_display *display, uint64_t done, uint64_t total)
+{
+    static const double intervals[] = {[GLINT_PROGRESS_BAR] = BAR_INTERVAL,
+                                       [GLINT_PROGRESS_PLAIN] = LINE_INTERVAL,
+                                       [GLINT_PROGRESS_JSON] = JSON_INTERVAL};
+    const double time = glint_now_ms();
+    if (display->mode == GLINT_PROGRESS_NONE ||
+        time - display->last_shown < intervals[display->mode] || total == 0) {
+        return;
+    }
+    const stand now = stand_of(display, done < total ? (double)done / (double)total : 1);
+    if (!(now.share > 0)) {
+        return;
+    }
+    display->last_shown = time;
+    if (display->mode == GLINT_PROGRESS_JSON) {
+        print_progress(display, &now);
+    } else {
+        show_figures(display, &now);
+    }
+}
+
+void glint_progress_traced(glint_progress_display *display)
+{
+    display->past++;
+    display->traced++;
+}
+
+void glint_progress_passed(glint_progress_display *display, double ms)
+{
+    display->past++;
+    display->passing_ms += ms;
+}
+
+const char *glint_frame_outcome_name(glint_frame_outcome outcome)
+{
+    static const char *const names[] = {"rendered", "skipped", "failed"};
+    return names[outcome];
+}
+
+static void print_frame(const glint_progress_display *display, const glint_progress_frame *frame,
+                        double seconds_left)
+{
+    json_t *event = json_object();
+    glint_json_put_text(event, "event", "frame");
+    glint_json_put(event, "frame", json_integer(frame->number));
+    glint_json_put_text(event, "file", frame->file);
+    glint_json_put_text(event, "outcome", glint_frame_outcome_name(frame->outcome));
+    if (frame->outcome == GLINT_FRAME_RENDERED) {
+        glint_json_put_real(event, "trace_ms", frame->trace_ms);
+        glint_json_put_real(event, "write_ms", frame->write_ms);
+    }
+    put_frames(event, display);
+    glint_json_put_real(event, "seconds_left", seconds_left);
+    print_event(event);
+}
+
+void glint_progress_through(glint_progress_display *display, const glint_progress_frame *frame)
+{
+    display->through++;
+    const stand now = stand_of(display, 0);
+    if (display->mode == GLINT_PROGRESS_JSON) {
+        print_frame(display, frame, now.seconds_left);
+    } else if (display->mode == GLINT_PROGRESS_PLAIN) {
+        char left[32], took[64] = "";
+        format_seconds(now.seconds_left, left, sizeof left);
+        if (frame->outcome == GLINT_FRAME_RENDERED) {
+            snprintf(took, sizeof took, ", traced in %.0f ms, written in %.0f ms", frame->trace_ms,
+                     frame->write_ms);
+        }
+        glint_say("frame %d %s%s: %s (%" PRIu64 " of %" PRIu64 ", %s left)", frame->number,
+                  glint_frame_outcome_name(frame->outcome), took, frame->file, display->through,
+                  display->frames, left);
+        display->last_shown = glint_now_ms();
+    }
+}

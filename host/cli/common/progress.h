@@ -1,0 +1,76 @@
+// What is shown of the work while it goes on, on stderr.
+#ifndef GLINT_CLI_COMMON_PROGRESS_H
+#define GLINT_CLI_COMMON_PROGRESS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef enum glint_progress_mode {
+    GLINT_PROGRESS_AUTO,  // a bar when stderr is a terminal, plain lines otherwise
+    GLINT_PROGRESS_BAR,   // one line that is redrawn, and erased at the end
+    GLINT_PROGRESS_PLAIN, // a line when rendering begins, then one every few seconds
+    GLINT_PROGRESS_JSON,  // one JSON object a line
+    GLINT_PROGRESS_NONE,
+} glint_progress_mode;
+
+#define GLINT_PROGRESS_CHOICES "auto|bar|plain|json|none" // in the order of the modes
+
+// Zero is valid: AUTO before glint_progress_begin.
+typedef struct glint_progress_display {
+    glint_progress_mode mode; // no longer AUTO once begun
+    double begun;             // milliseconds on the monotonic clock
+    double render_begun;      // of the frame, or of the sequence
+    double last_shown;
+    double rays;                    // primary rays of a frame, for the rate
+    uint64_t frames, past, through; // of a sequence: all, those that need no more tracing, and
+                                    // those that are on the disk or failed
+    uint64_t traced;                // of `past`, those that were
+    double passing_ms;              // what the others took
+    bool line_is_drawn;
+} glint_progress_display;
+
+void glint_progress_begin(glint_progress_display *display, glint_progress_mode mode);
+
+// The next phase: a JSON name ("load_scene") and what a reader sees ("loading gallery.gltf").
+void glint_progress_phase(glint_progress_display *display, const char *name, const char *text);
+
+// Rendering begins: of one frame, or with `frames` > 0 of a sequence, of as many primary rays each.
+// `text` says what is rendered, on what.
+void glint_progress_render(glint_progress_display *display, uint64_t frames, double rays,
+                           const char *text);
+
+// Share of the frame: done of total, in any unit.
+void glint_progress_step(glint_progress_display *display, uint64_t done, uint64_t total);
+
+// A sequence's frame needs no more tracing: it has been traced, or it was found in so many
+// milliseconds that it need not be.
+void glint_progress_traced(glint_progress_display *display);
+void glint_progress_passed(glint_progress_display *display, double ms);
+
+typedef enum glint_frame_outcome {
+    GLINT_FRAME_RENDERED,
+    GLINT_FRAME_SKIPPED, // it was there already
+    GLINT_FRAME_FAILED,
+} glint_frame_outcome;
+
+// "rendered", "skipped" or "failed".
+const char *glint_frame_outcome_name(glint_frame_outcome outcome);
+
+// What is shown of a frame that is through.
+typedef struct glint_progress_frame {
+    int number;
+    const char *file;
+    glint_frame_outcome outcome;
+    double trace_ms, write_ms; // of a rendered one
+} glint_progress_frame;
+
+// A sequence's frame is on the disk, or has failed.
+void glint_progress_through(glint_progress_display *display, const glint_progress_frame *frame);
+
+// Erases the bar: before any other line on stderr, and at the end.
+void glint_progress_clear(glint_progress_display *display);
+
+// Milliseconds since the display began.
+double glint_progress_elapsed(const glint_progress_display *display);
+
+#endif

@@ -1,0 +1,372 @@
+// glint info: what a scene holds, and what would be compiled for it, and why. Compiles nothing.
+#include "cli/commands.h"
+#include "cli/common/options.h"
+
+#include "cli/common/inputs.h"
+#include "device/device.h"
+#include "render/view.h"
+#include "report/frame/inventory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define LIST_MAX 20 // entries of a list that are printed; --json has all
+
+typedef struct info_request {
+    glint_input_request inputs; // first: the shared tables' offsets count from here
+    bool json;
+} info_request;
+
+static const glint_option output_options[] = {
+    {GLINT_OPTION_HEADING, .help = "Output"},
+    {GLINT_OPTION_FLAG, .name = "json", .help = "Print JSON, with everything, instead of text.",
+     .offset = offsetof(info_request, json)},
+    GLINT_OPTION_END,
+};
+
+static const glint_option *const groups[] = {output_options, glint_input_options,
+                                             glint_size_options, glint_settings_options, NULL};
+
+// Everything a run holds. Zero is valid.
+typedef struct info_work {
+    glint_inputs inputs;
+    glint_topology topology;
+    glint_bvh bvh;
+    glint_device *device;
+    glint_plan plan;
+    bool has_plan;
+    glint_error plan_failure;
+    char *json;
+} info_work;
+
+static void print_more(size_t count)
+{
+    if (count > LIST_MAX) {
+        printf("  … and %zu more (--json lists all)\n", count - LIST_MAX);
+    }
+}
+
+static const char *name_or_none(const char *name)
+{
+    return name != NULL ? name : "(no name)";
+}
+
+static void print_scene(const glint_scene *scene, const glint_topology *topology)
+{
+    size_t closed = 0;
+    size_t convex = 0;
+    for (size_t i = 0; i < topology->component_count; i++) {
+        closed += topology->components[i].closed;
+        convex += topology->components[i].convex;
+    }
+    printf("Scene %s\n", scene->path);
+    printf("  %zu triangles, %zu instances, %zu materials, %zu cameras\n", scene->triangle_count,
+           scene->instance_count, scene->material_count, scene->camera_count);
+    if (scene->triangle_count > 0) {
+        printf("  bounds (%g, %g, %g) to (%g, %g, %g) m\n", scene->low.x, scene->low.y,
+               scene->low.z, scene->high.x, scene->high.y, scene->high.z);
+        printf("  %zu connected surfaces: %zu closed, %zu proved convex; %zu boundary edges\n",
+               topology->component_count, closed, convex, topology->boundary_edges);
+    }
+    printf("  left out: %zu point primitives, %zu line primitives, %zu triangles without area\n",
+           scene->skipped_points, scene->skipped_lines, scene->degenerate_triangles);
+}
+
+static void print_motion(const glint_motion *motion)
+{
+    if (motion->moves_triangles || motion->moves_cameras) {
+        printf("  animation %s: %g s, moves %s (shown at its beginning)\n",
+               name_or_none(motion->clip), motion->duration,
+               !motion->moves_cameras     ? "objects"
+               : !motion->moves_triangles ? "cameras"
+                                          : "objects and cameras");
+    }
+}
+
+static void print_material(const glint_scene *scene, size_t index)
+{
+    const glint_material *material = &scene->materials[index];
+    size_t triangles = 0;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        if (scene->instances[i].material == index) {
+            triangles += scene->instances[i].triangle_count;
+        }
+    }
+    printf("  %zu %s: %s, %zu triangles; colour (%g, %g, %g), metallic %g, roughness %g", index,
+           name_or_none(material->name), glint_material_kind(material), triangles,
+           (double)material->base_color[0], (double)material->base_color[1],
+           (double)material->base_color[2], (double)material->metallic,
+           (double)material->roughness);
+    if (material->transmission > 0) {
+        printf(", transmission %g, ior %g", (double)material->transmission, (double)material->ior);
+    }
+    if (material->thickness > 0) {
+        printf(", thickness %g", (double)material->thickness);
+        if (isfinite(material->attenuation_distance)) {
+            printf(", attenuation to (%g, %g, %g) in %g m", (double)material->attenuation_color[0],
+                   (double)material->attenuation_color[1], (double)material->attenuation_color[2],
+                   (double)material->attenuation_distance);
+        }
+    }
+    if (material->mirror >= 0) {
+        printf(", mirror %g", (double)material->mirror);
+    }
+    if (material->emission[0] > 0 || material->emission[1] > 0 || material->emission[2] > 0) {
+        printf(", emission (%g, %g, %g)", (double)material->emission[0],
+               (double)material->emission[1], (double)material->emission[2]);
+    }
+    printf("\n");
+}
+
+static void print_lists(const glint_scene *scene)
+{
+    printf("\nMaterials\n");
+    for (size_t i = 0; i < scene->material_count && i < LIST_MAX; i++) {
+        print_material(scene, i);
+    }
+    print_more(scene->material_count);
+    printf("\nInstances\n");
+    for (size_t i = 0; i < scene->instance_count && i < LIST_MAX; i++) {
+        const glint_instance *instance = &scene->instances[i];
+        printf("  %s (node %d): %zu triangles of material %u\n", name_or_none(instance->node),
+               instance->node_index, instance->triangle_count, instance->material);
+    }
+    print_more(scene->instance_count);
+}
+
+static void print_camera(const glint_camera *camera)
+{
+    if (camera->orthographic) {
+        printf("orthographic, %g m high", 2 * camera->ymag);
+    } else {
+        printf("perspective, %.4g° high", camera->yfov * 180 / GLINT_PI);
+    }
+    printf(", at (%g, %g, %g), looking along (%.3g, %.3g, %.3g)\n", camera->eye.x, camera->eye.y,
+           camera->eye.z, 0 - camera->back.x, 0 - camera->back.y, 0 - camera->back.z);
+}
+
+static void print_cameras(const glint_scene *scene, const glint_camera *chosen)
+{
+    printf("\nCameras\n");
+    for (size_t i = 0; i < scene->camera_count && i < LIST_MAX; i++) {
+        printf("  %zu %s: ", i, name_or_none(scene->cameras[i].name));
+        print_camera(&scene->cameras[i]);
+    }
+    print_more(scene->camera_count);
+    printf("  used%s: ", scene->camera_count == 0 ? " (it frames the scene)" : "");
+    print_camera(chosen);
+}
+
+static void print_environment(const glint_environment *environment)
+{
+    const char *layout = glint_layout_name(environment->layout);
+    printf("\nEnvironment %s\n", environment->name);
+    printf("  layout %s (%s)", layout != NULL ? layout : "unknown",
+           environment->reason != NULL ? environment->reason : "built in");
+    if (environment->source_width > 0) {
+        printf(", %dx%d pixels", environment->source_width, environment->source_height);
+    }
+    printf("; held as a cube map of 6 x %d x %d texels\n", environment->radiance.edge,
+           environment->radiance.edge);
+    if (environment->mended_texels > 0) {
+        printf("  %zu texels were not finite or negative, and are mended\n",
+               environment->mended_texels);
+    }
+}
+
+static void print_sight(const glint_plan *plan)
+{
+    const glint_sight *sight = &plan->sight;
+    if (sight->depth > 0 && !plan->depth_is_exact) {
+        printf("  no depth is exact from inside of the scene's bounds; from outside %d is: %s\n",
+               sight->depth, sight->reason);
+    } else if (sight->depth > 0) {
+        printf("  depth %d is exact here: %s%s\n", sight->depth, sight->reason,
+               sight->from_outside ? ", as the eye is outside of the scene's bounds" : "");
+    } else if (sight->reason[0] != '\0') {
+        printf("  no depth is proved to be exact: %s\n", sight->reason);
+    }
+    if (sight->exits_escape) {
+        printf(
+            "  what leaves the glass is not traced: it is closed, convex and alone, so that there "
+            "is nothing but the environment\n");
+    }
+}
+
+static void print_plan(const glint_subject *subject)
+{
+    const glint_plan *plan = subject->plan;
+    printf("\nPlan\n");
+    if (subject->device != NULL) {
+        printf("  device: %s (%s)\n", subject->device->name, subject->device->platform);
+    }
+    if (plan == NULL) {
+        printf("  none: %s\n", subject->plan_failure);
+        return;
+    }
+    char text[512];
+    glint_plan_describe(plan, text, sizeof text);
+    printf("  %s\n", text);
+    printf("  %d lanes: %s\n", plan->kernel_width, plan->width_reason);
+    printf("  tiles of %d packet%s: %s\n", plan->tiles ? 16 : 1, plan->tiles ? "s" : "",
+           plan->tiles_reason);
+    print_sight(plan);
+    printf("  secondary rays: %s\n", plan->secondary);
+    printf("  %s texels: %s\n", plan->half_texels ? "half" : "float", plan->texels_reason);
+    if (plan->stack_capacity > 0) {
+        printf("  %d waiting branches a pixel: %s\n", plan->stack_capacity, plan->stack_reason);
+    }
+    for (int compiled = 1; compiled >= 0; compiled--) {
+        printf("  %s\n", compiled ? "compiled in" : "left out");
+        for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+            if (plan->features[i].compiled == (compiled == 1)) {
+                printf("    %-16s %s (%s)\n", glint_feature_name((glint_feature)i),
+                       glint_feature_meaning((glint_feature)i), plan->features[i].reason);
+            }
+        }
+    }
+}
+
+static void print_tree(const glint_bvh_report *bvh)
+{
+    printf("  tree: %zu nodes, %zu clusters %.0f%% full, depth %d, cost %.1f\n", bvh->node_count,
+           bvh->cluster_count, 100 * bvh->fill, bvh->depth, bvh->sah_cost);
+    printf("  tree: %.1f MiB, %.1f bytes a triangle\n", (double)bvh->bytes / 0x1p20,
+           bvh->bytes_per_triangle);
+}
+
+static void print_text(const glint_subject *subject)
+{
+    print_scene(subject->scene, subject->topology);
+    print_motion(subject->motion);
+    print_lists(subject->scene);
+    print_cameras(subject->scene, subject->camera);
+    print_environment(subject->environment);
+    print_plan(subject);
+    printf("\nMemory\n  about %.1f MiB on the device\n",
+           (double)glint_inventory_device_bytes(subject) / 0x1p20);
+    if (subject->bvh != NULL) {
+        print_tree(subject->bvh);
+    }
+    printf("\nWarnings\n");
+    for (size_t i = 0; i < subject->warnings->count; i++) {
+        printf("  %s\n", subject->warnings->texts[i]);
+    }
+    if (subject->warnings->count == 0) {
+        printf("  none\n");
+    }
+}
+
+// The plan, where there is a device. That there is none is part of the answer, unless one was asked
+// for.
+static glint_status make_plan(const info_request *request, info_work *work, glint_error *error)
+{
+    glint_status status =
+        glint_device_open(request->inputs.device, &work->device, &work->plan_failure);
+    if (status != GLINT_OK && request->inputs.device == NULL) {
+        return GLINT_OK;
+    }
+    if (status != GLINT_OK) {
+        return glint_fail(error, status, "%s", work->plan_failure.message);
+    }
+    const glint_sight sight = glint_sight_find(&work->inputs.scene, &work->topology);
+    const glint_plan_inputs inputs = {
+        .scene = &work->inputs.scene,
+        .topology = &work->topology,
+        .sight = &sight,
+        .environment = &work->inputs.environment.radiance,
+        .device = glint_device_capabilities(work->device),
+        .settings = &request->inputs.settings,
+    };
+    status = glint_plan_make(&inputs, &work->plan, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    const glint_stored_space space = glint_stored_space_of(&work->inputs.scene);
+    glint_plan_suit(&work->plan, &space, &work->inputs.viewpoint.camera);
+    work->has_plan = true;
+    return glint_plan_build_tree(&work->plan, &work->inputs.scene, &work->bvh, error);
+}
+
+static glint_status gather(const info_request *request, info_work *work, glint_error *error)
+{
+    glint_progress_display display;
+    glint_progress_begin(&display, GLINT_PROGRESS_NONE);
+    glint_status status = glint_inputs_load(&request->inputs, &display, &work->inputs, error);
+    if (status == GLINT_OK) {
+        status = glint_topology_find(&work->inputs.scene, &work->topology, error);
+    }
+    if (status == GLINT_OK) {
+        status = make_plan(request, work, error);
+    }
+    return status;
+}
+
+static glint_status print(const info_request *request, info_work *work, glint_error *error)
+{
+    const glint_subject subject = {
+        .scene = &work->inputs.scene,
+        .topology = &work->topology,
+        .motion = &work->inputs.motion,
+        .environment = &work->inputs.environment,
+        .camera = &work->inputs.viewpoint.camera,
+        .settings = &request->inputs.settings,
+        .device = work->device != NULL ? glint_device_capabilities(work->device) : NULL,
+        .plan = work->has_plan ? &work->plan : NULL,
+        .plan_failure = work->plan_failure.message,
+        .bvh = work->has_plan ? &work->bvh.report : NULL,
+        .warnings = &work->inputs.warnings,
+    };
+    if (!request->json) {
+        print_text(&subject);
+        return GLINT_OK;
+    }
+    glint_status status = glint_inventory_json(&subject, &work->json, error);
+    if (status == GLINT_OK) {
+        fputs(work->json, stdout);
+    }
+    return status;
+}
+
+static void set_defaults(void *request)
+{
+    glint_input_request_default(&((info_request *)request)->inputs);
+}
+
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
+{
+    info_request *request = context;
+    request->inputs.scene = arguments->positionals[0];
+    info_work work = {0};
+    glint_status status = glint_input_request_finish(&request->inputs, error);
+    if (status == GLINT_OK) {
+        status = gather(request, &work, error);
+    }
+    if (status == GLINT_OK) {
+        status = print(request, &work, error);
+    }
+    free(work.json);
+    glint_bvh_free(&work.bvh);
+    glint_topology_free(&work.topology);
+    glint_error_free(&work.plan_failure);
+    glint_device_close(work.device);
+    glint_inputs_free(&work.inputs);
+    return status;
+}
+
+const glint_command glint_command_info = {
+    .name = "info",
+    .summary = "what a scene holds, and what would be compiled for it",
+    .synopsis = "SCENE [options]",
+    .description = "Prints what the scene and the environment hold, and the plan: each feature of "
+                   "the kernels that would be compiled in or left out, and why. Nothing is "
+                   "compiled. Works without an OpenCL device too, then without a plan.",
+    .examples = "  glint info scenes/gallery.gltf\n"
+                "  glint info car.glb --env studio.hdr --depth 2 --json\n",
+    .groups = groups,
+    .positional = "SCENE",
+    .request_size = sizeof(info_request),
+    .set_defaults = set_defaults,
+    .run = run,
+};

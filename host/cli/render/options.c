@@ -1,0 +1,180 @@
+// The options of glint render. See render_request.h.
+#include "cli/render/request.h"
+
+#include "cli/common/progress.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define EXR_TYPES "half|float"
+
+static uint32_t aov_by_name(const char *name)
+{
+    if (strcmp(name, "all") == 0) {
+        return GLINT_AOV_ALL;
+    }
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        if (strcmp(name, glint_aov_name((glint_aov)i)) == 0) {
+            return GLINT_AOV_BIT(i);
+        }
+    }
+    return 0;
+}
+
+static glint_status fail_unknown_layer(const glint_option *option, const char *name,
+                                       glint_error *error)
+{
+    const char *words[GLINT_AOV_COUNT + 2] = {"all"};
+    char list[128] = "all";
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        words[i + 1] = glint_aov_name((glint_aov)i);
+        size_t length = strlen(list);
+        snprintf(list + length, sizeof list - length, ", %s", words[i + 1]);
+    }
+    const char *nearest = glint_nearest_word(name, words);
+    return nearest != NULL
+               ? glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (did you mean %s?)",
+                            option->name, name, nearest)
+               : glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (there are %s)",
+                            option->name, name, list);
+}
+
+// Names of layers between commas.
+static glint_status parse_aovs(const glint_option *option, const char *text, void *destination,
+                               glint_error *error)
+{
+    uint32_t aovs = 0;
+    while (true) {
+        const size_t length = strcspn(text, ",");
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name),
+                 text);
+        const uint32_t found = aov_by_name(name);
+        if (found == 0) {
+            return fail_unknown_layer(option, name, error);
+        }
+        aovs |= found;
+        if (text[length] == '\0') {
+            break;
+        }
+        text += length + 1;
+    }
+    *(uint32_t *)destination = aovs;
+    return GLINT_OK;
+}
+
+static glint_status parse_shard(const glint_option *option, const char *text, void *destination,
+                                glint_error *error)
+{
+    (void)option;
+    return glint_shard_parse(text, destination, error);
+}
+
+static const glint_option output_options[] = {
+    {GLINT_OPTION_HEADING, .help = "Output"},
+    {GLINT_OPTION_TEXT, .letter = 'o', .name = "output", .argument = "OUT",
+     .help =
+         "The image to write, by its extension: exr, hdr, png, jpg or tiff. It appears whole or "
+         "not at all. Frames of a sequence take their number's place: frame.####.exr.",
+     .offset = offsetof(render_request, output)},
+    {GLINT_OPTION_REAL, .name = "exposure", .argument = "EV",
+     .help = "Stops of exposure for PNG, JPEG and TIFF; EXR and HDR stay linear.", .fallback = "0",
+     .offset = offsetof(render_request, exposure), .minimum = -100, .maximum = 100},
+    {GLINT_OPTION_TEXT, .name = "compression", .argument = "NAME",
+     .help = "EXR: none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab. TIFF: none, lzw, zip, "
+             "packbits. PNG: a level from 0 to 9. JPEG: a quality from 1 to 100.",
+     .fallback = "the format's", .offset = offsetof(render_request, compression)},
+    {GLINT_OPTION_CHOICE, .name = "exr-type", .argument = "TYPE",
+     .help = "The picture's channels in an EXR: half or float.", .fallback = "half",
+     .offset = offsetof(render_request, exr_type), .choices = EXR_TYPES},
+    {GLINT_OPTION_FLAG, .name = "preview",
+     .help = "Write a PNG beside each EXR, of the same name, with --exposure and the sRGB curve.",
+     .offset = offsetof(render_request, preview)},
+    {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
+     .help = "Layers that tell what became of each pixel's paths, as further channels of the EXR: "
+             "depth (surfaces that the longest met), tir (total reflections), truncated (weight "
+             "that was not traced to its end), triangle and material (what the primary ray met), "
+             "face (of the environment, where the heaviest look-up fell); with commas between "
+             "them, or all. With several samples depth is the maximum, tir and truncated are "
+             "means, the others numbers from 0, −1 for none, of the sample in the middle.",
+     .offset = offsetof(render_request, inputs.settings.aovs), .parse = parse_aovs},
+    {GLINT_OPTION_INT, .name = "directions", .argument = "K",
+     .help = "Keep of each pixel the K heaviest directions that its paths leave along, with their "
+             "weights, as further channels of the EXR: for glint relight.",
+     .offset = offsetof(render_request, inputs.settings.terms), .minimum = 1,
+     .maximum = GLINT_TERMS_MAX},
+    {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE.json",
+     .help = "Write what the frame took and counted: phases in milliseconds, rays by kind, "
+             "truncated light, the plan and the device. Of a sequence, an object a line: the run, "
+             "each frame as soon as it is through, the total.",
+     .offset = offsetof(render_request, stats)},
+    {GLINT_OPTION_CHOICE, .name = "progress", .argument = "MODE",
+     .help = "On stderr: bar (redrawn), plain (lines), json (an object a line; warnings and errors "
+             "stay text) or none; auto is bar "
+             "on a terminal and plain elsewhere.",
+     .fallback = "auto", .offset = offsetof(render_request, progress),
+     .choices = GLINT_PROGRESS_CHOICES},
+    GLINT_OPTION_END,
+};
+
+static const glint_option sequence_options[] = {
+    {GLINT_OPTION_HEADING, .help = "Sequences"},
+    {GLINT_OPTION_TEXT, .name = "frames", .argument = "LIST",
+     .help = "Which frames: 7, 1-240, 1-10,20-40x2 (every second), 48-1x-1 (downwards); each once, "
+             "in this order.",
+     .fallback = "with --turntable N, 1-N; else the animation's",
+     .offset = offsetof(render_request, frames_text)},
+    {GLINT_OPTION_INT, .name = "turntable", .argument = "N",
+     .help = "Turn the camera about the scene's middle, counter-clockwise seen from above, once in "
+             "N frames; frame 1 is the camera as it stands.",
+     .offset = offsetof(render_request, turntable), .minimum = 1, .maximum = GLINT_FRAME_MAX},
+    {GLINT_OPTION_REAL, .name = "fps", .argument = "RATE",
+     .help = "Frames a second of the animation; frame 1 is its beginning.", .fallback = "24",
+     .offset = offsetof(render_request, fps), .minimum = 1e-3, .maximum = 1e5},
+    {GLINT_OPTION_FLAG, .name = "skip-existing",
+     .help = "Leave frames alone that are whole and were made from the same scene, environment and "
+             "settings by the same version; render the others.",
+     .offset = offsetof(render_request, skip_existing)},
+    {GLINT_OPTION_CUSTOM, .name = "shard", .argument = "I/N",
+     .help = "Render part I of N of the frames, from 1/N to N/N: every N-th, each in one part.",
+     .fallback = "1/1", .offset = offsetof(render_request, shard), .parse = parse_shard},
+    GLINT_OPTION_END,
+};
+
+static const glint_option error_options[] = {
+    {GLINT_OPTION_REAL, .name = "max-error", .argument = "E",
+     .help = "Choose precision, depth and least weight frame by frame: the fastest that keep the "
+             "picture within a relative RMSE of E, 0.01 say, of double precision that follows "
+             "light to its end. What was chosen, and its error, stand in the file. In place of "
+             "--depth, --min-weight, --precision, --mend, --texels, --fresnel, --irradiance and "
+             "--shading.",
+     .offset = offsetof(render_request, max_error), .minimum = 1e-9, .maximum = 10},
+    GLINT_OPTION_END,
+};
+
+static const glint_option capture_options[] = {
+    {GLINT_OPTION_TEXT, .name = "surroundings", .argument = "FILE",
+     .help = "With --env capture:NODE, which renders a node alone in what is around it: the "
+             "environment behind all that, which --env-layout and its like then describe.",
+     .fallback = "the built-in studio", .offset = offsetof(render_request, surroundings)},
+    {GLINT_OPTION_INT, .name = "capture-size", .argument = "N",
+     .help = "The edge of each of its six views, in pixels.", .fallback = "512",
+     .offset = offsetof(render_request, capture_size), .minimum = 1, .maximum = 4096},
+    {GLINT_OPTION_CUSTOM, .name = "proxy", .argument = "SHAPE",
+     .help =
+         "Take the environment to be no further away than a shape around the scene, so that it "
+         "looks different from different places: sphere:RADIUS about where it was seen from, a "
+         "box by two corners, x,y,z,x,y,z, in metres, or bounds, the box around what is captured.",
+     .fallback = "none: it is infinitely far away", .offset = offsetof(render_request, proxy),
+     .parse = proxy_option_parse},
+    {GLINT_OPTION_CUSTOM, .name = "env-at", .argument = "X,Y,Z",
+     .help = "With --proxy, where a file's environment was seen from.",
+     .fallback = "0,0,0; of a capture its own place", .offset = offsetof(render_request, env_at),
+     .parse = place_option_parse},
+    GLINT_OPTION_END,
+};
+
+const glint_option *const render_option_groups[] = {
+    output_options,  sequence_options,         glint_input_options,
+    capture_options, glint_size_options,       glint_settings_options,
+    error_options,   glint_kernel_dir_options, NULL};

@@ -1,0 +1,424 @@
+// What is checked of glint render's options. See render_request.h.
+#include "cli/render/request.h"
+
+#include "cli/common/file_names.h"
+#include "cli/common/progress.h"
+#include "image/output_file.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define CAPTURE_SIZE 512 // of a view, where none is given
+
+glint_write_options render_write_options(const render_request *request)
+{
+    return (glint_write_options){.exr_float = request->exr_type == 1,
+                                 .compression = request->compression,
+                                 .exposure = (float)request->exposure};
+}
+
+// ---- Checks ------------------------------------------------------------------------------------
+
+// The preview's path is the image's with another extension.
+static glint_status name_preview(render_request *request, glint_error *error)
+{
+    if (!request->preview) {
+        return GLINT_OK;
+    }
+    const int stem = (int)strlen(request->output) - (int)strlen(".exr");
+    if (asprintf(&request->preview_path, "%.*s.png", stem, request->output) < 0) {
+        request->preview_path = NULL;
+        return glint_fail_memory(error, "a file name");
+    }
+    return glint_frame_name_parse(request->preview_path, &request->preview_name, error);
+}
+
+// The frame whose file would have that path, if there is one: the path's last part without what
+// stands before and behind the number's place.
+static bool number_of(const glint_frame_name *name, const char *path, int *frame)
+{
+    const char *slash = strrchr(name->path, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash + 1 - name->path) : 0;
+    const size_t before = name->place - folder;
+    const char *behind = name->path + name->place + name->length;
+    slash = strrchr(path, '/');
+    const char *last = slash != NULL ? slash + 1 : path;
+    const size_t length = strlen(last), behind_length = strlen(behind);
+    char digits[32];
+    long long number;
+    if (length <= before + behind_length || length - before - behind_length >= sizeof digits ||
+        strncmp(last, name->path + folder, before) != 0 ||
+        strcmp(last + length - behind_length, behind) != 0) {
+        return false;
+    }
+    snprintf(digits, sizeof digits, "%.*s", (int)(length - before - behind_length), last + before);
+    if (!glint_parse_int(digits, &number) || llabs(number) > GLINT_FRAME_MAX) {
+        return false;
+    }
+    *frame = (int)number;
+    return true;
+}
+
+static bool is_frame(const render_request *request, const glint_frame_name *name, const char *path)
+{
+    int frame;
+    if (path == NULL || !number_of(name, path, &frame) ||
+        !glint_frame_list_holds(&request->frames, frame)) {
+        return false;
+    }
+    char *output = glint_frame_name_make(name, frame);
+    const bool same = glint_same_file(output, path);
+    free(output);
+    return same;
+}
+
+// Whether `path`, or the file that it leads to, is one that files of that name replace.
+static bool is_named(const render_request *request, const glint_frame_name *name, const char *path)
+{
+    if (path == NULL || name->length == 0) {
+        return glint_same_file(name->path, path);
+    }
+    char *target = realpath(path, NULL);
+    const bool is = is_frame(request, name, path) || is_frame(request, name, target);
+    free(target);
+    return is;
+}
+
+static bool is_output(const render_request *request, const char *path)
+{
+    return is_named(request, &request->name, path) ||
+           is_named(request, &request->preview_name, path);
+}
+
+// An output that would replace an input.
+static glint_status check_input(const render_request *request, const char *input,
+                                glint_error *error)
+{
+    if (is_output(request, input)) {
+        return glint_fail(error, GLINT_USAGE, "--output %s: this is an input (name another file)",
+                          input);
+    }
+    if (glint_same_file(request->stats, input)) {
+        return glint_fail(error, GLINT_USAGE, "--stats %s: this is an input (name another file)",
+                          request->stats);
+    }
+    return GLINT_OK;
+}
+
+static glint_status check_input_of_frames(const render_request *request,
+                                          const glint_frame_name *name, glint_error *error)
+{
+    glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
+    glint_status status = GLINT_OK;
+    int frame = 1;
+    bool is_left = !request->is_sequence || glint_frame_next(&cursor, &frame);
+    while (status == GLINT_OK && is_left) {
+        char *path = glint_frame_name_make(name, frame);
+        status = path != NULL ? check_input(request, path, error)
+                              : glint_fail_memory(error, "a file name");
+        free(path);
+        is_left = request->is_sequence && glint_frame_next(&cursor, &frame);
+    }
+    return status;
+}
+
+// An output that would replace an input, or another output.
+static glint_status check_distinct(const render_request *request, glint_error *error)
+{
+    glint_status status = check_input(request, request->inputs.scene, error);
+    if (status == GLINT_OK) {
+        status = check_input(request, request->inputs.env, error);
+    }
+    if (status == GLINT_OK && request->env_name.length > 0) {
+        status = check_input_of_frames(request, &request->env_name, error);
+    }
+    if (status == GLINT_OK && request->plate != NULL) {
+        status = check_input_of_frames(request, &request->plate_name, error);
+    }
+    if (status == GLINT_OK && is_output(request, request->stats)) {
+        return glint_fail(error, GLINT_USAGE, "--stats %s: this is the image (name another file)",
+                          request->stats);
+    }
+    return status;
+}
+
+static glint_status check_format(const render_request *request, glint_error *error)
+{
+    const char *output = request->output;
+    const glint_write_options options = render_write_options(request);
+    const bool is_exr = glint_has_extension(output, ".exr");
+    glint_status status = glint_image_check_output(output, &options, error);
+    if (status == GLINT_OK && request->exr_type != 0 && !is_exr) {
+        return glint_fail(error, GLINT_USAGE, "--exr-type: %s is no EXR", output);
+    }
+    if (status == GLINT_OK && request->inputs.settings.aovs != 0 && !is_exr) {
+        return glint_fail(error, GLINT_USAGE, "--aov: %s is no EXR, which alone holds layers",
+                          output);
+    }
+    if (status == GLINT_OK && request->inputs.settings.terms > 0 && !is_exr) {
+        return glint_fail(error, GLINT_USAGE, "--directions: %s is no EXR, which alone holds them",
+                          output);
+    }
+    if (status == GLINT_OK && request->preview && !is_exr) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--preview: %s is no EXR, beside which it would stand", output);
+    }
+    if (status == GLINT_OK && request->skip_existing && glint_has_extension(output, ".hdr")) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--skip-existing: %s: an HDR does not say how it was made (write .exr)",
+                          output);
+    }
+    if (status == GLINT_OK && request->skip_existing && request->inputs.kernel_dir != NULL) {
+        return glint_fail(
+            error, GLINT_USAGE,
+            "--skip-existing: the kernels of --kernel-dir may have changed (leave out "
+            "one of the two)");
+    }
+    return status;
+}
+
+// What lights the frames: a file, one for each, or what is around a node.
+static glint_status find_light(render_request *request, glint_error *error)
+{
+    static const char capture[] = "capture:";
+    glint_input_request *inputs = &request->inputs;
+    const char *env = inputs->env;
+    if (env != NULL && strncmp(env, capture, sizeof capture - 1) == 0) {
+        request->capture = env + sizeof capture - 1;
+        inputs->env = request->surroundings;
+        inputs->only = inputs->only != NULL ? inputs->only : request->capture;
+        request->capture_size = request->capture_size != 0 ? request->capture_size : CAPTURE_SIZE;
+        request->capture_rotate = inputs->settings.env_rotate;
+        inputs->settings.env_rotate = 0; // the capture is turned already
+        if (inputs->env_as.layout != GLINT_LAYOUT_UNKNOWN && inputs->env == NULL) {
+            return glint_fail(error, GLINT_USAGE,
+                              "--env-layout: it says how a file is read, but no --surroundings are "
+                              "given");
+        }
+        return request->capture[0] != '\0' ? GLINT_OK
+                                           : glint_fail(error, GLINT_USAGE,
+                                                        "--env capture: around which node? "
+                                                        "(--env capture:NODE)");
+    }
+    if (request->surroundings != NULL || request->capture_size != 0) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--%s: it is about what is captured (with --env capture:NODE)",
+                          request->surroundings != NULL ? "surroundings" : "capture-size");
+    }
+    if (env == NULL && inputs->env_as.layout != GLINT_LAYOUT_UNKNOWN) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--env-layout: it says how a file is read, but no --env is given");
+    }
+    if (env == NULL || access(env, F_OK) == 0) {
+        return GLINT_OK; // a name may hold anything
+    }
+    return glint_frame_name_parse(env, &request->env_name, error);
+}
+
+// How far away the environment is, and where it was seen from.
+static glint_status find_proxy(render_request *request, glint_error *error)
+{
+    const bool has_proxy = request->proxy.kind != PROXY_NONE;
+    if (request->env_at.is_given && (!has_proxy || request->capture != NULL)) {
+        return glint_fail(error, GLINT_USAGE, "--env-at: %s",
+                          has_proxy ? "a capture has a place of its own (leave one of the two out)"
+                                    : "it is where a proxy is seen from (with --proxy)");
+    }
+    if (request->proxy.kind == PROXY_BOUNDS && request->capture == NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--proxy bounds: they are those of what is captured (with --env "
+                          "capture:NODE, or name a box or a sphere)");
+    }
+    request->inputs.settings.proxy = has_proxy;
+    return GLINT_OK;
+}
+
+// It decides about what these would say.
+static glint_status check_max_error(render_request *request, glint_error *error)
+{
+    const char *own = glint_error_option(&request->inputs.settings);
+    if (request->max_error > 0 && own != NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--max-error: it chooses what %s says (leave one of the two out)", own);
+    }
+    request->inputs.settings.truncation_squares = request->max_error > 0;
+    return GLINT_OK;
+}
+
+static glint_status find_plate(render_request *request, glint_error *error)
+{
+    const char *plate = request->inputs.plate;
+    request->plate = request->plate_name.path = plate;
+    return plate == NULL || access(plate, F_OK) == 0
+               ? GLINT_OK
+               : glint_frame_name_parse(plate, &request->plate_name, error);
+}
+
+// Which frames there are, and what their files are called.
+static glint_status find_frames(render_request *request, glint_error *error)
+{
+    glint_status status = glint_frame_name_parse(request->output, &request->name, error);
+    request->is_sequence =
+        request->frames_text != NULL || request->turntable > 0 || request->name.length > 0;
+    if (status == GLINT_OK && !request->is_sequence && request->shard.count > 1) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--shard: there is one frame alone (name several with --frames)");
+    }
+    const bool is_known =
+        !request->is_sequence || request->frames_text != NULL || request->turntable > 0;
+    if (status == GLINT_OK && is_known) {
+        status = request->frames_text != NULL
+                     ? glint_frame_list_parse(request->frames_text, &request->frames, error)
+                     : glint_frame_list_span(1, request->turntable > 0 ? request->turntable : 1,
+                                             &request->frames, error);
+    }
+    if (status == GLINT_OK && request->frames.count > 1 && request->name.length == 0) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: %llu frames need a place for their number (as in frame.####.exr)",
+                          request->output, (unsigned long long)request->frames.count);
+    }
+    return status;
+}
+
+// A sequence's file that cannot be replaced is one bad frame; its folder is everybody's.
+static glint_status check_place(const render_request *request, glint_error *error)
+{
+    glint_status status = request->is_sequence
+                              ? glint_output_file_check_folder(request->output, error)
+                              : glint_output_file_check(request->output, error);
+    if (status == GLINT_OK && request->preview && !request->is_sequence) {
+        status = glint_output_file_check(request->preview_path, error);
+    }
+    if (status == GLINT_OK && request->stats != NULL) {
+        status = glint_output_file_check(request->stats, error);
+    }
+    return status;
+}
+
+glint_status render_request_finish(render_request *request, glint_error *error)
+{
+    if (request->output == NULL) {
+        return glint_fail(error, GLINT_USAGE, "no output (name one: -o frame.exr)");
+    }
+    glint_status status = check_format(request, error);
+    if (status == GLINT_OK) {
+        status = find_light(request, error);
+    }
+    if (status == GLINT_OK) {
+        status = find_proxy(request, error);
+    }
+    if (status == GLINT_OK) {
+        request->inputs.is_for_render = true;
+        status = glint_input_request_finish(&request->inputs, error);
+    }
+    if (status == GLINT_OK) {
+        status = check_max_error(request, error);
+    }
+    if (status == GLINT_OK) {
+        status = find_plate(request, error);
+    }
+    if (status == GLINT_OK) {
+        status = name_preview(request, error);
+    }
+    if (status == GLINT_OK) {
+        status = find_frames(request, error);
+    }
+    if (status == GLINT_OK) {
+        status = check_distinct(request, error);
+    }
+    if (status == GLINT_OK) {
+        status = check_place(request, error);
+    }
+    return status;
+}
+
+double render_request_time(const render_request *request, int frame)
+{
+    return (frame - 1) / request->fps;
+}
+
+// The first frame at or beyond the end of a clip, as a whole number. Keys are floats: a time that
+// is n frames is a little more or less than that.
+static double last_frame(const render_request *request, double duration)
+{
+    const double frames = duration * request->fps;
+    return ceil(frames - fmax(1e-6, 4 * FLT_EPSILON * frames)) + 1;
+}
+
+static glint_status take_clip(render_request *request, double duration, glint_error *error)
+{
+    const double frames = last_frame(request, duration);
+    if (frames > GLINT_FRAME_MAX) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: the animation has %.3g frames at %g a second (name some with "
+                          "--frames)",
+                          request->inputs.scene, frames, request->fps);
+    }
+    glint_status status = glint_frame_list_span(1, (int)frames, &request->frames, error);
+    return status == GLINT_OK ? check_distinct(request, error) : status;
+}
+
+glint_status render_request_settle(render_request *request, const glint_motion *motion,
+                                   glint_warnings *warnings, glint_error *error)
+{
+    const bool moves = motion->moves_triangles || motion->moves_cameras;
+    if (request->frames.count == 0) {
+        return moves ? take_clip(request, motion->duration, error)
+                     : glint_fail(error, GLINT_USAGE,
+                                  "%s: which frames? (nothing moves in the scene: name them with "
+                                  "--frames 1-240, or --turntable 240)",
+                                  request->output);
+    }
+    const int highest = glint_frame_list_highest(&request->frames);
+    const double last = last_frame(request, motion->duration);
+    if (moves && highest > last) {
+        glint_warn(warnings,
+                   "%s: the animation ends at frame %.0f (%g s); the frames after it, up to %d, "
+                   "show its end",
+                   request->inputs.scene, last, motion->duration, highest);
+    }
+    return GLINT_OK;
+}
+
+void render_request_free(render_request *request)
+{
+    glint_frame_list_free(&request->frames);
+    free(request->preview_path);
+}
+
+// What the chosen format cannot keep.
+static void warn_of_format(const render_request *request, glint_warnings *warnings)
+{
+    const char *output = request->output;
+    bool is_hdr = glint_has_extension(output, ".hdr");
+    bool is_jpeg = glint_has_extension(output, ".jpg") || glint_has_extension(output, ".jpeg");
+    if (request->exposure != 0 && !request->preview &&
+        (is_hdr || glint_has_extension(output, ".exr"))) {
+        glint_warn(warnings, "%s: --exposure is left out, this format stays linear", output);
+    }
+    if (request->inputs.settings.transparent && request->plate == NULL && (is_hdr || is_jpeg)) {
+        glint_warn(warnings, "%s: this format keeps no alpha, the background becomes black",
+                   output);
+    }
+}
+
+static void warn_of_layers(const render_request *request, const glint_scene *scene,
+                           glint_warnings *warnings)
+{
+    if ((request->inputs.settings.aovs & GLINT_AOV_BIT(GLINT_AOV_TRIANGLE)) != 0 &&
+        scene->triangle_count > GLINT_AOV_TRIANGLES_EXACT) {
+        glint_warn(warnings, "%s: the layer 'triangle' rounds numbers above %u, by 4 at most",
+                   request->output, GLINT_AOV_TRIANGLES_EXACT);
+    }
+}
+
+void render_request_warn(const render_request *request, const glint_scene *scene,
+                         glint_warnings *warnings)
+{
+    warn_of_format(request, warnings);
+    warn_of_layers(request, scene, warnings);
+}

@@ -1,0 +1,393 @@
+// glint selftest: the hard cases, on any device, judged by closed forms and in double precision.
+#include "cli/commands.h"
+#include "cli/common/options.h"
+#include "cli/common/say.h"
+
+#include "cli/common/file_names.h"
+#include "cli/common/json_output.h"
+#include "cli/selftest/selftest_table.h"
+#include "image/output_file.h"
+#include "report/machine.h"
+#include "report/selftest/junit.h"
+#include "report/selftest/selftest_json.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define CASES_MAX 128
+
+// The cases that --case names.
+typedef struct case_selection {
+    bool any;
+    bool has[CASES_MAX];
+} case_selection;
+
+typedef struct selftest_request {
+    bool list;
+    case_selection cases;
+    bool fail_fast;
+    const char *device;
+    const char *kernel_dir;
+    int width;     // see widths
+    int precision; // see precisions
+    double rays;
+    int seed;
+    const char *junit, *json;
+} selftest_request;
+
+// In the order of the options' choices.
+static const int widths[] = {0, 1, 8, 16};
+enum { ALL_WIDTHS = 4 };
+enum { FLOAT, DOUBLE, ALL_PRECISIONS };
+
+// ---- Options -----------------------------------------------------------------------------------
+
+static size_t case_count(void)
+{
+    size_t count = 0;
+    while (glint_selftest_name(count) != NULL) {
+        count++;
+    }
+    return count;
+}
+
+static glint_status fail_unknown_case(const glint_option *option, const char *name,
+                                      glint_error *error)
+{
+    const char *names[CASES_MAX + 1] = {NULL};
+    for (size_t i = 0; i < case_count(); i++) {
+        names[i] = glint_selftest_name(i);
+    }
+    const char *nearest = glint_nearest_word(name, names);
+    if (nearest != NULL) {
+        return glint_fail(error, GLINT_USAGE, "--%s: unknown case '%s' (did you mean %s?)",
+                          option->name, name, nearest);
+    }
+    return glint_fail(error, GLINT_USAGE,
+                      "--%s: unknown case '%s' (glint selftest --list has them)", option->name,
+                      name);
+}
+
+// NAME, or several with commas between them; more each time.
+static glint_status parse_cases(const glint_option *option, const char *text, void *destination,
+                                glint_error *error)
+{
+    case_selection *cases = destination;
+    cases->any = true;
+    while (true) {
+        char name[64];
+        const size_t length = strcspn(text, ",");
+        snprintf(name, sizeof name, "%.*s", (int)length, text);
+        size_t i = 0;
+        while (glint_selftest_name(i) != NULL && strcmp(glint_selftest_name(i), name) != 0) {
+            i++;
+        }
+        if (glint_selftest_name(i) == NULL) {
+            return fail_unknown_case(option, name, error);
+        }
+        cases->has[i] = true;
+        if (text[length] == '\0') {
+            return GLINT_OK;
+        }
+        text += length + 1;
+    }
+}
+
+static const glint_option selftest_options[] = {
+    {GLINT_OPTION_HEADING, .help = "What is run"},
+    {GLINT_OPTION_FLAG, .name = "list", .help = "Print the cases, a line each, and run none.",
+     .offset = offsetof(selftest_request, list)},
+    {GLINT_OPTION_CUSTOM, .name = "case", .argument = "NAME[,NAME…]",
+     .help = "Run these cases alone. Any number of times.", .fallback = "all",
+     .offset = offsetof(selftest_request, cases), .parse = parse_cases},
+    {GLINT_OPTION_CHOICE, .name = "precision", .argument = "P",
+     .help = "float, double, or all: both, double where the device has it.", .fallback = "all",
+     .offset = offsetof(selftest_request, precision), .choices = "float|double|all"},
+    {GLINT_OPTION_CHOICE, .name = "kernel-width", .argument = "N",
+     .help = "Rays of a packet: 1, 8 or 16; auto: what the device renders with; all: the three, "
+             "one after the other.",
+     .fallback = "auto", .offset = offsetof(selftest_request, width), .choices = "auto|1|8|16|all"},
+    {GLINT_OPTION_REAL, .name = "rays", .argument = "N",
+     .help = "Rays of each case that counts leaks.", .fallback = "262144",
+     .offset = offsetof(selftest_request, rays), .minimum = 1, .maximum = GLINT_SELFTEST_RAYS_MAX},
+    {GLINT_OPTION_INT, .name = "seed", .argument = "N",
+     .help = "Draw other rays, angles and places; the bounds stay the same.", .fallback = "0",
+     .offset = offsetof(selftest_request, seed), .minimum = 0, .maximum = 2147483647},
+    {GLINT_OPTION_FLAG, .name = "fail-fast", .help = "Stop after the first case that fails.",
+     .offset = offsetof(selftest_request, fail_fast)},
+    {GLINT_OPTION_HEADING, .help = "Device"},
+    {GLINT_OPTION_TEXT, .name = "device", .argument = "DEVICE",
+     .help = "Its number or a part of its name (glint devices), cpu or gpu.",
+     .fallback = "the first GPU, else the CPU", .offset = offsetof(selftest_request, device)},
+    {GLINT_OPTION_TEXT, .name = "kernel-dir", .argument = "DIR",
+     .help = "Compile the kernels in this folder instead of those in the program.",
+     .offset = offsetof(selftest_request, kernel_dir)},
+    {GLINT_OPTION_HEADING, .help = "Results"},
+    {GLINT_OPTION_TEXT, .name = "junit", .argument = "FILE",
+     .help = "Write the results as JUnit's XML.", .offset = offsetof(selftest_request, junit)},
+    {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE|-",
+     .help = "Write the results as JSON; - prints it instead of the table.",
+     .offset = offsetof(selftest_request, json)},
+    GLINT_OPTION_END,
+};
+
+static const glint_option *const groups[] = {selftest_options, NULL};
+
+static void set_defaults(void *context)
+{
+    selftest_request *request = context;
+    request->precision = ALL_PRECISIONS;
+    request->rays = (double)GLINT_SELFTEST_RAYS;
+}
+
+static glint_status check_request(const selftest_request *request, glint_error *error)
+{
+    const bool writes_json = request->json != NULL && !glint_is_stdout(request->json);
+    struct stat facts;
+    if (request->kernel_dir != NULL &&
+        (stat(request->kernel_dir, &facts) != 0 || !S_ISDIR(facts.st_mode))) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: no such folder (--kernel-dir)",
+                          request->kernel_dir);
+    }
+    if (writes_json && glint_same_file(request->json, request->junit)) {
+        return glint_fail(error, GLINT_USAGE, "--json %s: --junit writes there (name another file)",
+                          request->json);
+    }
+    glint_status status = GLINT_OK;
+    if (request->junit != NULL) {
+        status = glint_output_file_check(request->junit, error);
+    }
+    if (status == GLINT_OK && writes_json) {
+        status = glint_output_file_check(request->json, error);
+    }
+    return status;
+}
+
+// ---- Running -----------------------------------------------------------------------------------
+
+typedef struct selftest_work {
+    const selftest_request *request;
+    glint_device *device;
+    glint_selftest_result *results; // owned
+    size_t count;
+    size_t troubled; // failed or broken
+    bool log_printed;
+} selftest_work;
+
+static bool prints_table(const selftest_work *work)
+{
+    return !glint_is_stdout(work->request->json);
+}
+
+// A case failed, and the rest is not wanted any more.
+static bool has_enough(const selftest_work *work)
+{
+    return work->request->fail_fast && work->troubled > 0;
+}
+
+static bool is_troubled(const glint_selftest_result *result)
+{
+    return result->verdict == GLINT_FAILED || result->verdict == GLINT_BROKEN;
+}
+
+static glint_status run_case(selftest_work *work, size_t index,
+                             const glint_selftest_options *options, bool is_first,
+                             glint_error *error)
+{
+    glint_selftest_result *result = &work->results[work->count++];
+    glint_error trouble = {0};
+    glint_status status = glint_selftest_run(index, options, result, &trouble);
+    if (status != GLINT_OK) {
+        glint_error_free(error);
+        *error = trouble;
+        return status;
+    }
+    work->troubled += is_troubled(result);
+    if (prints_table(work)) {
+        if (work->count == 1) {
+            glint_selftest_print_device(glint_device_capabilities(work->device), stdout);
+        }
+        if (is_first) {
+            glint_selftest_print_head(result, stdout);
+        }
+        glint_selftest_print(result, stdout);
+        fflush(stdout);
+    }
+    // A driver that fails at one kernel tends to fail at all: its log is shown once.
+    if (trouble.details != NULL && !work->log_printed) {
+        glint_say_error(&trouble);
+        work->log_printed = true;
+    }
+    glint_error_free(&trouble);
+    return GLINT_OK;
+}
+
+static glint_status run_cases(selftest_work *work, int width, glint_precision precision,
+                              glint_error *error)
+{
+    const selftest_request *request = work->request;
+    const glint_selftest_options options = {.device = work->device,
+                                            .kernel_dir = request->kernel_dir,
+                                            .width = width,
+                                            .precision = precision,
+                                            .rays = (uint64_t)request->rays,
+                                            .seed = (uint32_t)request->seed};
+    glint_status status = GLINT_OK;
+    bool is_first = true;
+    for (size_t i = 0; status == GLINT_OK && glint_selftest_name(i) != NULL; i++) {
+        if ((!request->cases.any || request->cases.has[i]) && !has_enough(work)) {
+            status = run_case(work, i, &options, is_first, error);
+            is_first = false;
+        }
+    }
+    return status;
+}
+
+static glint_status run_all(selftest_work *work, glint_error *error)
+{
+    const selftest_request *request = work->request;
+    const bool has_double = glint_device_capabilities(work->device)->has_double;
+    glint_status status = GLINT_OK;
+    for (int w = 0; w < ALL_WIDTHS; w++) {
+        const bool all = request->width == ALL_WIDTHS;
+        if (all ? w == 0 : w != request->width) {
+            continue;
+        }
+        for (int p = FLOAT; status == GLINT_OK && p <= DOUBLE; p++) {
+            // Asked for, double is skipped case by case where the device has none.
+            const bool wanted = request->precision == ALL_PRECISIONS ? p == FLOAT || has_double
+                                                                     : p == request->precision;
+            if (wanted) {
+                status =
+                    run_cases(work, widths[w],
+                              p == DOUBLE ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT, error);
+            }
+        }
+    }
+    return status;
+}
+
+static glint_status write_reports(const selftest_work *work, glint_error *error)
+{
+    glint_machine machine;
+    glint_machine_describe(&machine);
+    const selftest_request *request = work->request;
+    const glint_selftest_run_report run = {
+        .device = glint_device_capabilities(work->device),
+        .date = machine.date,
+        .machine = machine.system,
+        .rays = (uint64_t)request->rays,
+        .seed = (uint32_t)request->seed,
+        .results = work->results,
+        .count = work->count,
+    };
+    glint_status status = GLINT_OK;
+    if (request->junit != NULL) {
+        status = glint_junit_write(request->junit, &run, error);
+    }
+    if (status == GLINT_OK && request->json != NULL) {
+        status = glint_write_json(request->json, glint_selftest_json(&run), error);
+    }
+    return status;
+}
+
+// The same case failed at another width or precision.
+static bool is_named_before(const selftest_work *work, size_t index)
+{
+    const char *name = work->results[index].name;
+    bool named = false;
+    for (size_t i = 0; i < index; i++) {
+        named =
+            named || (is_troubled(&work->results[i]) && strcmp(work->results[i].name, name) == 0);
+    }
+    return named;
+}
+
+// "3 of 84 cases failed: slivers, drift, prism"
+static glint_status give_verdict(const selftest_work *work, glint_error *error)
+{
+    if (work->troubled == 0) {
+        if (prints_table(work)) {
+            printf("\n%zu cases, all of them within their bounds\n", work->count);
+        }
+        return GLINT_OK;
+    }
+    char names[512] = "";
+    for (size_t i = 0; i < work->count; i++) {
+        const size_t used = strlen(names), room = sizeof names - used;
+        if (!is_troubled(&work->results[i]) || is_named_before(work, i)) {
+            continue;
+        }
+        const char *comma = used > 0 ? ", " : "";
+        if ((size_t)snprintf(NULL, 0, "%s%s, …", comma, work->results[i].name) >= room) {
+            snprintf(names + used, room, "%s…", comma);
+            break;
+        }
+        snprintf(names + used, room, "%s%s", comma, work->results[i].name);
+    }
+    return glint_fail(error, GLINT_MISMATCH, "%zu of %zu cases failed on '%s': %s", work->troubled,
+                      work->count, glint_device_capabilities(work->device)->name, names);
+}
+
+static void print_list(void)
+{
+    for (size_t i = 0; glint_selftest_name(i) != NULL; i++) {
+        printf("%-23s %s\n", glint_selftest_name(i), glint_selftest_summary(i));
+    }
+}
+
+static glint_status selftest(const selftest_request *request, glint_error *error)
+{
+    selftest_work work = {.request = request};
+    work.results = calloc((case_count() + 1) * ALL_WIDTHS * ALL_PRECISIONS, sizeof *work.results);
+    if (work.results == NULL) {
+        return glint_fail_memory(error, "the results");
+    }
+    glint_status status = glint_device_open(request->device, &work.device, error);
+    if (status == GLINT_OK) {
+        status = run_all(&work, error);
+    }
+    if (status == GLINT_OK) {
+        status = write_reports(&work, error);
+    }
+    if (status == GLINT_OK) {
+        status = give_verdict(&work, error);
+    }
+    glint_device_close(work.device);
+    free(work.results);
+    return status;
+}
+
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
+{
+    (void)arguments;
+    const selftest_request *request = context;
+    if (request->list) {
+        print_list();
+        return GLINT_OK;
+    }
+    const glint_status status = check_request(request, error);
+    return status == GLINT_OK ? selftest(request, error) : status;
+}
+
+const glint_command glint_command_selftest = {
+    .name = "selftest",
+    .summary = "the numerical hard cases, on any device",
+    .synopsis = "[options]",
+    .description =
+        "Runs the cases that ray tracers get wrong through the kernels on the device, and judges "
+        "them by closed forms and in double precision: edges and vertices, slivers, self-hits, "
+        "the critical angle, normals that are none, seams of the environment, and more. Every "
+        "measure has a bound that is derived from the rounding error u; one that is exceeded is "
+        "explained, and gives exit status 7. No files are needed.",
+    .examples = "  glint selftest\n"
+                "  glint selftest --device gpu --junit selftest.xml\n"
+                "  glint selftest --case slivers,prism --kernel-width all\n"
+                "  glint selftest --case rays_at_vertices --rays 1e8\n",
+    .groups = groups,
+    .request_size = sizeof(selftest_request),
+    .set_defaults = set_defaults,
+    .run = run,
+};

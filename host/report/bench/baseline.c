@@ -1,0 +1,217 @@
+// Comparing a run of the benchmark with an earlier one. See baseline.h.
+#include "report/bench/baseline.h"
+
+#include "report/bench/bench_json.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// What must be the same for two times to be comparable. The driver's and the program's version, the
+// plan and the kernels may differ: they are what is compared.
+static const char *const identity[] = {
+    "device.name", "device.compute_units", "settings", "environment.name", "environment.width",
+    "camera",      "scene.triangle_count",
+};
+
+static const json_t *find_scene(const json_t *baseline, const char *name)
+{
+    const json_t *list = json_object_get(baseline, "scenes");
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        const json_t *scene = json_array_get(list, i);
+        const char *found = glint_json_text_at(scene, "name");
+        if (found != NULL && strcmp(found, name) == 0) {
+            return scene;
+        }
+    }
+    return NULL;
+}
+
+static glint_status check_form(const json_t *root, const char *path, glint_error *error)
+{
+    const char *format = glint_json_text_at(root, "format");
+    if (format == NULL || strcmp(format, GLINT_BENCH_FORMAT) != 0) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: not a result of glint bench (write one with --json)", path);
+    }
+    const json_t *schema = json_object_get(root, "schema");
+    if (json_integer_value(schema) != GLINT_BENCH_SCHEMA) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: schema %lld, and this program reads schema %d (measure anew)", path,
+                          (long long)json_integer_value(schema), GLINT_BENCH_SCHEMA);
+    }
+    const json_t *list = json_object_get(root, "scenes");
+    if (json_array_size(list) == 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: scenes: a list with entries is expected",
+                          path);
+    }
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        if (glint_json_text_at(json_array_get(list, i), "name") == NULL) {
+            return glint_fail(error, GLINT_BAD_INPUT, "%s: scenes[%zu]: it has no name", path, i);
+        }
+    }
+    return GLINT_OK;
+}
+
+// Settings that came later had one value before: what a file leaves out is that.
+static void complete_settings(json_t *root)
+{
+    json_t *list = json_object_get(root, "scenes");
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        json_t *settings = json_object_get(json_array_get(list, i), "settings");
+        static const char *const before[][2] = {
+            {"filter", "bilinear"}, {"irradiance", "exact"}, {"shading", "pixel"}};
+        for (int k = 0; json_is_object(settings) && k < 3; k++) {
+            if (json_object_get(settings, before[k][0]) == NULL) {
+                json_object_set_new(settings, before[k][0], json_string(before[k][1]));
+            }
+        }
+    }
+}
+
+glint_status glint_baseline_load(const char *path, json_t **baseline, glint_error *error)
+{
+    json_error_t cause;
+    *baseline = json_load_file(path, JSON_REJECT_DUPLICATES, &cause);
+    if (*baseline == NULL && cause.line > 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: line %d: %s", path, cause.line, cause.text);
+    }
+    if (*baseline == NULL) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s", cause.text);
+    }
+    glint_status status = check_form(*baseline, path, error);
+    if (status != GLINT_OK) {
+        json_decref(*baseline);
+        *baseline = NULL;
+    } else {
+        complete_settings(*baseline);
+    }
+    return status;
+}
+
+// A value in a message: short, and a word for what is missing.
+static void format_value(const json_t *value, char *text, size_t capacity)
+{
+    char *dump = value != NULL ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
+    snprintf(text, capacity, "%.100s", dump != NULL ? dump : "missing");
+    free(dump);
+}
+
+static glint_status fail_different(const char *path, const char *scene, const char *what,
+                                   const json_t *now, const json_t *before, glint_error *error)
+{
+    char here[128], there[128];
+    format_value(now, here, sizeof here);
+    format_value(before, there, sizeof there);
+    return glint_fail(error, GLINT_BAD_INPUT,
+                      "%s: scene %s: %s is %s there and %s here (only like is compared with like)",
+                      path, scene, what, there, here);
+}
+
+// `what` is the member's name; where it is an object, the first of its members that differs is
+// named.
+static glint_status check_member(const char *path, const char *scene, const char *what, json_t *now,
+                                 json_t *before, glint_error *error)
+{
+    if (json_equal(now, before)) {
+        return GLINT_OK;
+    }
+    const char *key;
+    json_t *value;
+    json_object_foreach(now, key, value)
+    {
+        json_t *other = json_object_get(before, key);
+        if (!json_equal(value, other)) {
+            char name[128];
+            snprintf(name, sizeof name, "%s.%s", what, key);
+            return fail_different(path, scene, name, value, other, error);
+        }
+    }
+    return fail_different(path, scene, what, now, before, error);
+}
+
+static glint_status check_identity(const char *path, const char *name, const json_t *now,
+                                   const json_t *before, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    for (size_t i = 0; status == GLINT_OK && i < sizeof identity / sizeof *identity; i++) {
+        status = check_member(path, name, identity[i], glint_json_at(now, identity[i]),
+                              glint_json_at(before, identity[i]), error);
+    }
+    return status;
+}
+
+// The times of a frame's launches that a comparison rests on.
+typedef struct times {
+    double median, lower, upper;
+} times;
+
+static glint_status read_times(const char *path, const char *name, const json_t *scene,
+                               times *result, glint_error *error)
+{
+    const json_t *kernel = glint_json_at(scene, "frames.kernel");
+    *result =
+        (times){glint_json_real_at(kernel, "median"), glint_json_real_at(kernel, "lower_quartile"),
+                glint_json_real_at(kernel, "upper_quartile")};
+    // Written so that NaN is refused.
+    if (!(result->lower > 0 && result->median >= result->lower &&
+          result->upper >= result->median)) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: scene %s: frames.kernel holds no median and quartiles (it was not "
+                          "measured, or its picture was wrong)",
+                          path, name);
+    }
+    return GLINT_OK;
+}
+
+static glint_verdict judge(const times *before, const times *now, double margin)
+{
+    if (now->median > before->median * (1 + margin) && now->lower > before->upper) {
+        return GLINT_VERDICT_SLOWER;
+    }
+    if (before->median > now->median * (1 + margin) && before->lower > now->upper) {
+        return GLINT_VERDICT_FASTER;
+    }
+    return GLINT_VERDICT_SAME;
+}
+
+glint_status glint_baseline_compare(const json_t *baseline, const char *path, const json_t *scene,
+                                    double margin, glint_comparison *comparison, glint_error *error)
+{
+    *comparison = (glint_comparison){GLINT_VERDICT_MISSING, NAN, NAN};
+    const char *name = glint_json_text_at(scene, "name");
+    const json_t *earlier = find_scene(baseline, name);
+    if (earlier == NULL) {
+        return GLINT_OK;
+    }
+    times before = {0}, now = {0};
+    glint_status status = check_identity(path, name, scene, earlier, error);
+    if (status == GLINT_OK) {
+        status = read_times(path, name, earlier, &before, error);
+    }
+    if (status == GLINT_OK) {
+        status = read_times("this run", name, scene, &now, error);
+    }
+    if (status == GLINT_OK) {
+        *comparison = (glint_comparison){judge(&before, &now, margin), before.median, now.median};
+    }
+    return status;
+}
+
+json_t *glint_comparison_json(const char *name, const glint_comparison *comparison)
+{
+    static const char *const verdicts[] = {
+        [GLINT_VERDICT_SAME] = "same",
+        [GLINT_VERDICT_FASTER] = "faster",
+        [GLINT_VERDICT_SLOWER] = "slower",
+        [GLINT_VERDICT_MISSING] = "not in the baseline",
+    };
+    json_t *object = json_object();
+    glint_json_put_text(object, "name", name);
+    glint_json_put_text(object, "verdict", verdicts[comparison->verdict]);
+    glint_json_put_real(object, "milliseconds_before", comparison->before);
+    glint_json_put_real(object, "milliseconds_now", comparison->now);
+    glint_json_put_real(object, "change", comparison->now / comparison->before - 1);
+    return object;
+}

@@ -1,0 +1,122 @@
+// How long the kernels take to compile, cold and warm. See bench.h.
+//
+// A figure is only cold if no cache of any driver holds the kernels. Two things see to that: a
+// number that nobody has used before goes into the build options, which are a part of every cache's
+// key; and in the children that compile, the variables that name the drivers' caches point to an
+// empty folder, so that such builds do not pile up in the user's. The warm figure is the same build
+// in a second child, with the same number and the same folder, now full. A driver whose cache none
+// of the variables moves is measured rightly, too, and keeps one build more.
+#include "report/bench/bench.h"
+
+#include "base/child.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+// Of PoCL, NVIDIA, Intel, AMD and Mesa; the last serves those that keep to the XDG specification.
+static const char *const cache_variables[] = {
+    "POCL_CACHE_DIR",      "CUDA_CACHE_PATH",       "NEO_CACHE_DIR",
+    "AMD_COMGR_CACHE_DIR", "MESA_SHADER_CACHE_DIR", "XDG_CACHE_HOME",
+};
+
+typedef struct timed_build {
+    const glint_bench_inputs *inputs;
+    glint_settings settings; // with a build tag
+    const char *folder;
+} timed_build;
+
+static glint_status build_once(const timed_build *build, double *milliseconds, glint_error *error)
+{
+    glint_device *device = NULL;
+    glint_renderer *renderer = NULL;
+    glint_status status = glint_device_open(build->inputs->device, &device, error);
+    if (status == GLINT_OK) {
+        const glint_renderer_inputs inputs = {
+            .device = device,
+            .scene = build->inputs->scene,
+            .environment = build->inputs->environment,
+            .settings = &build->settings,
+            .kernel_dir = build->inputs->kernel_dir,
+        };
+        status = glint_renderer_create(&inputs, &renderer, error);
+    }
+    if (status == GLINT_OK) {
+        *milliseconds = glint_renderer_phases(renderer)->kernel_build;
+    }
+    glint_renderer_free(renderer);
+    glint_device_close(device);
+    return status;
+}
+
+// In the child.
+static glint_status work(void *context, char **text, glint_error *error)
+{
+    const timed_build *build = context;
+    for (size_t i = 0; i < sizeof cache_variables / sizeof *cache_variables; i++) {
+        setenv(cache_variables[i], build->folder, 1);
+    }
+    double milliseconds = 0;
+    glint_status status = build_once(build, &milliseconds, error);
+    if (status == GLINT_OK && asprintf(text, "%.17g", milliseconds) < 0) {
+        *text = NULL;
+        status = glint_fail_memory(error, "a compile time");
+    }
+    return status;
+}
+
+static glint_status time_build(const glint_child *child, double *milliseconds, glint_error *error)
+{
+    char *text;
+    glint_status status = glint_child_run(child, &text, error);
+    if (status == GLINT_OK) {
+        *milliseconds = strtod(text, NULL);
+    }
+    free(text);
+    return status;
+}
+
+static int remove_entry(const char *path, const struct stat *facts, int kind, struct FTW *where)
+{
+    (void)facts;
+    (void)kind;
+    (void)where;
+    return remove(path);
+}
+
+static uint32_t new_tag(void)
+{
+    uint32_t tag = 0;
+    while (tag == 0 && getrandom(&tag, sizeof tag, 0) < 0 && errno == EINTR) {
+    }
+    return tag;
+}
+
+glint_status glint_bench_compile_time(const glint_bench_inputs *inputs,
+                                      bool (*stop_requested)(void), glint_compile_time *result,
+                                      glint_error *error)
+{
+    *result = (glint_compile_time){0};
+    const char *base = getenv("TMPDIR");
+    char folder[4096];
+    int length = snprintf(folder, sizeof folder, "%s/glint-bench-XXXXXX",
+                          base != NULL && base[0] != '\0' ? base : "/tmp");
+    if (length >= (int)sizeof folder || mkdtemp(folder) == NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: no temporary folder can be made: %s",
+                          folder, strerror(errno));
+    }
+    timed_build build = {.inputs = inputs, .settings = *inputs->settings, .folder = folder};
+    build.settings.build_tag = new_tag();
+    const glint_child child = {
+        .work = work, .context = &build, .stop_requested = stop_requested, .is_expendable = true};
+    glint_status status = time_build(&child, &result->cold, error);
+    if (status == GLINT_OK) {
+        status = time_build(&child, &result->warm, error);
+    }
+    nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+    return status;
+}

@@ -1,0 +1,290 @@
+// What decides a frame's pixels. See fingerprint.h.
+#include "report/frame/fingerprint.h"
+
+#include "device/kernel_sources.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <xxhash.h>
+
+// Where files say what they say of themselves: headers come first, but for TIFF's, which may stand
+// behind the pixels.
+#define SEARCHED 65536
+
+// ---- What frames share -------------------------------------------------------------------------
+
+// Numbers as texts, so that neither padding nor the order of bytes matters.
+static void add_text(XXH3_state_t *state, const char *text)
+{
+    XXH3_128bits_update(state, text, strlen(text) + 1);
+}
+
+static void add_numbers(XXH3_state_t *state, const double *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%a", numbers[i]);
+        add_text(state, text);
+    }
+}
+
+static void add_vector(XXH3_state_t *state, glint_vec3 v)
+{
+    const double numbers[] = {v.x, v.y, v.z};
+    add_numbers(state, numbers, 3);
+}
+
+// Arrays of float and of integers, as they lie in memory, with their length before them.
+static void add_array(XXH3_state_t *state, const void *array, size_t size, size_t count)
+{
+    const double bytes = array != NULL ? (double)size * (double)count : -1;
+    add_numbers(state, &bytes, 1);
+    if (array != NULL) {
+        XXH3_128bits_update(state, array, size * count);
+    }
+}
+
+static void add_material(XXH3_state_t *state, const glint_material *m)
+{
+    const double numbers[] = {(double)m->metallic,     (double)m->roughness,
+                              (double)m->transmission, (double)m->ior,
+                              (double)m->thickness,    (double)m->attenuation_distance,
+                              m->unlit ? 1 : 0,        (double)m->mirror};
+    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+    add_array(state, m->base_color, sizeof *m->base_color, 3);
+    add_array(state, m->emission, sizeof *m->emission, 3);
+    add_array(state, m->attenuation_color, sizeof *m->attenuation_color, 3);
+}
+
+static void add_scene(XXH3_state_t *state, const glint_scene *scene)
+{
+    add_vector(state, scene->origin);
+    add_numbers(state, &scene->unit, 1);
+    const double moves = scene->moves ? 1 : 0; // which the plan heeds
+    add_numbers(state, &moves, 1);
+    add_array(state, scene->positions, 9 * sizeof *scene->positions, scene->triangle_count);
+    add_array(state, scene->normals, 9 * sizeof *scene->normals, scene->triangle_count);
+    add_array(state, scene->material_of, sizeof *scene->material_of, scene->triangle_count);
+    for (size_t i = 0; i < scene->material_count; i++) {
+        add_material(state, &scene->materials[i]);
+    }
+}
+
+static void add_settings(XXH3_state_t *state, const glint_settings *s)
+{
+    const double numbers[] = {s->width,         s->height,     s->samples_per_axis,
+                              s->depth,         s->min_weight, s->transparent ? 1 : 0,
+                              s->env_rotate,    s->precision,  s->fresnel,
+                              s->output,        s->filter,     s->aovs,
+                              s->irradiance,    s->terms,      s->shading,
+                              s->proxy ? 1 : 0, s->grid_step,  s->mend};
+    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+}
+
+// What decides about settings frame by frame.
+static void add_max_error(XXH3_state_t *state, double max_error)
+{
+    if (max_error > 0) {
+        add_text(state, "at most");
+        add_numbers(state, &max_error, 1);
+    }
+}
+
+// What else decides bits: widths and tiles do not, and texels are chosen for the environment.
+static void add_texels(XXH3_state_t *state, const glint_subject *subject)
+{
+    const double kind = subject->plan != NULL ? (subject->plan->half_texels ? 1 : 0)
+                                              : 2 + (double)subject->settings->texels;
+    add_numbers(state, &kind, 1);
+}
+
+static void add_encoding(XXH3_state_t *state, const char *path, const glint_write_options *options)
+{
+    const char *dot = strrchr(path, '.');
+    add_text(state, dot != NULL ? dot : "");
+    add_text(state, options->compression != NULL ? options->compression : "");
+    const double numbers[] = {options->exr_float ? 1 : 0, (double)options->exposure};
+    add_numbers(state, numbers, 2);
+}
+
+static glint_status begin(XXH3_state_t **state, glint_error *error)
+{
+    *state = XXH3_createState();
+    if (*state == NULL) {
+        return glint_fail_memory(error, "the fingerprint");
+    }
+    XXH3_128bits_reset(*state);
+    return GLINT_OK;
+}
+
+static glint_fingerprint finish(XXH3_state_t *state)
+{
+    const XXH128_hash_t hash = XXH3_128bits_digest(state);
+    XXH3_freeState(state);
+    return (glint_fingerprint){hash.high64, hash.low64};
+}
+
+glint_status glint_fingerprint_run(const glint_subject *subject, const char *path,
+                                   const glint_write_options *options,
+                                   glint_fingerprint *fingerprint, glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status == GLINT_OK) {
+        add_text(state, "glint " GLINT_VERSION);
+        add_text(state, glint_kernel_source);
+        add_settings(state, subject->settings);
+        add_max_error(state, subject->max_error);
+        add_texels(state, subject);
+        add_encoding(state, path, options);
+        *fingerprint = finish(state);
+    }
+    return status;
+}
+
+glint_status glint_fingerprint_environment(const glint_environment *environment,
+                                           glint_fingerprint *fingerprint, glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status == GLINT_OK) {
+        const glint_cube *radiance = &environment->radiance;
+        add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
+        const glint_proxy *p = &environment->proxy;
+        const double proxy[] = {p->kind,          p->center.x,     p->center.y, p->center.z,
+                                p->middle.x,      p->middle.y,     p->middle.z, p->half_extent.x,
+                                p->half_extent.y, p->half_extent.z};
+        if (p->kind != GLINT_PROXY_NONE) {
+            add_numbers(state, proxy, sizeof proxy / sizeof *proxy);
+        }
+        *fingerprint = finish(state);
+    }
+    return status;
+}
+
+glint_status glint_fingerprint_file(const char *path, glint_fingerprint *fingerprint,
+                                    glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status != GLINT_OK) {
+        return status;
+    }
+    struct stat facts;
+    errno = 0;
+    const bool is_file = stat(path, &facts) == 0 && S_ISREG(facts.st_mode); // a pipe would wait
+    FILE *file = is_file ? fopen(path, "rbe") : NULL;
+    char bytes[16384];
+    size_t size = 0;
+    while (file != NULL && (size = fread(bytes, 1, sizeof bytes, file)) > 0) {
+        XXH3_128bits_update(state, bytes, size);
+    }
+    if (file == NULL || ferror(file) != 0) {
+        status = glint_fail(error, GLINT_BAD_INPUT, "%s: %s", path,
+                            errno != 0 ? strerror(errno) : "not a file");
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    *fingerprint = finish(state);
+    return status;
+}
+
+glint_status glint_fingerprint_scene(const glint_scene *scene, glint_fingerprint *fingerprint,
+                                     glint_error *error)
+{
+    XXH3_state_t *state;
+    glint_status status = begin(&state, error);
+    if (status == GLINT_OK) {
+        add_scene(state, scene);
+        *fingerprint = finish(state);
+    }
+    return status;
+}
+
+// ---- A frame -----------------------------------------------------------------------------------
+
+static void print(glint_fingerprint fingerprint, char text[GLINT_FINGERPRINT_TEXT])
+{
+    snprintf(text, GLINT_FINGERPRINT_TEXT, "%016llx%016llx", (unsigned long long)fingerprint.high,
+             (unsigned long long)fingerprint.low);
+}
+
+glint_fingerprint glint_fingerprint_join(const glint_fingerprint *parts, size_t count,
+                                         const char *text)
+{
+    enum { PARTS = 8 };
+    char all[PARTS * GLINT_FINGERPRINT_TEXT + 512];
+    size_t length = 0;
+    for (size_t i = 0; i < count && i < PARTS; i++) {
+        print(parts[i], all + length);
+        length += GLINT_FINGERPRINT_TEXT - 1;
+    }
+    length += (size_t)snprintf(all + length, sizeof all - length, " %s", text);
+    const XXH128_hash_t hash = XXH3_128bits(all, length < sizeof all ? length : sizeof all - 1);
+    return (glint_fingerprint){hash.high64, hash.low64};
+}
+
+void glint_fingerprint_frame(const glint_fingerprint *parts, size_t count,
+                             const glint_camera *camera, char text[GLINT_FINGERPRINT_TEXT])
+{
+    const glint_vec3 vectors[] = {camera->eye, camera->right, camera->up, camera->back};
+    char all[512];
+    size_t length = (size_t)snprintf(all, sizeof all, "%d %a", camera->orthographic,
+                                     camera->orthographic ? camera->ymag : camera->yfov);
+    for (int i = 0; i < 4; i++) {
+        length += (size_t)snprintf(all + length, sizeof all - length, " %a %a %a", vectors[i].x,
+                                   vectors[i].y, vectors[i].z);
+    }
+    print(glint_fingerprint_join(parts, count, all), text);
+}
+
+// ---- In files ----------------------------------------------------------------------------------
+
+// The digits behind the name, up to a few bytes of each format's own further on.
+static bool find_in(const char *bytes, size_t size, char text[GLINT_FINGERPRINT_TEXT])
+{
+    enum { NAME = sizeof GLINT_FINGERPRINT_NAME - 1, BETWEEN = 16, DIGITS = 32 };
+    const char *name = memmem(bytes, size, GLINT_FINGERPRINT_NAME, NAME);
+    if (name == NULL) {
+        return false;
+    }
+    const char *end = bytes + size;
+    for (const char *at = name + NAME; at < name + NAME + BETWEEN && at + DIGITS <= end; at++) {
+        int digits = 0;
+        while (digits < DIGITS && isxdigit((unsigned char)at[digits])) {
+            digits++;
+        }
+        if (digits == DIGITS) {
+            memcpy(text, at, DIGITS);
+            text[DIGITS] = '\0';
+            return true;
+        }
+    }
+    return false;
+}
+
+void glint_fingerprint_find(const char *path, char text[GLINT_FINGERPRINT_TEXT])
+{
+    text[0] = '\0';
+    struct stat facts;
+    const bool is_file = stat(path, &facts) == 0 && S_ISREG(facts.st_mode); // a pipe would wait
+    FILE *file = is_file ? fopen(path, "rbe") : NULL;
+    char *bytes = malloc(SEARCHED);
+    if (file != NULL && bytes != NULL) {
+        const size_t first = fread(bytes, 1, SEARCHED, file);
+        if (!find_in(bytes, first, text) && first == SEARCHED &&
+            fseek(file, -SEARCHED, SEEK_END) == 0) {
+            find_in(bytes, fread(bytes, 1, SEARCHED, file), text);
+        }
+    }
+    free(bytes);
+    if (file != NULL) {
+        fclose(file);
+    }
+}
