@@ -1,4 +1,6 @@
-// What may be asked for. See plan.h.
+// What may be asked for. See settings.h, and plan.h for the checks.
+#include "render/settings.h"
+
 #include "render/plan.h"
 
 #include <math.h>
