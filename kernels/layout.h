@@ -51,8 +51,8 @@
 //   x[16], y[16], z[16]     floats: the vertices' positions in stored coordinates
 //   3 × 16 bytes            the triangles' first, second and third corner, each a vertex's lane
 //   count, material         ints: how many triangles there are, 1 to 16, and their material
-//   longest, curvature      floats: no edge of theirs is longer, and how fast the shading normals of
-//                           one turn at most, per unit of length, above 0 where they part
+//   longest, curvature      floats: no edge of theirs is longer, and how fast the shading normals
+//                           of one turn at most, per unit of length, above 0 where they part
 // Lanes past the last vertex repeat the first; triangles past the last have corners 0, 0, 0.
 // Clusters stand in the order of the leaves, left to right, whatever the nodes' width. A triangle's
 // place is cluster × 16 + its lane. Beside the clusters stand
@@ -66,7 +66,7 @@
 #define GLINT_CLUSTER_MATERIAL 61 // their common material
 #define GLINT_CLUSTER_LONGEST 62  // edge
 #define GLINT_CLUSTER_CURVATURE 63
-#define GLINT_CLUSTER_NORMALS 48  // values of normals per cluster
+#define GLINT_CLUSTER_NORMALS 48 // values of normals per cluster
 // The largest number of triangles that a place can name even if each has a cluster of its own.
 #define GLINT_TRIANGLES_MAX ((1u << 27) - 1)
 
