@@ -85,7 +85,7 @@ static void put_texture(FILE *out, const glint_material *m)
         return;
     }
     const double f0 = pow(((double)m->ior - 1) / ((double)m->ior + 1), 2);
-    if (!glint_material_is_solid(m)) {
+    if (!glint_material_lobes(m).solid) {
         fprintf(out,
                 "  texture { pigment { rgbt <1, 1, 1, %d> } finish { ambient 0 diffuse 0 "
                 "reflection { rgb %.9g, rgb 1 falloff 5 } conserve_energy } }\n",

@@ -123,7 +123,7 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
     assert_true(glass->metallic == 0 && glass->roughness == 0 && glass->transmission == 0.75f);
     assert_true(glass->ior == 2.4f && glass->thickness == 1 && glass->mirror == -1);
     assert_true(glass->attenuation_distance == 0.5f && glass->attenuation_color[1] == 0.5f);
-    assert_true(glint_material_is_solid(glass));
+    assert_true(glint_material_lobes(glass).solid);
     const glint_material *lamp = &scene.materials[1];
     assert_string_equal(lamp->name, "lamp");
     assert_true(lamp->emission[0] == 8 && lamp->emission[1] == 4 && lamp->emission[2] == 0);

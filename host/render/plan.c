@@ -30,45 +30,34 @@ const char *glint_feature_meaning(glint_feature feature)
     return meanings[feature];
 }
 
-// How many of the materials in use have each property.
+// The feature that each lobe of a material needs, and what the reason says of such materials.
+#define LOBES(LOBE)                                                                                \
+    LOBE(MIRROR, metal, "a metallic share")                                                        \
+    LOBE(TINT, tint, "coloured metal")                                                             \
+    LOBE(GLASS, glass, "transmission")                                                             \
+    LOBE(SOLID, solid, "a volume")                                                                 \
+    LOBE(THIN_WALL, thin, "transmission and no volume")                                            \
+    LOBE(ABSORPTION, absorption, "absorption inside")                                              \
+    LOBE(PAINT, paint, "a share of paint")                                                         \
+    LOBE(GLOSS, gloss, "paint of roughness 0")                                                     \
+    LOBE(BLEND, blend, "the lecture's blend")                                                      \
+    LOBE(UNLIT, unlit, "KHR_materials_unlit")                                                      \
+    LOBE(EMISSION, emission, "emission")
+
 typedef struct material_census {
-    size_t used;
-    size_t metal, glass, solid, thin, absorbing, paint, gloss, blend, unlit, emissive;
-    size_t tinted;          // metal of another base colour than 1: it depends on the angle, too
-    size_t metal_and_glass; // both at once
+    size_t used;                         // materials in use
+    size_t needing[GLINT_FEATURE_COUNT]; // of these, for a lobe
+    size_t metal_and_glass;              // both at once
 } material_census;
 
-static bool is_absorbing(const glint_material *m)
+static void count_material(const glint_material *material, material_census *census)
 {
-    return isfinite(m->attenuation_distance) &&
-           (m->attenuation_color[0] < 1 || m->attenuation_color[1] < 1 ||
-            m->attenuation_color[2] < 1);
-}
-
-static void count_material(const glint_material *m, material_census *census)
-{
+    const glint_lobes lobes = glint_material_lobes(material);
     census->used++;
-    if (m->unlit) {
-        census->unlit++;
-        return; // the base colour is all there is
-    }
-    census->emissive += m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0;
-    if (m->mirror >= 0) {
-        census->blend++;
-        return; // the blend replaces the other models
-    }
-    bool glass = m->metallic < 1 && m->transmission > 0;
-    bool paint = m->metallic < 1 && m->transmission < 1;
-    census->metal += m->metallic > 0;
-    census->glass += glass;
-    bool white = m->base_color[0] == 1 && m->base_color[1] == 1 && m->base_color[2] == 1;
-    census->tinted += m->metallic > 0 && !white;
-    census->metal_and_glass += glass && m->metallic > 0;
-    census->solid += glint_material_is_solid(m);
-    census->thin += glass && !glint_material_is_solid(m);
-    census->absorbing += glint_material_is_solid(m) && is_absorbing(m);
-    census->paint += paint;
-    census->gloss += paint && !(m->roughness > 0);
+    census->metal_and_glass += lobes.metal && lobes.glass;
+#define COUNT(feature, lobe, what) census->needing[GLINT_FEATURE_##feature] += lobes.lobe;
+    LOBES(COUNT)
+#undef COUNT
 }
 
 static glint_status take_census(const glint_scene *scene, material_census *census,
@@ -118,30 +107,26 @@ static void decide_materials(const material_census *c, glint_plan *plan)
 {
     decide(plan, GLINT_FEATURE_MANY_MATERIALS, c->used > 1, "%zu material%s in use", c->used,
            c->used == 1 ? "" : "s");
-    decide_by_count(plan, GLINT_FEATURE_MIRROR, c->metal, c->used, "a metallic share");
-    decide_by_count(plan, GLINT_FEATURE_TINT, c->tinted, c->used, "coloured metal");
-    decide_by_count(plan, GLINT_FEATURE_GLASS, c->glass, c->used, "transmission");
-    decide_by_count(plan, GLINT_FEATURE_SOLID, c->solid, c->used, "a volume");
-    decide_by_count(plan, GLINT_FEATURE_THIN_WALL, c->thin, c->used, "transmission and no volume");
-    decide_by_count(plan, GLINT_FEATURE_ABSORPTION, c->absorbing, c->used, "absorption inside");
-    decide_by_count(plan, GLINT_FEATURE_PAINT, c->paint, c->used, "a share of paint");
-    decide_by_count(plan, GLINT_FEATURE_GLOSS, c->gloss, c->used, "paint of roughness 0");
-    decide_by_count(plan, GLINT_FEATURE_BLEND, c->blend, c->used, "the lecture's blend");
-    decide_by_count(plan, GLINT_FEATURE_UNLIT, c->unlit, c->used, "KHR_materials_unlit");
-    decide_by_count(plan, GLINT_FEATURE_EMISSION, c->emissive, c->used, "emission");
+#define DECIDE(feature, lobe, what)                                                                \
+    decide_by_count(plan, GLINT_FEATURE_##feature, c->needing[GLINT_FEATURE_##feature], c->used,   \
+                    what);
+    LOBES(DECIDE)
+#undef DECIDE
 }
 
 // Without Fresnel's equations a path splits only where a material is metal and glass at once.
 static void decide_optics(const material_census *c, glint_fresnel fresnel, glint_plan *plan)
 {
-    bool exact = fresnel == GLINT_FRESNEL_EXACT;
-    bool angular = c->tinted > 0 || c->glass > 0 || c->gloss > 0;
+    const bool exact = fresnel == GLINT_FRESNEL_EXACT;
+    const size_t glass = c->needing[GLINT_FEATURE_GLASS];
+    const bool angular =
+        c->needing[GLINT_FEATURE_TINT] > 0 || glass > 0 || c->needing[GLINT_FEATURE_GLOSS] > 0;
     decide(plan, GLINT_FEATURE_FRESNEL, exact && angular, "%s",
            !exact    ? "no Fresnel term was asked for"
            : angular ? "coloured metal, glass or smooth paint"
                      : "no coloured metal, glass or smooth paint");
-    if (c->glass > 0 && exact) {
-        decide_by_count(plan, GLINT_FEATURE_SPLIT, c->glass, c->used, "transmission and Fresnel");
+    if (glass > 0 && exact) {
+        decide_by_count(plan, GLINT_FEATURE_SPLIT, glass, c->used, "transmission and Fresnel");
     } else {
         decide_by_count(plan, GLINT_FEATURE_SPLIT, c->metal_and_glass, c->used,
                         "both metal and transmission");
@@ -414,7 +399,7 @@ static void choose_media(const glint_scene *scene, glint_plan *plan)
 {
     int media = 0;
     for (size_t i = 0; i < scene->material_count; i++) {
-        media += glint_material_is_solid(&scene->materials[i]);
+        media += glint_material_lobes(&scene->materials[i]).solid;
     }
     plan->media_count = media;
     int bits = 1;

@@ -13,7 +13,7 @@
 static bool has_solids(const glint_scene *scene)
 {
     for (size_t i = 0; i < scene->material_count; i++) {
-        if (glint_material_is_solid(&scene->materials[i])) {
+        if (glint_material_lobes(&scene->materials[i]).solid) {
             return true;
         }
     }

@@ -162,31 +162,21 @@ static glint_status upload_tree(const glint_upload_inputs *in, glint_geometry_me
 
 static glint_material_record material_record(const glint_material *m, uint32_t *media)
 {
-    glint_material_record record = {0};
+    const glint_lobes lobes = glint_material_lobes(m);
+    glint_material_record record = {
+        .metallic = lobes.unlit || lobes.blend ? 1 : m->metallic, // nothing is transmitted
+        .transmission = m->transmission,
+        .ior = m->ior,
+        .blend = lobes.blend ? m->mirror : 0,
+        .flags = (lobes.solid ? GLINT_MATERIAL_SOLID : 0) | (lobes.thin ? GLINT_MATERIAL_THIN : 0) |
+                 (lobes.unlit ? GLINT_MATERIAL_UNLIT : 0) |
+                 (lobes.blend ? GLINT_MATERIAL_BLEND : 0) |
+                 (lobes.gloss ? GLINT_MATERIAL_GLOSS : 0),
+        .medium = lobes.solid ? ++*media : 0,
+    };
     memcpy(record.base_color, m->base_color, sizeof m->base_color);
-    record.metallic = m->metallic;
-    record.transmission = m->transmission;
-    record.ior = m->ior;
-    if (m->unlit) {
-        record.flags = GLINT_MATERIAL_UNLIT;
-        record.metallic = 1; // nothing is transmitted
-        return record;
-    }
-    memcpy(record.emission, m->emission, sizeof m->emission);
-    if (m->mirror >= 0) {
-        record.flags = GLINT_MATERIAL_BLEND;
-        record.blend = m->mirror;
-        record.metallic = 1;
-        return record;
-    }
-    if (glint_material_is_solid(m)) {
-        record.flags |= GLINT_MATERIAL_SOLID;
-        record.medium = ++*media;
-    } else if (m->metallic < 1 && m->transmission > 0) {
-        record.flags |= GLINT_MATERIAL_THIN;
-    }
-    if (!(m->roughness > 0)) {
-        record.flags |= GLINT_MATERIAL_GLOSS;
+    if (lobes.emission) {
+        memcpy(record.emission, m->emission, sizeof m->emission);
     }
     return record;
 }

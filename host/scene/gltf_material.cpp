@@ -209,8 +209,8 @@ glint_material read(const json &root, const json &material, const Place &place)
 
 bool shows_roughness(const glint_material &material)
 {
-    return material.roughness > 0 && !material.unlit && material.mirror < 0 &&
-           (material.metallic > 0 || material.transmission > 0);
+    const glint_lobes lobes = glint_material_lobes(&material);
+    return material.roughness > 0 && (lobes.metal || lobes.glass);
 }
 
 void survey_extensions(const json &material, const std::string &where, Tally &tally)

@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "base/vector.h"
 #include "scene/camera.h"
+#include "scene/material.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -13,23 +14,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-// glTF 2.0's factors, and the extensions that are modelled. Colours are linear Rec.709 in [0, 1].
-typedef struct glint_material {
-    char *name; // may be NULL; owned
-    float base_color[3];
-    float metallic;             // [0, 1]
-    float roughness;            // [0, 1]; above 0, metal and glass are rendered smooth, paint matte
-    float emission[3];          // emissiveFactor × emissiveStrength, radiance ≥ 0
-    float transmission;         // KHR_materials_transmission, [0, 1]
-    float ior;                  // KHR_materials_ior, ≥ 1; default 1.5. 0 in the file ("infinite,
-                                // F = 1") is refused
-    float thickness;            // KHR_materials_volume: > 0 makes the mesh the boundary of a solid
-    float attenuation_distance; // metres; INFINITY where the file gives none
-    float attenuation_color[3]; // what is left of white after attenuation_distance
-    bool unlit;                 // KHR_materials_unlit
-    float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
-} glint_material;
 
 // A node of the file, by its index.
 typedef struct glint_node {
@@ -136,13 +120,6 @@ void glint_scene_find_bounds(glint_scene *scene);
 // names there are stand in the error. The camera's strings stay the scene's.
 glint_status glint_scene_camera(const glint_scene *scene, const char *name, glint_camera *camera,
                                 glint_error *error);
-
-// True if the material bounds a solid: light that enters is refracted, and absorbed on its way.
-static inline bool glint_material_is_solid(const glint_material *material)
-{
-    return !material->unlit && material->mirror < 0 && material->metallic < 1 &&
-           material->transmission > 0 && material->thickness > 0;
-}
 
 #ifdef __cplusplus
 }

@@ -17,17 +17,11 @@ typedef enum fate {
 
 static fate fate_at(const glint_material *m)
 {
-    if (m->unlit) {
-        return FATE_ENDS;
+    const glint_lobes lobes = glint_material_lobes(m);
+    if (lobes.glass) {
+        return lobes.solid ? FATE_REFRACTED : FATE_PASSES;
     }
-    if (m->mirror >= 0) {
-        return m->mirror > 0 ? FATE_REFLECTED : FATE_ENDS;
-    }
-    if (m->metallic < 1 && m->transmission > 0) {
-        return glint_material_is_solid(m) ? FATE_REFRACTED : FATE_PASSES;
-    }
-    const bool is_glossy = m->metallic < 1 && !(m->roughness > 0);
-    return m->metallic > 0 || is_glossy ? FATE_REFLECTED : FATE_ENDS;
+    return lobes.metal || lobes.gloss || lobes.blend_mirror ? FATE_REFLECTED : FATE_ENDS;
 }
 
 typedef struct census {

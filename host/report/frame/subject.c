@@ -3,20 +3,15 @@
 
 const char *glint_material_kind(const glint_material *material)
 {
-    if (material->unlit) {
-        return "unlit";
-    }
-    if (material->mirror >= 0) {
-        return "blend";
-    }
-    if (material->metallic >= 1) {
-        return "metal";
-    }
-    if (material->metallic > 0 || (material->transmission > 0 && material->transmission < 1)) {
+    const glint_lobes lobes = glint_material_lobes(material);
+    if (lobes.metal + lobes.glass + lobes.paint > 1) {
         return "mixture";
     }
-    if (material->transmission >= 1) {
-        return glint_material_is_solid(material) ? "solid glass" : "thin glass";
-    }
-    return material->roughness > 0 ? "matte paint" : "glossy paint";
+    return lobes.unlit   ? "unlit"
+           : lobes.blend ? "blend"
+           : lobes.metal ? "metal"
+           : lobes.solid ? "solid glass"
+           : lobes.thin  ? "thin glass"
+           : lobes.gloss ? "glossy paint"
+                         : "matte paint";
 }

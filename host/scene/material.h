@@ -1,0 +1,54 @@
+// What surfaces are made of, and the one answer to what they do with light.
+#ifndef GLINT_SCENE_MATERIAL_H
+#define GLINT_SCENE_MATERIAL_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// glTF 2.0's factors, and the extensions that are modelled. Colours are linear Rec.709 in [0, 1].
+typedef struct glint_material {
+    char *name; // may be NULL; owned
+    float base_color[3];
+    float metallic;             // [0, 1]
+    float roughness;            // [0, 1]; above 0, metal and glass are rendered smooth, paint matte
+    float emission[3];          // emissiveFactor × emissiveStrength, radiance ≥ 0
+    float transmission;         // KHR_materials_transmission, [0, 1]
+    float ior;                  // KHR_materials_ior, ≥ 1; default 1.5. 0 in the file ("infinite,
+                                // F = 1") is refused
+    float thickness;            // KHR_materials_volume: > 0 makes the mesh the boundary of a solid
+    float attenuation_distance; // metres; INFINITY where the file gives none
+    float attenuation_color[3]; // what is left of white after attenuation_distance
+    bool unlit;                 // KHR_materials_unlit
+    float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
+} glint_material;
+
+// The lobes that a material has: each is one way in which its surface sends light on. A lobe is
+// there if its share of the light is above 0. ARCHITECTURE.md, "Light transport", has the rules and
+// the shares. The plan, the upload, the proofs about paths and the reports all ask here.
+typedef struct glint_lobes {
+    bool unlit;    // the base colour, and the path ends: no other lobe is there
+    bool emission; // adds radiance
+    // The lecture's blend, in place of metal, glass and paint.
+    bool blend;
+    bool blend_mirror; // its mirror has a share
+    // Metal, glass and paint share the light; metallic comes first, then transmission.
+    bool metal;      // reflects
+    bool tint;       // and colours what it reflects
+    bool glass;      // transmits and reflects: solid or thin
+    bool solid;      // the mesh bounds a solid, which refracts
+    bool absorption; // and absorbs
+    bool thin;       // a wall without thickness: light passes straight
+    bool paint;      // is lit by the environment's irradiance
+    bool gloss;      // and reflects, as it is smooth
+} glint_lobes;
+
+glint_lobes glint_material_lobes(const glint_material *material);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,76 @@
+// Which lobes a material has, by its factors.
+#include "scene/material.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define NO_BLEND .mirror = (-1)
+#define WHITE .base_color = {1, 1, 1}
+#define RED .base_color = {1, 0, 0}
+#define SOLID NO_BLEND, .transmission = 1, .thickness = 1
+#define CLEAR .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}
+#define HAS_SOLID .glass = true, .solid = true
+#define EVERYTHING                                                                                 \
+    RED, CLEAR, .metallic = 0.5F, .transmission = 0.5F, .thickness = 1, .emission = {1, 1, 1}
+
+static const struct {
+    const char *name;
+    glint_material material;
+    glint_lobes lobes;
+} cases[] = {
+    {"white metal", {NO_BLEND, WHITE, .metallic = 1}, {.metal = true}},
+    {"rough metal", {NO_BLEND, WHITE, .metallic = 1, .roughness = 1}, {.metal = true}},
+    {"red metal", {NO_BLEND, RED, .metallic = 1}, {.metal = true, .tint = true}},
+    {"metal that would be glass", {SOLID, WHITE, .metallic = 1}, {.metal = true}},
+    {"matte paint", {NO_BLEND, RED, .roughness = 1}, {.paint = true}},
+    {"smooth paint", {NO_BLEND}, {.paint = true, .gloss = true}},
+    {"paint of NaN roughness", {NO_BLEND, .roughness = NAN}, {.paint = true, .gloss = true}},
+    {"thickness alone", {NO_BLEND, .thickness = 1, .roughness = 1}, {.paint = true}},
+    {"a wall", {NO_BLEND, .transmission = 1}, {.glass = true, .thin = true}},
+    {"a clear solid", {SOLID, CLEAR}, {HAS_SOLID}},
+    {"a solid that absorbs green",
+     {SOLID, .attenuation_distance = 2, .attenuation_color = {1, 0.5F, 1}},
+     {HAS_SOLID, .absorption = true}},
+    {"a solid that absorbs nothing",
+     {SOLID, .attenuation_distance = 2, .attenuation_color = {1, 1, 1}},
+     {HAS_SOLID}},
+    {"a solid that absorbs at no distance", {SOLID, .attenuation_distance = INFINITY}, {HAS_SOLID}},
+    {"a mixture of all",
+     {NO_BLEND, EVERYTHING},
+     {HAS_SOLID, .metal = true, .tint = true, .paint = true, .gloss = true, .emission = true}},
+    {"the least shares",
+     {NO_BLEND, WHITE, .metallic = 1e-45F, .transmission = 1e-45F, .roughness = 1},
+     {.metal = true, .glass = true, .thin = true, .paint = true}},
+    {"the blend", {.mirror = 0.5F}, {.blend = true, .blend_mirror = true}},
+    {"the blend without a mirror", {.mirror = 0}, {.blend = true}},
+    {"the blend hides all but emission",
+     {EVERYTHING, .mirror = 1},
+     {.blend = true, .blend_mirror = true, .emission = true}},
+    {"unlit hides all", {NO_BLEND, EVERYTHING, .unlit = true}, {.unlit = true}},
+    {"unlit hides the blend", {.unlit = true, .mirror = 0.5F}, {.unlit = true}},
+};
+
+static void materials_have_the_lobes_that_their_factors_ask_for(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const glint_lobes lobes = glint_material_lobes(&cases[i].material);
+        if (memcmp(&lobes, &cases[i].lobes, sizeof lobes) != 0) { // flags alone, no gaps
+            fail_msg("%s", cases[i].name);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(materials_have_the_lobes_that_their_factors_ask_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
