@@ -96,7 +96,7 @@ static void list_ways(contest *c)
     }
     for (int i = 0; !splits && i < 2; i++) {
         glint_rung_by_weight(&c->settings, i == 0 ? GLINT_PRECISION_FLOAT : GLINT_PRECISION_DOUBLE,
-                             GLINT_TEXELS_FLOAT, GLINT_DEFAULT_MIN_WEIGHT,
+                             GLINT_TEXELS_FLOAT, glint_settings_default.min_weight,
                              &c->ways[c->way_count++].rung);
     }
 }

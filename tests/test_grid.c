@@ -123,7 +123,8 @@ static void a_step_beyond_the_image_is_refused(void **state)
     const int steps[] = {-1, settings.height + 1, settings.height, 0, 1};
     for (int i = 0; i < 5; i++) {
         settings.grid_step = steps[i];
-        assert_int_equal(glint_plan_check_settings(&inputs, NULL), i < 2 ? GLINT_USAGE : GLINT_OK);
+        assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                         i < 2 ? GLINT_USAGE : GLINT_OK);
     }
 }
 
@@ -137,11 +138,14 @@ static void a_list_of_nothing_is_refused(void **state)
                                       .device = glint_device_capabilities(test_device()),
                                       .settings = &settings};
     settings.list = pixels;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_USAGE);
     settings.list_rows = 1;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_OK);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_OK);
     settings.grid_step = 2;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_USAGE);
 }
 
 int main(void)

@@ -209,21 +209,27 @@ static void what_cannot_be_mended_is_refused(void **state)
     const double odd[] = {-1, (double)NAN, (double)INFINITY};
     for (int i = 0; i < 3; i++) {
         settings.mend = odd[i];
-        assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+        assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                         GLINT_USAGE);
     }
     settings.mend = 0.3;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_OK);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_OK);
     settings.precision = GLINT_PRECISION_DOUBLE;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_USAGE);
     settings.precision = GLINT_PRECISION_FLOAT;
     settings.output = GLINT_OUTPUT_HITS;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_USAGE);
     settings.output = GLINT_OUTPUT_COLOR;
     settings.shading = GLINT_SHADING_VERTEX_COLOR;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_USAGE);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_USAGE);
     settings.shading = GLINT_SHADING_PIXEL;
     device.has_double = false;
-    assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_DEVICE_FAILED);
+    assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                     GLINT_DEVICE_FAILED);
 }
 
 int main(void)

@@ -416,7 +416,8 @@ static void what_is_no_point_has_none(void **state)
                                           .device = glint_device_capabilities(test_device()),
                                           .settings = &settings};
         glint_error error = {0};
-        assert_int_equal(glint_plan_check_settings(&inputs, &error), GLINT_USAGE);
+        assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, &error),
+                         GLINT_USAGE);
         assert_non_null(strstr(error.message, "--proxy"));
     }
 }

@@ -47,7 +47,8 @@ static void check_ladder(const glint_ladder *ladder)
         const glint_rung *rung = &ladder->rungs[i];
         const glint_plan_inputs inputs = {
             .scene = &nothing, .device = &device, .settings = &rung->settings};
-        assert_int_equal(glint_plan_check_settings(&inputs, NULL), GLINT_OK);
+        assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
+                         GLINT_OK);
         assert_true(rung->name[0] != '\0' && strncmp(rung->options, "--", 2) == 0);
         assert_true(strlen(rung->name) + 1 < sizeof rung->name);
         for (size_t k = 0; k < i; k++) {

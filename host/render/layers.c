@@ -2,9 +2,12 @@
 #include "render/layers.h"
 
 #include "base/memory.h"
+#include "base/option.h"
 #include "kernels/layout.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // A channel's part before the dot is the layer's name, as programs show it. The part behind must
 // not be one of those that DWA takes for colour, and compresses with loss: R, G, B, Y, RY, BY.
@@ -23,6 +26,72 @@ const char *glint_aov_name(glint_aov aov)
 {
     return known[aov].name;
 }
+
+// ---- Sets of layers ----------------------------------------------------------------------------
+
+static uint32_t aov_by_name(const char *name)
+{
+    if (strcmp(name, "all") == 0) {
+        return GLINT_AOV_ALL;
+    }
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        if (strcmp(name, known[i].name) == 0) {
+            return GLINT_AOV_BIT(i);
+        }
+    }
+    return 0;
+}
+
+static glint_status fail_unknown(const char *option, const char *name, glint_error *error)
+{
+    const char *words[GLINT_AOV_COUNT + 2] = {"all"};
+    char list[128];
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        words[i + 1] = known[i].name;
+    }
+    const char *nearest = glint_nearest_word(name, words);
+    if (nearest != NULL) {
+        return glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (did you mean %s?)",
+                          option, name, nearest);
+    }
+    glint_aovs_print(GLINT_AOV_ALL, list, sizeof list);
+    return glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (there are %s, or all)",
+                      option, name, list);
+}
+
+glint_status glint_aovs_parse(const char *option, const char *text, uint32_t *aovs,
+                              glint_error *error)
+{
+    uint32_t set = 0;
+    for (const char *at = text; at != NULL;) {
+        char name[32];
+        const char *comma = strchr(at, ',');
+        const size_t length = comma != NULL ? (size_t)(comma - at) : strlen(at);
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        const uint32_t found = aov_by_name(name);
+        if (found == 0) {
+            return fail_unknown(option, name, error);
+        }
+        set |= found;
+        at = comma != NULL ? comma + 1 : NULL;
+    }
+    *aovs = set;
+    return GLINT_OK;
+}
+
+void glint_aovs_print(uint32_t aovs, char *text, size_t capacity)
+{
+    size_t length = 0;
+    snprintf(text, capacity, "%s", aovs > GLINT_AOV_ALL ? "unknown" : "");
+    for (int i = 0; i < GLINT_AOV_COUNT && aovs <= GLINT_AOV_ALL && length < capacity; i++) {
+        if ((aovs & GLINT_AOV_BIT(i)) != 0) {
+            length += (size_t)snprintf(text + length, capacity - length, "%s%s",
+                                       length > 0 ? "," : "", known[i].name);
+        }
+    }
+}
+
+// ---- Making them -------------------------------------------------------------------------------
 
 void glint_layers_free(glint_layers *layers)
 {

@@ -36,6 +36,12 @@ typedef enum glint_aov {
 // The layer's name: "depth".
 const char *glint_aov_name(glint_aov aov);
 
+// A set by its layers' names with commas between them, or "all"; `option` is named in messages.
+// Errors: GLINT_USAGE.
+glint_status glint_aovs_parse(const char *option, const char *text, uint32_t *aovs,
+                              glint_error *error);
+void glint_aovs_print(uint32_t aovs, char *text, size_t capacity); // of none ""
+
 #define GLINT_TERMS_MAX 32 // that are kept of a pixel, see terms.h
 #define GLINT_LAYER_CHANNELS 240
 #define GLINT_LAYER_NAME 24 // bytes of a term's channel's name

@@ -494,7 +494,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
 {
     *plan = (glint_plan){0};
     const glint_settings *settings = in->settings;
-    glint_status status = glint_plan_check_settings(in, error);
+    glint_status status = glint_settings_check(in->settings, in->device, in->scene, error);
     if (status != GLINT_OK) {
         return status;
     }
@@ -523,7 +523,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
 
 glint_status glint_plan_vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
-    glint_status status = glint_plan_check_settings(in, error);
+    glint_status status = glint_settings_check(in->settings, in->device, in->scene, error);
     return status == GLINT_OK ? vary(in, plan, error) : status;
 }
 

@@ -76,13 +76,8 @@ typedef struct glint_plan_inputs {
 // Lanes of a packet on the device where nobody asks for others: 1, 8 or 16.
 int glint_plan_native_width(const glint_capabilities *device, glint_precision precision);
 
-// Whether the settings are in range, go together and suit the device: what glint_plan_make asks
-// first. Of `inputs` scene, device and settings are read.
-glint_status glint_plan_check_settings(const glint_plan_inputs *inputs, glint_error *error);
-
-// Errors: GLINT_USAGE for settings out of range and for half texels of an environment that half
-// cannot hold, GLINT_DEVICE_FAILED for what the device cannot do (double precision without
-// cl_khr_fp64).
+// Errors: as glint_settings_check, and GLINT_USAGE for half texels of an environment that half
+// cannot hold.
 glint_status glint_plan_make(const glint_plan_inputs *inputs, glint_plan *plan, glint_error *error);
 
 // The plan for other settings of the same scene, environment and device, which are a variation of

@@ -2,7 +2,10 @@
 #ifndef GLINT_RENDER_SETTINGS_H
 #define GLINT_RENDER_SETTINGS_H
 
+#include "base/status.h"
+#include "device/capabilities.h"
 #include "render/layers.h"
+#include "scene/scene.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -56,12 +59,13 @@ typedef enum glint_irradiance {
 
 #define GLINT_LIST_COLUMNS 16
 #define GLINT_SAMPLES_PER_AXIS_MAX 64
-#define GLINT_DEPTH_MAX 64 // what --depth auto stops at; larger depths may be asked for by number
-#define GLINT_DEFAULT_MIN_WEIGHT (1.0 / 1024)
+#define GLINT_DEPTH_MAX 64   // what --depth auto stops at; larger depths may be asked for by number
+#define GLINT_SIDE_MAX 65536 // pixels: what the hard cases ask for, and formats hold
 
-// What the user asks for. glint_settings_default fills it.
+// What the user asks for. glint_settings_default fills it. Ranges, words and what depends on each
+// stand in settings_table.c.
 typedef struct glint_settings {
-    int width, height; // pixels, ≥ 1
+    int width, height; // pixels
     int grid_step;     // 0, or n ≥ 2: of an image of width × height pixels render every nth of
                        // every nth row alone, see glint_settings_pixels
     // Or of these alone: [list_rows][GLINT_LIST_COLUMNS] numbers of pixels, row by row of the
@@ -70,10 +74,12 @@ typedef struct glint_settings {
     // vertices.
     const int32_t *list;
     int list_rows;
-    int samples_per_axis; // k of k² samples a pixel, ≥ 1
-    int depth;            // surfaces a path meets, ≥ 1; 0: auto
-    double min_weight;    // in [0, 1]; 0 follows every branch to the depth
+    int samples_per_axis; // k of k² samples a pixel
+    int depth;            // surfaces a path meets; 0: auto
+    double min_weight;    // 0 follows every branch to the depth
     bool transparent;     // background transparent, else the environment
+    const char *plate;    // a picture that whoever writes the frame puts behind it; NULL: none.
+                          // Borrowed, and not read here; the background is transparent then
     double env_rotate;    // degrees about +Y, counter-clockwise seen from above
     glint_precision precision;
     // Above 0, in single precision: pixels that differ from a neighbour by more than `mend` times
@@ -105,13 +111,18 @@ typedef struct glint_settings {
 // pixel stands in the middle of the first n × n.
 void glint_settings_pixels(const glint_settings *settings, int size[2]);
 
-// Whether `settings` are those of `first`, which shade pixels, but for precision, mend, texels,
-// depth, least weight, grid_step, list, layers, terms and truncation_squares, and so need no
-// renderer of their own. Depth auto is no variation of a depth by number, with which nothing is
-// proved of the scene.
+// Whether a renderer that was made with `first` takes these settings: both shade pixels, and they
+// differ by what varies alone (settings_table.h) and by the list. Depth auto is no variation of a
+// depth by number, with which nothing is proved of the scene.
 bool glint_settings_are_variation(const glint_settings *settings, const glint_settings *first);
 
-extern const glint_settings glint_settings_default; // 1280 × 720, 1 sample, auto, 1/1024, float
+extern const glint_settings glint_settings_default;
+
+// Whether the settings are in range, go together and suit the device. The scene is read for hits
+// alone. Errors: GLINT_USAGE; GLINT_DEVICE_FAILED for what the device cannot do (double precision
+// without cl_khr_fp64).
+glint_status glint_settings_check(const glint_settings *settings, const glint_capabilities *device,
+                                  const glint_scene *scene, glint_error *error);
 
 // "pixel", "vertex-direction", "vertex-color".
 const char *glint_shading_name(glint_shading shading);

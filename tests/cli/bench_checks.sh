@@ -14,9 +14,10 @@ no_temporaries() {
 
 # ---- help and mistakes --------------------------------------------------------------------------
 
-check 'bench --help tells every option' help_mentions bench seconds rounds no-check error no-sampling list html json baseline \
-    margin env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without scene size samples depth min-weight background precision mend \
-    fresnel texels filter irradiance shading device kernel-width kernel-tile kernel-dir help
+# shellcheck disable=SC2046 # lists of words
+check 'bench --help tells every option' help_mentions bench seconds rounds no-check error no-sampling \
+    list html json baseline margin env env-layout ball-circle ball-distance ball-fov env-flip camera \
+    animation only without scene $(settings_of environment size frame device) device kernel-dir help
 check 'and its own default size' grep -q '\[1920x1080;' help.txt
 run --help
 check 'glint --help lists it' grep -q '^  bench ' stdout

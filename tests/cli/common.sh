@@ -84,6 +84,11 @@ begins_with() { # FILE HEX
     [ "$(od -An -tx1 -N $((${#2} / 2)) "$1" | tr -d ' \n')" = "$2" ]
 }
 
+# The options of groups of the table of settings (host/render/settings_table.h).
+settings_of() { # GROUP…
+    "$(dirname "$json_get")/list_settings" "$@"
+}
+
 # --help tells of these options, and of no other.
 help_mentions() { # COMMAND OPTION…
     local command=$1 option

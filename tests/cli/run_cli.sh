@@ -59,18 +59,18 @@ mkdir in/folder.gltf in/empty
 
 # ---- help ---------------------------------------------------------------------------------------
 
-render_options='output exposure compression exr-type preview aov directions stats progress frames turntable
-    fps skip-existing shard max-error surroundings capture-size proxy env-at env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without
-    scene size samples depth min-weight background precision mend fresnel texels filter irradiance shading device
-    kernel-width kernel-tile kernel-dir help'
-info_options='json env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without scene size samples depth min-weight background
-    precision mend fresnel texels filter irradiance shading device kernel-width kernel-tile help'
-
-# shellcheck disable=SC2086 # lists of words
+inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera animation only without scene device help'
+# shellcheck disable=SC2046,SC2086 # lists of words
 {
-    check 'render --help tells every option' help_mentions render $render_options
-    check 'info --help tells every option' help_mentions info $info_options
+    check 'render --help tells every option' help_mentions render $inputs output exposure compression \
+        exr-type preview stats progress frames turntable fps skip-existing shard max-error surroundings \
+        capture-size proxy env-at kernel-dir $(settings_of environment size frame device layers)
+    check 'info --help tells every option' help_mentions info $inputs json \
+        $(settings_of environment size frame device)
 }
+run render --help
+check 'the help of --max-error names the settings that it chooses' \
+    grep -q ' In place of --depth, --min-weight, .*--shading\. ' <(tr -s '\n ' ' ' <stdout)
 check 'devices --help tells every option' help_mentions devices json help
 for words in '' '--help' '-h' 'help'; do
     # shellcheck disable=SC2086 # none or one word
@@ -107,6 +107,8 @@ refuses 2 'did you mean --depth?' render "${ok[@]}" --dept 3
 refuses 2 'did you mean --samples?' render "${ok[@]}" --sample=4
 refuses 2 'unknown option -x' render "${ok[@]}" -x
 refuses 2 '--json takes no value' info in/mirror.gltf --json=yes
+refuses 2 '--help takes no value' info in/mirror.gltf --help=x
+refuses 2 'did you mean --help?' info in/mirror.gltf --hel
 refuses 2 '--output' render in/mirror.gltf -o
 refuses 2 '--output' render in/mirror.gltf -o ''
 for option in env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera scene size samples depth min-weight background \
@@ -122,7 +124,7 @@ done
 for samples in 0 2 3 5 -4 x 4x 10000000000; do
     refuses 2 '--samples' render "${ok[@]}" --samples "$samples"
 done
-for value in x 1x nan inf -inf 1e9 ''; do
+for value in x 1x nan inf -inf 1e9 1e999 0x10 ' 1' '1 ' 0,5 ''; do
     refuses 2 '--exposure' render "${ok[@]}" --exposure "$value"
     refuses 2 '--env-rotate' render "${ok[@]}" --env-rotate "$value"
     refuses 2 '--min-weight' render "${ok[@]}" --min-weight "$value"
@@ -145,8 +147,8 @@ refuses 2 '--kernel-width 4' render "${ok[@]}" --kernel-width 4
 refuses 2 '--kernel-tile 4' render "${ok[@]}" --kernel-tile 4
 refuses 2 '--shading vertex' render "${ok[@]}" --shading vertex
 refuses 2 '--shading vertex-color: surfaces see' render "${ok[@]}" --shading vertex-color --depth 3
-refuses 2 '--filter mip: it tells of pixels, and --shading vertex-direction' render "${ok[@]}" --shading vertex-direction --filter mip
-refuses 2 '--aov: it tells of pixels, and --shading vertex-direction' render in/mirror.gltf -o out/x.exr --shading vertex-direction --aov depth
+refuses 2 '--filter mip: --shading vertex-direction shades vertices' render "${ok[@]}" --shading vertex-direction --filter mip
+refuses 2 '--aov depth: --shading vertex-direction shades vertices' render in/mirror.gltf -o out/x.exr --shading vertex-direction --aov depth
 refuses 2 '--fresnel schlick' render "${ok[@]}" --fresnel schlick
 refuses 2 'latlong' render "${ok[@]}" --env in/sky.hdr --env-layout mercator
 refuses 2 '--env-layout' render "${ok[@]}" --env-layout latlong

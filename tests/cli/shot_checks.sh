@@ -13,10 +13,10 @@ cp "$scenes"/mirror_sphere.* "$scenes"/clockwork.* in/
 
 # ---- capture ------------------------------------------------------------------------------------
 
+# shellcheck disable=SC2046 # lists of words
 check 'capture --help tells every option' help_mentions capture at around to size exposure \
-    compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera animation only without \
-    scene samples depth min-weight background precision mend fresnel texels filter irradiance shading device kernel-width \
-    kernel-tile kernel-dir help
+    compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-flip camera \
+    animation only without scene $(settings_of environment frame device) device kernel-dir help
 run --help
 check 'glint --help lists it' grep -q '^  capture ' stdout
 cp "$scenes"/lecture_example_2.* in/
@@ -288,8 +288,9 @@ clean
 
 # ---- relight -------------------------------------------------------------------------------------
 
+# shellcheck disable=SC2046 # a list of words
 check 'relight --help tells every option' help_mentions relight env env-layout ball-circle \
-    ball-distance ball-fov env-flip env-rotate output exposure compression exr-type progress help
+    ball-distance ball-fov env-flip $(settings_of environment) output exposure compression exr-type progress help
 run --help
 check 'glint --help lists it' grep -q '^  relight ' stdout
 kept=("$spheres" --size 64x48 --exr-type float --texels float)

@@ -9,12 +9,12 @@
 
 glint_status bench_error_check(const glint_settings *settings, glint_error *error)
 {
-    const char *own =
-        settings->filter != GLINT_FILTER_BILINEAR ? "--filter" : glint_error_option(settings);
-    return own == NULL
-               ? GLINT_OK
-               : glint_fail(error, GLINT_USAGE,
-                            "%s: --error tries them one after the other (leave it out)", own);
+    const glint_setting *own = glint_settings_find_changed(settings, GLINT_SETTING_WEIGHS_ERRORS |
+                                                                         GLINT_SETTING_IS_COMPARED);
+    return own == NULL ? GLINT_OK
+                       : glint_fail(error, GLINT_USAGE,
+                                    "--%s: --error tries them one after the other (leave it out)",
+                                    own->option.name);
 }
 
 glint_status bench_error_measure(const glint_input_request *request, const glint_inputs *loaded,

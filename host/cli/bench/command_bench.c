@@ -458,9 +458,10 @@ static glint_status check_kind(bench_request *request, glint_error *error)
         return glint_fail(error, GLINT_USAGE, "%s: it does not go with --error (leave one out)",
                           other);
     }
-    if (request->inputs.size[0] == 0) {
-        request->inputs.size[0] = request->error ? 640 : 1920;
-        request->inputs.size[1] = request->error ? 360 : 1080;
+    glint_settings *settings = &request->inputs.settings;
+    if (settings->width == 0) {
+        settings->width = request->error ? 640 : 1920;
+        settings->height = request->error ? 360 : 1080;
     }
     return GLINT_OK;
 }
@@ -504,7 +505,7 @@ static void set_defaults(void *context)
 {
     bench_request *request = context;
     glint_input_request_default(&request->inputs);
-    request->inputs.size[0] = request->inputs.size[1] = 0; // not given
+    request->inputs.settings.width = 0; // not given
     request->margin = -1;
 }
 

@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "cli/common/options.h"
 #include "environment/sampler.h"
+#include "render/settings.h"
 
 // What the command line says. Texts are borrowed from argv.
 typedef struct env_output_request {
@@ -33,7 +34,7 @@ typedef struct env_output_request {
          .fallback = (default_size),                                                               \
          .offset = (member) + offsetof(env_output_request, size),                                  \
          .minimum = 1,                                                                             \
-         .maximum = GLINT_SIZE_MAX_PIXELS},                                                        \
+         .maximum = GLINT_SIDE_MAX},                                                               \
         {GLINT_OPTION_REAL,                                                                        \
          .name = "exposure",                                                                       \
          .argument = "EV",                                                                         \

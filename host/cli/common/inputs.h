@@ -19,9 +19,7 @@ typedef struct glint_input_request {
     const char *camera;
     const char *animation;
     const char *only, *without; // lists of nodes, see scene/subset.h
-    const char *background;     // NULL, "env", "transparent", or a plate's file
     bool is_for_render;         // set by the command: plates and captures are its business
-    const char *plate;          // set by glint_input_request_finish; NULL without one
     bool camera_may_wait; // likewise: of a scene that moves, one that has no direction at time
                           // 0 is no mistake, and viewpoint.camera.is_lost says so
     const char *env;
@@ -29,13 +27,6 @@ typedef struct glint_input_request {
     const char *env_flip; // axes, NULL: none
     const char *device;
     const char *kernel_dir; // NULL: the embedded kernels
-    int size[2];
-    int precision;  // 0 float, 1 double
-    int fresnel;    // 0 exact, 1 none
-    int texels;     // a glint_texels, in the order of the choices
-    int filter;     // a glint_filter, likewise
-    int irradiance; // a glint_irradiance, likewise
-    int shading;    // a glint_shading, likewise
     glint_settings settings;
 } glint_input_request;
 
@@ -44,10 +35,6 @@ typedef struct glint_input_request {
 extern const glint_option glint_input_options[];
 extern const glint_option glint_size_options[];
 extern const glint_option glint_settings_options[];
-
-// The first option, by its name, that says something of what errors are weighed by: precision,
-// depth, weights and the like; NULL where all are at their defaults.
-const char *glint_error_option(const glint_settings *settings);
 extern const glint_option glint_kernel_dir_options[];
 
 // Rows that say how an environment's file is read, for a request with a glint_layout_request at
@@ -98,18 +85,15 @@ glint_status glint_layout_request_check(const glint_layout_request *request, gli
 #define GLINT_SIZE_OPTIONS(default_size)                                                           \
     {GLINT_OPTION_HEADING, .help = "What is computed"},                                            \
     {                                                                                              \
-        GLINT_OPTION_SIZE,                                                                         \
-            .name = "size", .argument = "WxH", .help = "Width and height of the frame in pixels.", \
-            .fallback = (default_size), .offset = offsetof(glint_input_request, size),             \
-            .minimum = 1, .maximum = GLINT_SIZE_MAX_PIXELS                                         \
+        GLINT_OPTION_SETTINGS, .group = GLINT_SETTINGS_OF_SIZE, .fallback = (default_size),        \
+                               .offset = offsetof(glint_input_request, settings)                   \
     }
-#define GLINT_SIZE_MAX_PIXELS 65536.0 // of one side: what the hard cases ask for, and formats hold
 
 // Fills the request with the defaults.
 void glint_input_request_default(glint_input_request *request);
 
-// Checks what the parser cannot see, options that only make sense together, and completes the
-// settings. Errors: GLINT_USAGE; GLINT_BAD_INPUT where --kernel-dir is no folder.
+// Checks what the parser cannot see: options that only make sense together. Errors: GLINT_USAGE;
+// GLINT_BAD_INPUT where --kernel-dir is no folder.
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
 
 // Where a scene is seen from. It is found in the whole scene, so that pictures of its parts fit

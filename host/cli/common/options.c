@@ -1,269 +1,172 @@
-// Parses a command line by a command's table, over getopt_long. The help is in options_help.c.
+// Parses a command line by a command's table. The help is in options_help.c.
 #include "cli/common/options.h"
 
-#include <errno.h>
-#include <getopt.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#define OPTIONS_MAX 64
-#define FIRST_VALUE 1000 // getopt's value of the table's first row; clear of all letters
+// ---- The rows ----------------------------------------------------------------------------------
 
-bool glint_parse_int(const char *text, long long *value)
+static const glint_option help_row = {GLINT_OPTION_FLAG, .letter = 'h', .name = "help",
+                                      .help = "Print this."};
+
+// The next setting of the row's group.
+static const glint_option *next_setting(glint_option_cursor *cursor, const glint_option *row)
 {
-    char *end = NULL;
-    errno = 0;
-    long long parsed = strtoll(text, &end, 10);
-    if (end == text || *end != '\0' || errno != 0) {
-        return false;
+    if (!glint_settings_option((glint_settings_group)row->group, cursor->setting++, row->offset,
+                               &cursor->made, cursor->fallback)) {
+        cursor->setting = 0;
+        cursor->row++;
+        return NULL;
     }
-    *value = parsed;
-    return true;
+    if (row->fallback != NULL) {
+        cursor->made.fallback = row->fallback;
+    }
+    return &cursor->made;
 }
 
-bool glint_parse_real(const char *text, double *value)
+const glint_option *glint_option_next(glint_option_cursor *cursor)
 {
-    char *end = NULL;
-    double parsed = strtod(text, &end);
-    if (end == text || *end != '\0' || !isfinite(parsed)) {
-        return false;
-    }
-    *value = parsed;
-    return true;
-}
-
-bool glint_parse_reals(const char *text, double *values, int count)
-{
-    for (int i = 0; i < count; i++) {
-        int length = 0;
-        if (sscanf(text, "%lf%n", &values[i], &length) != 1 || !isfinite(values[i]) ||
-            text[length] != (i + 1 < count ? ',' : '\0')) {
-            return false;
-        }
-        text += length + 1;
-    }
-    return true;
-}
-
-static glint_status parse_int(const glint_option *option, const char *text, void *destination,
-                              glint_error *error)
-{
-    long long value;
-    if (!glint_parse_int(text, &value) || !((double)value >= option->minimum) ||
-        !((double)value <= option->maximum)) {
-        return glint_fail(error, GLINT_USAGE, "--%s %s: a whole number from %g to %g is expected",
-                          option->name, text, option->minimum, option->maximum);
-    }
-    *(int *)destination = (int)value;
-    return GLINT_OK;
-}
-
-static glint_status parse_real(const glint_option *option, const char *text, void *destination,
-                               glint_error *error)
-{
-    double value;
-    if (!glint_parse_real(text, &value) || !(value >= option->minimum) ||
-        !(value <= option->maximum)) {
-        return glint_fail(error, GLINT_USAGE, "--%s %s: a number from %g to %g is expected",
-                          option->name, text, option->minimum, option->maximum);
-    }
-    *(double *)destination = value;
-    return GLINT_OK;
-}
-
-static glint_status parse_size(const glint_option *option, const char *text, void *destination,
-                               glint_error *error)
-{
-    int *size = destination;
-    const char *cross = strchr(text, 'x');
-    char first[16];
-    size_t length = cross != NULL ? (size_t)(cross - text) : sizeof first;
-    long long width = 0;
-    long long height = 0;
-    bool well_formed = length < sizeof first;
-    if (well_formed) {
-        memcpy(first, text, length);
-        first[length] = '\0';
-        well_formed = glint_parse_int(first, &width) && glint_parse_int(cross + 1, &height);
-    }
-    if (!well_formed) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--%s %s: a width and a height are expected, as in 1920x1080",
-                          option->name, text);
-    }
-    long long low = (long long)option->minimum;
-    long long high = (long long)option->maximum;
-    if (width < low || width > high || height < low || height > high) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--%s %s: width and height must be from %lld to %lld pixels",
-                          option->name, text, low, high);
-    }
-    size[0] = (int)width;
-    size[1] = (int)height;
-    return GLINT_OK;
-}
-
-static glint_status parse_choice(const glint_option *option, const char *text, void *destination,
-                                 glint_error *error)
-{
-    int index = 0;
-    size_t length = strlen(text);
-    for (const char *word = option->choices; word != NULL; index++) {
-        const char *end = strchr(word, '|');
-        size_t word_length = end != NULL ? (size_t)(end - word) : strlen(word);
-        if (word_length == length && memcmp(word, text, length) == 0) {
-            *(int *)destination = index;
-            return GLINT_OK;
-        }
-        word = end != NULL ? end + 1 : NULL;
-    }
-    return glint_fail(error, GLINT_USAGE, "--%s %s: one of %s is expected", option->name, text,
-                      option->choices);
-}
-
-static glint_status parse_value(const glint_option *option, const char *text, void *request,
-                                glint_error *error)
-{
-    void *destination = (char *)request + option->offset;
-    switch (option->kind) {
-    case GLINT_OPTION_FLAG:
-        *(bool *)destination = true;
-        return GLINT_OK;
-    case GLINT_OPTION_TEXT:
-        if (text[0] == '\0') {
-            return glint_fail(error, GLINT_USAGE, "--%s: an empty %s makes no sense", option->name,
-                              option->argument);
-        }
-        *(const char **)destination = text;
-        return GLINT_OK;
-    case GLINT_OPTION_INT:
-        return parse_int(option, text, destination, error);
-    case GLINT_OPTION_REAL:
-        return parse_real(option, text, destination, error);
-    case GLINT_OPTION_SIZE:
-        return parse_size(option, text, destination, error);
-    case GLINT_OPTION_CHOICE:
-        return parse_choice(option, text, destination, error);
-    case GLINT_OPTION_CUSTOM:
-        return option->parse(option, text, destination, error);
-    case GLINT_OPTION_HEADING:
-        break;
-    }
-    return glint_fail(error, GLINT_USAGE, "--%s: not an option", option->name);
-}
-
-// The command's tables in getopt's terms.
-typedef struct getopt_tables {
-    const glint_option *rows[OPTIONS_MAX + 1]; // of getopt's value FIRST_VALUE + i
-    struct option longs[OPTIONS_MAX + 2];
-    const char *words[OPTIONS_MAX + 2]; // the long names, for suggestions
-    char shorts[2 * OPTIONS_MAX + 4];
-} getopt_tables;
-
-static void make_tables(const glint_command *command, getopt_tables *tables)
-{
-    int count = 0;
-    size_t letters = 0;
-    // The leading ':' makes getopt tell a missing value from an unknown option.
-    tables->shorts[letters++] = ':';
-    tables->shorts[letters++] = 'h';
-    for (const glint_option *const *group = command->groups; *group != NULL; group++) {
-        for (const glint_option *option = *group; option->help != NULL; option++) {
-            if (option->kind == GLINT_OPTION_HEADING || count == OPTIONS_MAX) {
-                continue;
+    while (*cursor->table != NULL) {
+        const glint_option *row = &(*cursor->table)[cursor->row];
+        if (row->kind == GLINT_OPTION_LAST) {
+            cursor->table++;
+            cursor->row = 0;
+        } else if (row->kind == GLINT_OPTION_SETTINGS) {
+            const glint_option *setting = next_setting(cursor, row);
+            if (setting != NULL) {
+                return setting;
             }
-            bool has_value = option->kind != GLINT_OPTION_FLAG;
-            tables->longs[count] =
-                (struct option){option->name, has_value ? required_argument : no_argument, NULL,
-                                FIRST_VALUE + count};
-            tables->words[count] = option->name;
-            tables->rows[count++] = option;
-            if (option->letter != 0) {
-                tables->shorts[letters++] = option->letter;
-                if (has_value) {
-                    tables->shorts[letters++] = ':';
-                }
-            }
+        } else {
+            cursor->row++;
+            return row;
         }
     }
-    tables->longs[count] = (struct option){"help", no_argument, NULL, 'h'};
-    tables->words[count] = "help";
+    const bool was_at_end = cursor->is_at_end;
+    cursor->is_at_end = true;
+    return was_at_end ? NULL : &help_row;
 }
 
-static const glint_option *find_row(const getopt_tables *tables, int value)
+// The option of that letter or, letter 0, of the name of `length` bytes; false where there is
+// none.
+static bool find(const glint_command *command, char letter, const char *name, size_t length,
+                 glint_option *found)
 {
-    if (value >= FIRST_VALUE) {
-        return tables->rows[value - FIRST_VALUE];
-    }
-    for (int i = 0; tables->rows[i] != NULL; i++) {
-        if (tables->rows[i]->letter == value) {
-            return tables->rows[i];
+    glint_option_cursor cursor = {.table = command->groups};
+    const glint_option *option;
+    while ((option = glint_option_next(&cursor)) != NULL) {
+        const bool is_it = letter != 0
+                               ? option->letter == letter
+                               : option->name != NULL && strncmp(option->name, name, length) == 0 &&
+                                     option->name[length] == '\0';
+        if (is_it) {
+            *found = *option;
+            return true;
         }
     }
-    return NULL;
+    return false;
 }
 
-static size_t name_length(const char *word)
+static glint_status fail_unknown(const glint_command *command, const char *name, glint_error *error)
 {
-    return strcspn(word, "=");
-}
-
-// What getopt refused: a letter, or (letter 0) `word`, the argument as it was written.
-static glint_status fail_unknown(const glint_command *command, const getopt_tables *tables,
-                                 const char *word, int letter, glint_error *error)
-{
-    if (letter != 0) {
-        return glint_fail(error, GLINT_USAGE, "unknown option -%c (glint %s --help lists them)",
-                          letter, command->name);
+    char nearest[64] = "";
+    size_t best = GLINT_WORD_IS_FAR;
+    glint_option_cursor cursor = {.table = command->groups};
+    const glint_option *option;
+    while ((option = glint_option_next(&cursor)) != NULL) {
+        const size_t distance =
+            option->name != NULL ? glint_word_distance(name, option->name) : GLINT_WORD_IS_FAR;
+        if (distance < best) {
+            best = distance;
+            snprintf(nearest, sizeof nearest, "%s", option->name);
+        }
     }
-    char name[64];
-    size_t length = name_length(word + 2);
-    if (length >= sizeof name) {
-        length = sizeof name - 1;
-    }
-    memcpy(name, word + 2, length);
-    name[length] = '\0';
-    const char *nearest = glint_nearest_word(name, tables->words);
-    if (nearest != NULL) {
-        return glint_fail(error, GLINT_USAGE, "unknown option --%s (did you mean --%s?)", name,
-                          nearest);
-    }
-    return glint_fail(error, GLINT_USAGE, "unknown option --%s (glint %s --help lists them)", name,
-                      command->name);
+    return best < GLINT_WORD_IS_FAR
+               ? glint_fail(error, GLINT_USAGE, "unknown option --%s (did you mean --%s?)", name,
+                            nearest)
+               : glint_fail(error, GLINT_USAGE, "unknown option --%s (glint %s --help lists them)",
+                            name, command->name);
 }
 
-// getopt also takes the beginning of a name for the name.
-static bool is_abbreviated(const glint_option *option, char *const *argv, int next)
-{
-    // A value of its own argument stands between the name and argv[next].
-    bool own_value = optarg != NULL && optarg == argv[next - 1];
-    const char *word = argv[next - (own_value ? 2 : 1)];
-    return strncmp(word, "--", 2) == 0 && (strlen(option->name) != name_length(word + 2));
-}
+// ---- The words ---------------------------------------------------------------------------------
 
-static glint_status parse_one(const glint_command *command, const getopt_tables *tables, int value,
-                              char *const *argv, void *request, glint_error *error)
+// A command line under way.
+typedef struct parsing {
+    const glint_command *command;
+    void *request;
+    char **next, **end; // what is left of it
+    bool help;
+} parsing;
+
+// Takes an option with its value: what stands behind it in its own word, or else the next word.
+static glint_status take(parsing *p, const glint_option *option, const char *value,
+                         glint_error *error)
 {
-    const char *word = argv[optind - 1];
-    if (value == ':') {
-        const glint_option *option = find_row(tables, optopt);
+    char *destination = (char *)p->request + option->offset;
+    if (option->kind == GLINT_OPTION_FLAG) {
+        if (option->letter == help_row.letter) {
+            p->help = true;
+        } else {
+            *(bool *)destination = true;
+        }
+        return GLINT_OK;
+    }
+    if (value == NULL && p->next == p->end) {
         return glint_fail(error, GLINT_USAGE, "--%s: %s is expected after it", option->name,
                           option->argument);
     }
-    if (value == '?') {
-        const glint_option *option = optopt >= FIRST_VALUE ? find_row(tables, optopt) : NULL;
-        if (option != NULL) {
-            return glint_fail(error, GLINT_USAGE, "--%s takes no value", option->name);
+    if (value == NULL) {
+        value = *p->next++;
+    }
+    return glint_option_parse(option, value, destination, error);
+}
+
+// "name", "name=value", without the dashes.
+static glint_status take_long(parsing *p, const char *word, glint_error *error)
+{
+    char name[64];
+    glint_option option;
+    const size_t length = strcspn(word, "=");
+    snprintf(name, sizeof name, "%.*s", (int)length, word);
+    const char *value = word[length] == '=' ? word + length + 1 : NULL;
+    if (!find(p->command, 0, word, length, &option)) {
+        return fail_unknown(p->command, name, error);
+    }
+    const bool is_too_much = option.kind == GLINT_OPTION_FLAG && value != NULL;
+    return is_too_much ? glint_option_parse(&option, value, NULL, error)
+                       : take(p, &option, value, error);
+}
+
+// "abc": flags, of which the last may be an option whose value follows, "ofile".
+static glint_status take_letters(parsing *p, const char *letters, glint_error *error)
+{
+    for (; *letters != '\0' && !p->help; letters++) {
+        glint_option option;
+        if (!find(p->command, *letters, NULL, 0, &option)) {
+            return glint_fail(error, GLINT_USAGE, "unknown option -%c (glint %s --help lists them)",
+                              *letters, p->command->name);
         }
-        return fail_unknown(command, tables, word, optopt, error);
+        if (option.kind != GLINT_OPTION_FLAG) {
+            return take(p, &option, letters[1] != '\0' ? letters + 1 : NULL, error);
+        }
+        TRY(take(p, &option, NULL, error));
     }
-    const glint_option *option = find_row(tables, value);
-    if (value >= FIRST_VALUE && is_abbreviated(option, argv, optind)) {
-        bool own_value = optarg != NULL && optarg == word;
-        return fail_unknown(command, tables, argv[optind - (own_value ? 2 : 1)], 0, error);
+    return GLINT_OK;
+}
+
+// A word that begins with a dash.
+static glint_status take_word(parsing *p, const char *word, glint_error *error)
+{
+    return word[1] == '-' ? take_long(p, word + 2, error) : take_letters(p, word + 1, error);
+}
+
+// Moves `count` words at `words` before the `waiting` ones that stand in front of them.
+static void move_before(char **words, size_t waiting, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char *word = words[i];
+        char **place = words + i - waiting;
+        memmove(place + 1, place, waiting * sizeof *place);
+        *place = word;
     }
-    return parse_value(option, optarg, request, error);
 }
 
 static glint_status check_positionals(const glint_command *command,
@@ -294,22 +197,26 @@ glint_status glint_options_parse(const glint_command *command, int argc, char **
                                  glint_arguments *arguments, glint_error *error)
 {
     *arguments = (glint_arguments){.words = argv, .word_count = argc};
-    getopt_tables tables = {0};
-    make_tables(command, &tables);
-    opterr = 0;
-    optind = 0; // begins anew, whatever was parsed before
-    int value;
-    while ((value = getopt_long(argc, argv, tables.shorts, tables.longs, NULL)) != -1) {
-        if (value == 'h') {
-            arguments->help = true;
-            return GLINT_OK;
+    parsing p = {.command = command, .request = request, .end = argv + argc};
+    char **word = argv + 1;
+    size_t waiting = 0; // positional arguments, which stand before `word`
+    bool are_options = true;
+    while (word < p.end && are_options && !p.help) {
+        if ((*word)[0] != '-' || (*word)[1] == '\0') {
+            waiting++;
+            word++;
+            continue;
         }
-        glint_status status = parse_one(command, &tables, value, argv, request, error);
-        if (status != GLINT_OK) {
-            return status;
+        p.next = word + 1;
+        are_options = strcmp(*word, "--") != 0;
+        if (are_options) {
+            TRY(take_word(&p, *word, error));
         }
+        move_before(word, waiting, (size_t)(p.next - word));
+        word = p.next;
     }
-    arguments->positionals = argv + optind;
-    arguments->positional_count = argc - optind;
-    return check_positionals(command, arguments, error);
+    arguments->help = p.help;
+    arguments->positionals = word - waiting;
+    arguments->positional_count = (int)(argv + argc - arguments->positionals);
+    return p.help ? GLINT_OK : check_positionals(command, arguments, error);
 }

@@ -1,4 +1,4 @@
-// The help text of a command, made from its table, and the guess at what a wrong name meant.
+// The help text of a command, made from its table.
 #include "cli/common/options.h"
 
 #include <string.h>
@@ -39,6 +39,22 @@ static void print_wrapped(const char *text, int column, int indent, int columns,
     fputc('\n', out);
 }
 
+// " In place of --depth, --mend.": the settings with one of the roles.
+static size_t list_settings(unsigned roles, char *text, size_t capacity)
+{
+    size_t length = 0;
+    const char *between = " In place of";
+    for (size_t i = 0; i < glint_setting_count; i++) {
+        const glint_setting *setting = &glint_setting_table[i];
+        if ((setting->roles & roles) != 0) {
+            length += (size_t)snprintf(text + length, capacity - length, "%s --%s", between,
+                                       setting->option.name);
+            between = ",";
+        }
+    }
+    return length + (size_t)snprintf(text + length, capacity - length, ".");
+}
+
 static void print_option(const glint_option *option, int columns, FILE *out)
 {
     char letter[8] = "    ";
@@ -53,10 +69,12 @@ static void print_option(const glint_option *option, int columns, FILE *out)
         column = 0;
     }
     char text[1024];
+    size_t length = (size_t)snprintf(text, sizeof text, "%s", option->help);
+    if (option->instead_of != 0) {
+        length += list_settings(option->instead_of, text + length, sizeof text - length);
+    }
     if (option->fallback != NULL) {
-        snprintf(text, sizeof text, "%s [%s]", option->help, option->fallback);
-    } else {
-        snprintf(text, sizeof text, "%s", option->help);
+        snprintf(text + length, sizeof text - length, " [%s]", option->fallback);
     }
     print_wrapped(text, column, HELP_COLUMN, columns, out);
 }
@@ -65,62 +83,20 @@ void glint_options_help(const glint_command *command, int columns, FILE *out)
 {
     fprintf(out, "usage: glint %s %s\n\n", command->name, command->synopsis);
     print_wrapped(command->description, 0, 0, columns, out);
-    for (const glint_option *const *group = command->groups; *group != NULL; group++) {
-        for (const glint_option *option = *group; option->help != NULL; option++) {
-            if (option->kind == GLINT_OPTION_HEADING) {
-                fprintf(out, "\n%s\n", option->help);
-            } else {
-                print_option(option, columns, out);
-            }
+    glint_option_cursor cursor = {.table = command->groups};
+    for (const glint_option *option; (option = glint_option_next(&cursor)) != NULL;) {
+        if (option->kind == GLINT_OPTION_HEADING) {
+            fprintf(out, "\n%s\n", option->help);
+        } else {
+            fputs(cursor.is_at_end ? "\n" : "", out); // --help stands apart
+            print_option(option, columns, out);
         }
     }
-    fprintf(out, "\n  -h, --help                Print this.\n\n");
+    fputc('\n', out);
     print_wrapped("Defaults stand in brackets. Options may stand before and after the other "
                   "arguments; one that is given twice takes its last value; -- ends them.",
                   0, 0, columns, out);
     if (command->examples != NULL) {
         fprintf(out, "\nExamples\n%s", command->examples);
     }
-}
-
-// The number of letters to insert, delete or replace to get from `a` to `b` (Levenshtein 1966).
-static size_t edit_distance(const char *a, const char *b)
-{
-    enum { LONGEST = 63 };
-    size_t row[LONGEST + 1];
-    size_t length = strlen(b);
-    if (length > LONGEST || strlen(a) > LONGEST) {
-        return LONGEST;
-    }
-    for (size_t j = 0; j <= length; j++) {
-        row[j] = j;
-    }
-    for (size_t i = 0; a[i] != '\0'; i++) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < length; j++) {
-            size_t replaced = diagonal + (a[i] != b[j]);
-            size_t shorter = row[j] < row[j + 1] ? row[j] : row[j + 1];
-            diagonal = row[j + 1];
-            row[j + 1] = replaced < shorter + 1 ? replaced : shorter + 1;
-        }
-    }
-    return row[length];
-}
-
-const char *glint_nearest_word(const char *text, const char *const *words)
-{
-    const char *nearest = NULL;
-    size_t best = 3; // farther off than two letters, a guess is noise
-    size_t length = strlen(text);
-    for (; *words != NULL; words++) {
-        // The beginning of a word counts as near: most wrong names are abbreviations.
-        bool is_beginning = length >= 2 && strncmp(*words, text, length) == 0;
-        size_t distance = is_beginning ? 1 : edit_distance(text, *words);
-        if (distance < best && distance < length) {
-            best = distance;
-            nearest = *words;
-        }
-    }
-    return nearest;
 }

@@ -13,7 +13,11 @@ typedef enum glint_progress_mode {
     GLINT_PROGRESS_NONE,
 } glint_progress_mode;
 
-#define GLINT_PROGRESS_CHOICES "auto|bar|plain|json|none" // in the order of the modes
+// The modes' words, for a GLINT_OPTION_CHOICE.
+#define GLINT_PROGRESS_CHOICES                                                                     \
+    GLINT_CHOICES([GLINT_PROGRESS_AUTO] = "auto", [GLINT_PROGRESS_BAR] = "bar",                    \
+                  [GLINT_PROGRESS_PLAIN] = "plain", [GLINT_PROGRESS_JSON] = "json",                \
+                  [GLINT_PROGRESS_NONE] = "none")
 
 // Zero is valid: AUTO before glint_progress_begin.
 typedef struct glint_progress_display {

@@ -113,7 +113,7 @@ static const glint_option compare_options[] = {
      .help = "relative shows differences over the reference's component or its mean, whichever is "
              "larger, absolute shows them as they are.",
      .fallback = "relative", .offset = offsetof(compare_request, heat),
-     .choices = "relative|absolute"},
+     .choices = GLINT_CHOICES("relative", "absolute")},
     {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE|-",
      .help = "Write the figures as JSON; - prints it instead of the table.",
      .offset = offsetof(compare_request, json)},

@@ -223,6 +223,21 @@ static glint_status find_frames(capture_request *request, const char *path, glin
     return status;
 }
 
+static glint_status check_settings(const glint_settings *settings, glint_error *error)
+{
+    for (size_t i = 0; i < glint_setting_count; i++) {
+        const glint_setting *setting = &glint_setting_table[i];
+        if (setting->no_capture != NULL &&
+            glint_setting_differs(setting, settings, &glint_settings_default)) {
+            char name[GLINT_SETTING_TEXT];
+            glint_setting_print_name(setting, settings, name);
+            return glint_fail(error, GLINT_USAGE, "%s: %s (leave it out)", name,
+                              setting->no_capture);
+        }
+    }
+    return GLINT_OK;
+}
+
 // What is rendered is as fine as what is written.
 static glint_status settle(capture_request *request, const char *path, glint_error *error)
 {
@@ -237,18 +252,11 @@ static glint_status settle(capture_request *request, const char *path, glint_err
     glint_status status = glint_chart_make(output->to, output->size, false, &chart, error);
     if (status == GLINT_OK) {
         const int edge = (int)fmax(1, round(glint_chart_quarter_turn(&chart)));
-        request->inputs.size[0] = request->inputs.size[1] = edge;
+        request->inputs.settings.width = request->inputs.settings.height = edge;
         status = glint_input_request_finish(&request->inputs, error);
     }
-    if (status == GLINT_OK && request->inputs.settings.transparent) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--background transparent: an environment has no holes");
-    }
-    if (status == GLINT_OK && request->inputs.settings.shading != GLINT_SHADING_PIXEL) {
-        return glint_fail(error, GLINT_USAGE,
-                          "--shading %s: a capture shows what surfaces see of each other, which "
-                          "vertices do not (leave it out)",
-                          glint_shading_name(request->inputs.settings.shading));
+    if (status == GLINT_OK) {
+        status = check_settings(&request->inputs.settings, error);
     }
     return status == GLINT_OK ? find_frames(request, path, error) : status;
 }

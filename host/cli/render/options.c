@@ -6,62 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define EXR_TYPES "half|float"
-
-static uint32_t aov_by_name(const char *name)
-{
-    if (strcmp(name, "all") == 0) {
-        return GLINT_AOV_ALL;
-    }
-    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
-        if (strcmp(name, glint_aov_name((glint_aov)i)) == 0) {
-            return GLINT_AOV_BIT(i);
-        }
-    }
-    return 0;
-}
-
-static glint_status fail_unknown_layer(const glint_option *option, const char *name,
-                                       glint_error *error)
-{
-    const char *words[GLINT_AOV_COUNT + 2] = {"all"};
-    char list[128] = "all";
-    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
-        words[i + 1] = glint_aov_name((glint_aov)i);
-        size_t length = strlen(list);
-        snprintf(list + length, sizeof list - length, ", %s", words[i + 1]);
-    }
-    const char *nearest = glint_nearest_word(name, words);
-    return nearest != NULL
-               ? glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (did you mean %s?)",
-                            option->name, name, nearest)
-               : glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (there are %s)",
-                            option->name, name, list);
-}
-
-// Names of layers between commas.
-static glint_status parse_aovs(const glint_option *option, const char *text, void *destination,
-                               glint_error *error)
-{
-    uint32_t aovs = 0;
-    while (true) {
-        const size_t length = strcspn(text, ",");
-        char name[32];
-        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name),
-                 text);
-        const uint32_t found = aov_by_name(name);
-        if (found == 0) {
-            return fail_unknown_layer(option, name, error);
-        }
-        aovs |= found;
-        if (text[length] == '\0') {
-            break;
-        }
-        text += length + 1;
-    }
-    *(uint32_t *)destination = aovs;
-    return GLINT_OK;
-}
+#define EXR_TYPES GLINT_CHOICES("half", "float")
 
 static glint_status parse_shard(const glint_option *option, const char *text, void *destination,
                                 glint_error *error)
@@ -90,19 +35,7 @@ static const glint_option output_options[] = {
     {GLINT_OPTION_FLAG, .name = "preview",
      .help = "Write a PNG beside each EXR, of the same name, with --exposure and the sRGB curve.",
      .offset = offsetof(render_request, preview)},
-    {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
-     .help = "Layers that tell what became of each pixel's paths, as further channels of the EXR: "
-             "depth (surfaces that the longest met), tir (total reflections), truncated (weight "
-             "that was not traced to its end), triangle and material (what the primary ray met), "
-             "face (of the environment, where the heaviest look-up fell); with commas between "
-             "them, or all. With several samples depth is the maximum, tir and truncated are "
-             "means, the others numbers from 0, −1 for none, of the sample in the middle.",
-     .offset = offsetof(render_request, inputs.settings.aovs), .parse = parse_aovs},
-    {GLINT_OPTION_INT, .name = "directions", .argument = "K",
-     .help = "Keep of each pixel the K heaviest directions that its paths leave along, with their "
-             "weights, as further channels of the EXR: for glint relight.",
-     .offset = offsetof(render_request, inputs.settings.terms), .minimum = 1,
-     .maximum = GLINT_TERMS_MAX},
+    GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_LAYERS, offsetof(render_request, inputs.settings)),
     {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE.json",
      .help = "Write what the frame took and counted: phases in milliseconds, rays by kind, "
              "truncated light, the plan and the device. Of a sequence, an object a line: the run, "
@@ -145,10 +78,9 @@ static const glint_option error_options[] = {
     {GLINT_OPTION_REAL, .name = "max-error", .argument = "E",
      .help = "Choose precision, depth and least weight frame by frame: the fastest that keep the "
              "picture within a relative RMSE of E, 0.01 say, of double precision that follows "
-             "light to its end. What was chosen, and its error, stand in the file. In place of "
-             "--depth, --min-weight, --precision, --mend, --texels, --fresnel, --irradiance and "
-             "--shading.",
-     .offset = offsetof(render_request, max_error), .minimum = 1e-9, .maximum = 10},
+             "light to its end. What was chosen, and its error, stand in the file.",
+     .instead_of = GLINT_SETTING_WEIGHS_ERRORS, .offset = offsetof(render_request, max_error),
+     .minimum = 1e-9, .maximum = 10},
     GLINT_OPTION_END,
 };
 

@@ -240,10 +240,12 @@ static glint_status find_proxy(render_request *request, glint_error *error)
 // It decides about what these would say.
 static glint_status check_max_error(render_request *request, glint_error *error)
 {
-    const char *own = glint_error_option(&request->inputs.settings);
+    const glint_setting *own =
+        glint_settings_find_changed(&request->inputs.settings, GLINT_SETTING_WEIGHS_ERRORS);
     if (request->max_error > 0 && own != NULL) {
         return glint_fail(error, GLINT_USAGE,
-                          "--max-error: it chooses what %s says (leave one of the two out)", own);
+                          "--max-error: it chooses what --%s says (leave one of the two out)",
+                          own->option.name);
     }
     request->inputs.settings.truncation_squares = request->max_error > 0;
     return GLINT_OK;
@@ -251,7 +253,7 @@ static glint_status check_max_error(render_request *request, glint_error *error)
 
 static glint_status find_plate(render_request *request, glint_error *error)
 {
-    const char *plate = request->inputs.plate;
+    const char *plate = request->inputs.settings.plate;
     request->plate = request->plate_name.path = plate;
     return plate == NULL || access(plate, F_OK) == 0
                ? GLINT_OK

@@ -54,20 +54,16 @@ static glint_status check_form(const json_t *root, const char *path, glint_error
     return GLINT_OK;
 }
 
-// Settings that came later had one value before: what a file leaves out is that.
+// A file that leaves a setting out is older than the setting, whose default is how it was then.
 static void complete_settings(json_t *root)
 {
+    json_t *usual = glint_json_settings(&glint_settings_default);
     json_t *list = json_object_get(root, "scenes");
     for (size_t i = 0; i < json_array_size(list); i++) {
         json_t *settings = json_object_get(json_array_get(list, i), "settings");
-        static const char *const before[][2] = {
-            {"filter", "bilinear"}, {"irradiance", "exact"}, {"shading", "pixel"}};
-        for (int k = 0; json_is_object(settings) && k < 3; k++) {
-            if (json_object_get(settings, before[k][0]) == NULL) {
-                json_object_set_new(settings, before[k][0], json_string(before[k][1]));
-            }
-        }
+        (void)json_object_update_missing(settings, usual); // fails where they are no object
     }
+    json_decref(usual);
 }
 
 glint_status glint_baseline_load(const char *path, json_t **baseline, glint_error *error)
@@ -134,12 +130,11 @@ static glint_status check_member(const char *path, const char *scene, const char
 static glint_status check_identity(const char *path, const char *name, const json_t *now,
                                    const json_t *before, glint_error *error)
 {
-    glint_status status = GLINT_OK;
-    for (size_t i = 0; status == GLINT_OK && i < sizeof identity / sizeof *identity; i++) {
-        status = check_member(path, name, identity[i], glint_json_at(now, identity[i]),
-                              glint_json_at(before, identity[i]), error);
+    for (size_t i = 0; i < sizeof identity / sizeof *identity; i++) {
+        TRY(check_member(path, name, identity[i], glint_json_at(now, identity[i]),
+                         glint_json_at(before, identity[i]), error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // The times of a frame's launches that a comparison rests on.
@@ -186,17 +181,11 @@ glint_status glint_baseline_compare(const json_t *baseline, const char *path, co
         return GLINT_OK;
     }
     times before = {0}, now = {0};
-    glint_status status = check_identity(path, name, scene, earlier, error);
-    if (status == GLINT_OK) {
-        status = read_times(path, name, earlier, &before, error);
-    }
-    if (status == GLINT_OK) {
-        status = read_times("this run", name, scene, &now, error);
-    }
-    if (status == GLINT_OK) {
-        *comparison = (glint_comparison){judge(&before, &now, margin), before.median, now.median};
-    }
-    return status;
+    TRY(check_identity(path, name, scene, earlier, error));
+    TRY(read_times(path, name, earlier, &before, error));
+    TRY(read_times("this run", name, scene, &now, error));
+    *comparison = (glint_comparison){judge(&before, &now, margin), before.median, now.median};
+    return GLINT_OK;
 }
 
 json_t *glint_comparison_json(const char *name, const glint_comparison *comparison)

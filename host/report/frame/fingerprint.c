@@ -2,6 +2,7 @@
 #include "report/frame/fingerprint.h"
 
 #include "device/kernel_sources.h"
+#include "render/settings_table.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -75,15 +76,28 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
     }
 }
 
-static void add_settings(XXH3_state_t *state, const glint_settings *s)
+static void add_settings(XXH3_state_t *state, const glint_settings *settings)
 {
-    const double numbers[] = {s->width,         s->height,     s->samples_per_axis,
-                              s->depth,         s->min_weight, s->transparent ? 1 : 0,
-                              s->env_rotate,    s->precision,  s->fresnel,
-                              s->output,        s->filter,     s->aovs,
-                              s->irradiance,    s->terms,      s->shading,
-                              s->proxy ? 1 : 0, s->grid_step,  s->mend};
-    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+    double numbers[GLINT_FINGERPRINT_PLACES] = {0};
+    for (size_t i = 0; i < glint_setting_count; i++) {
+        const glint_setting *setting = &glint_setting_table[i];
+        for (size_t k = 0; setting->fingerprint > 0 && k < glint_setting_number_count(setting);
+             k++) {
+            numbers[(size_t)setting->fingerprint - 1 + k] =
+                glint_setting_number(setting, settings, k);
+        }
+    }
+    add_numbers(state, numbers, GLINT_FINGERPRINT_PLACES);
+    for (size_t i = 0; i < glint_setting_count; i++) {
+        const glint_setting *setting = &glint_setting_table[i];
+        if (setting->fingerprint == GLINT_FINGERPRINT_BY_NAME &&
+            glint_setting_differs(setting, settings, &glint_settings_default)) {
+            char text[GLINT_SETTING_TEXT];
+            glint_setting_print(setting, settings, text);
+            add_text(state, setting->option.name);
+            add_text(state, text);
+        }
+    }
 }
 
 // What decides about settings frame by frame.
@@ -134,47 +148,41 @@ glint_status glint_fingerprint_run(const glint_subject *subject, const char *pat
                                    glint_fingerprint *fingerprint, glint_error *error)
 {
     XXH3_state_t *state;
-    glint_status status = begin(&state, error);
-    if (status == GLINT_OK) {
-        add_text(state, "glint " GLINT_VERSION);
-        add_text(state, glint_kernel_source);
-        add_settings(state, subject->settings);
-        add_max_error(state, subject->max_error);
-        add_texels(state, subject);
-        add_encoding(state, path, options);
-        *fingerprint = finish(state);
-    }
-    return status;
+    TRY(begin(&state, error));
+    add_text(state, "glint " GLINT_VERSION);
+    add_text(state, glint_kernel_source);
+    add_settings(state, subject->settings);
+    add_max_error(state, subject->max_error);
+    add_texels(state, subject);
+    add_encoding(state, path, options);
+    *fingerprint = finish(state);
+    return GLINT_OK;
 }
 
 glint_status glint_fingerprint_environment(const glint_environment *environment,
                                            glint_fingerprint *fingerprint, glint_error *error)
 {
     XXH3_state_t *state;
-    glint_status status = begin(&state, error);
-    if (status == GLINT_OK) {
-        const glint_cube *radiance = &environment->radiance;
-        add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
-        const glint_proxy *p = &environment->proxy;
-        const double proxy[] = {p->kind,          p->center.x,     p->center.y, p->center.z,
-                                p->middle.x,      p->middle.y,     p->middle.z, p->half_extent.x,
-                                p->half_extent.y, p->half_extent.z};
-        if (p->kind != GLINT_PROXY_NONE) {
-            add_numbers(state, proxy, sizeof proxy / sizeof *proxy);
-        }
-        *fingerprint = finish(state);
+    TRY(begin(&state, error));
+    const glint_cube *radiance = &environment->radiance;
+    add_array(state, radiance->texels, sizeof *radiance->texels, glint_cube_size(radiance));
+    const glint_proxy *p = &environment->proxy;
+    const double proxy[] = {p->kind,          p->center.x,     p->center.y, p->center.z,
+                            p->middle.x,      p->middle.y,     p->middle.z, p->half_extent.x,
+                            p->half_extent.y, p->half_extent.z};
+    if (p->kind != GLINT_PROXY_NONE) {
+        add_numbers(state, proxy, sizeof proxy / sizeof *proxy);
     }
-    return status;
+    *fingerprint = finish(state);
+    return GLINT_OK;
 }
 
 glint_status glint_fingerprint_file(const char *path, glint_fingerprint *fingerprint,
                                     glint_error *error)
 {
     XXH3_state_t *state;
-    glint_status status = begin(&state, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(begin(&state, error));
+    glint_status status = GLINT_OK;
     struct stat facts;
     errno = 0;
     const bool is_file = stat(path, &facts) == 0 && S_ISREG(facts.st_mode); // a pipe would wait
@@ -199,12 +207,10 @@ glint_status glint_fingerprint_scene(const glint_scene *scene, glint_fingerprint
                                      glint_error *error)
 {
     XXH3_state_t *state;
-    glint_status status = begin(&state, error);
-    if (status == GLINT_OK) {
-        add_scene(state, scene);
-        *fingerprint = finish(state);
-    }
-    return status;
+    TRY(begin(&state, error));
+    add_scene(state, scene);
+    *fingerprint = finish(state);
+    return GLINT_OK;
 }
 
 // ---- A frame -----------------------------------------------------------------------------------

@@ -118,6 +118,27 @@ static void add_proxy(glint_frame_metadata *metadata, const glint_proxy *proxy)
     glint_frame_metadata_add_text(metadata, "glint:proxy", text);
 }
 
+// Those that the table names for files, where they are not at their defaults.
+static void add_settings(glint_frame_metadata *metadata, const glint_settings *settings)
+{
+    size_t texts = 0;
+    for (size_t i = 0; i < glint_setting_count; i++) {
+        const glint_setting *setting = &glint_setting_table[i];
+        if (setting->metadata == NULL ||
+            !glint_setting_differs(setting, settings, &glint_settings_default)) {
+            continue;
+        }
+        if (setting->option.kind == GLINT_OPTION_REAL) {
+            glint_frame_metadata_add_real(metadata, setting->metadata,
+                                          glint_setting_number(setting, settings, 0));
+        } else if (texts < GLINT_FRAME_METADATA_SETTINGS) {
+            char *text = metadata->settings[texts++];
+            glint_setting_print(setting, settings, text);
+            glint_frame_metadata_add_text(metadata, setting->metadata, text);
+        }
+    }
+}
+
 void glint_frame_metadata_fill(const glint_subject *subject, int frame, double exposure,
                                double render_ms, glint_frame_metadata *metadata)
 {
@@ -143,9 +164,7 @@ void glint_frame_metadata_fill(const glint_subject *subject, int frame, double e
     glint_frame_metadata_add_text(metadata, "glint:plan", metadata->plan);
     glint_frame_metadata_add_text(metadata, "glint:device", metadata->device);
     add_int(metadata, "glint:samples", settings->samples_per_axis * settings->samples_per_axis);
-    if (settings->mend > 0) {
-        glint_frame_metadata_add_real(metadata, "glint:mend", settings->mend);
-    }
+    add_settings(metadata, settings);
     glint_frame_metadata_add_real(metadata, "glint:exposure", exposure);
     glint_frame_metadata_add_real(metadata, "glint:render_ms", render_ms);
 }

@@ -3,6 +3,7 @@
 #define GLINT_REPORT_FRAME_FRAME_METADATA_H
 
 #include "image/image_io.h"
+#include "render/settings_table.h"
 #include "report/frame/subject.h"
 
 #include <stddef.h>
@@ -16,7 +17,7 @@
 void glint_world_to_camera(const glint_camera *camera, float matrix[16]);
 void glint_world_to_ndc(const glint_camera *camera, double aspect, float matrix[16]);
 
-enum { GLINT_FRAME_METADATA_MAX = 24 };
+enum { GLINT_FRAME_METADATA_MAX = 24, GLINT_FRAME_METADATA_SETTINGS = 4 };
 
 // Holds what `entries` point to: not to be copied.
 typedef struct glint_frame_metadata {
@@ -26,6 +27,7 @@ typedef struct glint_frame_metadata {
     char date[32];
     char device[700];
     char proxy[256];
+    char settings[GLINT_FRAME_METADATA_SETTINGS][GLINT_SETTING_TEXT];
 } glint_frame_metadata;
 
 // `subject`: scene, environment, camera, settings, device and plan are needed, and must outlive

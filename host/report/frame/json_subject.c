@@ -1,4 +1,5 @@
 // The parts of a report as JSON: device, plan, tree, environment, scene. See json.h.
+#include "render/settings_table.h"
 #include "report/json.h"
 
 static json_t *triple(double x, double y, double z)
@@ -141,36 +142,29 @@ json_t *glint_json_camera(const glint_camera *camera)
     return object;
 }
 
-static json_t *number_or_auto(int number)
+// A number as such, what is no number as the word that the option takes.
+static json_t *setting_value(const glint_setting *setting, const glint_settings *settings)
 {
-    return number == 0 ? json_string("auto") : json_integer(number);
+    char text[GLINT_SETTING_TEXT];
+    long long number;
+    glint_setting_print(setting, settings, text);
+    if (setting->option.kind == GLINT_OPTION_REAL) {
+        return json_real(glint_setting_number(setting, settings, 0));
+    }
+    return glint_parse_int(text, &number) ? json_integer(number) : json_string(text);
 }
 
 json_t *glint_json_settings(const glint_settings *settings)
 {
-    static const char *const texels[] = {"auto", "half", "float"};
-    bool is_double = settings->precision == GLINT_PRECISION_DOUBLE;
     json_t *object = json_object();
     glint_json_put(object, "width", json_integer(settings->width));
     glint_json_put(object, "height", json_integer(settings->height));
-    glint_json_put(object, "samples",
-                   json_integer(settings->samples_per_axis * settings->samples_per_axis));
-    glint_json_put(object, "depth", number_or_auto(settings->depth));
-    glint_json_put_real(object, "min_weight", settings->min_weight);
-    glint_json_put_text(object, "background", settings->transparent ? "transparent" : "env");
-    glint_json_put_real(object, "env_rotate_degrees", settings->env_rotate);
-    glint_json_put_text(object, "precision", is_double ? "double" : "float");
-    glint_json_put_real(object, "mend", settings->mend);
-    glint_json_put_text(object, "fresnel",
-                        settings->fresnel == GLINT_FRESNEL_NONE ? "none" : "exact");
-    glint_json_put_text(object, "texels", texels[settings->texels]);
-    glint_json_put_text(object, "filter",
-                        settings->filter == GLINT_FILTER_MIP ? "mip" : "bilinear");
-    glint_json_put_text(object, "irradiance",
-                        settings->irradiance == GLINT_IRRADIANCE_SH ? "sh" : "exact");
-    glint_json_put_text(object, "shading", glint_shading_name(settings->shading));
-    glint_json_put(object, "kernel_width", number_or_auto(settings->kernel_width));
-    glint_json_put(object, "kernel_tile", number_or_auto(settings->tile_packets));
+    for (size_t i = 0; i < glint_setting_count; i++) {
+        const glint_setting *setting = &glint_setting_table[i];
+        if (setting->key != NULL) {
+            glint_json_put(object, setting->key, setting_value(setting, settings));
+        }
+    }
     return object;
 }
 

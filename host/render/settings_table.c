@@ -1,0 +1,455 @@
+// The rows, and what their values are as text. See settings_table.h.
+#include "render/settings_table.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SAMPLES_MAX (GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX)
+
+// ---- Values with a form of their own -----------------------------------------------------------
+
+static glint_status parse_samples(const glint_option *option, const char *text, void *destination,
+                                  glint_error *error)
+{
+    glint_settings *settings = destination;
+    long long samples;
+    const bool is_number = glint_parse_int(text, &samples);
+    for (int root = 1; is_number && root <= GLINT_SAMPLES_PER_AXIS_MAX; root++) {
+        if (samples == root * root) {
+            settings->samples_per_axis = root;
+            return GLINT_OK;
+        }
+    }
+    return glint_fail(error, GLINT_USAGE,
+                      "--%s %s: a square number of samples is expected (1, 4, 9, 16 … %d)",
+                      option->name, text, SAMPLES_MAX);
+}
+
+static void print_samples(const glint_settings *settings, char text[GLINT_SETTING_TEXT])
+{
+    const long long root = settings->samples_per_axis;
+    snprintf(text, GLINT_SETTING_TEXT, "%lld", root > 0 ? root * root : root);
+}
+
+// "env", "transparent", or the file of a plate, which has a point or a slash.
+static glint_status parse_background(const glint_option *option, const char *text,
+                                     void *destination, glint_error *error)
+{
+    static const char *const words[] = {"env", "transparent", NULL};
+    glint_settings *settings = destination;
+    const bool is_env = strcmp(text, words[0]) == 0;
+    const bool is_word = is_env || strcmp(text, words[1]) == 0;
+    if (is_word || strpbrk(text, "./") != NULL) {
+        settings->transparent = !is_env;
+        settings->plate = is_word ? NULL : text;
+        return GLINT_OK;
+    }
+    const char *nearest = glint_nearest_word(text, words);
+    return nearest != NULL
+               ? glint_fail(error, GLINT_USAGE, "--%s %s: did you mean %s?", option->name, text,
+                            nearest)
+               : glint_fail(error, GLINT_USAGE,
+                            "--%s %s: env or transparent, or an image's file, is expected",
+                            option->name, text);
+}
+
+static void print_background(const glint_settings *settings, char text[GLINT_SETTING_TEXT])
+{
+    snprintf(text, GLINT_SETTING_TEXT, "%s", settings->transparent ? "transparent" : "env");
+}
+
+static glint_status parse_aovs(const glint_option *option, const char *text, void *destination,
+                               glint_error *error)
+{
+    glint_settings *settings = destination;
+    return glint_aovs_parse(option->name, text, &settings->aovs, error);
+}
+
+static void print_aovs(const glint_settings *settings, char text[GLINT_SETTING_TEXT])
+{
+    glint_aovs_print(settings->aovs, text, GLINT_SETTING_TEXT);
+}
+
+// ---- The table ---------------------------------------------------------------------------------
+
+// What is not named is 0: auto, float, exact, none.
+const glint_settings glint_settings_default = {
+    .width = 1280,
+    .height = 720,
+    .samples_per_axis = 1,
+    .min_weight = 1.0 / 1024,
+};
+
+static const char *const shadings[] = {[GLINT_SHADING_PIXEL] = "pixel",
+                                       [GLINT_SHADING_VERTEX_DIRECTION] = "vertex-direction",
+                                       [GLINT_SHADING_VERTEX_COLOR] = "vertex-color",
+                                       NULL};
+
+#define OF(member) offsetof(glint_settings, member)
+#define TYPE_OF(member)                                                                            \
+    _Generic(((const glint_settings *)0)->member, bool                                             \
+             : GLINT_SETTING_BOOL, int                                                             \
+             : GLINT_SETTING_INT, unsigned                                                         \
+             : GLINT_SETTING_UNSIGNED, double                                                      \
+             : GLINT_SETTING_REAL)
+#define MEMBER(member)                                                                             \
+    .offset = OF(member), .size = sizeof((const glint_settings *)0)->member, .type = TYPE_OF(member)
+
+// Width and height are one value, int[2].
+static_assert(OF(height) == OF(width) + sizeof(int), "the height follows the width");
+
+const glint_setting glint_setting_table[] = {
+    {.option = {GLINT_OPTION_SIZE, .name = "size", .argument = "WxH",
+                .help = "Width and height of the frame in pixels.", .minimum = 1,
+                .maximum = GLINT_SIDE_MAX},
+     .group = GLINT_SETTINGS_OF_SIZE,
+     .offset = OF(width),
+     .size = 2 * sizeof(int),
+     .type = GLINT_SETTING_INT,
+     .fingerprint = 1},
+    {.option = {GLINT_OPTION_CUSTOM, .name = "samples", .argument = "K2",
+                .help = "Samples a pixel, a square number: a regular grid.",
+                .parse = parse_samples},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(samples_per_axis),
+     .fingerprint = 3,
+     .key = "samples",
+     .print = print_samples},
+    {.option = {GLINT_OPTION_INT, .name = "depth", .argument = "N|auto",
+                .help = "How many surfaces a light path meets before it takes the environment "
+                        "along its direction: 1 is environment mapping, 2 is in and out of glass. "
+                        "auto goes on until --min-weight ends every path, 64 at most, and no "
+                        "further than it is proved that anything is met.",
+                .minimum = 1, .maximum = 65535, .zero = "auto"},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(depth),
+     .fingerprint = 4,
+     .key = "depth",
+     .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS},
+    {.option = {GLINT_OPTION_REAL, .name = "min-weight", .argument = "W",
+                .help = "A branch whose weight falls under this takes the environment at once; 0 "
+                        "follows every branch to --depth.",
+                .fallback = "1/1024", .minimum = 0, .maximum = 1},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(min_weight),
+     .fingerprint = 5,
+     .key = "min_weight",
+     .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS},
+    {.option = {GLINT_OPTION_CUSTOM, .name = "background", .argument = "KIND|PLATE",
+                .help = "What is behind the scene: env, the environment; transparent, nothing, and "
+                        "alpha says so; for render also a picture of the frame's size, plate.exr, "
+                        "or one for each frame, plate.####.exr.",
+                .parse = parse_background},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(transparent),
+     .fingerprint = 6,
+     .key = "background",
+     .no_capture = "an environment has no holes",
+     .print = print_background},
+    {.option = {GLINT_OPTION_REAL, .name = "env-rotate", .argument = "DEG",
+                .help = "Turn the environment about +Y by degrees, counter-clockwise seen from "
+                        "above.",
+                .minimum = -1e6, .maximum = 1e6},
+     .group = GLINT_SETTINGS_OF_ENVIRONMENT,
+     MEMBER(env_rotate),
+     .fingerprint = 7,
+     .key = "env_rotate_degrees"},
+    {.option = {GLINT_OPTION_CHOICE, .name = "precision", .argument = "KIND",
+                .help = "float or double arithmetic on the device.",
+                .choices =
+                    GLINT_CHOICES([GLINT_PRECISION_FLOAT] = "float", [GLINT_PRECISION_DOUBLE] =
+                                                                         "double")},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(precision),
+     .fingerprint = 8,
+     .key = "precision",
+     .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS},
+    {.option = {GLINT_OPTION_REAL, .name = "mend", .argument = "JUMP",
+                .help = "With --precision float, render pixels again in double that differ from a "
+                        "neighbour by more than this, in parts of the frame's mean, 0.3 say: at "
+                        "edges and folds of glass float shows the other side in a pixel here and "
+                        "there. 0 mends nothing.",
+                .minimum = 0, .maximum = 1e6},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(mend),
+     .fingerprint = 18,
+     .key = "mend",
+     .metadata = "glint:mend",
+     .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS},
+    {.option = {GLINT_OPTION_CHOICE, .name = "fresnel", .argument = "KIND",
+                .help = "exact: reflectance depends on the angle. none: metal reflects its base "
+                        "colour, glass only where it reflects all, paint nothing.",
+                .choices =
+                    GLINT_CHOICES([GLINT_FRESNEL_EXACT] = "exact", [GLINT_FRESNEL_NONE] = "none")},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(fresnel),
+     .fingerprint = 9,
+     .key = "fresnel",
+     .roles = GLINT_SETTING_WEIGHS_ERRORS},
+    // Not in the settings' part of the fingerprint: what the plan chooses is, see fingerprint.c.
+    {.option = {GLINT_OPTION_CHOICE, .name = "texels", .argument = "KIND",
+                .help = "The environment's texels on the device: half is faster and holds values "
+                        "up to 65504; auto takes it where rounding to it does no harm, and float "
+                        "for precision double.",
+                .choices = GLINT_CHOICES([GLINT_TEXELS_AUTO] = "auto", [GLINT_TEXELS_HALF] = "half",
+                                         [GLINT_TEXELS_FLOAT] = "float")},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(texels),
+     .key = "texels",
+     .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS},
+    {.option = {GLINT_OPTION_CHOICE, .name = "filter", .argument = "KIND",
+                .help = "How the environment is taken along a direction: bilinear, between the "
+                        "four nearest texels; mip, averaged over what a pixel sees of it, so that "
+                        "fine or bright detail does not sparkle in curved mirrors and glass.",
+                .choices = GLINT_CHOICES([GLINT_FILTER_BILINEAR] = "bilinear", [GLINT_FILTER_MIP] =
+                                                                                   "mip")},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(filter),
+     .fingerprint = 11,
+     .key = "filter",
+     .roles = GLINT_SETTING_IS_COMPARED},
+    {.option = {GLINT_OPTION_CHOICE, .name = "irradiance", .argument = "KIND",
+                .help = "What lights matte paint: exact, a map that is computed of the whole "
+                        "environment; sh, its nine spherical harmonics, which take less time and "
+                        "are off where a light is small.",
+                .choices = GLINT_CHOICES([GLINT_IRRADIANCE_EXACT] = "exact", [GLINT_IRRADIANCE_SH] =
+                                                                                 "sh")},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(irradiance),
+     .fingerprint = 13,
+     .key = "irradiance",
+     .roles = GLINT_SETTING_WEIGHS_ERRORS},
+    {.option = {GLINT_OPTION_CHOICE, .name = "shading", .argument = "RATE",
+                .help = "Where the environment is looked up: pixel, at what each pixel's rays "
+                        "meet; vertex-direction, along directions that are found at the "
+                        "triangles' vertices and interpolated; vertex-color, at the vertices, "
+                        "whose colours are interpolated. At vertices surfaces see nothing but the "
+                        "environment.",
+                .choices = shadings},
+     .group = GLINT_SETTINGS_OF_FRAME,
+     MEMBER(shading),
+     .fingerprint = 15,
+     .key = "shading",
+     .no_capture = "a capture shows what surfaces see of each other, which vertices do not",
+     .roles = GLINT_SETTING_WEIGHS_ERRORS},
+    {.option = {GLINT_OPTION_ONE_OF, .name = "kernel-width", .argument = "LANES",
+                .help = "Rays that the kernel works on at once, for measurements: 1, 8 or 16.",
+                .fallback = "chosen for the device", .zero = "auto",
+                .choices = GLINT_CHOICES("1", "8", "16")},
+     .group = GLINT_SETTINGS_OF_DEVICE,
+     MEMBER(kernel_width),
+     .key = "kernel_width"},
+    {.option = {GLINT_OPTION_ONE_OF, .name = "kernel-tile", .argument = "PACKETS",
+                .help = "Packets whose primary rays the kernel traces together, for measurements: "
+                        "1 or 16.",
+                .fallback = "chosen for the device", .zero = "auto",
+                .choices = GLINT_CHOICES("1", "16")},
+     .group = GLINT_SETTINGS_OF_DEVICE,
+     MEMBER(tile_packets),
+     .key = "kernel_tile"},
+    {.option = {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
+                .help = "Layers that tell what became of each pixel's paths, as further channels "
+                        "of the EXR: depth (surfaces that the longest met), tir (total "
+                        "reflections), truncated (weight that was not traced to its end), triangle "
+                        "and material (what the primary ray met), face (of the environment, where "
+                        "the heaviest look-up fell); with commas between them, or all. With "
+                        "several samples depth is the maximum, tir and truncated are means, the "
+                        "others numbers from 0, −1 for none, of the sample in the middle.",
+                .parse = parse_aovs},
+     .group = GLINT_SETTINGS_OF_LAYERS,
+     MEMBER(aovs),
+     .fingerprint = 12,
+     .roles = GLINT_SETTING_VARIES,
+     .print = print_aovs},
+    {.option = {GLINT_OPTION_INT, .name = "directions", .argument = "K",
+                .help = "Keep of each pixel the K heaviest directions that its paths leave along, "
+                        "with their weights, as further channels of the EXR: for glint relight.",
+                .minimum = 1, .maximum = GLINT_TERMS_MAX},
+     .group = GLINT_SETTINGS_OF_LAYERS,
+     MEMBER(terms),
+     .fingerprint = 14,
+     .roles = GLINT_SETTING_VARIES},
+    {.option = {GLINT_OPTION_CHOICE,
+                .choices =
+                    GLINT_CHOICES([GLINT_OUTPUT_COLOR] = "colours", [GLINT_OUTPUT_HITS] = "hits")},
+     MEMBER(output),
+     .fingerprint = 10},
+    {.option = {GLINT_OPTION_FLAG, .name = "proxy"}, MEMBER(proxy), .fingerprint = 16},
+    {.option = {GLINT_OPTION_INT},
+     MEMBER(grid_step),
+     .fingerprint = 17,
+     .roles = GLINT_SETTING_VARIES},
+    {.option = {GLINT_OPTION_FLAG}, MEMBER(truncation_squares), .roles = GLINT_SETTING_VARIES},
+    {.option = {GLINT_OPTION_FLAG}, MEMBER(all_features)},
+    {.option = {GLINT_OPTION_INT}, MEMBER(build_tag)},
+};
+
+const size_t glint_setting_count = sizeof glint_setting_table / sizeof *glint_setting_table;
+
+const glint_exclusion glint_exclusion_table[] = {
+    {OF(samples_per_axis), OF(output), "are of one sample a pixel"},
+    {OF(aovs), OF(output), "have no paths"},
+    {OF(terms), OF(output), "have no paths"},
+    {OF(terms), OF(filter), "needs what a pixel sees around a direction, which is not kept"},
+    {OF(filter), OF(shading), "shades vertices, which see no part of the environment"},
+    {OF(aovs), OF(shading), "shades vertices, and layers tell of pixels"},
+    {OF(terms), OF(shading), "shades vertices, and directions are kept of pixels"},
+    {OF(proxy), OF(filter), "takes more than points, for which alone rays find a proxy"},
+    {OF(proxy), OF(terms), "keeps directions, and places are what a proxy needs"},
+    {OF(proxy), OF(shading), "shades vertices, and pixels are what a proxy is found for"},
+    // Double precision is what single precision is mended with.
+    {OF(mend), OF(precision), "has nothing to mend"},
+    {OF(mend), OF(shading), "has nothing to mend"},
+    {OF(mend), OF(output), "have nothing to mend"},
+};
+
+const size_t glint_exclusion_count = sizeof glint_exclusion_table / sizeof *glint_exclusion_table;
+
+const char *glint_shading_name(glint_shading shading)
+{
+    return shadings[shading];
+}
+
+// ---- Reading it --------------------------------------------------------------------------------
+
+const glint_setting *glint_setting_at(size_t offset)
+{
+    const glint_setting *setting = glint_setting_table;
+    while (setting->offset != offset) {
+        setting++;
+    }
+    return setting;
+}
+
+size_t glint_setting_destination(const glint_setting *setting)
+{
+    return setting->option.kind == GLINT_OPTION_CUSTOM ? 0 : setting->offset;
+}
+
+// A default out of the range, as 0 directions are, is to leave the option out.
+static bool has_a_default(const glint_setting *setting)
+{
+    const glint_option *option = &setting->option;
+    const double usual = glint_setting_number(setting, &glint_settings_default, 0);
+    return option->kind != GLINT_OPTION_INT || option->zero != NULL || usual >= option->minimum;
+}
+
+bool glint_settings_option(glint_settings_group group, size_t index, size_t offset,
+                           glint_option *option, char text[GLINT_SETTING_TEXT])
+{
+    const glint_setting *end = glint_setting_table + glint_setting_count;
+    const glint_setting *setting = glint_setting_table;
+    while (setting < end && (setting->group != group || index-- > 0)) {
+        setting++;
+    }
+    if (setting == end) {
+        return false;
+    }
+    *option = setting->option;
+    option->offset = offset + glint_setting_destination(setting);
+    glint_setting_print(setting, &glint_settings_default, text);
+    if (option->fallback == NULL && has_a_default(setting) && text[0] != '\0') {
+        option->fallback = text;
+    }
+    return true;
+}
+
+static size_t size_of_type(glint_setting_type type)
+{
+    static const size_t sizes[] = {
+        [GLINT_SETTING_BOOL] = sizeof(bool),
+        [GLINT_SETTING_INT] = sizeof(int),
+        [GLINT_SETTING_UNSIGNED] = sizeof(unsigned),
+        [GLINT_SETTING_REAL] = sizeof(double),
+    };
+    return sizes[type];
+}
+
+size_t glint_setting_number_count(const glint_setting *setting)
+{
+    return setting->size / size_of_type(setting->type);
+}
+
+double glint_setting_number(const glint_setting *setting, const glint_settings *settings, size_t i)
+{
+    const void *member = (const char *)settings + setting->offset;
+    switch (setting->type) {
+    case GLINT_SETTING_BOOL:
+        return ((const bool *)member)[i] ? 1 : 0;
+    case GLINT_SETTING_INT:
+        return ((const int *)member)[i];
+    case GLINT_SETTING_UNSIGNED:
+        return ((const unsigned *)member)[i];
+    case GLINT_SETTING_REAL:
+        return ((const double *)member)[i];
+    }
+    return 0;
+}
+
+bool glint_setting_differs(const glint_setting *setting, const glint_settings *a,
+                           const glint_settings *b)
+{
+    return memcmp((const char *)a + setting->offset, (const char *)b + setting->offset,
+                  setting->size) != 0;
+}
+
+const glint_setting *glint_settings_find_changed(const glint_settings *settings, unsigned roles)
+{
+    for (size_t i = 0; i < glint_setting_count; i++) {
+        const glint_setting *setting = &glint_setting_table[i];
+        if ((setting->roles & roles) != 0 &&
+            glint_setting_differs(setting, settings, &glint_settings_default)) {
+            return setting;
+        }
+    }
+    return NULL;
+}
+
+// With as few digits as give the same number again.
+static void print_real(double number, char text[GLINT_SETTING_TEXT])
+{
+    int digits = 6;
+    do {
+        snprintf(text, GLINT_SETTING_TEXT, "%.*g", digits, number);
+    } while (digits++ < 17 && strtod(text, NULL) != number);
+}
+
+void glint_setting_print(const glint_setting *setting, const glint_settings *settings,
+                         char text[GLINT_SETTING_TEXT])
+{
+    const glint_option *option = &setting->option;
+    const double number = glint_setting_number(setting, settings, 0);
+    if (setting->print != NULL) {
+        setting->print(settings, text);
+    } else if (option->kind == GLINT_OPTION_SIZE) {
+        snprintf(text, GLINT_SETTING_TEXT, "%dx%d", settings->width, settings->height);
+    } else if (option->zero != NULL && number == 0) {
+        snprintf(text, GLINT_SETTING_TEXT, "%s", option->zero);
+    } else if (option->kind == GLINT_OPTION_CHOICE) {
+        size_t count = 0;
+        while (option->choices[count] != NULL) {
+            count++;
+        }
+        snprintf(text, GLINT_SETTING_TEXT, "%s",
+                 number < (double)count ? option->choices[(size_t)number] : "unknown");
+    } else {
+        print_real(number, text);
+    }
+}
+
+void glint_setting_print_name(const glint_setting *setting, const glint_settings *settings,
+                              char text[GLINT_SETTING_TEXT])
+{
+    const glint_option *option = &setting->option;
+    char value[GLINT_SETTING_TEXT];
+    glint_setting_print(setting, settings, value);
+    const bool is_word = option->kind == GLINT_OPTION_CHOICE || option->kind == GLINT_OPTION_CUSTOM;
+    if (option->name == NULL) {
+        snprintf(text, GLINT_SETTING_TEXT, "%s", value);
+    } else {
+        snprintf(text, GLINT_SETTING_TEXT, "--%s%s%.100s", option->name, is_word ? " " : "",
+                 is_word ? value : "");
+    }
+}
