@@ -122,7 +122,8 @@ static void all_may_go(void **state)
 
 static void what_is_not_there_is_refused(void **state)
 {
-    const char *const wrong[] = {"none", "9", "-1", "", "in,", ",in", "in,none", "1.5", "in group"};
+    const char *const wrong[] = {"none", "9",        "-1", "",   "in,", ",in",  "in,none",
+                                 "1.5",  "in group", " 1", "1 ", "0x1", "in, 1"};
     glint_scene scene = load(state);
     glint_vec3 middle = {1, 2, 3};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

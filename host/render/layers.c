@@ -45,18 +45,18 @@ static uint32_t aov_by_name(const char *name)
 static glint_status fail_unknown(const char *option, const char *name, glint_error *error)
 {
     const char *words[GLINT_AOV_COUNT + 2] = {"all"};
-    char list[128];
+    char list[128] = "all";
     for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        const size_t length = strlen(list);
         words[i + 1] = known[i].name;
+        snprintf(list + length, sizeof list - length, ", %s", known[i].name);
     }
     const char *nearest = glint_nearest_word(name, words);
-    if (nearest != NULL) {
-        return glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (did you mean %s?)",
-                          option, name, nearest);
-    }
-    glint_aovs_print(GLINT_AOV_ALL, list, sizeof list);
-    return glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (there are %s, or all)",
-                      option, name, list);
+    return nearest != NULL
+               ? glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (did you mean %s?)",
+                            option, name, nearest)
+               : glint_fail(error, GLINT_USAGE, "--%s: there is no layer '%s' (there are %s)",
+                            option, name, list);
 }
 
 glint_status glint_aovs_parse(const char *option, const char *text, uint32_t *aovs,

@@ -2,6 +2,7 @@
 #include "scene/subset.h"
 
 #include "base/memory.h"
+#include "base/option.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +12,7 @@
 // Whether an instance is of a node, or of one under it: by the node's name, or by its index where
 // `name` is NULL.
 static bool stands_under(const glint_scene *scene, const glint_instance *instance, const char *name,
-                         long index)
+                         long long index)
 {
     int at = instance->node_index;
     while (scene->nodes != NULL && at >= 0) {
@@ -24,7 +25,7 @@ static bool stands_under(const glint_scene *scene, const glint_instance *instanc
     return scene->nodes == NULL && name == NULL && instance->node_index == index;
 }
 
-static bool mark_by(const glint_scene *scene, const char *name, long index, bool *is_marked)
+static bool mark_by(const glint_scene *scene, const char *name, long long index, bool *is_marked)
 {
     bool is_found = false;
     for (size_t i = 0; i < scene->instance_count; i++) {
@@ -51,11 +52,10 @@ static bool mark(const glint_scene *scene, const char *node, bool *is_marked)
     if (has_name(scene, node)) {
         return mark_by(scene, node, 0, is_marked) || scene->moves;
     }
-    char *rest;
-    const long index = strtol(node, &rest, 10);
-    const bool is_index = rest != node && *rest == '\0';
-    return is_index && (mark_by(scene, NULL, index, is_marked) ||
-                        (scene->moves && index >= 0 && index < (long)scene->node_count));
+    long long index;
+    return glint_parse_int(node, &index) &&
+           (mark_by(scene, NULL, index, is_marked) ||
+            (scene->moves && index >= 0 && index < (long long)scene->node_count));
 }
 
 static glint_status refuse(const glint_scene *scene, const char *node, glint_error *error)

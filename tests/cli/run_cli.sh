@@ -111,8 +111,8 @@ refuses 2 '--help takes no value' info in/mirror.gltf --help=x
 refuses 2 'did you mean --help?' info in/mirror.gltf --hel
 refuses 2 '--output' render in/mirror.gltf -o
 refuses 2 '--output' render in/mirror.gltf -o ''
-for option in env env-layout ball-circle ball-distance ball-fov env-flip env-rotate camera scene size samples depth min-weight background \
-    precision mend texels device kernel-width exposure compression exr-type aov stats progress kernel-dir; do
+for option in env env-layout ball-circle ball-distance ball-fov env-flip camera scene device exposure \
+    compression exr-type stats progress kernel-dir $(settings_of environment size frame device layers); do
     refuses 2 "--$option" render "${ok[@]}" "--$option"
 done
 for size in 0x10 10x0 -4x4 10 x10 10x 10x10x10 1.5x2 axb 100000x10 99999999999999999999x1 '10 x10'; do

@@ -71,6 +71,23 @@ static glint_status check_new_folder(const char *folder, glint_error *error)
     return status;
 }
 
+static glint_status check_face(const char *output, int k, bool is_there,
+                               const glint_write_options *options, glint_error *error)
+{
+    char *path = env_output_face_path(output, k);
+    if (path == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_image_check_output(path, options, error));
+    if (is_there) {
+        status = glint_output_file_check(path, error);
+    }
+cleanup:
+    free(path);
+    return status;
+}
+
 static glint_status check_faces(const char *output, const glint_write_options *options,
                                 glint_error *error)
 {
@@ -86,17 +103,13 @@ static glint_status check_faces(const char *output, const glint_write_options *o
                           "with %%s, or another layout: --to)",
                           output);
     }
-    glint_status status = is_there ? GLINT_OK : check_new_folder(output, error);
-    for (int k = 0; status == GLINT_OK && k < 6; k++) {
-        char *path = env_output_face_path(output, k);
-        status = path == NULL ? glint_fail_memory(error, "a file name")
-                              : glint_image_check_output(path, options, error);
-        if (status == GLINT_OK && is_there) {
-            status = glint_output_file_check(path, error);
-        }
-        free(path);
+    if (!is_there) {
+        TRY(check_new_folder(output, error));
     }
-    return status;
+    for (int k = 0; k < 6; k++) {
+        TRY(check_face(output, k, is_there, options, error));
+    }
+    return GLINT_OK;
 }
 
 // ---- Pictures -----------------------------------------------------------------------------------
@@ -155,8 +168,8 @@ glint_status env_output_open(const env_output_request *request, const char *path
         request->to == GLINT_LAYOUT_FACES ||
         (request->to == GLINT_LAYOUT_UNKNOWN && (is_set || source == GLINT_LAYOUT_FACES));
     if (output->as_faces) {
-        glint_status status = check_faces(path, &options, error);
-        return status == GLINT_OK ? check_size(output, error) : status;
+        TRY(check_faces(path, &options, error));
+        return check_size(output, error);
     }
     if (is_set) {
         return glint_fail(error, GLINT_USAGE,
@@ -164,11 +177,9 @@ glint_status env_output_open(const env_output_request *request, const char *path
                           path, strstr(path, "%s") != NULL ? "pattern" : "folder",
                           glint_layout_name(request->to));
     }
-    glint_status status = glint_image_check_output(path, &options, error);
-    if (status == GLINT_OK) {
-        status = glint_output_file_check(path, error);
-    }
-    return status == GLINT_OK ? check_size(output, error) : status;
+    TRY(glint_image_check_output(path, &options, error));
+    TRY(glint_output_file_check(path, error));
+    return check_size(output, error);
 }
 
 static glint_write_options write_options(const env_output *output, const glint_image *image)
@@ -188,48 +199,51 @@ static glint_write_options write_options(const env_output *output, const glint_i
 static glint_status cut_face(const glint_image *strip, int k, glint_image *face, glint_error *error)
 {
     const int edge = strip->width;
-    glint_status status = glint_image_create(edge, edge, strip->channels, face, error);
-    if (status == GLINT_OK) {
-        const size_t values = (size_t)edge * (size_t)edge * (size_t)strip->channels;
-        memcpy(face->pixels, strip->pixels + (size_t)k * values, values * sizeof *face->pixels);
+    const size_t values = (size_t)edge * (size_t)edge * (size_t)strip->channels;
+    TRY(glint_image_create(edge, edge, strip->channels, face, error));
+    memcpy(face->pixels, strip->pixels + (size_t)k * values, values * sizeof *face->pixels);
+    return GLINT_OK;
+}
+
+static glint_status write_face(const env_output *output, const glint_image *strip, int k,
+                               const glint_write_options *options, glint_error *error)
+{
+    glint_image face = {0};
+    char *path = env_output_face_path(output->path, k);
+    if (path == NULL) {
+        return glint_fail_memory(error, "a file name");
     }
+    glint_status status;
+    TRY_OR(cleanup, status, cut_face(strip, k, &face, error));
+    status = glint_image_write(path, &face, options, error);
+cleanup:
+    glint_image_free(&face);
+    free(path);
     return status;
 }
 
 static glint_status write_faces(const env_output *output, const glint_image *strip,
-                                glint_error *error)
+                                const glint_write_options *options, glint_error *error)
 {
-    const glint_write_options options = write_options(output, strip);
-    glint_status status =
-        strstr(output->path, "%s") == NULL ? make_folder(output->path, error) : GLINT_OK;
-    for (int k = 0; status == GLINT_OK && k < 6; k++) {
-        glint_image face = {0};
-        char *path = env_output_face_path(output->path, k);
-        status = path != NULL ? cut_face(strip, k, &face, error)
-                              : glint_fail_memory(error, "a file name");
-        if (status == GLINT_OK) {
-            status = glint_image_write(path, &face, &options, error);
-        }
-        glint_image_free(&face);
-        free(path);
+    if (strstr(output->path, "%s") == NULL) {
+        TRY(make_folder(output->path, error));
     }
-    return status;
+    for (int k = 0; k < 6; k++) {
+        TRY(write_face(output, strip, k, options, error));
+    }
+    return GLINT_OK;
 }
 
 glint_status env_output_write(env_output *output, const glint_sampler *from, const glint_turn *turn,
                               glint_error *error)
 {
     glint_image image = {0};
-    glint_status status = choose_chart(output, &from->chart, error);
-    if (status == GLINT_OK) {
-        status = glint_resample(from, turn, &output->chart, &image, error);
-    }
-    if (status == GLINT_OK && output->as_faces) {
-        status = write_faces(output, &image, error);
-    } else if (status == GLINT_OK) {
-        const glint_write_options options = write_options(output, &image);
-        status = glint_image_write(output->path, &image, &options, error);
-    }
+    TRY(choose_chart(output, &from->chart, error));
+    TRY(glint_resample(from, turn, &output->chart, &image, error));
+    const glint_write_options options = write_options(output, &image);
+    const glint_status status = output->as_faces
+                                    ? write_faces(output, &image, &options, error)
+                                    : glint_image_write(output->path, &image, &options, error);
     glint_image_free(&image);
     return status;
 }

@@ -18,10 +18,8 @@ glint_status glint_write_json(const char *path, json_t *root, glint_error *error
         return glint_json_write(path, root, error);
     }
     char *text = NULL;
-    glint_status status = glint_json_print(root, &text, error);
-    if (status == GLINT_OK) {
-        fputs(text, stdout);
-    }
+    TRY(glint_json_print(root, &text, error));
+    fputs(text, stdout);
     free(text);
-    return status;
+    return GLINT_OK;
 }
