@@ -415,6 +415,32 @@ static void bounds_are_those_of_the_whole_clip(void **state)
     glint_scene_close(source);
 }
 
+// The linker sends the program's calls here (tests/CMakeLists.txt).
+bool __real_glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera);
+bool __wrap_glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera);
+static int cameras_placed;
+
+bool __wrap_glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera)
+{
+    cameras_placed++;
+    return __real_glint_camera_from_matrix(to_world, camera);
+}
+
+// A walk of the scene places its camera: to open a file whose clip has many keys takes no walk a
+// key, or large scenes would open slowly.
+static void opening_does_not_walk_the_scene_at_each_key(void **state)
+{
+    cameras_placed = 0;
+    glint_scene_source *source = open_text(*state, moving_text(CLIP, 6), NULL, GLINT_OK, NULL);
+    assert_true(glint_scene_motion(source)->moves_triangles);
+    assert_true(cameras_placed <= 1);
+    glint_scene scene;
+    assert_int_equal(glint_scene_at(source, 1, &scene, NULL, NULL), GLINT_OK);
+    assert_true(cameras_placed >= 1 && cameras_placed <= 2);
+    glint_scene_free(&scene);
+    glint_scene_close(source);
+}
+
 // ---- Mistakes ----------------------------------------------------------------------------------
 
 #define ONE_CHANNEL(samplers, channel)                                                             \
@@ -511,6 +537,7 @@ int main(void)
         cmocka_unit_test(short_integers_are_turns_too),
         cmocka_unit_test(clips_are_chosen_by_name_and_index),
         cmocka_unit_test(bounds_are_those_of_the_whole_clip),
+        cmocka_unit_test(opening_does_not_walk_the_scene_at_each_key),
         cmocka_unit_test(damaged_animations_are_refused),
         cmocka_unit_test(keys_that_make_no_sense_are_refused),
         cmocka_unit_test(what_is_not_animated_is_said),

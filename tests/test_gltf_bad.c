@@ -203,8 +203,10 @@ static const bad_case cases[] = {
      "\"KHR_draco_mesh_compression\" is required by the file and not supported"},
     {GOOD ",\"extensionsRequired\":\"KHR_materials_ior\"", "extensionsRequired: the text"},
     {GOOD ",\"images\":[{}]", "images[0]: neither a uri nor a bufferView"},
-    {GOOD ",\"images\":[{\"uri\":\"missing.png\"}]",
-     "images[0].uri: \"missing.png\" cannot be open"},
+    {GOOD ",\"images\":[{\"uri\":\"http://example.org/a.png\"}]",
+     "images[0].uri: \"http://example.org/a.png\": http: is not read"},
+    {GOOD ",\"images\":[{\"uri\":\"/dev/zero\"}]", "images[0].uri: \"/dev/zero\" lies outside"},
+    {GOOD ",\"images\":[{\"uri\":\".\"}]", "images[0].uri: \".\": it is a folder"},
     {GOOD ",\"images\":[{\"bufferView\":9}]",
      "images[0].bufferView: 9: there is no such bufferView"},
     {GOOD ",\"textures\":[{\"source\":0}]", "textures[0].source: 0: there is no such image"},
@@ -445,6 +447,18 @@ static void a_long_name_does_not_push_the_cause_out(void **state)
     free(whole);
 }
 
+// glint reads no images yet: one that is missing keeps nobody from the geometry.
+static void a_missing_image_refuses_nothing(void **state)
+{
+    glint_scene scene =
+        load_rest(*state, &the_tetrahedron, sizeof the_tetrahedron,
+                  GOOD ",\"images\":[{\"uri\":\"missing.png\"},{\"uri\":\"no/such/folder.png\"}],"
+                       "\"textures\":[{\"source\":0},{\"source\":1}],\"materials\":[{"
+                       "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}]");
+    assert_int_equal(scene.triangle_count, 4);
+    glint_scene_free(&scene);
+}
+
 // Loads whatever it is; anything but a crash, a hang or silence will do.
 static void load_anything(const char *path)
 {
@@ -545,6 +559,7 @@ int main(void)
         cmocka_unit_test(hostile_graphs_take_no_time),
         cmocka_unit_test(small_files_cannot_ask_for_the_world),
         cmocka_unit_test(a_long_name_does_not_push_the_cause_out),
+        cmocka_unit_test(a_missing_image_refuses_nothing),
         cmocka_unit_test(damaged_files_are_refused_or_loaded),
         cmocka_unit_test(the_folder_of_bad_files_gets_a_line_each),
     };

@@ -3,8 +3,6 @@
 // what a scene refers to must lie under its folder.
 #include "scene/gltf_file.hpp"
 
-#include "scene/gltf_uri.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -37,8 +35,13 @@ class File
             close(descriptor_);
         }
     }
+    File(File &&other) noexcept : descriptor_(other.descriptor_), size_(other.size_)
+    {
+        other.descriptor_ = -1;
+    }
     File(const File &) = delete;
     File &operator=(const File &) = delete;
+    File &operator=(File &&) = delete;
 
     // Empty when the file can be read; else why not.
     std::string trouble()
@@ -259,14 +262,25 @@ std::string folder_of(const std::string &path)
     return result;
 }
 
-Bytes read_external(const Document &document, const std::string &uri, const Place &place,
-                    std::uint64_t length)
+File open_regular(const std::string &path, const std::string &uri, const Place &place)
 {
-    File file(resolve_uri(document.folder, uri, place));
+    File file(path);
     std::string trouble = file.trouble();
     if (!trouble.empty()) {
         refuse(place, in_quotes(uri) + ": " + trouble);
     }
+    return file;
+}
+
+Bytes read_external(const Document &document, const std::string &uri, const Place &place,
+                    std::uint64_t length)
+{
+    const std::string path = find_uri(document.folder, uri, place);
+    if (path.empty()) {
+        refuse(place, in_quotes(uri) + " cannot be opened: " + std::strerror(errno) +
+                          " (put the file beside the scene)");
+    }
+    const File file = open_regular(path, uri, place);
     if (file.size() < length) {
         refuse(place, in_quotes(uri) + " has " + counted(file.size(), "byte") +
                           ", byteLength says " + std::to_string(length) +
@@ -353,13 +367,10 @@ void read_buffers(Document &document)
 
 void check_uri(const Document &document, const std::string &uri, const Place &place)
 {
-    if (is_data_uri(uri)) {
-        return;
-    }
-    File file(resolve_uri(document.folder, uri, place));
-    std::string trouble = file.trouble();
-    if (!trouble.empty()) {
-        refuse(place, in_quotes(uri) + ": " + trouble);
+    const std::string path =
+        is_data_uri(uri) ? std::string() : find_uri(document.folder, uri, place);
+    if (!path.empty()) {
+        open_regular(path, uri, place);
     }
 }
 

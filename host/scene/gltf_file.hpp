@@ -2,15 +2,13 @@
 #ifndef GLINT_SCENE_GLTF_FILE_HPP
 #define GLINT_SCENE_GLTF_FILE_HPP
 
-#include "scene/gltf_json.hpp"
+#include "scene/gltf_uri.hpp"
 
 #include <string>
 #include <vector>
 
 namespace glint
 {
-
-using Bytes = std::vector<unsigned char>;
 
 struct Document {
     std::string path;   // as the user gave it
@@ -29,7 +27,8 @@ void read_document(const char *path, Document &document);
 // JSON as it goes, so that they are not held twice.
 void read_buffers(Document &document);
 
-// Refuses a URI that is neither a data URI nor a regular file under the folder.
+// Refuses a URI that names what must never be opened: what is neither a data URI nor a regular file
+// under the folder. A file that is missing passes.
 void check_uri(const Document &document, const std::string &uri, const Place &place);
 
 } // namespace glint

@@ -4,13 +4,13 @@
 #include "scene/gltf_flatten.hpp"
 
 #include "base/memory.h"
+#include "scene/gltf_bounds.hpp"
 #include "scene/gltf_material.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <limits>
 #include <new>
 
 namespace glint
@@ -72,24 +72,9 @@ bool is_collapsed(const Triangle &triangle)
            equal(triangle[2].local, triangle[0].local);
 }
 
-struct Bounds {
-    glint_vec3 low, high;
-};
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Bounds no_bounds = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-
-void grow(Bounds &bounds, glint_vec3 p)
-{
-    bounds.low = {std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y),
-                  std::min(bounds.low.z, p.z)};
-    bounds.high = {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y),
-                   std::max(bounds.high.z, p.z)};
-}
-
 Bounds measure(const std::vector<Draw> &draws)
 {
-    Bounds bounds = no_bounds;
+    Bounds bounds;
     for (const Draw &draw : draws) {
         for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
             Triangle triangle = corners_of(draw, t, false);
@@ -110,7 +95,7 @@ Bounds measure(const std::vector<Draw> &draws)
                            "its mesh reaches farther than " + shown(farthest) +
                                " m from the origin (use smaller coordinates or scales)");
                 }
-                grow(bounds, p);
+                bounds.grow(p);
             }
         }
     }
@@ -137,7 +122,7 @@ void choose_frame(const Bounds &bounds, glint_scene &scene)
     const glint_vec3 high = bounds.high;
     scene.unit = 1;
     scene.origin = {0, 0, 0};
-    if (!(low.x <= high.x)) {
+    if (bounds.is_empty()) {
         return;
     }
     double half = larger(high.x - low.x, high.y - low.y, high.z - low.z) / 2;

@@ -143,7 +143,7 @@ Bytes decode_data_uri(const std::string &uri, const Place &place)
     return base64 ? base64_decoded(data, 0, place) : Bytes(data.begin(), data.end());
 }
 
-std::string resolve_uri(const std::string &folder, const std::string &uri, const Place &place)
+std::string find_uri(const std::string &folder, const std::string &uri, const Place &place)
 {
     std::string scheme = scheme_of(uri);
     if (!scheme.empty()) {
@@ -162,12 +162,8 @@ std::string resolve_uri(const std::string &folder, const std::string &uri, const
             break;
         }
     }
-    if (found.empty()) {
-        refuse(place, in_quotes(uri) + " cannot be opened: " + std::strerror(errno) +
-                          " (put the file beside the scene)");
-    }
     std::string prefix = folder == "/" ? folder : folder + "/";
-    if (found != folder && found.compare(0, prefix.size(), prefix) != 0) {
+    if (!found.empty() && found != folder && found.compare(0, prefix.size(), prefix) != 0) {
         refuse(place, in_quotes(uri) + " lies outside the scene's folder (put the file beside the "
                                        "scene, or below)");
     }

@@ -2,19 +2,22 @@
 #ifndef GLINT_SCENE_GLTF_URI_HPP
 #define GLINT_SCENE_GLTF_URI_HPP
 
-#include "scene/gltf_file.hpp"
+#include "scene/gltf_json.hpp"
 
 namespace glint
 {
+
+using Bytes = std::vector<unsigned char>;
 
 bool is_data_uri(const std::string &uri);
 
 // The bytes of a data URI (RFC 2397) of any media type, base64 or percent-encoded.
 Bytes decode_data_uri(const std::string &uri, const Place &place);
 
-// The path of the file that a relative reference names, percent-decoded, links resolved. Refuses
-// schemes such as http, what does not exist, and what lies outside the folder.
-std::string resolve_uri(const std::string &folder, const std::string &uri, const Place &place);
+// The path of the file that a relative reference names, percent-decoded, links resolved; empty,
+// with errno set, where there is none. Refuses schemes such as http, and what lies outside the
+// folder.
+std::string find_uri(const std::string &folder, const std::string &uri, const Place &place);
 
 } // namespace glint
 

@@ -59,13 +59,16 @@ constexpr std::array<double, 3> no_move = {0, 0, 0};
 constexpr std::array<double, 4> no_turn = {0, 0, 0, 1};
 constexpr std::array<double, 3> no_scale = {1, 1, 1};
 
-// The node's own value of a property, unless it moves.
-void move(const Moves *moves, Property property, double time, std::vector<double> &value)
+// A property of the node at a time: what its curve says, else what the node says, else `value`.
+template <std::size_t N>
+void take(const std::vector<double> &own, const Moves *moves, Property property, double time,
+          std::array<double, N> &value)
 {
     if (moves != nullptr && !moves->of[property].times.empty()) {
         const glint_curve curve = moves->of[property].view();
-        value.resize(property == rotation ? 4 : 3);
         glint_curve_sample(&curve, time, value.data());
+    } else if (!own.empty()) {
+        std::copy(own.begin(), own.end(), value.begin());
     }
 }
 
@@ -84,7 +87,7 @@ bool ever_moves(const Moves *moves)
            });
 }
 
-glint_mat4 local_matrix(Load &load, std::size_t index, double time)
+glint_mat4 local_matrix(const Load &load, std::size_t index, double time)
 {
     const tinygltf::Node &node = load.model.nodes[index];
     if (!node.matrix.empty()) {
@@ -97,36 +100,14 @@ glint_mat4 local_matrix(Load &load, std::size_t index, double time)
         result.m[3][3] = 1;
         return result;
     }
-    if (!node.rotation.empty()) {
-        double squares = 0;
-        for (double value : node.rotation) {
-            squares += value * value;
-        }
-        if (std::fabs(squares - 1) > 2e-3) {
-            load.tally.add("the rotation is no unit quaternion and is normalized",
-                           node_where(load, index));
-        }
-    }
     const Moves *moves = moves_of(load, index);
-    std::vector<double> shift = node.translation;
-    std::vector<double> turn = node.rotation;
-    std::vector<double> size = node.scale;
-    move(moves, translation, time, shift);
-    move(moves, rotation, time, turn);
-    move(moves, scale, time, size);
-    return from_parts(shift.empty() ? no_move.data() : shift.data(),
-                      turn.empty() ? no_turn.data() : turn.data(),
-                      size.empty() ? no_scale.data() : size.data());
-}
-
-bool is_hidden(const glint_mat4 &matrix)
-{
-    for (const auto &row : {matrix.m[0], matrix.m[1], matrix.m[2]}) {
-        if (row[0] != 0 || row[1] != 0 || row[2] != 0) {
-            return false;
-        }
-    }
-    return true;
+    std::array<double, 3> shift = no_move;
+    std::array<double, 4> turn = no_turn;
+    std::array<double, 3> size = no_scale;
+    take(node.translation, moves, translation, time, shift);
+    take(node.rotation, moves, rotation, time, turn);
+    take(node.scale, moves, scale, time, size);
+    return from_parts(shift.data(), turn.data(), size.data());
 }
 
 const json *instancing_of(const json &node)
@@ -137,49 +118,34 @@ const json *instancing_of(const json &node)
     return found == nullptr ? nullptr : member(*found, "attributes");
 }
 
-// The instances' matrices, relative to the node. More than `most` are refused before any is made: a
-// small file can ask for many.
-std::vector<glint_mat4> instance_matrices(const Load &load, const json &attributes,
-                                          std::size_t most)
+// A property of instance i, or `value` where the attribute is missing.
+template <std::size_t N>
+std::array<double, N> instance_part(const Reader &attribute, std::size_t i,
+                                    std::array<double, N> value)
 {
-    const std::size_t views = objects_of(load.document.root, "bufferViews").size();
-    auto open = [&](const char *key) {
-        const json *accessor = member(attributes, key);
-        return accessor == nullptr ? Reader()
-                                   : Reader(load.model, accessor->get<std::size_t>(), views);
-    };
-    Reader translations = open("TRANSLATION");
-    Reader rotations = open("ROTATION");
-    Reader scales = open("SCALE");
-    std::size_t count =
-        std::max({translations.count(), rotations.count(), scales.count(), std::size_t{1}});
-    if (count > most) {
-        refuse_draws();
+    if (attribute.count() > 0) {
+        attribute.numbers(i, N, value.data());
     }
-    std::vector<glint_mat4> result;
-    result.reserve(count);
-    for (std::size_t i = 0; i < count; i++) {
-        std::array<double, 3> translation = no_move;
-        std::array<double, 4> rotation = no_turn;
-        std::array<double, 3> scale = no_scale;
-        if (translations.count() > 0) {
-            translations.numbers(i, 3, translation.data());
-        }
-        if (rotations.count() > 0) {
-            rotations.numbers(i, 4, rotation.data());
-        }
-        if (scales.count() > 0) {
-            scales.numbers(i, 3, scale.data());
-        }
-        result.push_back(from_parts(translation.data(), rotation.data(), scale.data()));
+    return value;
+}
+
+void survey_rotation(Load &load, std::size_t index, const std::string &where)
+{
+    const std::vector<double> &rotation = load.model.nodes[index].rotation;
+    double squares = 0;
+    for (double value : rotation) {
+        squares += value * value;
     }
-    return result;
+    if (!rotation.empty() && std::fabs(squares - 1) > 2e-3) {
+        load.tally.add("the rotation is no unit quaternion and is normalized", where);
+    }
 }
 
 void survey_node(Load &load, std::size_t index)
 {
     const json &node = objects_of(load.document.root, "nodes")[index];
     std::string where = node_where(load, index);
+    survey_rotation(load, index, where);
     if (member(node, "skin") != nullptr) {
         load.tally.add("skins are not applied, the mesh is shown as it was bound", where);
     }
@@ -224,20 +190,14 @@ void survey_primitive(Load &load, const Primitive &primitive)
 
 void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene)
 {
+    std::vector<glint_mat4> places = instances_of(load, node, load.draws.size());
+    for (glint_mat4 &place : places) {
+        place = glint_mat4_multiply(&to_world, &place);
+    }
+    if (places.empty()) {
+        places.push_back(to_world);
+    }
     auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
-    const json *attributes = instancing_of(objects_of(load.document.root, "nodes")[node]);
-    std::size_t primitives = load.primitives.first[mesh + 1] - load.primitives.first[mesh];
-    std::size_t most = (most_draws - load.draws.size()) / primitives;
-    if (most == 0) {
-        refuse_draws();
-    }
-    std::vector<glint_mat4> places = {to_world};
-    if (attributes != nullptr) {
-        places = instance_matrices(load, *attributes, most);
-        for (glint_mat4 &place : places) {
-            place = glint_mat4_multiply(&to_world, &place);
-        }
-    }
     for (std::size_t i = load.primitives.first[mesh]; i < load.primitives.first[mesh + 1]; i++) {
         const Primitive &primitive = load.primitives.all[i];
         if (primitive.mode < 4) {
@@ -251,8 +211,43 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
     }
 }
 
-void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world,
-                std::vector<glint_camera> &cameras)
+// The names are owned until `give` hands all over.
+class Cameras
+{
+  public:
+    Cameras() = default;
+    Cameras(const Cameras &) = delete;
+    Cameras &operator=(const Cameras &) = delete;
+    ~Cameras()
+    {
+        for (glint_camera &camera : all_) {
+            std::free(camera.name);
+        }
+    }
+
+    void add(const glint_camera &camera, const std::string &name)
+    {
+        all_.push_back(camera);
+        all_.back().name = copy_text(name);
+    }
+
+    void give(glint_scene &scene)
+    {
+        scene.cameras =
+            static_cast<glint_camera *>(glint_allocate(all_.size(), sizeof *scene.cameras));
+        if (scene.cameras == nullptr) {
+            throw std::bad_alloc();
+        }
+        std::copy(all_.begin(), all_.end(), scene.cameras);
+        scene.camera_count = all_.size();
+        all_.clear();
+    }
+
+  private:
+    std::vector<glint_camera> all_;
+};
+
+void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world, Cameras &cameras)
 {
     auto index = static_cast<std::size_t>(load.model.nodes[node].camera);
     const tinygltf::Camera &source = load.model.cameras[index];
@@ -276,8 +271,7 @@ void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world,
         camera.yfov = source.perspective.yfov;
     }
     const std::string &name = load.model.nodes[node].name;
-    cameras.push_back(camera);
-    cameras.back().name = copy_text(name.empty() ? source.name : name);
+    cameras.add(camera, name.empty() ? source.name : name);
 }
 
 std::vector<std::string> names_of(const std::vector<tinygltf::Scene> &scenes)
@@ -326,57 +320,112 @@ char *copy_text(const std::string &text)
     return copy;
 }
 
-void walk_scene(Load &load, const char *name, double time, glint_scene &scene)
+bool is_hidden(const glint_mat4 &matrix)
+{
+    for (const auto &row : {matrix.m[0], matrix.m[1], matrix.m[2]}) {
+        if (row[0] != 0 || row[1] != 0 || row[2] != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::size_t drawn)
+{
+    auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
+    std::size_t primitives = load.primitives.first[mesh + 1] - load.primitives.first[mesh];
+    std::size_t most = (most_draws - drawn) / primitives;
+    if (most == 0) {
+        refuse_draws();
+    }
+    std::vector<glint_mat4> result;
+    const json *attributes = instancing_of(objects_of(load.document.root, "nodes")[node]);
+    if (attributes == nullptr) {
+        return result;
+    }
+    const std::size_t views = objects_of(load.document.root, "bufferViews").size();
+    auto open = [&](const char *key) {
+        const json *accessor = member(*attributes, key);
+        return accessor == nullptr ? Reader()
+                                   : Reader(load.model, accessor->get<std::size_t>(), views);
+    };
+    Reader translations = open("TRANSLATION");
+    Reader rotations = open("ROTATION");
+    Reader scales = open("SCALE");
+    std::size_t count =
+        std::max({translations.count(), rotations.count(), scales.count(), std::size_t{1}});
+    if (count > most) { // before any is made: a small file can ask for many
+        refuse_draws();
+    }
+    result.reserve(count);
+    for (std::size_t i = 0; i < count; i++) {
+        result.push_back(from_parts(instance_part(translations, i, no_move).data(),
+                                    instance_part(rotations, i, no_turn).data(),
+                                    instance_part(scales, i, no_scale).data()));
+    }
+    return result;
+}
+
+void choose_nodes(Load &load, const char *name)
 {
     struct Step {
         int node;
-        glint_mat4 parent;
-        bool moves;
+        std::ptrdiff_t parent;
     };
-    load.draws.clear();
     std::vector<Step> stack;
     std::vector<int> roots = find_roots(load, name);
     for (auto it = roots.rbegin(); it != roots.rend(); ++it) {
-        stack.push_back({*it, glint_mat4_identity, false});
+        stack.push_back({*it, -1});
     }
-    std::vector<glint_camera> cameras;
-    try {
-        while (!stack.empty()) {
-            Step step = stack.back();
-            stack.pop_back();
-            auto index = static_cast<std::size_t>(step.node);
-            const tinygltf::Node &node = load.model.nodes[index];
-            glint_mat4 local = local_matrix(load, index, time);
-            glint_mat4 to_world = glint_mat4_multiply(&step.parent, &local);
-            bool moves = step.moves || ever_moves(moves_of(load, index));
-            load.moves_triangles = load.moves_triangles || (moves && node.mesh >= 0);
-            load.moves_cameras = load.moves_cameras || (moves && node.camera >= 0);
-            survey_node(load, index);
-            if (node.camera >= 0) {
-                add_camera(load, index, to_world, cameras);
-            }
-            if (node.mesh >= 0 && is_hidden(to_world)) {
-                load.tally.add("a scale of 0 hides the mesh", node_where(load, index));
-            } else if (node.mesh >= 0) {
-                draw_mesh(load, index, to_world, scene);
-            }
-            for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
-                stack.push_back({*it, to_world, moves});
-            }
+    while (!stack.empty()) {
+        const Step step = stack.back();
+        stack.pop_back();
+        auto index = static_cast<std::size_t>(step.node);
+        const tinygltf::Node &node = load.model.nodes[index];
+        const bool moves =
+            ever_moves(moves_of(load, index)) ||
+            (step.parent >= 0 && load.visits[static_cast<std::size_t>(step.parent)].moves);
+        load.moves_triangles = load.moves_triangles || (moves && node.mesh >= 0);
+        load.moves_cameras = load.moves_cameras || (moves && node.camera >= 0);
+        const auto here = static_cast<std::ptrdiff_t>(load.visits.size());
+        load.visits.push_back({index, step.parent, moves});
+        for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
+            stack.push_back({*it, here});
         }
-        scene.cameras =
-            static_cast<glint_camera *>(glint_allocate(cameras.size(), sizeof *scene.cameras));
-        if (scene.cameras == nullptr) {
-            throw std::bad_alloc();
-        }
-    } catch (...) {
-        for (glint_camera &camera : cameras) {
-            std::free(camera.name);
-        }
-        throw;
     }
-    std::copy(cameras.begin(), cameras.end(), scene.cameras);
-    scene.camera_count = cameras.size();
+}
+
+glint_mat4 place_node(const Load &load, std::size_t visit, double time,
+                      const std::vector<glint_mat4> &placed)
+{
+    const Visit &at = load.visits[visit];
+    const glint_mat4 local = local_matrix(load, at.node, time);
+    const glint_mat4 &parent =
+        at.parent < 0 ? glint_mat4_identity : placed[static_cast<std::size_t>(at.parent)];
+    return glint_mat4_multiply(&parent, &local);
+}
+
+void walk_scene(Load &load, double time, glint_scene &scene)
+{
+    load.draws.clear();
+    std::vector<glint_mat4> placed;
+    placed.reserve(load.visits.size());
+    Cameras cameras;
+    for (std::size_t i = 0; i < load.visits.size(); i++) {
+        placed.push_back(place_node(load, i, time, placed));
+        const std::size_t index = load.visits[i].node;
+        const tinygltf::Node &node = load.model.nodes[index];
+        survey_node(load, index);
+        if (node.camera >= 0) {
+            add_camera(load, index, placed[i], cameras);
+        }
+        if (node.mesh >= 0 && is_hidden(placed[i])) {
+            load.tally.add("a scale of 0 hides the mesh", node_where(load, index));
+        } else if (node.mesh >= 0) {
+            draw_mesh(load, index, placed[i], scene);
+        }
+    }
+    cameras.give(scene);
 }
 
 } // namespace glint

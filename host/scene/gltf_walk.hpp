@@ -1,4 +1,4 @@
-// The node walk: from a scene's roots to what is drawn where, and the cameras.
+// The node walk: which nodes a scene shows, where they stand, what they draw, and the cameras.
 #ifndef GLINT_SCENE_GLTF_WALK_HPP
 #define GLINT_SCENE_GLTF_WALK_HPP
 
@@ -11,6 +11,13 @@
 
 namespace glint
 {
+
+// A node that the chosen scene shows.
+struct Visit {
+    std::size_t node;
+    std::ptrdiff_t parent; // a Visit; −1: a root
+    bool moves;            // over time, by itself or with a parent
+};
 
 // A primitive at a node (or at one of the node's instances).
 struct Draw {
@@ -26,14 +33,29 @@ struct Load {
     tinygltf::Model model;
     Primitives primitives;
     Clips clips;
+    std::vector<Visit> visits; // depth first: parents come before their children
     std::vector<Draw> draws;
     bool moves_triangles = false, moves_cameras = false; // over time, some of those that are drawn
     Tally tally;
 };
 
-// Fills load.draws, scene.cameras and the counts of what is skipped, depth first, as they are at
-// `time` (seconds). `name` is a scene's name or index, or NULL for the file's default.
-void walk_scene(Load &load, const char *name, double time, glint_scene &scene);
+// Fills load.visits, and what moves. `name` is a scene's name or index, or NULL for the file's
+// default.
+void choose_nodes(Load &load, const char *name);
+
+// Where a chosen node stands at `time` (seconds), given where those before it do.
+glint_mat4 place_node(const Load &load, std::size_t visit, double time,
+                      const std::vector<glint_mat4> &placed);
+
+// Whether a node with this matrix draws nothing.
+bool is_hidden(const glint_mat4 &matrix);
+
+// The places of a node's instances, relative to the node; empty where it is not instanced. Refuses
+// more than fit, where `drawn` primitives are drawn already. The node must have a mesh.
+std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::size_t drawn);
+
+// Fills load.draws, scene.cameras and the counts of what is skipped, as they are at `time`.
+void walk_scene(Load &load, double time, glint_scene &scene);
 
 // A malloc'd copy; NULL for an empty text.
 char *copy_text(const std::string &text);

@@ -47,19 +47,6 @@ void glint_scene_shown_bounds(const glint_scene *scene, glint_vec3 *low, glint_v
     *high = scene->moves ? scene->swept_high : scene->high;
 }
 
-glint_status glint_scene_load(const char *path, const glint_scene_options *options,
-                              glint_scene *scene, glint_warnings *warnings, glint_error *error)
-{
-    *scene = (glint_scene){0};
-    glint_scene_source *source;
-    glint_status status = glint_scene_open(path, options, &source, error);
-    if (status == GLINT_OK) {
-        status = glint_scene_at(source, 0, scene, warnings, error);
-    }
-    glint_scene_close(source);
-    return status;
-}
-
 // 0 "main", 1, 2 "top" and so on, as much of it as fits.
 static void list_cameras(const glint_scene *scene, char *text, size_t capacity)
 {
