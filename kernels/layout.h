@@ -138,7 +138,7 @@ typedef struct glint_frame_record {
     float mend;        // with GLINT_DOUBTS: what is in doubt and weighs more need not be followed
     int width, height; // pixels that are rendered: of the image's every `step`th of every
                        // `step`th row, from `first_pixel` on; all of them where step is 1. With
-                       // GLINT_PIXEL_LIST [height][width] ints name them, row by row of the image
+                       // GLINT_PIXEL_LIST [height][width] uints name them, row by row of the image
     int image_width, image_height;
     int step, first_pixel;
     int samples_per_axis; // k

@@ -2,21 +2,11 @@
 // host/render/probe.h: compiled behind render.cl, with the features of the scene at hand.
 //
 // Element i of an array goes to lane i % GLINT_WIDTH of packet i / GLINT_WIDTH; a work-item takes
-// PATH_GROUPS packets, and the host fills arrays up to a whole number of work-items. A kernel's
-// arguments are those of render_tiles with two arrays in place of pixels and counters.
+// PATH_GROUPS packets, and the host fills arrays up to a whole number of work-items.
 
 #define PROBE_ARGUMENTS                                                                            \
-    global const float *nodes, global const float *clusters, global const float *normals,          \
-        global const int *numbers, global const glint_material_record *materials,                  \
-        global const glint_medium_record *media, global const void *environment,                   \
-        global const float *irradiance, global const scalar *in, global scalar *out,               \
-        const glint_frame_record frame
-#define PROBE_SCENE                                                                                \
-    {nodes, clusters, normals, numbers, materials, media,                                          \
-     {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
-     {irradiance, frame.irradiance_edge, false},                                                   \
-     0,                                                                                            \
-     0}
+    GLINT_SCENE_ARGUMENTS(PARAMETER)                                                               \
+    GLINT_PROBE_ARGUMENTS(PARAMETER) const glint_frame_record frame
 
 // Value `which` of the elements of a packet, of `values` each.
 static inline real probe_load(global const scalar *in, size_t packet, int values, int which)
@@ -111,7 +101,7 @@ static inline void probe_closest(const scene_buffers *scene, global const scalar
 
 kernel void probe_trace(PROBE_ARGUMENTS)
 {
-    const scene_buffers scene = PROBE_SCENE;
+    const scene_buffers scene = SCENE_OF_ARGUMENTS;
     const size_t first = get_global_id(0) * PATH_GROUPS;
     path rays[PATH_GROUPS];
     closest hits[PATH_GROUPS];
@@ -157,7 +147,7 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, co
 
 kernel void probe_bounce(PROBE_ARGUMENTS)
 {
-    const scene_buffers scene = PROBE_SCENE;
+    const scene_buffers scene = SCENE_OF_ARGUMENTS;
     const size_t first = get_global_id(0) * PATH_GROUPS;
     path rays[PATH_GROUPS];
     closest hits[PATH_GROUPS];
@@ -242,7 +232,7 @@ kernel void probe_normalized(PROBE_ARGUMENTS)
 // In: a direction of any length. Out: the environment along it.
 kernel void probe_environment(PROBE_ARGUMENTS)
 {
-    const scene_buffers scene = PROBE_SCENE;
+    const scene_buffers scene = SCENE_OF_ARGUMENTS;
     for (PROBE_PACKETS) {
         const real3 d = real3_of(PROBE_IN(0), PROBE_IN(1), PROBE_IN(2));
         probe_store4(out, packet, sample_cube(&scene.environment, d, mask_all()), real_of(0));
@@ -253,7 +243,7 @@ kernel void probe_environment(PROBE_ARGUMENTS)
 // there, in texels of the face with its border.
 kernel void probe_face(PROBE_ARGUMENTS)
 {
-    const scene_buffers scene = PROBE_SCENE;
+    const scene_buffers scene = SCENE_OF_ARGUMENTS;
     const cube_map *map = &scene.environment;
     for (PROBE_PACKETS) {
         const real3 d = real3_of(PROBE_IN(0), PROBE_IN(1), PROBE_IN(2));

@@ -41,6 +41,7 @@
       GLINT_VERTEX_COLOR))
 
 #include "layout.h"
+#include "arguments.h"
 #include "lanes.cl"
 #include "blocks.cl"
 #include "cubemap.cl"
@@ -320,13 +321,8 @@ static inline void store_doubts(const tally *tally, const glint_frame_record *fr
 }
 #endif
 
-// What is written, see render_tiles.
 typedef struct outputs {
-    global scalar *pixels;
-    global uint *counters;
-    global glint_layers_record *layers;
-    global float *terms;
-    global float *doubts;
+    GLINT_OUTPUT_ARGUMENTS(MEMBER)
 } outputs;
 
 // Renders the tile whose first pixel is in the given column and row.
@@ -379,30 +375,10 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
 }
 
 // Renders one tile a work-item.
-//  pixels: [height][width][4] (R, G, B premultiplied, alpha). layers: [height][width]. doubts:
-// [height][width], the weight that is in doubt (doubts.cl). terms, vertices and listed: see
-// layout.h.
-// counters: see layout.h. The other buffers are described in layout.h too; those that no compiled
-// feature needs may be of any size.
-kernel void render_tiles(global const float *nodes, global const float *clusters,
-                         global const float *normals, global const int *numbers,
-                         global const glint_material_record *materials,
-                         global const glint_medium_record *media, global const void *environment,
-                         global const float *irradiance, global scalar *pixels,
-                         global uint *counters, global glint_layers_record *layers,
-                         global float *terms, global float *doubts, global const float *vertices,
-                         global const int *listed, const glint_frame_record frame)
+kernel void render_tiles(GLINT_SCENE_ARGUMENTS(PARAMETER) GLINT_OUTPUT_ARGUMENTS(PARAMETER)
+                             const glint_frame_record frame)
 {
-    const scene_buffers scene = {nodes,
-                                 clusters,
-                                 normals,
-                                 numbers,
-                                 materials,
-                                 media,
-                                 {environment, frame.environment_edge, GLINT_HALF_TEXELS},
-                                 {irradiance, frame.irradiance_edge, false},
-                                 vertices,
-                                 listed};
+    const scene_buffers scene = SCENE_OF_ARGUMENTS;
     int column, row;
     find_tile(&frame, (int)get_global_id(0), (int)get_global_id(1), &column, &row);
     if (column >= frame.width || row >= frame.height) {

@@ -1,5 +1,9 @@
 // The scene on the device, and the nodes and leaves that wait in a traversal, the nearest on top.
 
+// What the lists of arguments.h become.
+#define PARAMETER(type, name) type name,
+#define MEMBER(type, name) type name;
+
 // The scene's buffers, as every part of the shading gets them.
 typedef struct scene_buffers {
     global const float *nodes;
@@ -10,8 +14,16 @@ typedef struct scene_buffers {
     global const glint_medium_record *media;
     cube_map environment, irradiance;
     global const float *vertices; // what was found at them, with VERTEX_COLOR and VERTEX_DIRECTION
-    global const int *pixels;     // with PIXEL_LIST: their numbers, see layout.h
+    global const uint *pixels;    // with PIXEL_LIST: their numbers, see layout.h
 } scene_buffers;
+
+// The same, from the arguments of a kernel.
+#define SCENE_OF_ARGUMENTS                                                                         \
+    {nodes, clusters, normals, numbers, materials, media,                                          \
+     {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
+     {irradiance, frame.irradiance_edge, false},                                                   \
+     vertices,                                                                                     \
+     listed}
 
 typedef global const float *node_pointer;
 

@@ -203,7 +203,7 @@ static inline void clear_tile(const image_space *s, const glint_frame_record *fr
 
 // Where the tile's samples lie, and the bounds of them: low x, high x, low y and high y.
 #if GLINT_PIXEL_LIST
-static inline void place_tile(const glint_frame_record *frame, global const int *listed, int column,
+static inline void place_tile(const glint_frame_record *frame, global const uint *listed, int column,
                               int row, scalar right, scalar down, tile *t, scalar bounds[4])
 {
     lanes_int x, y;
@@ -211,9 +211,9 @@ static inline void place_tile(const glint_frame_record *frame, global const int 
         const int c = column + i % PACKET_WIDTH, r = row + i / PACKET_WIDTH;
         const bool is_there = c < frame->width && r < frame->height;
         // Where there is none: at the tile's first one.
-        const int number = listed[pixel_number(frame, is_there ? c : column, is_there ? r : row)];
-        LANE_INT(x, i) = number % frame->image_width;
-        LANE_INT(y, i) = number / frame->image_width;
+        const uint number = listed[pixel_number(frame, is_there ? c : column, is_there ? r : row)];
+        LANE_INT(x, i) = (int)(number % (uint)frame->image_width);
+        LANE_INT(y, i) = (int)(number / (uint)frame->image_width);
     }
     t->x[0] = place_x(frame, x, right);
     t->y[0] = place_y(frame, y, down);
@@ -227,7 +227,7 @@ static inline void place_tile(const glint_frame_record *frame, global const int 
     t->center_y = block_of(bounds[3] - t->half_y);
 }
 #else
-static inline void place_tile(const glint_frame_record *frame, global const int *listed, int column,
+static inline void place_tile(const glint_frame_record *frame, global const uint *listed, int column,
                               int row, scalar right, scalar down, tile *t, scalar bounds[4])
 {
     for (int i = 0; i < TILE_COLUMNS; i++) {
@@ -253,7 +253,7 @@ static inline void place_tile(const glint_frame_record *frame, global const int 
 
 // `column` and `row` name the tile's first pixel.
 static inline void begin_tile(const image_space *s, const glint_frame_record *frame,
-                              global const int *listed, int column, int row, scalar right,
+                              global const uint *listed, int column, int row, scalar right,
                               scalar down, tile *t)
 {
     scalar bounds[4];

@@ -183,27 +183,14 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
 #endif
 }
 
-// Shades the vertices of one cluster a work-item, of `count` clusters. The other arguments are
-// those of render_tiles as far as they are needed.
-kernel void shade_vertices(global const float *clusters, global const float *normals,
-                           global const glint_material_record *materials,
-                           global const glint_medium_record *media, global const void *environment,
-                           global const float *irradiance, global float *vertices, const int count,
+// Shades the vertices of one cluster a work-item, of `count` clusters.
+kernel void shade_vertices(GLINT_SCENE_ARGUMENTS(PARAMETER) const int count,
                            const glint_frame_record frame)
 {
     if (get_global_id(0) >= (size_t)count) {
         return;
     }
-    const scene_buffers scene = {0,
-                                 clusters,
-                                 normals,
-                                 0,
-                                 materials,
-                                 media,
-                                 {environment, frame.environment_edge, GLINT_HALF_TEXELS},
-                                 {irradiance, frame.irradiance_edge, false},
-                                 vertices,
-                                 0};
+    const scene_buffers scene = SCENE_OF_ARGUMENTS;
     const size_t cluster = get_global_id(0);
     for (int first = 0; first < GLINT_CLUSTER_LANES; first += GLINT_WIDTH) {
         shade_packet(&scene, &frame, cluster, first, vertices + cluster * VERTEX_CLUSTER_VALUES);

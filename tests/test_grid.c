@@ -1,5 +1,6 @@
 // A grid of an image's pixels, or a list of them: each is the image's own, bit by bit, whatever is
 // rendered beside it.
+#include "render/pixel_list.h"
 #include "support/render.h"
 
 #include <math.h>
@@ -41,10 +42,10 @@ static void check_list(const glint_scene *scene, const glint_environment *enviro
                        const glint_settings *whole_settings, const glint_image *whole)
 {
     enum { ROWS = 21, COUNT = ROWS * GLINT_LIST_COLUMNS };
-    const int32_t all = whole->width * whole->height;
-    int32_t list[COUNT] = {0, whole->width - 1, all - whole->width, all - 1};
-    for (int i = 4; i < COUNT; i++) {
-        list[i] = (int32_t)((int64_t)(i / 3) * 7919 % all);
+    const uint32_t width = (uint32_t)whole->width, all = width * (uint32_t)whole->height;
+    uint32_t list[COUNT] = {0, width - 1, all - width, all - 1};
+    for (uint32_t i = 4; i < COUNT; i++) {
+        list[i] = i / 3 * 7919 % all;
     }
     glint_settings settings = *whole_settings;
     settings.list = list;
@@ -54,7 +55,7 @@ static void check_list(const glint_scene *scene, const glint_environment *enviro
     assert_int_equal(listed.image.width, GLINT_LIST_COLUMNS);
     assert_int_equal(listed.image.height, ROWS);
     for (size_t i = 0; i < COUNT; i++) {
-        assert_same_pixel(&listed.image, i, whole, (size_t)list[i]);
+        assert_same_pixel(&listed.image, i, whole, list[i]);
     }
     test_frame_free(&listed);
 }
@@ -128,11 +129,38 @@ static void a_step_beyond_the_image_is_refused(void **state)
     }
 }
 
+// Numbers past 2³¹, of the largest image that may be asked for: those of the grid of 4 × 4 pixels.
+static void a_list_reaches_every_pixel_of_the_largest_image(void **state)
+{
+    (void)state;
+    enum { SIDE = 65536, STEP = SIDE / 4 };
+    assert_int_equal(glint_pixel_number(SIDE, SIDE - 1, SIDE - 1), UINT32_MAX);
+    glint_settings settings = glint_settings_default;
+    settings.width = settings.height = SIDE;
+    settings.grid_step = STEP;
+    test_frame grid, listed;
+    test_render_named("prism", &settings, &grid);
+    assert_int_equal(grid.image.width * grid.image.height, GLINT_LIST_COLUMNS);
+    uint32_t list[GLINT_LIST_COLUMNS];
+    for (int i = 0; i < GLINT_LIST_COLUMNS; i++) {
+        list[i] = glint_pixel_number(SIDE, i % 4 * STEP + STEP / 2, i / 4 * STEP + STEP / 2);
+    }
+    settings.grid_step = 0;
+    settings.list = list;
+    settings.list_rows = 1;
+    test_render_named("prism", &settings, &listed);
+    for (size_t i = 0; i < GLINT_LIST_COLUMNS; i++) {
+        assert_same_pixel(&listed.image, i, &grid.image, i);
+    }
+    test_frame_free(&grid);
+    test_frame_free(&listed);
+}
+
 static void a_list_of_nothing_is_refused(void **state)
 {
     (void)state;
     const glint_scene nothing = {0};
-    const int32_t pixels[GLINT_LIST_COLUMNS] = {0};
+    const uint32_t pixels[GLINT_LIST_COLUMNS] = {0};
     glint_settings settings = glint_settings_default;
     const glint_plan_inputs inputs = {.scene = &nothing,
                                       .device = glint_device_capabilities(test_device()),
@@ -153,6 +181,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(its_pixels_are_the_images),
         cmocka_unit_test(a_step_beyond_the_image_is_refused),
+        cmocka_unit_test(a_list_reaches_every_pixel_of_the_largest_image),
         cmocka_unit_test(a_list_of_nothing_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

@@ -2,10 +2,9 @@
 // every width and precision, judged by closed forms. u is the largest relative rounding error, 2⁻²⁴
 // or 2⁻⁵³.
 #include "base/half.h"
-#include "device/opencl.h"
+#include "device/buffer.h"
 #include "environment/half_texels.h"
 #include "kernels/layout.h"
-#include "render/upload.h"
 #include "support/render.h"
 
 #include <math.h>
@@ -57,8 +56,8 @@ static cl_kernel build(const probe *p, const char *name)
 static cl_mem buffer_of(const void *data, size_t bytes)
 {
     cl_mem buffer;
-    assert_int_equal(glint_buffer_create(test_device(), "a test", bytes, data, &buffer, NULL),
-                     GLINT_OK);
+    const glint_content content = {"a test", bytes, data};
+    assert_int_equal(glint_buffer_create(test_device(), &content, &buffer, NULL), GLINT_OK);
     return buffer;
 }
 

@@ -1,5 +1,6 @@
 // Other settings for a renderer that there is: its frames are, bit by bit, those of one that was
 // made with them. And what is counted of frames for whoever chooses settings.
+#include "device/opencl.h"
 #include "support/render.h"
 
 #include <math.h>
@@ -209,6 +210,50 @@ static void bad_ones_are_refused_until_there_are_good_ones(void **state)
     test_stage_close(&s);
 }
 
+// The frame's buffers are compared with what the device has left, for these settings too.
+static void what_the_device_cannot_hold_is_refused(void **state)
+{
+    (void)state;
+    const glint_settings first = test_small_frame(0);
+    glint_settings large = first;
+    large.terms = GLINT_TERMS_MAX;
+    test_stage s;
+    test_stage_open("prism", &first, &s);
+    const glint_device_bytes bytes = glint_renderer_device_bytes(s.renderer);
+    struct glint_device *device = test_device();
+    const uint64_t memory = device->capabilities.memory_bytes;
+    device->capabilities.memory_bytes =
+        bytes.scene + bytes.tree + bytes.environment + 2 * bytes.frame;
+    glint_error error = {0};
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &first, &error), GLINT_OK);
+    const glint_status status = glint_renderer_set_settings(s.renderer, &large, &error);
+    device->capabilities.memory_bytes = memory;
+    assert_int_equal(status, GLINT_DEVICE_FAILED);
+    assert_non_null(strstr(error.message, "scene, environment and frame need"));
+    glint_error_free(&error);
+    assert_int_equal(glint_renderer_set_settings(s.renderer, &first, NULL), GLINT_OK);
+    check_frame(&s, &first);
+    test_stage_close(&s);
+}
+
+// What is uploaded once does not count again with each change of settings and each mended frame.
+static void uploads_do_not_add_up(void **state)
+{
+    (void)state;
+    const glint_settings first = test_small_frame(0);
+    glint_settings grid = first;
+    grid.grid_step = 2;
+    test_stage s;
+    test_stage_open("prism", &first, &s);
+    const double uploaded = glint_renderer_phases(s.renderer)->upload;
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(glint_renderer_set_settings(s.renderer, i & 1 ? &first : &grid, NULL),
+                         GLINT_OK);
+        assert_true(glint_renderer_phases(s.renderer)->upload == uploaded);
+    }
+    test_stage_close(&s);
+}
+
 // ---- What is counted ---------------------------------------------------------------------------
 
 typedef struct truncation_case {
@@ -280,6 +325,8 @@ int main(void)
         cmocka_unit_test(another_scene_or_environment_brings_the_first_settings_back),
         cmocka_unit_test(there_may_be_any_number_of_them),
         cmocka_unit_test(bad_ones_are_refused_until_there_are_good_ones),
+        cmocka_unit_test(what_the_device_cannot_hold_is_refused),
+        cmocka_unit_test(uploads_do_not_add_up),
         cmocka_unit_test(truncated_weight_is_counted_pixel_by_pixel),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "image/metrics.h"
+#include "render/pixel_list.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -356,17 +357,17 @@ glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_err
 
 // The grid's pixels that would be mended, as numbers of the frame's, and the first again to the end
 // of their last row. NULL where memory is short.
-static int32_t *list_mended(const glint_error_grid *grid, const glint_settings *settings,
-                            double mend, size_t *count, int *rows)
+static uint32_t *list_mended(const glint_error_grid *grid, const glint_settings *settings,
+                             double mend, size_t *count, int *rows)
 {
     const size_t all = glint_error_grid_pixel_count(grid);
     const size_t width = (size_t)grid->reference.width, step = (size_t)grid->step;
-    int32_t *list = glint_allocate(all + GLINT_LIST_COLUMNS, sizeof *list);
+    uint32_t *list = glint_allocate(all + GLINT_LIST_COLUMNS, sizeof *list);
     *count = 0;
     for (size_t i = 0; list != NULL && i < all; i++) {
         if (is_mended(grid, mend, i)) {
             const size_t y = i / width * step + step / 2, x = i % width * step + step / 2;
-            list[(*count)++] = (int32_t)(y * (size_t)settings->width + x);
+            list[(*count)++] = glint_pixel_number(settings->width, (int)x, (int)y);
         }
     }
     *rows = (int)((*count + GLINT_LIST_COLUMNS - 1) / GLINT_LIST_COLUMNS);
@@ -381,7 +382,7 @@ glint_status glint_error_grid_count_mended(glint_error_grid *grid, const glint_s
 {
     glint_settings listed = *settings;
     size_t count;
-    int32_t *list = list_mended(grid, settings, mend, &count, &listed.list_rows);
+    uint32_t *list = list_mended(grid, settings, mend, &count, &listed.list_rows);
     glint_image image = {0};
     glint_frame_report report = {0};
     glint_status status = list != NULL ? GLINT_OK : glint_fail_memory(error, "the grid's jumps");

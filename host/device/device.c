@@ -3,7 +3,6 @@
 
 #include "device/opencl.h"
 #include "device/opencl_error.h"
-#include "device/program.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -156,10 +155,7 @@ glint_status glint_device_list(glint_capabilities **list, size_t *count, glint_e
 {
     *list = NULL;
     found_device *devices;
-    glint_status status = find_devices(&devices, count, error);
-    if (devices == NULL) {
-        return status;
-    }
+    TRY(find_devices(&devices, count, error));
     *list = calloc(*count, sizeof **list);
     if (*list == NULL) {
         free(devices);
@@ -242,42 +238,42 @@ static cl_int create_queues(glint_device *device)
     return code;
 }
 
+static glint_status create_context_and_queues(glint_device *device, glint_error *error)
+{
+    cl_int code;
+    device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
+    TRY(glint_check_opencl(error, device, "creating a context", code));
+    return glint_check_opencl(error, device, "creating a queue", create_queues(device));
+}
+
+static glint_status open_device(const found_device *found, glint_device **device,
+                                glint_error *error)
+{
+    glint_device *opened = calloc(1, sizeof *opened);
+    if (opened == NULL) {
+        return glint_fail_memory(error, "the device");
+    }
+    opened->id = found->id;
+    opened->capabilities = found->capabilities;
+    const glint_status status = create_context_and_queues(opened, error);
+    if (status != GLINT_OK) {
+        glint_device_close(opened);
+        return status;
+    }
+    *device = opened;
+    return GLINT_OK;
+}
+
 glint_status glint_device_open(const char *selector, glint_device **device, glint_error *error)
 {
     *device = NULL;
     found_device *devices;
     size_t count, chosen;
-    glint_status status = find_devices(&devices, &count, error);
-    if (devices == NULL) {
-        return status;
+    TRY(find_devices(&devices, &count, error));
+    glint_status status = choose(devices, count, selector, &chosen, error);
+    if (status == GLINT_OK) {
+        status = open_device(&devices[chosen], device, error);
     }
-    glint_device *opened = NULL;
-    status = choose(devices, count, selector, &chosen, error);
-    if (status != GLINT_OK) {
-        goto cleanup;
-    }
-    opened = calloc(1, sizeof *opened);
-    if (opened == NULL) {
-        status = glint_fail_memory(error, "the device");
-        goto cleanup;
-    }
-    opened->id = devices[chosen].id;
-    opened->capabilities = devices[chosen].capabilities;
-    cl_int code;
-    opened->context = clCreateContext(NULL, 1, &opened->id, NULL, NULL, &code);
-    if (code != CL_SUCCESS) {
-        status = glint_fail_opencl(error, opened, "creating a context", code);
-        goto cleanup;
-    }
-    code = create_queues(opened);
-    if (code != CL_SUCCESS) {
-        status = glint_fail_opencl(error, opened, "creating a queue", code);
-        goto cleanup;
-    }
-    *device = opened;
-    opened = NULL;
-cleanup:
-    glint_device_close(opened);
     free(devices);
     return status;
 }
@@ -287,12 +283,23 @@ const glint_capabilities *glint_device_capabilities(const glint_device *device)
     return &device->capabilities;
 }
 
+static void release_programs(glint_built_program *first)
+{
+    while (first != NULL) {
+        glint_built_program *next = first->next;
+        clReleaseProgram(first->program);
+        free(first->options);
+        free(first);
+        first = next;
+    }
+}
+
 void glint_device_close(glint_device *device)
 {
     if (device == NULL) {
         return;
     }
-    glint_programs_forget(device);
+    release_programs(device->programs);
     if (device->launches != NULL) {
         clReleaseCommandQueue(device->launches);
     }

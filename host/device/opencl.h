@@ -6,8 +6,12 @@
 
 #include <CL/cl.h>
 
-// Programs that have been built, the latest first (program.c).
-struct glint_built_program;
+// A program that the device keeps for the next request (program.c); a list.
+typedef struct glint_built_program {
+    char *options; // all that it depends on: they name the kernels' folder too; owned
+    cl_program program;
+    struct glint_built_program *next;
+} glint_built_program;
 
 struct glint_device {
     cl_device_id id;
@@ -16,7 +20,7 @@ struct glint_device {
     cl_command_queue launches; // out of order where the device can, for launches that do not depend
                                // on each other; whoever uses it waits for what went before
     glint_capabilities capabilities;
-    struct glint_built_program *programs; // owned
+    glint_built_program *programs; // owned, the latest first
 };
 
 #endif

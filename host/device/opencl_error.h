@@ -9,4 +9,11 @@
 glint_status glint_fail_opencl(glint_error *error, const struct glint_device *device,
                                const char *what, cl_int code);
 
+// GLINT_OK where `code` is CL_SUCCESS, else fails as above.
+static inline glint_status glint_check_opencl(glint_error *error, const struct glint_device *device,
+                                              const char *what, cl_int code)
+{
+    return code == CL_SUCCESS ? GLINT_OK : glint_fail_opencl(error, device, what, code);
+}
+
 #endif

@@ -1,11 +1,10 @@
 // Compiling the kernels. See program.h. The driver's own cache (PoCL's, for one) makes the second
 // build of the same source with the same options fast.
 #include "device/program.h"
-#include "device/opencl_error.h"
 
 #include "device/kernel_sources.h"
+#include "device/opencl_error.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,15 +60,9 @@ static glint_status find_source(const glint_program_request *request, source *fo
     return GLINT_OK;
 }
 
-struct glint_built_program {
-    char *options; // all that it depends on: they name the kernels' folder too; owned
-    cl_program program;
-    struct glint_built_program *next;
-};
-
 static cl_program find_built(const struct glint_device *device, const char *options)
 {
-    for (const struct glint_built_program *p = device->programs; p != NULL; p = p->next) {
+    for (const glint_built_program *p = device->programs; p != NULL; p = p->next) {
         if (strcmp(p->options, options) == 0) {
             clRetainProgram(p->program);
             return p->program;
@@ -81,7 +74,7 @@ static cl_program find_built(const struct glint_device *device, const char *opti
 // Without memory for it the program is only built again another time.
 static void keep_built(struct glint_device *device, const char *options, cl_program program)
 {
-    struct glint_built_program *kept = calloc(1, sizeof *kept);
+    glint_built_program *kept = calloc(1, sizeof *kept);
     if (kept == NULL) {
         return;
     }
@@ -96,26 +89,13 @@ static void keep_built(struct glint_device *device, const char *options, cl_prog
     device->programs = kept;
 }
 
-void glint_programs_forget(struct glint_device *device)
-{
-    while (device->programs != NULL) {
-        struct glint_built_program *first = device->programs;
-        device->programs = first->next;
-        clReleaseProgram(first->program);
-        free(first->options);
-        free(first);
-    }
-}
-
 static glint_status compile(const struct glint_device *device, source *found, const char *options,
                             cl_program *program, glint_error *error)
 {
     cl_int code;
     cl_program made =
         clCreateProgramWithSource(device->context, found->count, found->parts, NULL, &code);
-    if (code != CL_SUCCESS) {
-        return glint_fail_opencl(error, device, "creating the kernels' program", code);
-    }
+    TRY(glint_check_opencl(error, device, "creating the kernels' program", code));
     code = clBuildProgram(made, 1, &device->id, options, NULL, NULL);
     if (code != CL_SUCCESS) {
         glint_status status =
@@ -136,10 +116,7 @@ glint_status glint_program_build(struct glint_device *device, const glint_progra
     *program = NULL;
     source found;
     char options[8192];
-    glint_status status = find_source(request, &found, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(find_source(request, &found, error));
     int length = snprintf(options, sizeof options, "%s%s", request->options, found.include_option);
     if (length < 0 || (size_t)length >= sizeof options) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: the folder's name is too long",
@@ -149,11 +126,11 @@ glint_status glint_program_build(struct glint_device *device, const glint_progra
     if (*program != NULL) {
         return GLINT_OK;
     }
-    status = compile(device, &found, options, program, error);
-    if (status == GLINT_OK && request->with_probes) {
+    TRY(compile(device, &found, options, program, error));
+    if (request->with_probes) {
         keep_built(device, options, *program);
     }
-    return status;
+    return GLINT_OK;
 }
 
 glint_status glint_program_kernel(const struct glint_device *device, cl_program program,
@@ -161,7 +138,5 @@ glint_status glint_program_kernel(const struct glint_device *device, cl_program 
 {
     cl_int code;
     *kernel = clCreateKernel(program, name, &code);
-    return code == CL_SUCCESS
-               ? GLINT_OK
-               : glint_fail_opencl(error, device, "taking a kernel from its program", code);
+    return glint_check_opencl(error, device, "taking a kernel from its program", code);
 }

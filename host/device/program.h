@@ -27,7 +27,4 @@ glint_status glint_program_build(struct glint_device *device, const glint_progra
 glint_status glint_program_kernel(const struct glint_device *device, cl_program program,
                                   const char *name, cl_kernel *kernel, glint_error *error);
 
-// Releases what the device keeps for the next request.
-void glint_programs_forget(struct glint_device *device);
-
 #endif

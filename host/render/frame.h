@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "render/counts.h"
 #include "render/plan.h"
+#include "render/progress.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -20,7 +21,7 @@ typedef struct glint_phases {
     double bvh;          // tree
     double irradiance;   // irradiance map, where paint needs one: all of them
     double kernel_build; // compiling, or fetching from the driver's cache: all kernels so far
-    double upload;       // since there is this scene
+    double upload;       // of this scene, and of this environment for all settings so far
     double kernel;       // all launches of the frame
     double readback;
 } glint_phases;
@@ -36,13 +37,6 @@ typedef struct glint_frame_report {
                        // rays and times count them, the rest is of single precision
     double kernel_ms, readback_ms; // of this frame
 } glint_frame_report;
-
-// Called between launches with how many bands of tiles, of all there are, have been rendered.
-// Returning false stops the frame with GLINT_INTERRUPTED.
-typedef struct glint_progress {
-    bool (*step)(void *context, uint64_t done, uint64_t total);
-    void *context;
-} glint_progress;
 
 // A scene on a device, ready to render frames. Opaque.
 typedef struct glint_renderer glint_renderer;

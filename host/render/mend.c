@@ -1,104 +1,73 @@
 // Mending frames in single precision. See mend.h.
 #include "render/mend.h"
 
-#include "base/memory.h"
+#include "render/pixel_list.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Listed pixels lie in blocks, so that packets of any shape are of neighbours.
+#define TILE 16 // pixels of a tile are listed after each other
 #define BLOCK 4
-#define BLOCK_PIXELS (BLOCK * BLOCK)
-#define TILE 16
 
-// Of each pixel, whether more than `limit` of its light is in doubt or it is not finite.
-static glint_status mark(const glint_renderer *r, const glint_image *image, uint8_t *marks,
-                         glint_error *error)
+// A frame whose pixels are marked. Pointers are borrowed.
+typedef struct marked_frame {
+    const glint_image *image;
+    const float *doubts; // of each pixel, how much of its light is in doubt
+    float limit;
+} marked_frame;
+
+// Whether more than `limit` of a pixel's light is in doubt, or it is not finite.
+static bool is_marked(const marked_frame *f, size_t pixel)
 {
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    float *doubts = NULL;
-    glint_status status = glint_renderer_read(r, "reading the doubts", r->doubts,
-                                              pixels * sizeof *doubts, (void **)&doubts, error);
-    const float limit = (float)r->settings.mend;
-    for (size_t i = 0; status == GLINT_OK && i < pixels; i++) {
-        const float *p = image->pixels + 4 * i;
-        marks[i] = !(doubts[i] <= limit) || !isfinite(p[0] + p[1] + p[2]);
-    }
-    free(doubts);
-    return status;
+    const float *p = f->image->pixels + 4 * pixel;
+    return !(f->doubts[pixel] <= f->limit) || !isfinite(p[0] + p[1] + p[2]);
 }
 
-// Where the list's number `k` stands.
-static size_t place_of(size_t k)
+// Block by block.
+static void list_tile(const marked_frame *f, int left, int top, glint_pixel_list *list)
 {
-    const size_t block = k / BLOCK_PIXELS, blocks_across = GLINT_LIST_COLUMNS / BLOCK;
-    const size_t column = block % blocks_across * BLOCK + k % BLOCK;
-    const size_t row = block / blocks_across * BLOCK + k % BLOCK_PIXELS / BLOCK;
-    return row * GLINT_LIST_COLUMNS + column;
-}
-
-typedef struct pixel_list {
-    int32_t *pixels; // [rows][GLINT_LIST_COLUMNS]
-    size_t count;    // of those that are wanted
-    int rows;
-} pixel_list;
-
-static void list_tile(const glint_image *image, const uint8_t *marks, int left, int top,
-                      pixel_list *list)
-{
+    const int width = f->image->width;
     for (int k = 0; k < TILE * TILE; k++) {
-        const int block = k / BLOCK_PIXELS, i = k % BLOCK_PIXELS;
+        const int block = k / (BLOCK * BLOCK), i = k % (BLOCK * BLOCK);
         const int x = left + block % (TILE / BLOCK) * BLOCK + i % BLOCK;
         const int y = top + block / (TILE / BLOCK) * BLOCK + i / BLOCK;
-        const bool is_inside = x < image->width && y < image->height;
-        if (is_inside && marks[(size_t)y * (size_t)image->width + (size_t)x]) {
-            list->pixels[place_of(list->count++)] = y * image->width + x;
+        if (x < width && y < f->image->height && is_marked(f, glint_pixel_number(width, x, y))) {
+            glint_pixel_list_add(list, glint_pixel_number(width, x, y));
         }
     }
 }
 
-// Those that are marked, those of a tile after each other. What its last rows have left over names
-// the first.
-static glint_status list_marked(const glint_image *image, const uint8_t *marks, pixel_list *list,
-                                glint_error *error)
+static glint_status list_marked(const marked_frame *f, glint_pixel_list *list, glint_error *error)
 {
+    const glint_image *image = f->image;
     const size_t pixels = (size_t)image->width * (size_t)image->height;
     size_t count = 0;
     for (size_t i = 0; i < pixels; i++) {
-        count += marks[i];
+        count += is_marked(f, i);
     }
-    const size_t in_row = GLINT_LIST_COLUMNS * BLOCK;
-    list->rows = (int)((count + in_row - 1) / in_row * BLOCK);
-    list->pixels = glint_allocate((size_t)list->rows * GLINT_LIST_COLUMNS, sizeof *list->pixels);
-    if (list->pixels == NULL) {
-        return glint_fail_memory(error, "the pixels to be mended");
-    }
+    TRY(glint_pixel_list_create(count, list, error));
     for (int top = 0; top < image->height; top += TILE) {
         for (int left = 0; left < image->width; left += TILE) {
-            list_tile(image, marks, left, top, list);
+            list_tile(f, left, top, list);
         }
     }
-    for (size_t k = count; k < (size_t)list->rows * GLINT_LIST_COLUMNS; k++) {
-        list->pixels[place_of(k)] = list->pixels[0];
-    }
+    glint_pixel_list_fill(list);
     return GLINT_OK;
 }
 
-static glint_status find_pixels(const glint_renderer *r, const glint_image *image, pixel_list *list,
-                                glint_error *error)
+static glint_status find_pixels(const glint_renderer *r, const glint_image *image,
+                                glint_pixel_list *list, glint_error *error)
 {
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    *list = (pixel_list){0};
-    uint8_t *marks = calloc(pixels, sizeof *marks);
-    if (marks == NULL) {
-        return glint_fail_memory(error, "the pixels to be mended");
+    if ((uint64_t)image->width * (uint64_t)image->height > GLINT_PIXEL_NUMBERS) {
+        return glint_fail(error, GLINT_USAGE, "--mend: %dx%d is too large", image->width,
+                          image->height);
     }
-    glint_status status = mark(r, image, marks, error);
-    if (status == GLINT_OK) {
-        status = list_marked(image, marks, list, error);
-    }
-    free(marks);
+    float *doubts;
+    TRY(glint_target_doubts(&r->target, &r->settings, &doubts, error));
+    const marked_frame f = {image, doubts, (float)r->settings.mend};
+    const glint_status status = list_marked(&f, list, error);
+    free(doubts);
     return status;
 }
 
@@ -110,57 +79,61 @@ static bool ask(void *context, uint64_t done, uint64_t total)
     return progress->step(progress->context, 1, 1);
 }
 
-static void put(const glint_image *mended, const pixel_list *list, glint_image *image)
+static void put(const glint_image *mended, const glint_pixel_list *list, glint_image *image)
 {
     for (size_t k = 0; k < list->count; k++) {
-        const size_t place = place_of(k), pixel = (size_t)list->pixels[place];
+        const size_t place = glint_pixel_list_place(k), pixel = list->numbers[place];
         memcpy(image->pixels + 4 * pixel, mended->pixels + 4 * place, 4 * sizeof *image->pixels);
     }
 }
 
-static glint_status render_again(glint_renderer *r, const glint_camera *camera,
-                                 const glint_progress *progress, const pixel_list *list,
-                                 glint_image *image, glint_frame_report *report, glint_error *error)
+// The listed pixels, into *mended.
+static glint_status render_listed(const glint_pass *pass, const glint_pixel_list *list,
+                                  glint_image *mended, glint_frame_report *report,
+                                  glint_error *error)
 {
-    const glint_settings whole = r->settings;
-    glint_settings listed = whole;
+    glint_settings listed = pass->renderer->settings;
     listed.precision = GLINT_PRECISION_DOUBLE;
     listed.mend = 0;
-    listed.list = list->pixels;
+    listed.list = list->numbers;
     listed.list_rows = list->rows;
     listed.aovs = 0;
     listed.terms = 0;
+    const glint_progress quiet = {ask, (void *)pass->progress};
+    const glint_pass again = {pass->renderer, pass->camera, pass->progress != NULL ? &quiet : NULL,
+                              mended, report};
+    TRY(glint_renderer_set_settings(pass->renderer, &listed, error));
+    return glint_pass_run(&again, error);
+}
+
+static glint_status render_again(const glint_pass *pass, const glint_pixel_list *list,
+                                 glint_error *error)
+{
+    const glint_settings whole = pass->renderer->settings;
     glint_image mended = {0};
     glint_frame_report again = {0};
-    const glint_progress quiet = {ask, (void *)progress};
-    glint_status status = glint_renderer_set_settings(r, &listed, error);
+    const glint_status status = render_listed(pass, list, &mended, &again, error);
     if (status == GLINT_OK) {
-        status = glint_renderer_frame(r, camera, progress != NULL ? &quiet : NULL, &mended, &again,
-                                      error);
-    }
-    if (status == GLINT_OK) {
-        put(&mended, list, image);
-        glint_ray_counts_add(&report->rays, &again.rays);
-        report->kernel_ms += again.kernel_ms;
-        report->readback_ms += again.readback_ms;
+        put(&mended, list, pass->image);
+        glint_ray_counts_add(&pass->report->rays, &again.rays);
+        pass->report->kernel_ms += again.kernel_ms;
+        pass->report->readback_ms += again.readback_ms;
     }
     glint_image_free(&mended);
     // Also where it failed: the list goes.
     const glint_status back =
-        glint_renderer_set_settings(r, &whole, status == GLINT_OK ? error : NULL);
+        glint_renderer_set_settings(pass->renderer, &whole, status == GLINT_OK ? error : NULL);
     return status == GLINT_OK ? back : status;
 }
 
-glint_status glint_mend(glint_renderer *renderer, const glint_camera *camera,
-                        const glint_progress *progress, glint_image *image,
-                        glint_frame_report *report, glint_error *error)
+glint_status glint_mend(const glint_pass *pass, glint_error *error)
 {
-    pixel_list list;
-    glint_status status = find_pixels(renderer, image, &list, error);
+    glint_pixel_list list = {0};
+    glint_status status = find_pixels(pass->renderer, pass->image, &list, error);
     if (status == GLINT_OK && list.count > 0) {
-        status = render_again(renderer, camera, progress, &list, image, report, error);
+        status = render_again(pass, &list, error);
     }
-    report->mended_pixels = list.count;
-    free(list.pixels);
+    pass->report->mended_pixels = list.count;
+    glint_pixel_list_free(&list);
     return status;
 }

@@ -4,16 +4,14 @@
 #ifndef GLINT_RENDER_MEND_H
 #define GLINT_RENDER_MEND_H
 
-#include "render/renderer.h"
+#include "render/pass.h"
 
 // Renders again in double precision, with the renderer's settings but for layers and terms, the
 // pixels that differ from one of their four neighbours by more than settings.mend times the
 // frame's mean: root mean square over R, G and B; the mean over them of all pixels that are finite,
-// those that are not differ from all. Puts them into *image, which is the renderer's last frame,
-// and adds what it took to *report. The settings are what they were. Errors: as
-// glint_renderer_set_settings and glint_renderer_frame; *image is then half mended.
-glint_status glint_mend(glint_renderer *renderer, const glint_camera *camera,
-                        const glint_progress *progress, glint_image *image,
-                        glint_frame_report *report, glint_error *error);
+// those that are not differ from all. `pass` has rendered the frame. Puts the pixels into its
+// image, and adds what they took to its report. The settings are what they were. Errors: as
+// glint_renderer_set_settings and glint_renderer_frame; the image is then half mended.
+glint_status glint_mend(const glint_pass *pass, glint_error *error);
 
 #endif

@@ -2,8 +2,8 @@
 #include "render/pixels.h"
 
 #include "base/memory.h"
+#include "device/buffer.h"
 #include "device/opencl_error.h"
-#include "render/upload.h"
 
 #include <stdlib.h>
 
@@ -12,63 +12,25 @@ static size_t value_count(const glint_pixels *p)
     return (size_t)p->width * (size_t)p->height * 4;
 }
 
-glint_status glint_pixels_size(int width, int height, size_t scalar_bytes, size_t *bytes,
-                               glint_error *error)
+static size_t byte_count(const glint_pixels *p)
 {
-    size_t pixels;
-    if (!glint_multiply((size_t)width, (size_t)height, &pixels) ||
-        !glint_multiply(pixels, 4 * scalar_bytes, bytes)) {
-        return glint_fail(error, GLINT_USAGE, "--size: %dx%d is too large", width, height);
-    }
-    return GLINT_OK;
+    return value_count(p) * p->scalar_bytes;
+}
+
+bool glint_pixels_are_written_into_images(const struct glint_device *device, size_t scalar_bytes)
+{
+    return device->capabilities.shares_memory && scalar_bytes == sizeof(float);
 }
 
 static bool are_written_into_images(const glint_pixels *p)
 {
-    return p->device->capabilities.shares_memory && p->scalar_bytes == sizeof(float);
-}
-
-glint_status glint_pixels_resize(const struct glint_device *device, int width, int height,
-                                 size_t scalar_bytes, glint_pixels *pixels, glint_error *error)
-{
-    *pixels = (glint_pixels){.device = device,
-                             .width = width,
-                             .height = height,
-                             .scalar_bytes = scalar_bytes,
-                             .own = pixels->own};
-    const size_t bytes = glint_pixels_bytes(pixels);
-    if (are_written_into_images(pixels) || glint_buffer_bytes(pixels->own) >= bytes) {
-        return GLINT_OK;
-    }
-    glint_buffer_release(pixels->own);
-    pixels->own = NULL;
-    glint_status status =
-        glint_buffer_create(device, "the frame", bytes, NULL, &pixels->own, error);
-    if (status != GLINT_OK) {
-        glint_pixels_free(pixels);
-    }
-    return status;
-}
-
-void glint_pixels_free(glint_pixels *pixels)
-{
-    glint_buffer_release(pixels->own);
-    glint_buffer_release(pixels->around_image);
-    *pixels = (glint_pixels){0};
-}
-
-size_t glint_pixels_bytes(const glint_pixels *pixels)
-{
-    return value_count(pixels) * pixels->scalar_bytes;
+    return glint_pixels_are_written_into_images(p->device, p->scalar_bytes);
 }
 
 glint_status glint_pixels_begin(glint_pixels *pixels, glint_image *image, cl_mem *target,
                                 glint_error *error)
 {
-    glint_status status = glint_image_reuse(pixels->width, pixels->height, 4, image, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_image_reuse(pixels->width, pixels->height, 4, image, error));
     if (!are_written_into_images(pixels)) {
         *target = pixels->own;
         return GLINT_OK;
@@ -76,18 +38,15 @@ glint_status glint_pixels_begin(glint_pixels *pixels, glint_image *image, cl_mem
     cl_int code;
     pixels->around_image =
         clCreateBuffer(pixels->device->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
-                       glint_pixels_bytes(pixels), image->pixels, &code);
+                       byte_count(pixels), image->pixels, &code);
     *target = pixels->around_image;
-    return code == CL_SUCCESS ? GLINT_OK
-                              : glint_fail_opencl(error, pixels->device, "the frame", code);
+    return glint_check_opencl(error, pixels->device, "the frame", code);
 }
 
 static glint_status read_own(const glint_pixels *p, void *values, glint_error *error)
 {
-    cl_int code = clEnqueueReadBuffer(p->device->queue, p->own, CL_TRUE, 0, glint_pixels_bytes(p),
-                                      values, 0, NULL, NULL);
-    return code == CL_SUCCESS ? GLINT_OK
-                              : glint_fail_opencl(error, p->device, "reading the frame", code);
+    const cl_int code = glint_buffer_read(p->device, p->own, byte_count(p), values);
+    return glint_check_opencl(error, p->device, "reading the frame", code);
 }
 
 // Where the buffer lies around the image nothing moves, but the host may only look at it once it is
@@ -96,15 +55,14 @@ static glint_status map_image(const glint_pixels *p, glint_error *error)
 {
     cl_int code;
     void *mapped = clEnqueueMapBuffer(p->device->queue, p->around_image, CL_TRUE, CL_MAP_READ, 0,
-                                      glint_pixels_bytes(p), 0, NULL, NULL, &code);
+                                      byte_count(p), 0, NULL, NULL, &code);
     if (code == CL_SUCCESS) {
         code = clEnqueueUnmapMemObject(p->device->queue, p->around_image, mapped, 0, NULL, NULL);
     }
     if (code == CL_SUCCESS) {
         code = clFinish(p->device->queue);
     }
-    return code == CL_SUCCESS ? GLINT_OK
-                              : glint_fail_opencl(error, p->device, "mapping the frame", code);
+    return glint_check_opencl(error, p->device, "mapping the frame", code);
 }
 
 static glint_status read_rounded(const glint_pixels *p, float *rounded, glint_error *error)
@@ -132,8 +90,7 @@ glint_status glint_pixels_end(glint_pixels *pixels, bool rendered, glint_image *
         status = are_written_into_images(pixels) ? map_image(pixels, error)
                                                  : read_rounded(pixels, image->pixels, error);
     }
-    glint_buffer_release(pixels->around_image);
-    pixels->around_image = NULL;
+    glint_buffer_release(&pixels->around_image);
     return status;
 }
 

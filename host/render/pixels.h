@@ -16,23 +16,12 @@ typedef struct glint_pixels {
     const struct glint_device *device; // borrowed
     int width, height;
     size_t scalar_bytes; // of float or double
-    cl_mem own;          // at least a frame's bytes; not used where it is written into the image
+    cl_mem own;          // at least a frame's bytes, borrowed; not used where it is written into
+                         // the image
     cl_mem around_image; // while a frame is rendered
 } glint_pixels;
 
-// What a frame takes, in bytes. Fails with GLINT_USAGE where that cannot be counted.
-glint_status glint_pixels_size(int width, int height, size_t scalar_bytes, size_t *bytes,
-                               glint_error *error);
-
-// For frames of another size or precision. A buffer that is large enough is kept, and one that is
-// not needed, too: small frames in double precision and large ones take turns (see
-// bound/error_grid.h). On failure *pixels is as zero. Errors: GLINT_DEVICE_FAILED.
-glint_status glint_pixels_resize(const struct glint_device *device, int width, int height,
-                                 size_t scalar_bytes, glint_pixels *pixels, glint_error *error);
-void glint_pixels_free(glint_pixels *pixels);
-
-// What a frame takes where the device writes it.
-size_t glint_pixels_bytes(const glint_pixels *pixels);
+bool glint_pixels_are_written_into_images(const struct glint_device *device, size_t scalar_bytes);
 
 // Makes *image RGBA of the frame's size (keeping its memory if it is that already) and says where
 // the device has to write. glint_pixels_end must follow, and *image be left alone until then.

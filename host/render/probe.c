@@ -53,6 +53,19 @@ static size_t scalar_size(const glint_probe *probe)
     return is_double(probe) ? sizeof(double) : sizeof(float);
 }
 
+static glint_status create_buffers(glint_probe *probe, glint_error *error)
+{
+    const size_t bytes = CHUNK_ELEMENTS * GLINT_PROBE_BOUNCE * scalar_size(probe);
+    const glint_content content = {"a self-test", bytes, NULL};
+    probe->staging = malloc(bytes);
+    if (probe->staging == NULL) {
+        return glint_fail_memory(error, content.what);
+    }
+    const glint_device *device = probe->renderer->device;
+    TRY(glint_buffer_create(device, &content, &probe->in, error));
+    return glint_buffer_create(device, &content, &probe->out, error);
+}
+
 static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe,
                          glint_error *error)
 {
@@ -63,27 +76,12 @@ static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe
     glint_renderer_inputs without_frames = *inputs;
     without_frames.settings = &settings;
     without_frames.without_frames = true;
-    glint_status status = glint_renderer_create(&without_frames, &probe->renderer, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
-    const glint_renderer *r = probe->renderer;
+    TRY(glint_renderer_create(&without_frames, &probe->renderer, error));
     char options[4096];
-    glint_plan_build_options(&r->plan, options, sizeof options);
+    glint_plan_build_options(&probe->renderer->plan, options, sizeof options);
     const glint_program_request request = {inputs->kernel_dir, options, true};
-    const size_t bytes = CHUNK_ELEMENTS * GLINT_PROBE_BOUNCE * scalar_size(probe);
-    probe->staging = malloc(bytes);
-    status = probe->staging != NULL ? GLINT_OK : glint_fail_memory(error, "a self-test");
-    if (status == GLINT_OK) {
-        status = glint_program_build(r->device, &request, &probe->program, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_buffer_create(r->device, "a self-test", bytes, NULL, &probe->in, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_buffer_create(r->device, "a self-test", bytes, NULL, &probe->out, error);
-    }
-    return status;
+    TRY(glint_program_build(probe->renderer->device, &request, &probe->program, error));
+    return create_buffers(probe, error);
 }
 
 glint_status glint_probe_create(const glint_renderer_inputs *inputs, glint_probe **probe,
@@ -116,8 +114,8 @@ void glint_probe_free(glint_probe *probe)
     if (probe->program != NULL) {
         clReleaseProgram(probe->program);
     }
-    glint_buffer_release(probe->in);
-    glint_buffer_release(probe->out);
+    glint_buffer_release(&probe->in);
+    glint_buffer_release(&probe->out);
     glint_renderer_free(probe->renderer);
     free(probe->staging);
     free(probe);
@@ -134,10 +132,10 @@ void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
     const glint_renderer *r = probe->renderer;
     *frame = (glint_frame_record){0};
     if (camera != NULL) {
-        glint_view_record(&r->space, camera, settings, &r->plan, frame);
+        glint_view_record(&r->scene.space, camera, settings, &r->plan, frame);
     }
-    frame->environment_edge = r->environment_edge;
-    frame->irradiance_edge = r->irradiance_edge;
+    frame->environment_edge = r->light.chosen.environment_edge;
+    frame->irradiance_edge = r->light.chosen.irradiance_edge;
 }
 
 // Elements that one work-item takes: PATH_GROUPS packets, see kernels/traverse_together.cl.
@@ -152,22 +150,15 @@ static size_t elements_per_item(const glint_plan *plan)
 static glint_status set_arguments(const glint_probe *probe, cl_kernel kernel,
                                   const glint_frame_record *frame, glint_error *error)
 {
-    const glint_renderer *r = probe->renderer;
-    const glint_geometry_memory *g = &r->geometry;
-    const cl_mem buffers[] = {g->nodes,     g->clusters, g->normals,           g->numbers,
-                              g->materials, g->media,    r->light.environment, r->light.irradiance,
-                              probe->in,    probe->out};
-    const cl_uint count = sizeof buffers / sizeof *buffers;
-    cl_int code = CL_SUCCESS;
-    for (cl_uint i = 0; code == CL_SUCCESS && i < count; i++) {
-        code = clSetKernelArg(kernel, i, sizeof buffers[i], &buffers[i]);
-    }
-    if (code == CL_SUCCESS) {
-        code = clSetKernelArg(kernel, count, sizeof *frame, frame);
-    }
-    return code == CL_SUCCESS
-               ? GLINT_OK
-               : glint_fail_opencl(error, r->device, "setting a kernel's argument", code);
+    const glint_scene_arguments scene = glint_renderer_scene_arguments(probe->renderer);
+#define OF_SCENE(type, name) {sizeof(cl_mem), &scene.name},
+#define OF_PROBE(type, name) {sizeof(cl_mem), &probe->name},
+    const glint_argument arguments[] = {GLINT_SCENE_ARGUMENTS(OF_SCENE)
+                                            GLINT_PROBE_ARGUMENTS(OF_PROBE){sizeof *frame, frame}};
+#undef OF_SCENE
+#undef OF_PROBE
+    return glint_arguments_set(probe->renderer->device, kernel, arguments,
+                               sizeof arguments / sizeof *arguments, error);
 }
 
 static void narrow(const double *from, void *to, size_t count)
@@ -184,61 +175,66 @@ static void widen(const void *from, double *to, size_t count)
     }
 }
 
-// At most CHUNK_ELEMENTS; elements after the last, up to a whole number of work-items, are 0.
-static glint_status call_chunk(glint_probe *probe, glint_probe_part part, const double *in,
-                               double *out, size_t count, glint_error *error)
+// `count` elements, at most CHUNK_ELEMENTS, to the device; those after the last, up to a whole
+// number of work-items, are 0.
+static cl_int write_elements(const glint_probe *probe, glint_probe_part part, const double *in,
+                             size_t count, size_t padded)
+{
+    const size_t scalar = scalar_size(probe), values = count * parts[part].in;
+    const size_t bytes = padded * parts[part].in * scalar;
+    memset(probe->staging, 0, bytes);
+    if (is_double(probe)) {
+        memcpy(probe->staging, in, values * scalar);
+    } else {
+        narrow(in, probe->staging, values);
+    }
+    return glint_buffer_write(probe->renderer->device, probe->in, bytes, probe->staging);
+}
+
+static cl_int read_elements(const glint_probe *probe, glint_probe_part part, double *out,
+                            size_t count)
+{
+    const size_t values = count * parts[part].out;
+    const cl_int code =
+        glint_buffer_read(probe->renderer->device, probe->out, values * scalar_size(probe),
+                          is_double(probe) ? (void *)out : probe->staging);
+    if (code == CL_SUCCESS && !is_double(probe)) {
+        widen(probe->staging, out, values);
+    }
+    return code;
+}
+
+static cl_int call_chunk(const glint_probe *probe, glint_probe_part part, const double *in,
+                         double *out, size_t count)
 {
     const glint_renderer *r = probe->renderer;
-    const size_t scalar = scalar_size(probe), per_item = elements_per_item(&r->plan);
-    const size_t items = (count + per_item - 1) / per_item, global = items, local = 1;
-    const size_t values_in = count * parts[part].in, values_out = count * parts[part].out;
-    memset(probe->staging, 0, items * per_item * parts[part].in * scalar);
-    if (is_double(probe)) {
-        memcpy(probe->staging, in, values_in * scalar);
-    } else {
-        narrow(in, probe->staging, values_in);
-    }
-    cl_command_queue queue = r->device->queue;
-    cl_int code = clEnqueueWriteBuffer(queue, probe->in, CL_TRUE, 0,
-                                       items * per_item * parts[part].in * scalar, probe->staging,
-                                       0, NULL, NULL);
+    const size_t per_item = elements_per_item(&r->plan), local = 1;
+    const size_t items = (count + per_item - 1) / per_item;
+    cl_int code = write_elements(probe, part, in, count, items * per_item);
     if (code == CL_SUCCESS) {
-        code = clEnqueueNDRangeKernel(queue, probe->kernels[part], 1, NULL, &global, &local, 0,
-                                      NULL, NULL);
+        code = clEnqueueNDRangeKernel(r->device->queue, probe->kernels[part], 1, NULL, &items,
+                                      &local, 0, NULL, NULL);
     }
-    void *found = is_double(probe) ? out : probe->staging;
-    if (code == CL_SUCCESS) {
-        code = clEnqueueReadBuffer(queue, probe->out, CL_TRUE, 0, values_out * scalar, found, 0,
-                                   NULL, NULL);
-    }
-    if (code != CL_SUCCESS) {
-        return glint_fail_opencl(error, r->device, "running a self-test's kernel", code);
-    }
-    if (!is_double(probe)) {
-        widen(probe->staging, out, values_out);
-    }
-    return GLINT_OK;
+    return code == CL_SUCCESS ? read_elements(probe, part, out, count) : code;
 }
 
 glint_status glint_probe_call(glint_probe *probe, glint_probe_part part,
                               const glint_frame_record *frame, const double *in, double *out,
                               size_t count, glint_error *error)
 {
+    const glint_device *device = probe->renderer->device;
     glint_frame_record no_view;
     glint_probe_view(probe, NULL, NULL, &no_view);
-    glint_status status = GLINT_OK;
-    if (probe->kernels[part] == NULL) {
-        status = glint_program_kernel(probe->renderer->device, probe->program, parts[part].kernel,
-                                      &probe->kernels[part], error);
+    cl_kernel *kernel = &probe->kernels[part];
+    if (*kernel == NULL) {
+        TRY(glint_program_kernel(device, probe->program, parts[part].kernel, kernel, error));
     }
-    if (status == GLINT_OK) {
-        status =
-            set_arguments(probe, probe->kernels[part], frame != NULL ? frame : &no_view, error);
+    TRY(set_arguments(probe, *kernel, frame != NULL ? frame : &no_view, error));
+    for (size_t first = 0; first < count; first += CHUNK_ELEMENTS) {
+        const size_t left = count - first, chunk = left < CHUNK_ELEMENTS ? left : CHUNK_ELEMENTS;
+        const cl_int code = call_chunk(probe, part, in + first * parts[part].in,
+                                       out + first * parts[part].out, chunk);
+        TRY(glint_check_opencl(error, device, "running a self-test's kernel", code));
     }
-    for (size_t first = 0; status == GLINT_OK && first < count; first += CHUNK_ELEMENTS) {
-        const size_t left = count - first;
-        status = call_chunk(probe, part, in + first * parts[part].in, out + first * parts[part].out,
-                            left < CHUNK_ELEMENTS ? left : CHUNK_ELEMENTS, error);
-    }
-    return status;
+    return GLINT_OK;
 }

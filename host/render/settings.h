@@ -72,7 +72,7 @@ typedef struct glint_settings {
     // image, borrowed while they are the renderer's settings; NULL and 0: no list. Neighbours in it
     // are rendered together, in blocks of up to 4 × 4. No grid_step beside it, nor shading at
     // vertices.
-    const int32_t *list;
+    const uint32_t *list;
     int list_rows;
     int samples_per_axis; // k of k² samples a pixel
     int depth;            // surfaces a path meets; 0: auto

@@ -1,0 +1,31 @@
+// The arguments of the kernels, by the lists of kernels/arguments.h. For this floor only.
+#ifndef GLINT_RENDER_ARGUMENTS_H
+#define GLINT_RENDER_ARGUMENTS_H
+
+#include "base/status.h"
+#include "device/opencl.h"
+#include "kernels/arguments.h"
+
+#include <stddef.h>
+
+#define GLINT_BUFFER_MEMBER(type, name) cl_mem name;
+
+// Buffers of the scene, and those that a frame is written into. All are borrowed.
+typedef struct glint_scene_arguments {
+    GLINT_SCENE_ARGUMENTS(GLINT_BUFFER_MEMBER)
+} glint_scene_arguments;
+
+typedef struct glint_output_arguments {
+    GLINT_OUTPUT_ARGUMENTS(GLINT_BUFFER_MEMBER)
+} glint_output_arguments;
+
+typedef struct glint_argument {
+    size_t size;
+    const void *value;
+} glint_argument;
+
+// Sets all arguments of a kernel, in their order. Errors: GLINT_DEVICE_FAILED.
+glint_status glint_arguments_set(const struct glint_device *device, cl_kernel kernel,
+                                 const glint_argument *arguments, size_t count, glint_error *error);
+
+#endif

@@ -1,0 +1,42 @@
+// The scene on the device, and the next one, which is prepared beside it. For this floor only.
+#ifndef GLINT_RENDER_DEVICE_SCENE_H
+#define GLINT_RENDER_DEVICE_SCENE_H
+
+#include "base/status.h"
+#include "device/buffer.h"
+#include "render/prepared_scene.h"
+#include "render/upload.h"
+#include "render/view.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// Zero is valid: no scene.
+typedef struct glint_device_scene {
+    const struct glint_device *device; // borrowed
+    glint_prepared_scene shown;        // whose frames are rendered
+    glint_prepared_scene next;         // its tree is fitted from that of the last but one
+    bool next_is_ready;                // set and read by whoever prepares it
+    glint_stored_space space;
+    glint_geometry_memory geometry;
+    cl_mem vertices; // what is found at them
+    double upload_ms;
+} glint_device_scene;
+
+// Takes the tree of the scene that is shown back from the device, to be fitted.
+void glint_device_scene_take_back(glint_device_scene *s);
+
+// The scene that was prepared last becomes the one that is shown, and its tree is fitted next.
+void glint_device_scene_swap(glint_device_scene *s);
+
+// Uploads `shown`, which was prepared of `scene`. Errors: GLINT_DEVICE_FAILED,
+// GLINT_OUT_OF_MEMORY.
+glint_status glint_device_scene_upload(glint_device_scene *s, const glint_scene *scene,
+                                       glint_error *error);
+
+size_t glint_device_scene_bytes(const glint_device_scene *s); // without tree and vertices
+size_t glint_device_scene_tree_bytes(const glint_device_scene *s);
+
+void glint_device_scene_free(glint_device_scene *s);
+
+#endif

@@ -1,0 +1,67 @@
+// What a frame is written into: its pixels, and what is counted and kept beside them. For this
+// floor only.
+#ifndef GLINT_RENDER_TARGET_H
+#define GLINT_RENDER_TARGET_H
+
+#include "base/status.h"
+#include "device/buffer.h"
+#include "render/arguments.h"
+#include "render/layers.h"
+#include "render/pixels.h"
+#include "render/plan.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum glint_target_part {
+    GLINT_TARGET_PIXELS,
+    GLINT_TARGET_COUNTERS,
+    GLINT_TARGET_LAYERS,
+    GLINT_TARGET_TERMS,
+    GLINT_TARGET_DOUBTS,
+    GLINT_TARGET_LIST, // what is read: which pixels are rendered
+    GLINT_TARGET_PARTS
+} glint_target_part;
+
+// Zero is valid. Buffers that have been larger stay, so that small frames and large ones may take
+// turns (see bound/error_grid.h).
+typedef struct glint_target {
+    const struct glint_device *device; // borrowed
+    cl_mem buffers[GLINT_TARGET_PARTS];
+    glint_pixels pixels;
+} glint_target;
+
+// What frames of these settings and this precision take. Errors: GLINT_USAGE where that cannot be
+// counted.
+glint_status glint_target_measure(const glint_settings *settings, size_t scalar_bytes,
+                                  glint_content contents[GLINT_TARGET_PARTS], glint_error *error);
+
+// Bytes of a frame's pixels and of what is kept beside them.
+size_t glint_target_frame_bytes(const glint_settings *settings, size_t scalar_bytes);
+
+// Makes room for these contents, and uploads the list. Errors: GLINT_DEVICE_FAILED.
+glint_status glint_target_fit(glint_target *target, const glint_settings *settings,
+                              size_t scalar_bytes, const glint_content contents[GLINT_TARGET_PARTS],
+                              glint_error *error);
+
+// The kernels' arguments, but for the pixels of a frame that is written into an image.
+glint_output_arguments glint_target_arguments(const glint_target *target);
+
+// The counters of the last frame: 32-bit words, see kernels/layout.h.
+#define GLINT_COUNTER_WORDS (GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2)
+glint_status glint_target_clear_counters(const glint_target *target, glint_error *error);
+glint_status glint_target_read_counters(const glint_target *target,
+                                        uint32_t words[GLINT_COUNTER_WORDS], glint_error *error);
+
+// The layers and terms of the last frame, which was rendered with these settings. On failure
+// *layers is empty.
+glint_status glint_target_layers(const glint_target *target, const glint_settings *settings,
+                                 glint_layers *layers, glint_error *error);
+
+// The doubts of the last frame, one for each pixel; the caller frees them.
+glint_status glint_target_doubts(const glint_target *target, const glint_settings *settings,
+                                 float **doubts, glint_error *error);
+
+void glint_target_free(glint_target *target);
+
+#endif

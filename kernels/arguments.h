@@ -1,0 +1,35 @@
+// The arguments of the kernels: the one list that the parameters of the kernels and the arguments
+// that the host sets are made of (host/render/arguments.h). ARGUMENT takes the type in OpenCL C and
+// the name. Every kernel takes the scene, then what is its own, then the frame: a
+// glint_frame_record. layout.h describes the buffers; one that no compiled feature reads may be of
+// any size.
+#ifndef GLINT_KERNELS_ARGUMENTS_H
+#define GLINT_KERNELS_ARGUMENTS_H
+
+#define GLINT_SCENE_ARGUMENTS(ARGUMENT)                                                            \
+    ARGUMENT(global const float *, nodes)                                                          \
+    ARGUMENT(global const float *, clusters)                                                       \
+    ARGUMENT(global const float *, normals)                                                        \
+    ARGUMENT(global const int *, numbers)                                                          \
+    ARGUMENT(global const glint_material_record *, materials)                                      \
+    ARGUMENT(global const glint_medium_record *, media)                                            \
+    ARGUMENT(global const void *, environment)                                                     \
+    ARGUMENT(global const float *, irradiance)                                                     \
+    ARGUMENT(global float *, vertices)    /* shade_vertices writes them, the others read */        \
+    ARGUMENT(global const uint *, listed) /* pixels, with GLINT_PIXEL_LIST */
+
+// What render_tiles writes: pixels [height][width][4] (R, G, B premultiplied, alpha); counters;
+// layers [height][width]; terms; doubts [height][width], the weight that is in doubt (doubts.cl).
+#define GLINT_OUTPUT_ARGUMENTS(ARGUMENT)                                                           \
+    ARGUMENT(global scalar *, pixels)                                                              \
+    ARGUMENT(global uint *, counters)                                                              \
+    ARGUMENT(global glint_layers_record *, layers)                                                 \
+    ARGUMENT(global float *, terms)                                                                \
+    ARGUMENT(global float *, doubts)
+
+// What the kernels of probes.cl read and write.
+#define GLINT_PROBE_ARGUMENTS(ARGUMENT)                                                            \
+    ARGUMENT(global const scalar *, in)                                                            \
+    ARGUMENT(global scalar *, out)
+
+#endif
