@@ -183,25 +183,19 @@ static glint_status judge(contest *c, double bound, glint_error *error)
     glint_frame_report report;
     glint_error_bound_begin(&asked, bound, &c->settings);
     glint_error_bound_set_environment(&asked, &c->studio->radiance);
-    glint_status status = glint_error_bound_frame(&asked, c->renderer, &c->camera, NULL, &c->image,
-                                                  &report, &choice, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    const glint_frame_request request = {c->renderer, &c->camera, NULL, &c->image, &report};
+    TRY(glint_error_bound_frame(&asked, &request, &choice, error));
     const double is = error_of(c);
     way best[FINALISTS];
     verdict v;
     const size_t count = best_within(c, bound, best);
-    status = compare(c, &choice.rung.settings, best, count, &v, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(compare(c, &choice.rung.settings, best, count, &v, error));
     printf("%s\t%d\t%g\t%s\t%.2g\t%.2g\t%s\t%d\t%.0f\t%.1f\t%.2f\t%s\t%.2f\t%.2f\t%.2f\n", c->name,
            c->view, bound, choice.rung.options, choice.error, is, is <= bound ? "kept" : "MISSED",
            choice.frames, choice.choosing_ms, v.ms, c->reference_ms / v.ms, v.fastest->options,
            v.ratio.median, v.ratio.lower_quartile, v.ratio.upper_quartile);
     fflush(stdout);
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status run_view(contest *c, int view, int views, glint_error *error)

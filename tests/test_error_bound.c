@@ -41,9 +41,8 @@ static void render_within(stage *s, double bound, glint_image *image, glint_erro
     glint_frame_report report;
     glint_error_bound_begin(&asked, bound, &s->at.settings);
     glint_error_bound_set_environment(&asked, &s->at.environment.radiance);
-    assert_int_equal(glint_error_bound_frame(&asked, s->at.renderer, &s->at.camera, NULL, image,
-                                             &report, choice, NULL),
-                     GLINT_OK);
+    const glint_frame_request request = {s->at.renderer, &s->at.camera, NULL, image, &report};
+    assert_int_equal(glint_error_bound_frame(&asked, &request, choice, NULL), GLINT_OK);
     assert_int_equal(image->width, s->at.settings.width);
     assert_int_equal(image->height, s->at.settings.height);
     assert_true(choice->bound == bound && choice->error <= bound);
@@ -336,8 +335,9 @@ static void it_can_be_stopped_while_it_chooses(void **state)
         glint_image image = {0};
         glint_frame_report report;
         glint_error_choice choice;
-        assert_int_equal(glint_error_bound_frame(&asked, s.at.renderer, &s.at.camera, &progress,
-                                                 &image, &report, &choice, NULL),
+        const glint_frame_request request = {s.at.renderer, &s.at.camera, &progress, &image,
+                                             &report};
+        assert_int_equal(glint_error_bound_frame(&asked, &request, &choice, NULL),
                          GLINT_INTERRUPTED);
         assert_null(image.pixels);
     }

@@ -90,11 +90,10 @@ typedef struct tally {
 static glint_edge_errors find_edges(test_stage *s, const glint_camera *camera)
 {
     glint_error_grid grid = {.renderer = s->renderer, .camera = camera};
-    glint_frame_report report;
     glint_edge_errors found = {0}, mended;
     grid.step = glint_error_grid_step(s->settings.width, s->settings.height);
     assert_true(grid.step > 1);
-    assert_int_equal(glint_error_grid_set_reference(&grid, &s->settings, &report, NULL), GLINT_OK);
+    assert_int_equal(glint_error_grid_set_reference(&grid, &s->settings, NULL), GLINT_OK);
     glint_error_edges edges = {&grid.reference, &s->settings, 1e9};
     assert_int_equal(glint_error_grid_find_edges(&grid, &edges, &found, NULL), GLINT_OK);
     assert_int_equal(grid.pictures, 3);

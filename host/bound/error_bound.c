@@ -40,70 +40,60 @@ void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cub
 
 // A frame under way.
 typedef struct judged_frame {
+    const glint_frame_request *request;
     glint_error_search search;
     glint_error_trial trial; // what it is rendered by
-    glint_image *image;
-    glint_frame_report *report;
-    double estimate; // of the error
+    double estimate;         // of the error
 } judged_frame;
 
 static glint_status render(judged_frame *f, glint_error *error)
 {
-    const glint_error_grid *grid = &f->search.grid;
+    const glint_frame_request *in = f->request;
     glint_settings settings = f->trial.rung.settings;
     settings.truncation_squares = true;
-    glint_status status = glint_renderer_set_settings(grid->renderer, &settings, error);
-    if (status == GLINT_OK) {
-        status = glint_renderer_frame(grid->renderer, grid->camera, grid->progress, f->image,
-                                      f->report, error);
-    }
-    if (status == GLINT_OK) {
-        f->estimate = glint_error_search_estimate(&f->search, &f->trial, f->image, f->report);
-    }
-    return status;
+    TRY(glint_renderer_set_settings(in->renderer, &settings, error));
+    TRY(glint_renderer_frame(in->renderer, in->camera, in->progress, in->image, in->report, error));
+    f->estimate = glint_error_search_estimate(&f->search, &f->trial, in->image, in->report);
+    return GLINT_OK;
 }
 
 static glint_status choose(judged_frame *f, const glint_error_bound *bound, glint_error *error)
 {
-    glint_error_search *s = &f->search;
-    const glint_plan *plan = glint_renderer_first_plan(s->grid.renderer);
-    glint_status status = glint_error_search_begin(s, bound, plan, error);
-    return status == GLINT_OK ? glint_error_search_choose(s, &f->trial, error) : status;
+    const glint_plan *plan = glint_renderer_first_plan(f->request->renderer);
+    TRY(glint_error_search_begin(&f->search, bound, plan, error));
+    return glint_error_search_choose(&f->search, &f->trial, error);
 }
 
 static glint_status choose_and_render(judged_frame *f, const glint_error_bound *bound,
                                       glint_error_choice *choice, glint_error *error)
 {
     double begun = glint_now_ms();
-    glint_status status = choose(f, bound, error);
-    for (choice->frames = 1; status == GLINT_OK; choice->frames++) {
+    TRY(choose(f, bound, error));
+    for (choice->frames = 1;; choice->frames++) {
         choice->choosing_ms += glint_lap_ms(&begun);
-        status = render(f, error);
-        if (status != GLINT_OK || f->estimate <= bound->bound || f->trial.is_reference) {
-            break;
+        TRY(render(f, error));
+        if (f->estimate <= bound->bound || f->trial.is_reference) {
+            return GLINT_OK;
         }
         if (choice->frames == FRAMES_BEFORE_REFERENCE) {
             glint_error_search_give_up(&f->search, &f->trial);
         } else {
-            status = glint_error_search_refine(&f->search, f->estimate, &f->trial, error);
+            TRY(glint_error_search_refine(&f->search, f->estimate, &f->trial, error));
         }
     }
-    return status;
 }
 
-glint_status glint_error_bound_frame(const glint_error_bound *bound, glint_renderer *renderer,
-                                     const glint_camera *camera, const glint_progress *progress,
-                                     glint_image *image, glint_frame_report *report,
-                                     glint_error_choice *choice, glint_error *error)
+glint_status glint_error_bound_frame(const glint_error_bound *bound,
+                                     const glint_frame_request *request, glint_error_choice *choice,
+                                     glint_error *error)
 {
     const glint_settings *settings = &bound->settings;
     judged_frame f = {
-        .search.grid = {.renderer = renderer,
-                        .camera = camera,
-                        .progress = progress,
+        .request = request,
+        .search.grid = {.renderer = request->renderer,
+                        .camera = request->camera,
+                        .progress = request->progress,
                         .step = glint_error_grid_step(settings->width, settings->height)},
-        .image = image,
-        .report = report,
     };
     *choice = (glint_error_choice){.bound = bound->bound};
     glint_status status = choose_and_render(&f, bound, choice, error);
@@ -118,7 +108,7 @@ glint_status glint_error_bound_frame(const glint_error_bound *bound, glint_rende
     choice->choosing_rays = s->grid.rays;
     glint_error_search_end(&f.search);
     if (status != GLINT_OK) {
-        glint_image_free(image);
+        glint_image_free(request->image);
     }
     return status;
 }

@@ -49,8 +49,7 @@ static bool go_on(void *context, uint64_t done, uint64_t total)
 
 // Through `camera` into *image.
 static glint_status render(glint_error_grid *grid, const glint_settings *settings,
-                           const glint_camera *camera, glint_image *image,
-                           glint_frame_report *report, glint_error *error)
+                           const glint_camera *camera, glint_image *image, glint_error *error)
 {
     glint_settings of_grid = *settings;
     of_grid.grid_step = grid->step > 1 && settings->list == NULL ? grid->step : 0;
@@ -59,26 +58,20 @@ static glint_status render(glint_error_grid *grid, const glint_settings *setting
     of_grid.truncation_squares = true;
     const glint_progress progress = {go_on, (void *)grid->progress};
     const bool asks = grid->progress != NULL;
-    glint_status status = glint_renderer_set_settings(grid->renderer, &of_grid, error);
-    if (status == GLINT_OK) {
-        status = glint_renderer_frame(grid->renderer, camera, asks ? &progress : NULL, image,
-                                      report, error);
-    }
-    if (status == GLINT_OK) {
-        grid->rays += glint_ray_counts_all(&report->rays);
-        grid->pictures++;
-    }
-    return status;
+    TRY(glint_renderer_set_settings(grid->renderer, &of_grid, error));
+    TRY(glint_renderer_frame(grid->renderer, camera, asks ? &progress : NULL, image, &grid->report,
+                             error));
+    grid->rays += glint_ray_counts_all(&grid->report.rays);
+    grid->pictures++;
+    return GLINT_OK;
 }
 
 glint_status glint_error_grid_set_reference(glint_error_grid *grid, const glint_settings *settings,
-                                            glint_frame_report *report, glint_error *error)
+                                            glint_error *error)
 {
-    glint_status status = render(grid, settings, grid->camera, &grid->reference, report, error);
-    if (status == GLINT_OK) {
-        grid->mean = glint_metrics_mean(&grid->reference, &grid->reference);
-    }
-    return status;
+    TRY(render(grid, settings, grid->camera, &grid->reference, error));
+    grid->mean = glint_metrics_mean(&grid->reference, &grid->reference);
+    return GLINT_OK;
 }
 
 double glint_error_grid_contrast(const glint_error_grid *grid)
@@ -152,14 +145,11 @@ static glint_grid_error compare(const glint_error_grid *grid, double mend)
 }
 
 glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
-                                      glint_grid_error *result, glint_frame_report *report,
-                                      glint_error *error)
+                                      glint_grid_error *result, glint_error *error)
 {
-    glint_status status = render(grid, settings, grid->camera, &grid->image, report, error);
-    if (status == GLINT_OK) {
-        *result = compare(grid, settings->mend);
-    }
-    return status;
+    TRY(render(grid, settings, grid->camera, &grid->image, error));
+    *result = compare(grid, settings->mend);
+    return GLINT_OK;
 }
 
 void glint_error_grid_keep(glint_error_grid *grid, glint_image *image)
@@ -224,16 +214,15 @@ static void find_bend(const glint_image *image, const glint_image sides[2], size
 
 // The grid with the camera so many pixels to the right and up, and as many to the left and down.
 static glint_status render_sides(glint_error_grid *grid, const glint_settings *settings,
-                                 double right, double up, glint_image sides[2], glint_error *error)
+                                 const double shift[2], glint_image sides[2], glint_error *error)
 {
-    glint_frame_report unused;
-    glint_status status = GLINT_OK;
-    for (int i = 0; status == GLINT_OK && i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         const double sign = i == 0 ? 1 : -1;
-        const glint_camera side = shifted(grid->camera, settings->height, sign * right, sign * up);
-        status = render(grid, settings, &side, &sides[i], &unused, error);
+        const glint_camera side =
+            shifted(grid->camera, settings->height, sign * shift[0], sign * shift[1]);
+        TRY(render(grid, settings, &side, &sides[i], error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Edges -------------------------------------------------------------------------------------
@@ -338,17 +327,15 @@ glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_err
     const double shift = samples > 1 ? 1 : 0.5;
     glint_image sides[2] = {{0}, {0}};
     double *sorted = NULL;
-    glint_status status = render_sides(grid, settings, shift, shift, sides, error);
-    if (status == GLINT_OK) {
-        status = find_jumps(grid, edges->image, sides, &sorted, error);
-    }
-    if (status == GLINT_OK && sorted != NULL) {
-        const double off = ULPS / pixel_size(grid->camera, settings->height);
-        const jumps found = {sorted, count, off * all / (double)count};
-        *result = errors_of(&found, 1 / (samples * all), edges->allowed);
-        // A pixel that is half on one side of an edge is half a jump from its neighbours.
-        result->mend *= samples > 1 ? 0.5 : 1;
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, render_sides(grid, settings, (double[]){shift, shift}, sides, error));
+    TRY_OR(cleanup, status, find_jumps(grid, edges->image, sides, &sorted, error));
+    const double off = ULPS / pixel_size(grid->camera, settings->height);
+    const jumps found = {sorted, count, off * all / (double)count};
+    *result = errors_of(&found, 1 / (samples * all), edges->allowed);
+    // A pixel that is half on one side of an edge is half a jump from its neighbours.
+    result->mend *= samples > 1 ? 0.5 : 1;
+cleanup:
     free(sorted);
     glint_image_free(&sides[0]);
     glint_image_free(&sides[1]);
@@ -383,17 +370,21 @@ glint_status glint_error_grid_count_mended(glint_error_grid *grid, const glint_s
     glint_settings listed = *settings;
     size_t count;
     uint32_t *list = list_mended(grid, settings, mend, &count, &listed.list_rows);
-    glint_image image = {0};
-    glint_frame_report report = {0};
-    glint_status status = list != NULL ? GLINT_OK : glint_fail_memory(error, "the grid's jumps");
-    listed.list = list;
-    if (status == GLINT_OK && count > 0) {
-        status = render(grid, &listed, grid->camera, &image, &report, error);
+    *rays = 0;
+    if (list == NULL) {
+        return glint_fail_memory(error, "the grid's jumps");
     }
-    const size_t padded = (size_t)listed.list_rows * GLINT_LIST_COLUMNS;
-    *rays = count > 0 ? NEIGHBOURS * (double)glint_ray_counts_all(&report.rays) * (double)count /
-                            (double)padded
-                      : 0;
+    listed.list = list;
+    glint_image image = {0};
+    glint_status status = GLINT_OK;
+    if (count > 0) {
+        status = render(grid, &listed, grid->camera, &image, error);
+    }
+    if (count > 0 && status == GLINT_OK) {
+        const double padded = (double)listed.list_rows * GLINT_LIST_COLUMNS;
+        const double of_list = (double)glint_ray_counts_all(&grid->report.rays);
+        *rays = NEIGHBOURS * of_list * (double)count / padded;
+    }
     glint_image_free(&image);
     free(list);
     return status;
@@ -420,21 +411,22 @@ glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_err
     glint_settings shallow = *chaos->settings;
     shallow.depth = chaos->depth;
     glint_image cut = {0}, sides[2] = {{0}, {0}};
-    glint_frame_report unused;
     *share = 0;
-    glint_status status = render(grid, &shallow, grid->camera, &cut, &unused, error);
-    const size_t first = status == GLINT_OK ? next_that_matters(grid, image, &cut, 0) : count;
-    if (status == GLINT_OK && first < count) {
-        status = render_sides(grid, chaos->settings, SHIFT, 0, sides, error);
+    glint_status status;
+    TRY_OR(cleanup, status, render(grid, &shallow, grid->camera, &cut, error));
+    size_t i = next_that_matters(grid, image, &cut, 0);
+    if (i < count) {
+        TRY_OR(cleanup, status,
+               render_sides(grid, chaos->settings, (double[]){SHIFT, 0}, sides, error));
     }
-    for (size_t i = first; status == GLINT_OK && i < count;
-         i = next_that_matters(grid, image, &cut, i + 1)) {
+    for (; i < count; i = next_that_matters(grid, image, &cut, i + 1)) {
         double bend[3];
         find_bend(image, sides, i, bend);
         const double most = fmax(bend[0], fmax(bend[1], bend[2]));
         const double bent = fmin(1, most / chaos->contrast);
         *share += (bent < SMOOTH ? bent * bent : bent) / (double)count;
     }
+cleanup:
     glint_image_free(&cut);
     glint_image_free(&sides[0]);
     glint_image_free(&sides[1]);

@@ -21,6 +21,7 @@ typedef struct glint_error_grid {
     int step;                     // of the grid; 1: it is the frame
     int pictures;                 // so far
     uint64_t rays;                // likewise
+    glint_frame_report report;    // of the last one
 } glint_error_grid;
 
 // About so many pixels are a grid's; a frame of less than so many is its own grid.
@@ -33,7 +34,7 @@ int glint_error_grid_step(int width, int height);
 // Renders the grid's pixels with `settings`, but for their grid_step and extras, as the reference.
 // Errors, here and below: as glint_renderer_set_settings and glint_renderer_frame.
 glint_status glint_error_grid_set_reference(glint_error_grid *grid, const glint_settings *settings,
-                                            glint_frame_report *report, glint_error *error);
+                                            glint_error *error);
 
 // How far the reference's pixels are from their mean, root mean square over R, G and B; pixels that
 // are not finite do not count.
@@ -50,8 +51,7 @@ typedef struct glint_grid_error {
 // Renders the grid as above, and compares it to its reference. What of it would be mended is taken
 // to be as in_double is, where edges have been found.
 glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
-                                      glint_grid_error *result, glint_frame_report *report,
-                                      glint_error *error);
+                                      glint_grid_error *result, glint_error *error);
 
 // Takes the picture that was measured last into *image, whose own memory is used for the next one.
 void glint_error_grid_keep(glint_error_grid *grid, glint_image *image);

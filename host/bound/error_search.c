@@ -83,18 +83,15 @@ static double least_error(const glint_error_search *s, double truncation)
 static glint_status try_rung(glint_error_search *s, const glint_rung *rung, glint_error_trial *t,
                              glint_error *error)
 {
-    glint_frame_report report;
     *t = (glint_error_trial){.rung = *rung};
-    glint_status status =
-        glint_error_grid_measure(&s->grid, &rung->settings, &t->grid, &report, error);
-    if (status == GLINT_OK) {
-        t->truncation = report.truncation.rms;
-        t->error =
-            glint_error_with_unseen(s, rung, fmax(t->grid.at_most, least_error(s, t->truncation)));
-        t->rays = glint_ray_counts_all(&report.rays);
-        t->deepest = report.deepest;
-    }
-    return status;
+    TRY(glint_error_grid_measure(&s->grid, &rung->settings, &t->grid, error));
+    const glint_frame_report *report = &s->grid.report;
+    t->truncation = report->truncation.rms;
+    t->error =
+        glint_error_with_unseen(s, rung, fmax(t->grid.at_most, least_error(s, t->truncation)));
+    t->rays = glint_ray_counts_all(&report->rays);
+    t->deepest = report->deepest;
+    return GLINT_OK;
 }
 
 void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *t)
@@ -117,24 +114,31 @@ static int step_of(double weight)
     return (int)lround(-2 * log2(weight));
 }
 
-// Branches below a weight are not followed.
-static glint_rung rung_of_step(const glint_error_search *s, glint_precision precision, double mend,
-                               int step)
+// How branches above a weight are followed.
+typedef struct way {
+    glint_precision precision;
+    double mend; // glint_settings.mend
+} way;
+
+static const way in_double = {GLINT_PRECISION_DOUBLE, 0};
+static const way in_float = {GLINT_PRECISION_FLOAT, 0};
+
+static glint_rung rung_of_step(const glint_error_search *s, way by, int step)
 {
-    const bool is_float = precision == GLINT_PRECISION_FLOAT;
+    const bool is_float = by.precision == GLINT_PRECISION_FLOAT;
     const bool coarse = s->asked->bound >= HALF_TEXELS_FROM;
     glint_rung rung;
-    glint_rung_by_weight(&s->asked->settings, precision,
+    glint_rung_by_weight(&s->asked->settings, by.precision,
                          is_float && !coarse ? GLINT_TEXELS_FLOAT : GLINT_TEXELS_AUTO,
                          weight_of(step), &rung);
-    glint_rung_mend(mend, &rung);
+    glint_rung_mend(by.mend, &rung);
     return rung;
 }
 
-static glint_status try_weights(glint_error_search *s, glint_precision precision, double mend,
-                                int step, glint_error_trial *t, glint_error *error)
+static glint_status try_weights(glint_error_search *s, way by, int step, glint_error_trial *t,
+                                glint_error *error)
 {
-    const glint_rung rung = rung_of_step(s, precision, mend, step);
+    const glint_rung rung = rung_of_step(s, by, step);
     return try_rung(s, &rung, t, error);
 }
 
@@ -203,21 +207,18 @@ static glint_status find_weights(glint_error_search *s, int *step, glint_error_t
     const double guess = FIRST_STEP + STEPS_PER_TENTH * log10(0.1 / s->asked->bound);
     bracket b = {
         .keeping.step = LAST_STEP, .failing.step = 1, .octaves_per_step = OCTAVES_PER_STEP};
-    glint_status status = GLINT_OK;
     int at = (int)fmin(fmax(guess, 2), LAST_STEP - 1);
-    for (; status == GLINT_OK && at != b.keeping.step; at = next_step(s, &b)) {
+    for (; at != b.keeping.step; at = next_step(s, &b)) {
         glint_error_trial t;
-        status = try_weights(s, GLINT_PRECISION_DOUBLE, 0, at, &t, error);
-        if (status == GLINT_OK) {
-            take_note(s, &t, at, &b);
-        }
-        if (status == GLINT_OK && b.keeping.step == at) {
+        TRY(try_weights(s, in_double, at, &t, error));
+        take_note(s, &t, at, &b);
+        if (b.keeping.step == at) {
             *best = t;
             glint_error_grid_keep(&s->grid, &s->coarsest);
         }
     }
     *step = b.keeping.step;
-    return status;
+    return GLINT_OK;
 }
 
 // What the grid does not show of single precision, with those weights; of long paths, where the
@@ -225,20 +226,18 @@ static glint_status find_weights(glint_error_search *s, int *step, glint_error_t
 static glint_status find_unseen_of_weights(glint_error_search *s, int step,
                                            const glint_error_trial *best, glint_error *error)
 {
-    const glint_rung in_float = rung_of_step(s, GLINT_PRECISION_FLOAT, 0, step);
+    const glint_rung rung = rung_of_step(s, in_float, step);
     s->grid.in_double = &s->coarsest;
-    glint_status status = glint_error_find_edges(s, &s->coarsest, &in_float.settings, error);
-    if (status != GLINT_OK || !glint_error_wants_chaos(s, s->deepest)) {
-        return status;
+    TRY(glint_error_find_edges(s, &s->coarsest, &rung.settings, error));
+    if (!glint_error_wants_chaos(s, s->deepest)) {
+        return GLINT_OK;
     }
     if (step <= CHAOS_STEP) {
         return glint_error_find_chaos(s, &s->coarsest, best->deepest, &best->rung.settings, error);
     }
     glint_error_trial t;
-    status = try_weights(s, GLINT_PRECISION_DOUBLE, 0, CHAOS_STEP, &t, error);
-    return status == GLINT_OK
-               ? glint_error_find_chaos(s, &s->grid.image, t.deepest, &t.rung.settings, error)
-               : status;
+    TRY(try_weights(s, in_double, CHAOS_STEP, &t, error));
+    return glint_error_find_chaos(s, &s->grid.image, t.deepest, &t.rung.settings, error);
 }
 
 // Single precision errs by what double precision does and more, so that it needs no larger weights;
@@ -254,16 +253,15 @@ static glint_status try_float(glint_error_search *s, double mend, int of_double,
     for (; at < last && GLINT_ERROR_SAFETY * hypot(expected, unseen) > s->asked->bound; at++) {
         expected *= exp2(-OCTAVES_PER_STEP);
     }
-    glint_status status = GLINT_OK;
-    for (; status == GLINT_OK && at < last; at++) {
+    for (; at < last; at++) {
         glint_error_trial t;
-        status = try_weights(s, GLINT_PRECISION_FLOAT, mend, at, &t, error);
-        if (status == GLINT_OK && keeps(s, &t)) {
+        TRY(try_weights(s, (way){GLINT_PRECISION_FLOAT, mend}, at, &t, error));
+        if (keeps(s, &t)) {
             *best = t;
             break;
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 // Whether mending is worth while beside a frame in double precision, by `settings`, whose grid
@@ -275,11 +273,10 @@ static glint_status may_mend(glint_error_search *s, const glint_settings *settin
     if (!(s->mend > 0) || !glint_error_may_be_float(s, s->mend)) {
         return GLINT_OK;
     }
-    double mended = 0;
-    glint_status status =
-        glint_error_grid_count_mended(&s->grid, settings, s->mend, &mended, error);
-    *is_worth = status == GLINT_OK && mended <= MOST_MENDED * (double)rays;
-    return status;
+    double mended;
+    TRY(glint_error_grid_count_mended(&s->grid, settings, s->mend, &mended, error));
+    *is_worth = mended <= MOST_MENDED * (double)rays;
+    return GLINT_OK;
 }
 
 static glint_status search_weights(glint_error_search *s, glint_error_trial *best,
@@ -287,19 +284,19 @@ static glint_status search_weights(glint_error_search *s, glint_error_trial *bes
 {
     int step;
     glint_error_search_give_up(s, best);
-    glint_status status = find_weights(s, &step, best, error);
-    if (status != GLINT_OK || best->is_reference) {
-        return status;
+    TRY(find_weights(s, &step, best, error));
+    if (best->is_reference) {
+        return GLINT_OK;
     }
-    status = find_unseen_of_weights(s, step, best, error);
-    if (status == GLINT_OK && glint_error_may_be_float(s, 0)) {
-        status = try_float(s, 0, step, best, error);
+    TRY(find_unseen_of_weights(s, step, best, error));
+    if (glint_error_may_be_float(s, 0)) {
+        TRY(try_float(s, 0, step, best, error));
     }
     bool is_worth = best->rung.settings.precision == GLINT_PRECISION_DOUBLE;
-    if (status == GLINT_OK && is_worth) {
-        status = may_mend(s, &best->rung.settings, best->rays, &is_worth, error);
+    if (is_worth) {
+        TRY(may_mend(s, &best->rung.settings, best->rays, &is_worth, error));
     }
-    return status == GLINT_OK && is_worth ? try_float(s, s->mend, step, best, error) : status;
+    return is_worth ? try_float(s, s->mend, step, best, error) : GLINT_OK;
 }
 
 // What is finer in the same precision, by the grid as well; where that takes nearly as long as the
@@ -307,9 +304,8 @@ static glint_status search_weights(glint_error_search *s, glint_error_trial *bes
 static glint_status refine_weights(glint_error_search *s, double estimate, glint_error_trial *t,
                                    glint_error *error)
 {
-    const glint_precision precision = t->rung.settings.precision;
-    const double mend = t->rung.settings.mend;
-    const int last = precision == GLINT_PRECISION_DOUBLE ? LAST_STEP - NEAR_STEPS : LAST_STEP;
+    const way by = {t->rung.settings.precision, t->rung.settings.mend};
+    const int last = by.precision == GLINT_PRECISION_DOUBLE ? LAST_STEP - NEAR_STEPS : LAST_STEP;
     double step = step_of(t->rung.settings.min_weight);
     do {
         step += ceil(fmax(1, log2(estimate / s->asked->bound) / OCTAVES_PER_STEP));
@@ -317,10 +313,7 @@ static glint_status refine_weights(glint_error_search *s, double estimate, glint
             glint_error_search_give_up(s, t);
             return GLINT_OK;
         }
-        const glint_status status = try_weights(s, precision, mend, (int)step, t, error);
-        if (status != GLINT_OK) {
-            return status;
-        }
+        TRY(try_weights(s, by, (int)step, t, error));
         estimate = t->error;
     } while (!keeps(s, t));
     return GLINT_OK;
@@ -361,46 +354,42 @@ static glint_status prepare_mended(glint_error_search *s, bool *is_worth, glint_
     glint_rung *rung = &s->rungs[s->mended_rung];
     *rung = s->rungs[s->mended_rung - 1];
     s->grid.in_double = &s->grid.reference;
-    glint_status status = GLINT_OK;
     if (s->grid.jumps == NULL) {
-        status = glint_error_find_edges(s, &s->grid.reference, &rung->settings, error);
+        TRY(glint_error_find_edges(s, &s->grid.reference, &rung->settings, error));
     }
-    *is_worth = false;
-    if (status == GLINT_OK) {
-        status = may_mend(s, &s->of_reference, s->rays, is_worth, error);
-    }
+    TRY(may_mend(s, &s->of_reference, s->rays, is_worth, error));
     glint_rung_mend(s->mend, rung);
-    return status;
+    return GLINT_OK;
 }
 
 // The first from `taken` on that keeps the bound.
 static glint_status search_rungs(glint_error_search *s, glint_error_trial *best, glint_error *error)
 {
-    glint_status status = GLINT_OK;
-    for (; status == GLINT_OK && s->taken < s->count; s->taken++) {
+    for (; s->taken < s->count; s->taken++) {
         bool is_worth = true;
         if (s->taken == s->mended_rung) {
-            status = prepare_mended(s, &is_worth, error);
+            TRY(prepare_mended(s, &is_worth, error));
         }
-        if (status != GLINT_OK || !is_worth) {
+        if (!is_worth) {
             continue;
         }
-        status = try_rung(s, &s->rungs[s->taken], best, error);
+        TRY(try_rung(s, &s->rungs[s->taken], best, error));
         const bool is_shallow = best->rung.settings.depth > 0;
-        if (status == GLINT_OK && keeps(s, best) &&
+        if (keeps(s, best) &&
             (!is_shallow || (double)best->rays <= SHALLOW_RAYS * (double)s->rays)) {
-            return status;
+            return GLINT_OK;
         }
     }
     glint_error_search_give_up(s, best);
-    return status;
+    return GLINT_OK;
 }
 
 // ---- The search --------------------------------------------------------------------------------
 
 // What the grid's reference tells of the frame, beside its mean.
-static void learn(glint_error_search *s, const glint_frame_report *report)
+static void learn(glint_error_search *s)
 {
+    const glint_frame_report *report = &s->grid.report;
     s->rays = glint_ray_counts_all(&report->rays);
     s->deepest = report->deepest;
     s->truncation = report->truncation.rms;
@@ -431,13 +420,9 @@ glint_status glint_error_search_begin(glint_error_search *s, const glint_error_b
     if (plan->features[GLINT_FEATURE_CONVEX_SOLID].compiled) {
         s->of_reference.depth = 0; // so that what is cut short of it is what may be of others
     }
-    glint_frame_report report;
-    glint_status status =
-        glint_error_grid_set_reference(&s->grid, &s->of_reference, &report, error);
-    if (status == GLINT_OK) {
-        learn(s, &report);
-    }
-    return status;
+    TRY(glint_error_grid_set_reference(&s->grid, &s->of_reference, error));
+    learn(s);
+    return GLINT_OK;
 }
 
 glint_status glint_error_search_choose(glint_error_search *s, glint_error_trial *t,
@@ -450,11 +435,11 @@ glint_status glint_error_search_choose(glint_error_search *s, glint_error_trial 
     if (s->splits) {
         return search_weights(s, t, error);
     }
-    glint_status status = glint_error_find_edges(s, &s->grid.reference, &s->asked->settings, error);
-    if (status == GLINT_OK && glint_error_wants_chaos(s, s->deepest)) {
-        status = glint_error_find_chaos(s, &s->grid.reference, s->deepest, &s->of_reference, error);
+    TRY(glint_error_find_edges(s, &s->grid.reference, &s->asked->settings, error));
+    if (glint_error_wants_chaos(s, s->deepest)) {
+        TRY(glint_error_find_chaos(s, &s->grid.reference, s->deepest, &s->of_reference, error));
     }
-    return status == GLINT_OK ? search_rungs(s, t, error) : status;
+    return search_rungs(s, t, error);
 }
 
 glint_status glint_error_search_refine(glint_error_search *s, double estimate, glint_error_trial *t,

@@ -1,9 +1,8 @@
 // What single precision makes of a frame's pixels here and there. See error_unseen.h.
 //
 //  - At edges and folds of glass it shows the other side in a pixel here and there, which may be
-//  off
-//    by ten times the mean. How many there may be, and of what size, follows from the jumps between
-//    the grid's pixels and places beside them (error_grid.h).
+//    off by ten times the mean. How many there may be, and of what size, follows from the jumps
+//    between the grid's pixels and places beside them (error_grid.h).
 //  - Where light bounces so often between curved surfaces that it has no digits left, one pixel in
 //    ten thousand is off by many times the mean. How likely that is of the grid's pixels is found
 //    in double precision, and those are taken to show what another direction of the environment
@@ -61,10 +60,7 @@ glint_status glint_error_find_edges(glint_error_search *s, const glint_image *im
     in_float.precision = GLINT_PRECISION_FLOAT;
     const glint_error_edges edges = {image, &in_float, MENDED_EDGES * s->asked->bound};
     glint_edge_errors found;
-    glint_status status = glint_error_grid_find_edges(&s->grid, &edges, &found, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_error_grid_find_edges(&s->grid, &edges, &found, error));
     const bool counts = s->glass || s->deepest > CHAOS_DEPTH;
     s->unseen = hypot(s->unseen, counts ? found.at_most : 0);
     s->mended_unseen = hypot(s->mended_unseen, counts ? found.mended : 0);
@@ -95,10 +91,7 @@ glint_status glint_error_find_chaos(glint_error_search *s, const glint_image *im
     if (hypot(s->unseen, unseen) > AFFORDABLE * s->asked->bound) {
         const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
         double share;
-        glint_status status = glint_error_grid_find_chaos(&s->grid, &chaos, &share, error);
-        if (status != GLINT_OK) {
-            return status;
-        }
+        TRY(glint_error_grid_find_chaos(&s->grid, &chaos, &share, error));
         unseen = fmin(unseen, CHAOS_FACTOR * s->relative_contrast * sqrt(share));
     }
     s->unseen = hypot(s->unseen, unseen);

@@ -80,18 +80,19 @@ glint_status glint_capture(glint_renderer *renderer, glint_vec3 at, const glint_
         return glint_fail(error, GLINT_USAGE, "a captured view is square, not %dx%d",
                           settings->width, settings->height);
     }
-    glint_status status = glint_cube_create(settings->width, cube, error);
-    for (int face = 0; status == GLINT_OK && face < 6; face++) {
+    glint_status status;
+    TRY_OR(cleanup, status, glint_cube_create(settings->width, cube, error));
+    for (int face = 0; face < 6; face++) {
         const glint_camera camera = face_camera(face, at);
         view_steps steps = {progress, face};
         const glint_progress of_view = {step, &steps};
         glint_frame_report view;
-        status = glint_renderer_frame(renderer, &camera, &of_view, &image, &view, error);
-        if (status == GLINT_OK) {
-            add_report(&view, &sum);
-            store_face(&image, face, cube);
-        }
+        TRY_OR(cleanup, status,
+               glint_renderer_frame(renderer, &camera, &of_view, &image, &view, error));
+        add_report(&view, &sum);
+        store_face(&image, face, cube);
     }
+cleanup:
     glint_image_free(&image);
     if (status == GLINT_OK) {
         glint_cube_fill_border(cube);

@@ -8,20 +8,20 @@
 
 #include <stdlib.h>
 
-static glint_status render(const glint_pass *pass, glint_error *error)
+static glint_status render(const glint_frame_request *request, glint_error *error)
 {
-    glint_renderer *r = pass->renderer;
+    glint_renderer *r = request->renderer;
     if (r->state != GLINT_RENDERER_IS_READY) {
         return glint_fail(error, GLINT_USAGE, "the renderer was made without frames, or failed");
     }
-    TRY(glint_pass_run(pass, error));
+    TRY(glint_pass_run(request, error));
     const bool is_whole = r->settings.list == NULL && r->settings.grid_step == 0;
     if (r->settings.mend > 0 && is_whole) {
-        TRY(glint_mend(pass, error));
+        TRY(glint_mend(request, error));
     }
-    pass->report->nonfinite_pixels = glint_image_count_nonfinite(pass->image);
-    r->phases.kernel = pass->report->kernel_ms;
-    r->phases.readback = pass->report->readback_ms;
+    request->report->nonfinite_pixels = glint_image_count_nonfinite(request->image);
+    r->phases.kernel = request->report->kernel_ms;
+    r->phases.readback = request->report->readback_ms;
     return GLINT_OK;
 }
 
@@ -30,9 +30,10 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
                                   glint_frame_report *report, glint_error *error)
 {
     glint_frame_report unused;
-    const glint_pass pass = {renderer, camera, progress, image, report != NULL ? report : &unused};
-    *pass.report = (glint_frame_report){0};
-    const glint_status status = render(&pass, error);
+    const glint_frame_request request = {renderer, camera, progress, image,
+                                         report != NULL ? report : &unused};
+    *request.report = (glint_frame_report){0};
+    const glint_status status = render(&request, error);
     if (status != GLINT_OK) {
         glint_image_free(image);
     }

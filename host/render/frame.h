@@ -119,6 +119,15 @@ glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *
                                   const glint_progress *progress, glint_image *image,
                                   glint_frame_report *report, glint_error *error);
 
+// What glint_renderer_frame takes, where it is handed on. Pointers are borrowed.
+typedef struct glint_frame_request {
+    glint_renderer *renderer;
+    const glint_camera *camera;
+    const glint_progress *progress; // may be NULL
+    glint_image *image;
+    glint_frame_report *report; // not NULL
+} glint_frame_request;
+
 // The pixels of the last frame in double precision as the device computed them
 // ([height][width][4], malloc'd), before they are rounded to float: for tests. GLINT_USAGE in other
 // precisions.

@@ -88,52 +88,52 @@ static void put(const glint_image *mended, const glint_pixel_list *list, glint_i
 }
 
 // The listed pixels, into *mended.
-static glint_status render_listed(const glint_pass *pass, const glint_pixel_list *list,
+static glint_status render_listed(const glint_frame_request *request, const glint_pixel_list *list,
                                   glint_image *mended, glint_frame_report *report,
                                   glint_error *error)
 {
-    glint_settings listed = pass->renderer->settings;
+    glint_settings listed = request->renderer->settings;
     listed.precision = GLINT_PRECISION_DOUBLE;
     listed.mend = 0;
     listed.list = list->numbers;
     listed.list_rows = list->rows;
     listed.aovs = 0;
     listed.terms = 0;
-    const glint_progress quiet = {ask, (void *)pass->progress};
-    const glint_pass again = {pass->renderer, pass->camera, pass->progress != NULL ? &quiet : NULL,
-                              mended, report};
-    TRY(glint_renderer_set_settings(pass->renderer, &listed, error));
+    const glint_progress quiet = {ask, (void *)request->progress};
+    const glint_frame_request again = {request->renderer, request->camera,
+                                       request->progress != NULL ? &quiet : NULL, mended, report};
+    TRY(glint_renderer_set_settings(request->renderer, &listed, error));
     return glint_pass_run(&again, error);
 }
 
-static glint_status render_again(const glint_pass *pass, const glint_pixel_list *list,
+static glint_status render_again(const glint_frame_request *request, const glint_pixel_list *list,
                                  glint_error *error)
 {
-    const glint_settings whole = pass->renderer->settings;
+    const glint_settings whole = request->renderer->settings;
     glint_image mended = {0};
     glint_frame_report again = {0};
-    const glint_status status = render_listed(pass, list, &mended, &again, error);
+    const glint_status status = render_listed(request, list, &mended, &again, error);
     if (status == GLINT_OK) {
-        put(&mended, list, pass->image);
-        glint_ray_counts_add(&pass->report->rays, &again.rays);
-        pass->report->kernel_ms += again.kernel_ms;
-        pass->report->readback_ms += again.readback_ms;
+        put(&mended, list, request->image);
+        glint_ray_counts_add(&request->report->rays, &again.rays);
+        request->report->kernel_ms += again.kernel_ms;
+        request->report->readback_ms += again.readback_ms;
     }
     glint_image_free(&mended);
     // Also where it failed: the list goes.
     const glint_status back =
-        glint_renderer_set_settings(pass->renderer, &whole, status == GLINT_OK ? error : NULL);
+        glint_renderer_set_settings(request->renderer, &whole, status == GLINT_OK ? error : NULL);
     return status == GLINT_OK ? back : status;
 }
 
-glint_status glint_mend(const glint_pass *pass, glint_error *error)
+glint_status glint_mend(const glint_frame_request *request, glint_error *error)
 {
     glint_pixel_list list = {0};
-    glint_status status = find_pixels(pass->renderer, pass->image, &list, error);
+    glint_status status = find_pixels(request->renderer, request->image, &list, error);
     if (status == GLINT_OK && list.count > 0) {
-        status = render_again(pass, &list, error);
+        status = render_again(request, &list, error);
     }
-    pass->report->mended_pixels = list.count;
+    request->report->mended_pixels = list.count;
     glint_pixel_list_free(&list);
     return status;
 }

@@ -71,43 +71,43 @@ static void make_record(const glint_renderer *r, const glint_camera *camera,
 }
 
 // Vertices and tiles, into `pixels`.
-static glint_status launch(const glint_pass *pass, cl_mem pixels, glint_error *error)
+static glint_status launch(const glint_frame_request *request, cl_mem pixels, glint_error *error)
 {
-    glint_renderer *r = pass->renderer;
+    glint_renderer *r = request->renderer;
     glint_frame_record record;
-    make_record(r, pass->camera, &record);
+    make_record(r, request->camera, &record);
     glint_launcher launcher = glint_renderer_launcher(r);
     launcher.outputs.pixels = pixels;
     TRY(glint_target_clear_counters(&r->target, error));
     TRY(glint_vertices_shade(&launcher, &record, r->scene.shown.bvh.cluster_count, error));
-    return glint_launches_run(&launcher, &record, pass->progress, &r->bands_per_ms, error);
+    return glint_launches_run(&launcher, &record, request->progress, &r->bands_per_ms, error);
 }
 
-static glint_status render(const glint_pass *pass, glint_error *error)
+static glint_status render(const glint_frame_request *request, glint_error *error)
 {
-    glint_renderer *r = pass->renderer;
+    glint_renderer *r = request->renderer;
     cl_mem pixels;
-    TRY(glint_renderer_suit(r, pass->camera, error));
-    TRY(glint_pixels_begin(&r->target.pixels, pass->image, &pixels, error));
+    TRY(glint_renderer_suit(r, request->camera, error));
+    TRY(glint_pixels_begin(&r->target.pixels, request->image, &pixels, error));
     double clock = glint_now_ms();
-    const glint_status status = launch(pass, pixels, error);
-    pass->report->kernel_ms = glint_lap_ms(&clock);
+    const glint_status status = launch(request, pixels, error);
+    request->report->kernel_ms = glint_lap_ms(&clock);
     const bool is_rendered = status == GLINT_OK;
-    const glint_status ended =
-        glint_pixels_end(&r->target.pixels, is_rendered, pass->image, is_rendered ? error : NULL);
+    const glint_status ended = glint_pixels_end(&r->target.pixels, is_rendered, request->image,
+                                                is_rendered ? error : NULL);
     TRY(status);
     TRY(ended);
-    TRY(read_counters(r, pass->report, error));
-    pass->report->readback_ms = glint_lap_ms(&clock);
+    TRY(read_counters(r, request->report, error));
+    request->report->readback_ms = glint_lap_ms(&clock);
     return GLINT_OK;
 }
 
-glint_status glint_pass_run(const glint_pass *pass, glint_error *error)
+glint_status glint_pass_run(const glint_frame_request *request, glint_error *error)
 {
-    *pass->report = (glint_frame_report){0};
-    const glint_status status = render(pass, error);
+    *request->report = (glint_frame_report){0};
+    const glint_status status = render(request, error);
     if (status != GLINT_OK) {
-        glint_image_free(pass->image);
+        glint_image_free(request->image);
     }
     return status;
 }

@@ -4,16 +4,8 @@
 
 #include "render/renderer.h"
 
-// Pointers are borrowed.
-typedef struct glint_pass {
-    glint_renderer *renderer;
-    const glint_camera *camera;
-    const glint_progress *progress; // may be NULL
-    glint_image *image;             // see glint_renderer_frame; empty on failure
-    glint_frame_report *report;
-} glint_pass;
-
-// Renders the pixels that the settings ask for; *report is set. Errors: as glint_renderer_frame.
-glint_status glint_pass_run(const glint_pass *pass, glint_error *error);
+// Renders the pixels that the settings ask for; *request->report is set. Errors: as
+// glint_renderer_frame; the image is then empty.
+glint_status glint_pass_run(const glint_frame_request *request, glint_error *error);
 
 #endif

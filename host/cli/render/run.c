@@ -214,8 +214,9 @@ static glint_status render_within(void *context, glint_sequence_frame *frame,
                                   const glint_progress *progress, glint_error *error)
 {
     render_run *run = context;
-    return glint_error_bound_frame(&run->bound, run->renderer, &frame->camera, progress,
-                                   &frame->image, &frame->report, &run->choice, error);
+    const glint_frame_request request = {run->renderer, &frame->camera, progress, &frame->image,
+                                         &frame->report};
+    return glint_error_bound_frame(&run->bound, &request, &run->choice, error);
 }
 
 static void frame_is_traced(void *context, glint_sequence_frame *frame)
