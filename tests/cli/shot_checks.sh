@@ -247,7 +247,7 @@ refuses 2 '--env-at: a capture has a place of its own' render "$spheres" -o out/
     --proxy sphere:9 --env-at 0,0,0
 refuses 2 '--env-at 1,2: x,y,z in metres' render "$spheres" -o out/a.exr --proxy sphere:9 --env-at 1,2
 refuses 2 'which is not inside the box from (1, 1, 1) to (2, 2, 2)' render "$spheres" -o out/a.exr --proxy 1,1,1,2,2,2
-refuses 2 'leave --filter mip out' render "$spheres" -o out/a.exr --proxy sphere:9 --filter mip
+refuses 2 '--proxy: --filter mip takes more than points' render "$spheres" -o out/a.exr --proxy sphere:9 --filter mip
 refuses 2 'no --surroundings are given' render "$spheres" -o out/a.exr --env capture:mirror --env-layout ball
 refuses 2 'only render captures' info "$spheres" --env capture:mirror
 refuses 2 'no --env is given' render "$spheres" -o out/a.exr --env-layout ball
