@@ -40,8 +40,6 @@ typedef enum glint_setting_type {
 #define GLINT_FINGERPRINT_BY_NAME (-1)
 
 typedef struct glint_setting {
-    glint_option option; // what the command line takes, and so the range. Of an internal setting
-                         // the name, where messages have one, and the choices
     glint_settings_group group;
     size_t offset, size; // of the member in glint_settings
     glint_setting_type type;
@@ -51,6 +49,8 @@ typedef struct glint_setting {
                             // setting, and means the default
     const char *metadata;   // in a file where it is not at its default; NULL: nowhere
     const char *no_capture; // why a capture takes its default alone; NULL: any value
+    glint_option option;    // what the command line takes, and so the range. Of an internal setting
+                            // the name, where messages have one, and the choices
     // CUSTOM: writes what the option takes for the value.
     void (*print)(const glint_settings *settings, char text[GLINT_SETTING_TEXT]);
 } glint_setting;
