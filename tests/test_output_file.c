@@ -186,8 +186,8 @@ static void images_that_do_not_fit_on_the_disk_leave_nothing(void **state)
 
 static void stop(int number)
 {
-    glint_image_discard_temporaries(); // NOLINT(bugprone-signal-handler,cert-sig30-c): as
-                                       // documented
+    glint_output_file_discard_all(); // NOLINT(bugprone-signal-handler,cert-sig30-c): as
+                                     // documented
     _exit(128 + number);
 }
 

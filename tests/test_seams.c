@@ -55,7 +55,7 @@ static void make_cube(glint_environment *environment)
     glint_cube_fill_border(&environment->radiance);
 }
 
-// A map of 4·EDGE columns: DESIGN's axes, +Y up, +Z in the middle, +X a quarter from the left.
+// A map of 4·EDGE columns: +Y up, +Z in the middle, +X a quarter from the left.
 static void make_latlong(glint_environment *environment)
 {
     glint_image image;

@@ -109,10 +109,7 @@ void glint_axes_color(glint_vec3 d, double pixel, double rgb[3])
 
 glint_status glint_axes_cube(int edge, glint_cube *cube, glint_error *error)
 {
-    glint_status status = glint_cube_create(edge, cube, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_cube_create(edge, cube, error));
     for (int k = 0; k < GLINT_CUBE_FACES * edge * edge; k++) {
         const int face = k / edge / edge, i = k % edge, j = k / edge % edge;
         const double s = (2.0 * i + 1.0) / edge - 1.0, t = (2.0 * j + 1.0) / edge - 1.0;

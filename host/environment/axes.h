@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 #include "base/vector.h"
-#include "environment/environment.h"
+#include "environment/cube.h"
 
 // A cube of six colours seen from inside, its edges drawn, each side with its axis's name. The
 // labels of the sides stand upright; +Y and −Y read upright for somebody who faces −Z, as the

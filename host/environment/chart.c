@@ -1,6 +1,6 @@
 // Where the pixels of a layout look. See chart.h.
 //
-// Which way things face is in DESIGN's conventions and in kernels/layout.h.
+// Which way faces and axes point stands in kernels/layout.h.
 //
 // Six faces by name (posx …), crosses and strips follow the table of OpenGL, RenderMan and
 // Direct3D, which is left-handed: seen along world d = (x, y, z) it is asked for (x, y, −z).
@@ -21,6 +21,8 @@
 //   picture is flat: p = tan γ/tan α, sin α = 1/D, at the rim ψ = 90° and θ = 180° − α. A cone of
 //   the half angle α behind the ball is not in the picture.
 #include "environment/chart.h"
+
+#include "environment/cube.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 #include "base/vector.h"
-#include "environment/environment.h"
+#include "environment/layouts.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
-// The cube map: places, directions, border and look-up. See environment.h.
-#include "environment/environment.h"
+// The cube map: places, directions, border and look-up. See cube.h.
+#include "environment/cube.h"
 
 #include "base/memory.h"
 #include "kernels/layout.h"
@@ -203,10 +203,7 @@ glint_status glint_cube_mirror(glint_cube *cube, const char *flip, glint_error *
                               strchr(flip, 'y') != NULL ? -1 : 1,
                               strchr(flip, 'z') != NULL ? -1 : 1};
     glint_cube mirrored;
-    glint_status status = glint_cube_create(cube->edge, &mirrored, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_cube_create(cube->edge, &mirrored, error));
     for (int face = 0; face < GLINT_CUBE_FACES; face++) {
         mirror_face(cube, signs, face, &mirrored);
     }

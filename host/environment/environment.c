@@ -1,10 +1,11 @@
 // Environments: cube maps of what files hold. See environment.h.
 #include "environment/environment.h"
 
+#include "environment/faces.h"
 #include "environment/latlong.h"
-#include "environment/layouts.h"
 #include "environment/sampler.h"
 #include "environment/source.h"
+#include "environment/studio.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,18 +17,14 @@ static glint_status make_cube_of_disc(const glint_source *source, glint_cube *cu
     glint_sampler sampler = {0};
     glint_image strip = {0};
     glint_chart faces;
+    glint_status status;
     const int rows = (int)(2 * glint_chart_quarter_turn(&source->chart) + 0.5);
-    glint_status status =
-        glint_chart_make(GLINT_LAYOUT_CUBE, glint_latlong_edge(rows), false, &faces, error);
-    if (status == GLINT_OK) {
-        status = glint_sampler_of_image(&source->image, &source->chart, &sampler, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_resample(&sampler, &glint_turn_none, &faces, &strip, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_cube_from_faces(&strip, &faces, cube, error);
-    }
+    TRY(glint_chart_make(GLINT_LAYOUT_CUBE, glint_latlong_edge(rows), false, &faces, error));
+    TRY_OR(cleanup, status,
+           glint_sampler_of_image(&source->image, &source->chart, &sampler, error));
+    TRY_OR(cleanup, status, glint_resample(&sampler, &glint_turn_none, &faces, &strip, error));
+    TRY_OR(cleanup, status, glint_cube_from_faces(&strip, &faces, cube, error));
+cleanup:
     glint_image_free(&strip);
     glint_sampler_free(&sampler);
     return status;
@@ -46,29 +43,31 @@ static glint_status make_cube(const glint_source *source, glint_cube *cube, glin
     return make_cube_of_disc(source, cube, error);
 }
 
-// Makes a cube of the source, which is freed. Its loading ended with `status`.
-static glint_status finish(const char *name, glint_status status, glint_source *source,
-                           glint_environment *environment, glint_error *error)
+static glint_status set_name(const char *name, glint_environment *environment, glint_error *error)
 {
-    if (status == GLINT_OK) {
-        status = make_cube(source, &environment->radiance, error);
-    }
-    if (status == GLINT_OK) {
-        environment->name = strdup(name);
-        status = environment->name != NULL ? GLINT_OK
-                                           : glint_fail_memory(error, "an environment's name");
-    }
-    if (status == GLINT_OK) {
-        environment->layout = source->chart.layout;
-        environment->reason = source->reason;
-        const bool is_set = environment->layout == GLINT_LAYOUT_FACES;
-        environment->source_width = source->chart.width;
-        environment->source_height = is_set ? source->chart.width : source->chart.height;
-        environment->mended_texels = source->mended_texels;
-    } else {
+    environment->name = strdup(name);
+    return environment->name != NULL ? GLINT_OK : glint_fail_memory(error, "an environment's name");
+}
+
+// Makes a cube of the source, which is freed.
+static glint_status finish(const char *name, glint_source *source, glint_environment *environment,
+                           glint_error *error)
+{
+    const glint_chart *chart = &source->chart;
+    const bool is_set = chart->layout == GLINT_LAYOUT_FACES;
+    *environment = (glint_environment){.layout = chart->layout,
+                                       .reason = source->reason,
+                                       .source_width = chart->width,
+                                       .source_height = is_set ? chart->width : chart->height,
+                                       .mended_texels = source->mended_texels};
+    glint_status status;
+    TRY_OR(cleanup, status, make_cube(source, &environment->radiance, error));
+    TRY_OR(cleanup, status, set_name(name, environment, error));
+cleanup:
+    glint_source_free(source);
+    if (status != GLINT_OK) {
         glint_environment_free(environment);
     }
-    glint_source_free(source);
     return status;
 }
 
@@ -81,8 +80,8 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
         return glint_environment_studio(environment, error);
     }
     glint_source source;
-    glint_status status = glint_source_load(path, request, &source, warnings, error);
-    return finish(path, status, &source, environment, error);
+    TRY(glint_source_load(path, request, &source, warnings, error));
+    return finish(path, &source, environment, error);
 }
 
 glint_status glint_environment_from_image(const char *name, glint_image *image,
@@ -93,9 +92,23 @@ glint_status glint_environment_from_image(const char *name, glint_image *image,
     static const glint_image_facts nothing_more = {0};
     *environment = (glint_environment){0};
     glint_source source;
-    glint_status status =
-        glint_source_take(name, image, &nothing_more, request, &source, warnings, error);
-    return finish(name, status, &source, environment, error);
+    TRY(glint_source_take(name, image, &nothing_more, request, &source, warnings, error));
+    return finish(name, &source, environment, error);
+}
+
+glint_status glint_environment_studio(glint_environment *environment, glint_error *error)
+{
+    *environment = (glint_environment){.layout = GLINT_LAYOUT_STUDIO, .reason = "built in"};
+    glint_status status;
+    TRY_OR(cleanup, status, glint_studio_cube(&environment->radiance, error));
+    TRY_OR(cleanup, status, set_name("studio", environment, error));
+    environment->source_width = environment->radiance.edge;
+    environment->source_height = 6 * environment->radiance.edge;
+cleanup:
+    if (status != GLINT_OK) {
+        glint_environment_free(environment);
+    }
+    return status;
 }
 
 void glint_environment_free(glint_environment *environment)

@@ -4,7 +4,7 @@
 #define GLINT_ENVIRONMENT_HALF_TEXELS_H
 
 #include "base/status.h"
-#include "environment/environment.h"
+#include "environment/cube.h"
 
 #include <stdint.h>
 

@@ -3,7 +3,7 @@
 #define GLINT_ENVIRONMENT_HARMONICS_H
 
 #include "base/status.h"
-#include "environment/environment.h"
+#include "environment/cube.h"
 #include "kernels/layout.h"
 
 #ifdef __cplusplus

@@ -3,7 +3,7 @@
 #define GLINT_ENVIRONMENT_IRRADIANCE_H
 
 #include "base/status.h"
-#include "environment/environment.h"
+#include "environment/cube.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,8 +19,8 @@ extern "C" {
 // E(n) = ∫ L(ω) max(0, n·ω) dω over the sphere: 1 under a uniform environment of radiance 1.
 // The environment is taken as its texels, each with its exact solid angle and first moment; only
 // blocks of texels that n's horizon runs through are approximated (4e-6, see irradiance.c). The
-// border is not copied from the neighbours as a radiance map's is: it holds E(n)/π at its own place
-// in the plane of the face, which a smooth function is better interpolated by.
+// border holds E(n)/π at its own place in the plane of the face: a smooth function is interpolated
+// better so than through values on the edges, as a radiance map is (see cube.c).
 glint_status glint_irradiance_map(const glint_cube *radiance, int edge, glint_cube *irradiance,
                                   glint_error *error);
 

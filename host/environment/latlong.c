@@ -2,12 +2,9 @@
 //
 // Which way they face is in chart.c.
 //
-// How well the cube stands for a lat-long map: texel spacing h on the sphere, a map that is twice
-// differentiable: reading it by one bilinear look-up and writing, then reading the cube by another,
-// differ from the map by second-order terms in h each, except within half a texel of the cube's
-// edges. There the border, copied from the neighbours' texels, stands up to half a texel from where
-// the plane of the face would have it: up to 0.193 |∇E|/N away, at the ends of the edges (see
-// tests/support/direction_maps.c). In exchange both faces agree on their common edge, exactly.
+// A cube made of a lat-long map errs by second-order terms of the texels' spacing: one bilinear
+// look-up reads the map, another one reads the cube. The cube's border keeps that order over edges
+// and corners (see cube.c).
 #include "environment/latlong.h"
 
 #include "base/parallel.h"
@@ -18,13 +15,6 @@
 #define LATLONG_EDGE_MAX                                                                           \
     2048            // 0.4 GB of cube; maps of more than 3200 rows lose their finest detail
 #define TAPS_MAX 16 // an axis; a cap for the few texels at the poles
-
-static void mix(const double a[3], const double b[3], double weight, double mixed[3])
-{
-    for (int c = 0; c < 3; c++) {
-        mixed[c] = a[c] + weight * (b[c] - a[c]);
-    }
-}
 
 int glint_latlong_edge(int height)
 {
@@ -58,7 +48,7 @@ static void sample_row(const glint_image *image, int j, double x, double rgb[3])
     double a[3], b[3];
     glint_image_rgb(image, left, j, a);
     glint_image_rgb(image, right, j, b);
-    mix(a, b, weight, rgb);
+    glint_rgb_mix(a, b, weight, rgb);
 }
 
 static void sample_map(const glint_image *image, bool on_edges, double u, double v, double rgb[3])
@@ -76,7 +66,7 @@ static void sample_map(const glint_image *image, bool on_edges, double u, double
     double above[3], below[3];
     sample_row(image, upper, x, above);
     sample_row(image, upper + 1, x, below);
-    mix(above, below, y - upper, rgb);
+    glint_rgb_mix(above, below, y - upper, rgb);
 }
 
 void glint_latlong_sample(const glint_image *image, bool on_edges, glint_vec3 direction,
@@ -173,10 +163,7 @@ static void resample_row(size_t index, void *context)
 glint_status glint_cube_from_latlong(const glint_image *image, bool on_edges, int edge,
                                      glint_cube *cube, glint_error *error)
 {
-    glint_status status = glint_cube_create(edge, cube, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_cube_create(edge, cube, error));
     resampling job = {image, on_edges, cube};
     glint_parallel_for((size_t)edge * 3, resample_row, &job);
     glint_cube_fill_border(cube);

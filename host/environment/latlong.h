@@ -3,7 +3,7 @@
 #define GLINT_ENVIRONMENT_LATLONG_H
 
 #include "base/status.h"
-#include "environment/environment.h"
+#include "environment/cube.h"
 #include "image/image.h"
 
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef GLINT_ENVIRONMENT_MIP_LEVELS_H
 #define GLINT_ENVIRONMENT_MIP_LEVELS_H
 
-#include "environment/environment.h"
+#include "environment/cube.h"
 
 #include <stdint.h>
 

@@ -1,16 +1,12 @@
 // Look-ups in pictures of any layout, and resampling. See sampler.h.
 //
-// What a look-up is worth: with texels h apart on the sphere and a map that is twice
-// differentiable, bilinear interpolation errs by second-order terms in h, except within half a
-// texel of the edges of a cube whose centres lie inside. There the border, copied from the
-// neighbours' texels, stands up to half a texel from where the plane of the face would have it: up
-// to 0.193 |∇E|/N away, at the ends of the edges (see tests/support/direction_maps.c). In exchange
-// both faces agree on their common edge, exactly.
+// Bilinear interpolation of a map that is twice differentiable errs by second-order terms of the
+// texels' spacing, over the edges of a cube too (see cube.c).
 #include "environment/sampler.h"
 
 #include "base/parallel.h"
+#include "environment/faces.h"
 #include "environment/latlong.h"
-#include "environment/layouts.h"
 
 #include <math.h>
 #include <string.h>
@@ -210,10 +206,7 @@ static void resample_row(size_t j, void *context)
 glint_status glint_resample(const glint_sampler *from, const glint_turn *turn,
                             const glint_chart *to, glint_image *image, glint_error *error)
 {
-    glint_status status = glint_image_create(to->width, to->height, 3, image, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_image_create(to->width, to->height, 3, image, error));
     resampling job = {from, turn, to, image};
     glint_parallel_for((size_t)to->height, resample_row, &job);
     return GLINT_OK;

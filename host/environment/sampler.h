@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 #include "environment/chart.h"
-#include "environment/environment.h"
+#include "environment/cube.h"
 #include "image/image.h"
 
 #ifdef __cplusplus

@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 #include "environment/chart.h"
-#include "environment/environment.h"
+#include "environment/layouts.h"
 #include "image/image.h"
 #include "image/image_io.h"
 
@@ -17,7 +17,7 @@ typedef struct glint_source {
     glint_image image; // radiance; six files are one picture, of the layout FACES
     glint_chart chart;
     const char *reason;   // how the layout was known; static text
-    size_t mended_texels; // NaN, infinite or negative ones, replaced (see source.c)
+    size_t mended_texels; // NaN, infinite or negative ones, replaced (see radiance.h)
 } glint_source;
 
 // As glint_environment_load, which makes a cube map of it.

@@ -1,4 +1,4 @@
-// The built-in studio: an environment for product pictures, computed from a formula.
+// The built-in studio: an environment for product pictures, computed from a formula. See studio.h.
 //
 // What metal and glass show is what stands around them. So: a dark room, for contrast; a large soft
 // box overhead on the left, in front, as the key light; a tall cool strip on the right and a warm
@@ -7,13 +7,12 @@
 // horizon; and three small lamps, for the sparkle of cut stones. Lights 7 to 20, walls 0.03 to 0.6;
 // white paint is about 1 on the lit side. All edges are soft over several texels, so that the map
 // is free of steps at any zoom.
-#include "environment/environment.h"
+#include "environment/studio.h"
 
 #include "base/parallel.h"
 #include "kernels/layout.h"
 
-#include <stdlib.h>
-#include <string.h>
+#include <math.h>
 
 #define EDGE 512
 
@@ -134,33 +133,18 @@ static void fill_row(size_t index, void *context)
                 rgb[c] = mix(rgb[c], panels[k].color[c], share);
             }
         }
-        float *texel = glint_cube_texel(job->cube, face, i, j);
-        for (int c = 0; c < 3; c++) {
-            texel[c] = (float)rgb[c];
-        }
-        texel[3] = 1.0f;
+        glint_cube_store(job->cube, face, i, j, rgb);
     }
 }
 
-glint_status glint_environment_studio(glint_environment *environment, glint_error *error)
+glint_status glint_studio_cube(glint_cube *cube, glint_error *error)
 {
-    *environment = (glint_environment){.layout = GLINT_LAYOUT_STUDIO, .reason = "built in"};
-    environment->name = strdup("studio");
-    if (environment->name == NULL) {
-        return glint_fail_memory(error, "an environment's name");
-    }
-    glint_status status = glint_cube_create(EDGE, &environment->radiance, error);
-    if (status != GLINT_OK) {
-        glint_environment_free(environment);
-        return status;
-    }
-    environment->source_width = EDGE;
-    environment->source_height = EDGE * GLINT_CUBE_FACES;
-    studio job = {.cube = &environment->radiance};
+    TRY(glint_cube_create(EDGE, cube, error));
+    studio job = {.cube = cube};
     for (size_t k = 0; k < PANELS; k++) {
         job.frames[k] = frame_of(&panels[k]);
     }
     glint_parallel_for((size_t)EDGE * GLINT_CUBE_FACES, fill_row, &job);
-    glint_cube_fill_border(&environment->radiance);
+    glint_cube_fill_border(cube);
     return GLINT_OK;
 }

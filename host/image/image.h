@@ -43,6 +43,15 @@ static inline void glint_image_rgb(const glint_image *image, int x, int y, doubl
     }
 }
 
+// a + weight·(b − a), channel by channel.
+static inline void glint_rgb_mix(const double a[3], const double b[3], double weight,
+                                 double mixed[3])
+{
+    for (int c = 0; c < 3; c++) {
+        mixed[c] = a[c] + weight * (b[c] - a[c]);
+    }
+}
+
 // How many pixels have a value that is NaN or infinite, or overflow when their values are added.
 size_t glint_image_count_nonfinite(const glint_image *image);
 

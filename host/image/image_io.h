@@ -91,11 +91,6 @@ bool glint_image_can_write(const char *path);
 glint_status glint_image_check_output(const char *path, const glint_write_options *options,
                                       glint_error *error);
 
-// GLINT_OUTPUT_FAILED when a file could not be put at `path`: its folder is missing or not
-// writable, or the path is a folder, a device, or a write-protected file. Nothing is created;
-// called before any work is done, where the caller wants to know early. (The write checks again.)
-glint_status glint_image_check_place(const char *path, glint_error *error);
-
 // Writes linear premultiplied pixels. EXR and HDR as they are; PNG, JPEG and 8-bit TIFF after
 // exposure, unpremultiplied where the format keeps alpha, and the sRGB curve (HDR and JPEG keep no
 // alpha: what is written is the premultiplied colour, over black). The file appears whole or not
@@ -109,10 +104,6 @@ glint_status glint_image_write(const char *path, const glint_image *image,
 // How many threads each read or write may use: 0 is one for each core, as it begins; 1 the caller's
 // alone, for those who encode several images side by side.
 void glint_image_use_threads(int count);
-
-// Unlinks the temporary files that writes of other threads have in flight, and lets no further one
-// be made: later writes fail. Async-signal-safe: for a signal handler on its way to _exit.
-void glint_image_discard_temporaries(void);
 
 #ifdef __cplusplus
 }

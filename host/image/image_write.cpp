@@ -448,11 +448,6 @@ glint_status glint_image_check_output(const char *path, const glint_write_option
                              options != nullptr ? options->compression : nullptr, error);
 }
 
-glint_status glint_image_check_place(const char *path, glint_error *error)
-{
-    return glint_output_file_check(path, error);
-}
-
 glint_status glint_image_write(const char *path, const glint_image *image,
                                const glint_write_options *options, glint_error *error)
 {
@@ -482,9 +477,4 @@ void glint_image_use_threads(int count)
     OIIO::attribute("threads", count);
     // There 0 is one for each core as well, and −1 none beside the caller's.
     OIIO::attribute("exr_threads", count == 1 ? -1 : count);
-}
-
-void glint_image_discard_temporaries(void)
-{
-    glint_output_file_discard_all();
 }

@@ -1,4 +1,5 @@
-// The oracle's camera and its walk along the tree of paths, rule by rule as DESIGN.md counts them.
+// The oracle's camera and its walk along the tree of paths, rule by rule as ARCHITECTURE.md ("Light
+// transport") counts them.
 #include "oracle/oracle.h"
 #include "oracle/hit.h"
 #include "oracle/vector.h"

@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "cli/common/signals.h"
 #include "cli/render/run.h"
+#include "environment/radiance.h"
 #include "render/capture.h"
 #include "scene/subset.h"
 

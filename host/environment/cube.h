@@ -1,0 +1,57 @@
+// Cube maps: radiance by direction.
+#ifndef GLINT_ENVIRONMENT_CUBE_H
+#define GLINT_ENVIRONMENT_CUBE_H
+
+#include "base/status.h"
+#include "base/vector.h"
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// A cube map in the layout of kernels/layout.h: linear Rec.709 radiance, texel centres at
+// (i + ½)/edge, each face with a border of one texel made from its neighbours, so that bilinear
+// filtering is continuous over edges and corners, and right there to second order in 1/edge.
+// Zero is valid: no texels.
+typedef struct glint_cube {
+    int edge;      // texels along a face's edge, without the border
+    float *texels; // [6][edge + 2][edge + 2][4], owned
+} glint_cube;
+
+glint_status glint_cube_create(int edge, glint_cube *cube, glint_error *error);
+void glint_cube_free(glint_cube *cube);
+
+// The number of floats in `texels`.
+size_t glint_cube_size(const glint_cube *cube);
+
+// The texel of `face` at column i and row j, each in [−1, edge].
+float *glint_cube_texel(const glint_cube *cube, int face, int i, int j);
+
+// Sets that texel.
+void glint_cube_store(const glint_cube *cube, int face, int i, int j, const double rgb[3]);
+
+// Fills the border from the neighbours' texels; called once the inside is complete.
+void glint_cube_fill_border(glint_cube *cube);
+
+// The direction (not normalised) of the point (s, t) on a face, see kernels/layout.h.
+glint_vec3 glint_cube_direction(int face, double s, double t);
+
+// The face that a direction meets, and the point (s, t) there. On a tie of the largest components
+// the order x, y, z decides, as in ImfEnvmap.h and cubemap.cl.
+int glint_cube_place(glint_vec3 direction, double *s, double *t);
+
+// Mirrors the cube along the axes that are named in `flip` ("x" exchanges left and right, "xz" is
+// half a turn): each texel is another one as it was. Errors: GLINT_OUT_OF_MEMORY, with the
+// cube unchanged.
+glint_status glint_cube_mirror(glint_cube *cube, const char *flip, glint_error *error);
+
+// Bilinear look-up along a direction of any length but zero.
+void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
