@@ -49,23 +49,20 @@ typedef struct contest {
 static glint_status load(const char *name, contest *c, glint_error *error)
 {
     struct stat facts;
-    glint_status status = stat(name, &facts) == 0
-                              ? glint_scene_load(name, NULL, &c->scene, NULL, error)
-                              : glint_built_in_scene(name, &c->scene, error);
     c->name = name;
-    return status == GLINT_OK ? glint_scene_camera(&c->scene, NULL, &c->camera, error) : status;
+    TRY(stat(name, &facts) == 0 ? glint_scene_load(name, NULL, &c->scene, NULL, error)
+                                : glint_built_in_scene(name, &c->scene, error));
+    return glint_scene_camera(&c->scene, NULL, &c->camera, error);
 }
 
 static glint_status render(contest *c, const glint_settings *settings, glint_image *image,
                            double *ms, glint_error *error)
 {
     glint_frame_report report;
-    glint_status status = glint_renderer_set_settings(c->renderer, settings, error);
-    if (status == GLINT_OK) {
-        status = glint_renderer_frame(c->renderer, &c->camera, NULL, image, &report, error);
-        *ms = report.kernel_ms;
-    }
-    return status;
+    TRY(glint_renderer_set_settings(c->renderer, settings, error));
+    TRY(glint_renderer_frame(c->renderer, &c->camera, NULL, image, &report, error));
+    *ms = report.kernel_ms;
+    return GLINT_OK;
 }
 
 static double error_of(const contest *c)
@@ -105,13 +102,13 @@ static glint_status try_ways(contest *c, glint_error *error)
 {
     glint_rung reference;
     glint_rung_reference(&c->settings, &reference);
-    glint_status status = render(c, &reference.settings, &c->reference, &c->reference_ms, error);
+    TRY(render(c, &reference.settings, &c->reference, &c->reference_ms, error));
     list_ways(c);
-    for (size_t i = 0; status == GLINT_OK && i < c->way_count; i++) {
-        status = render(c, &c->ways[i].rung.settings, &c->image, &c->ways[i].ms, error);
+    for (size_t i = 0; i < c->way_count; i++) {
+        TRY(render(c, &c->ways[i].rung.settings, &c->image, &c->ways[i].ms, error));
         c->ways[i].error = error_of(c);
     }
-    return status;
+    return GLINT_OK;
 }
 
 // The fastest ways within the bound, as far as one frame of each tells; the reference where there
@@ -145,21 +142,23 @@ typedef struct verdict {
     double ms;           // the choice's
 } verdict;
 
+typedef struct finalists {
+    way ways[FINALISTS];
+    size_t count;
+} finalists;
+
 // All in turns.
-static glint_status compare(contest *c, const glint_settings *chosen, const way *best, size_t count,
+static glint_status compare(contest *c, const glint_settings *chosen, const finalists *best,
                             verdict *v, glint_error *error)
 {
+    const size_t count = best->count;
     double times[FINALISTS + 1][ROUNDS_MAX], ratios[ROUNDS_MAX];
     const size_t rounds = (size_t)c->rounds;
-    glint_status status = GLINT_OK;
     for (size_t i = 0; i < rounds; i++) {
-        for (size_t k = 0; status == GLINT_OK && k <= count; k++) {
-            const glint_settings *settings = k == count ? chosen : &best[k].rung.settings;
-            status = render(c, settings, &c->image, &times[k][i], error);
+        for (size_t k = 0; k <= count; k++) {
+            const glint_settings *settings = k == count ? chosen : &best->ways[k].rung.settings;
+            TRY(render(c, settings, &c->image, &times[k][i], error));
         }
-    }
-    if (status != GLINT_OK) {
-        return status;
     }
     size_t fastest = 0;
     double least = (double)INFINITY;
@@ -171,7 +170,7 @@ static glint_status compare(contest *c, const glint_settings *chosen, const way 
     for (size_t i = 0; i < rounds; i++) {
         ratios[i] = times[count][i] / times[fastest][i];
     }
-    *v = (verdict){&best[fastest].rung, glint_summarize(ratios, rounds),
+    *v = (verdict){&best->ways[fastest].rung, glint_summarize(ratios, rounds),
                    glint_summarize(times[count], rounds).median};
     return GLINT_OK;
 }
@@ -186,10 +185,10 @@ static glint_status judge(contest *c, double bound, glint_error *error)
     const glint_frame_request request = {c->renderer, &c->camera, NULL, &c->image, &report};
     TRY(glint_error_bound_frame(&asked, &request, &choice, error));
     const double is = error_of(c);
-    way best[FINALISTS];
     verdict v;
-    const size_t count = best_within(c, bound, best);
-    TRY(compare(c, &choice.rung.settings, best, count, &v, error));
+    finalists best;
+    best.count = best_within(c, bound, best.ways);
+    TRY(compare(c, &choice.rung.settings, &best, &v, error));
     printf("%s\t%d\t%g\t%s\t%.2g\t%.2g\t%s\t%d\t%.0f\t%.1f\t%.2f\t%s\t%.2f\t%.2f\t%.2f\n", c->name,
            c->view, bound, choice.rung.options, choice.error, is, is <= bound ? "kept" : "MISSED",
            choice.frames, choice.choosing_ms, v.ms, c->reference_ms / v.ms, v.fastest->options,
@@ -205,60 +204,62 @@ static glint_status run_view(contest *c, int view, int views, glint_error *error
     const glint_vec3 middle = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
     c->view = view;
     c->camera = glint_camera_orbit(&first, middle, view - 1, views);
-    glint_status status = try_ways(c, error);
-    for (int i = 0; status == GLINT_OK && i < BOUNDS; i++) {
-        status = judge(c, bounds[i], error);
+    glint_status status;
+    TRY_OR(cleanup, status, try_ways(c, error));
+    for (int i = 0; i < BOUNDS; i++) {
+        TRY_OR(cleanup, status, judge(c, bounds[i], error));
     }
+cleanup:
     c->camera = first;
     return status;
 }
 
 static glint_status run_scene(const char *name, contest *c, int views, glint_error *error)
 {
-    glint_status status = load(name, c, error);
-    if (status == GLINT_OK) {
-        const glint_renderer_inputs inputs = {.device = c->device,
-                                              .scene = &c->scene,
-                                              .environment = c->studio,
-                                              .settings = &c->settings};
-        status = glint_renderer_create(&inputs, &c->renderer, error);
+    glint_status status;
+    TRY_OR(cleanup, status, load(name, c, error));
+    const glint_renderer_inputs inputs = {.device = c->device,
+                                          .scene = &c->scene,
+                                          .environment = c->studio,
+                                          .settings = &c->settings};
+    TRY_OR(cleanup, status, glint_renderer_create(&inputs, &c->renderer, error));
+    for (int view = 1; view <= views; view++) {
+        TRY_OR(cleanup, status, run_view(c, view, views, error));
     }
-    for (int view = 1; status == GLINT_OK && view <= views; view++) {
-        status = run_view(c, view, views, error);
-    }
+cleanup:
     glint_renderer_free(c->renderer);
     c->renderer = NULL;
     glint_scene_free(&c->scene);
     return status;
 }
 
+static glint_status run(char **arguments, int count, contest *c, glint_environment *studio,
+                        glint_error *error)
+{
+    double views = 1, rounds = 1;
+    if (count < 4) {
+        return glint_fail(error, GLINT_USAGE, "WIDTHxHEIGHT VIEWS ROUNDS SCENE… are expected");
+    }
+    TRY(bench_parse_size(arguments[0], &c->settings.width, &c->settings.height, error));
+    TRY(bench_parse_count("views", arguments[1], 1000, &views, error));
+    TRY(bench_parse_count("rounds", arguments[2], ROUNDS_MAX, &rounds, error));
+    TRY(glint_environment_studio(studio, error));
+    TRY(glint_device_open(NULL, &c->device, error));
+    c->studio = studio;
+    c->rounds = (int)rounds;
+    for (int i = 3; i < count; i++) {
+        TRY(run_scene(arguments[i], c, (int)views, error));
+    }
+    return GLINT_OK;
+}
+
 int main(int argc, char **argv)
 {
     glint_error error = {0};
     glint_environment studio = {0};
-    double views = 1, rounds = 1;
     static contest c;
     c.settings = glint_settings_default;
-    glint_status status =
-        argc > 4 ? bench_parse_size(argv[1], &c.settings.width, &c.settings.height, &error)
-                 : glint_fail(&error, GLINT_USAGE, "WIDTHxHEIGHT VIEWS ROUNDS SCENE… are expected");
-    if (status == GLINT_OK) {
-        status = bench_parse_count("views", argv[2], 1000, &views, &error);
-    }
-    if (status == GLINT_OK) {
-        status = bench_parse_count("rounds", argv[3], ROUNDS_MAX, &rounds, &error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_environment_studio(&studio, &error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_device_open(NULL, &c.device, &error);
-    }
-    c.studio = &studio;
-    c.rounds = (int)rounds;
-    for (int i = 4; status == GLINT_OK && i < argc; i++) {
-        status = run_scene(argv[i], &c, (int)views, &error);
-    }
+    const glint_status status = run(argv + 1, argc - 1, &c, &studio, &error);
     glint_image_free(&c.image);
     glint_image_free(&c.reference);
     glint_device_close(c.device);

@@ -21,11 +21,10 @@ static glint_status write_studio(const char *folder, glint_error *error)
     glint_image image = {0};
     char path[4096];
     snprintf(path, sizeof path, "%s/studio.hdr", folder);
-    glint_status status = glint_environment_studio(&studio, error);
-    if (status == GLINT_OK) {
-        status = glint_image_create(width, height, 4, &image, error);
-    }
-    for (int y = 0; status == GLINT_OK && y < height; y++) {
+    glint_status status;
+    TRY_OR(cleanup, status, glint_environment_studio(&studio, error));
+    TRY_OR(cleanup, status, glint_image_create(width, height, 4, &image, error));
+    for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
             // Longitude from π on the left to −π, 0 at +Z; latitude from π/2 at the top.
             const double longitude = M_PI * (1 - 2 * (x + 0.5) / width);
@@ -41,9 +40,8 @@ static glint_status write_studio(const char *folder, glint_error *error)
             pixel[3] = 1;
         }
     }
-    if (status == GLINT_OK) {
-        status = glint_image_write(path, &image, &(glint_write_options){0}, error);
-    }
+    status = glint_image_write(path, &image, NULL, error);
+cleanup:
     glint_image_free(&image);
     glint_environment_free(&studio);
     return status;
@@ -144,51 +142,55 @@ static void put_mesh(FILE *out, const glint_scene *scene, uint32_t material)
     fputs("}\n", out);
 }
 
-static glint_status write_scene(const char *path, int width, int height, const char *folder,
+static void put_scene(FILE *out, const glint_scene *scene, const glint_camera *camera,
+                      const int size[2])
+{
+    fputs("#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 12 adc_bailout "
+          "0.00390625 }\n",
+          out);
+    put_camera(out, camera, size[0], size[1]);
+    fputs("sky_sphere { pigment { image_map { hdr \"studio.hdr\" gamma 1 map_type 1 "
+          "interpolate 2 } scale <-1, 1, 1> rotate 90*y } }\n",
+          out);
+    for (size_t i = 0; i < scene->material_count; i++) {
+        put_mesh(out, scene, (uint32_t)i);
+    }
+}
+
+static glint_status write_scene(const char *path, const int size[2], const char *folder,
                                 glint_error *error)
 {
     glint_scene scene = {0};
     glint_camera camera;
     char name[4096];
     snprintf(name, sizeof name, "%s/scene.pov", folder);
-    glint_status status = glint_scene_load(path, NULL, &scene, NULL, error);
-    if (status == GLINT_OK) {
-        status = glint_scene_camera(&scene, NULL, &camera, error);
+    glint_status status;
+    TRY_OR(cleanup, status, glint_scene_load(path, NULL, &scene, NULL, error));
+    TRY_OR(cleanup, status, glint_scene_camera(&scene, NULL, &camera, error));
+    FILE *out = fopen(name, "w");
+    if (out != NULL) {
+        put_scene(out, &scene, &camera, size);
     }
-    FILE *out = status == GLINT_OK ? fopen(name, "w") : NULL;
-    if (status == GLINT_OK && out == NULL) {
+    if (out == NULL || fclose(out) != 0) {
         status = glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be written", name);
     }
-    if (out != NULL) {
-        fputs("#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 12 adc_bailout "
-              "0.00390625 }\n",
-              out);
-        put_camera(out, &camera, width, height);
-        fputs("sky_sphere { pigment { image_map { hdr \"studio.hdr\" gamma 1 map_type 1 "
-              "interpolate 2 } scale <-1, 1, 1> rotate 90*y } }\n",
-              out);
-        for (size_t i = 0; i < scene.material_count; i++) {
-            put_mesh(out, &scene, (uint32_t)i);
-        }
-        status = fclose(out) == 0
-                     ? status
-                     : glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be written", name);
-    }
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
 
 int main(int argc, char **argv)
 {
-    int width = 0, height = 0;
-    if (argc != 4 || sscanf(argv[2], "%dx%d", &width, &height) != 2 || width < 1 || height < 1) {
+    int size[2] = {0, 0};
+    if (argc != 4 || sscanf(argv[2], "%dx%d", &size[0], &size[1]) != 2 || size[0] < 1 ||
+        size[1] < 1) {
         fprintf(stderr, "usage: bench_export SCENE WIDTHxHEIGHT FOLDER\n");
         return GLINT_USAGE;
     }
     glint_error error = {0};
     glint_status status = write_studio(argv[3], &error);
     if (status == GLINT_OK) {
-        status = write_scene(argv[1], width, height, argv[3], &error);
+        status = write_scene(argv[1], size, argv[3], &error);
     }
     if (status != GLINT_OK) {
         fprintf(stderr, "bench_export: %s\n", error.message);

@@ -150,6 +150,7 @@ static void fill_grid(face_grid *grid, const glint_vec3 corners[3])
 
 // Vertices: the corners, then the points inside each edge, then those inside each face.
 typedef struct icosphere {
+    const bench_ball *ball;
     int frequency;
     uint32_t first;
     int edges[CORNERS][CORNERS]; // from the lower to the higher corner; −1 where there is none
@@ -194,8 +195,9 @@ static uint32_t vertex_at(const icosphere *sphere, int face, const int c[3], con
     return sphere->first + CORNERS + EDGES * inside_edge + (uint32_t)face * inside_face + within;
 }
 
-static void add_face(bench_mesh *mesh, const bench_ball *ball, const icosphere *sphere,
-                     const face_grid *grid, int face, uint32_t (*triangles)[3])
+// `triangles` are the face's own.
+static void add_face(bench_mesh *mesh, const icosphere *sphere, const face_grid *grid, int face,
+                     uint32_t (*triangles)[3])
 {
     const int f = sphere->frequency;
     int c[3];
@@ -204,7 +206,8 @@ static void add_face(bench_mesh *mesh, const bench_ball *ball, const icosphere *
     for (int row = 0; row <= f; row++) {
         for (int i = 0; i <= row; i++) {
             uint32_t here = vertex_at(sphere, face, c, (int[3]){f - row, row - i, i});
-            mesh->vertices[here] = place_on_ball(ball, grid->directions[grid_index(row, i)]);
+            mesh->vertices[here] =
+                place_on_ball(sphere->ball, grid->directions[grid_index(row, i)]);
             if (row == f) {
                 continue;
             }
@@ -222,25 +225,27 @@ static void add_face(bench_mesh *mesh, const bench_ball *ball, const icosphere *
 glint_status bench_mesh_add_icosphere(bench_mesh *mesh, const bench_ball *ball, int frequency,
                                       glint_error *error)
 {
-    icosphere sphere = {.frequency = frequency};
+    icosphere sphere = {.ball = ball, .frequency = frequency};
     size_t per_face = (size_t)frequency * (size_t)frequency;
     size_t first_triangle = mesh->triangle_count;
     face_grid grid = {frequency, glint_allocate(grid_index(frequency + 1, 0), sizeof(glint_vec3))};
     if (grid.directions == NULL) {
         return glint_fail_memory(error, "a mesh");
     }
-    glint_status status =
-        grow(mesh, FACES / 2 * per_face + 2, FACES * per_face, &sphere.first, error);
+    glint_status status;
+    TRY_OR(cleanup, status,
+           grow(mesh, FACES / 2 * per_face + 2, FACES * per_face, &sphere.first, error));
     number_edges(&sphere);
-    for (int face = 0; status == GLINT_OK && face < FACES; face++) {
+    for (int face = 0; face < FACES; face++) {
         int c[3];
         face_corners(face, c);
         const glint_vec3 corners[3] = {corner_direction(c[0]), corner_direction(c[1]),
                                        corner_direction(c[2])};
         fill_grid(&grid, corners);
-        add_face(mesh, ball, &sphere, &grid, face,
+        add_face(mesh, &sphere, &grid, face,
                  mesh->triangles + first_triangle + (size_t)face * per_face);
     }
+cleanup:
     free(grid.directions);
     return status;
 }
@@ -330,18 +335,17 @@ glint_status bench_mesh_add_needles(bench_mesh *mesh, const bench_needles *needl
 {
     uint32_t first = 0;
     size_t old_vertices = mesh->vertex_count, next = mesh->triangle_count;
-    glint_status status = grow(mesh, 3 * needles->count, needles->count, &first, error);
+    TRY(grow(mesh, 3 * needles->count, needles->count, &first, error));
     void *normals = mesh->normals;
-    if (status == GLINT_OK &&
-        !extend(&normals, old_vertices, 3 * needles->count, sizeof *mesh->normals)) {
-        status = glint_fail_memory(error, "a mesh");
+    if (!extend(&normals, old_vertices, 3 * needles->count, sizeof *mesh->normals)) {
+        return glint_fail_memory(error, "a mesh");
     }
     mesh->normals = normals;
     glint_random random = {1};
-    for (uint32_t i = 0; status == GLINT_OK && i < needles->count; i++) {
+    for (uint32_t i = 0; i < needles->count; i++) {
         add_needle(mesh, needles, &random, first + 3 * i, mesh->triangles[next + i]);
     }
-    return status;
+    return GLINT_OK;
 }
 
 glint_status bench_mesh_smooth(bench_mesh *mesh, glint_error *error)

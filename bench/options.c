@@ -59,21 +59,18 @@ glint_status bench_take_option(int option, bench_request *request, glint_error *
     }
 }
 
-glint_status bench_parse_options(int argc, char **argv, const struct option *options,
-                                 glint_status (*take)(int option, void *context,
-                                                      glint_error *error),
-                                 void *context, glint_error *error)
+glint_status bench_parse_options(int argc, char **argv, const bench_parser *parser,
+                                 glint_error *error)
 {
-    glint_status status = GLINT_OK;
     int option;
     opterr = 0;
-    while (status == GLINT_OK && (option = getopt_long(argc, argv, "", options, NULL)) != -1) {
-        status = take(option, context, error);
+    while ((option = getopt_long(argc, argv, "", parser->options, NULL)) != -1) {
+        TRY(parser->take(option, parser->request, error));
     }
-    if (status == GLINT_OK && optind < argc) {
-        status = glint_fail(error, GLINT_USAGE, "unexpected argument '%s'", argv[optind]);
+    if (optind < argc) {
+        return glint_fail(error, GLINT_USAGE, "unexpected argument '%s'", argv[optind]);
     }
-    return status;
+    return GLINT_OK;
 }
 
 int bench_finish(const char *program, glint_status status, glint_error *error)

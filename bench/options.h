@@ -29,12 +29,17 @@ enum { BENCH_SCENES = 1, BENCH_ROUNDS, BENCH_SIZE, BENCH_JSON, BENCH_HELP, BENCH
 // Takes one of these with its value in optarg. Errors: GLINT_USAGE, also for any other option.
 glint_status bench_take_option(int option, bench_request *request, glint_error *error);
 
-// Hands each option of the command line to `take`, with `context`. Errors: its, and GLINT_USAGE for
-// what is no option.
-glint_status bench_parse_options(int argc, char **argv, const struct option *options,
-                                 glint_status (*take)(int option, void *context,
-                                                      glint_error *error),
-                                 void *context, glint_error *error);
+// A program's options, and what takes each of them.
+typedef struct bench_parser {
+    const struct option *options;
+    glint_status (*take)(int option, void *request, glint_error *error);
+    void *request;
+} bench_parser;
+
+// Hands each option of the command line to `take`. Errors: its, and GLINT_USAGE for what is no
+// option.
+glint_status bench_parse_options(int argc, char **argv, const bench_parser *parser,
+                                 glint_error *error);
 
 // Prints the error of a program that failed, and frees it. Returns the exit status.
 int bench_finish(const char *program, glint_status status, glint_error *error);
@@ -46,7 +51,7 @@ glint_status bench_parse_size(const char *text, int *width, int *height, glint_e
 glint_status bench_parse_count(const char *name, const char *text, double most, double *value,
                                glint_error *error);
 
-// Puts a copy of `text` in place of *copy, which is owned. Errors: GLINT_DEVICE_FAILED.
+// Puts a copy of `text` in place of *copy, which is owned. Errors: GLINT_OUT_OF_MEMORY.
 glint_status bench_set_text(char **copy, const char *text, glint_error *error);
 
 #endif

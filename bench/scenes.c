@@ -40,16 +40,15 @@ static glint_status make_nine_spheres(bench_mesh *mesh, glint_error *error)
 {
     const bench_sheet plane = {
         .corner = {-6, -1.25, 6}, .u = {12, 0, 0}, .v = {0, 0, -12}, .cells = 60};
-    glint_status status = GLINT_OK;
-    for (int k = 0; status == GLINT_OK && k < 9; k++) {
+    for (int k = 0; k < 9; k++) {
         int i = k / 3, j = k % 3;
         const bench_ball ball = {.center = {2.3 * (i - 1), 0, 2.3 * (j - 1)},
                                  .radius = 1,
                                  .displacement = bench_bumps,
                                  .phase = 3 * i + 1.7 * j};
-        status = bench_mesh_add_latlong(mesh, &ball, 160, 100, error);
+        TRY(bench_mesh_add_latlong(mesh, &ball, 160, 100, error));
     }
-    return status == GLINT_OK ? bench_mesh_add_sheet(mesh, &plane, error) : status;
+    return bench_mesh_add_sheet(mesh, &plane, error);
 }
 
 static glint_status make_needles(bench_mesh *mesh, glint_error *error)
@@ -72,11 +71,11 @@ static glint_status make_stadium(bench_mesh *mesh, glint_error *error)
     };
     const bench_ball ball = {
         .center = {31.7, 1.5, 12.3}, .radius = 0.5, .displacement = bench_bumps};
-    glint_status status = bench_mesh_add_icosphere(mesh, &ball, 64, error);
-    for (int k = 0; status == GLINT_OK && k < 6; k++) {
-        status = bench_mesh_add_sheet(mesh, &walls[k], error);
+    TRY(bench_mesh_add_icosphere(mesh, &ball, 64, error));
+    for (int k = 0; k < 6; k++) {
+        TRY(bench_mesh_add_sheet(mesh, &walls[k], error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 typedef struct recipe {
@@ -188,17 +187,15 @@ static glint_status store_soup(bench_scene *scene, glint_error *error)
 static glint_status store(const recipe *from, bench_mesh *mesh, bench_scene *scene,
                           glint_error *error)
 {
-    glint_status status = mesh->normals == NULL ? bench_mesh_smooth(mesh, error) : GLINT_OK;
-    if (status == GLINT_OK) {
-        place_scene(mesh, &scene->scene);
-        status = store_vertices(mesh, scene, error);
+    if (mesh->normals == NULL) {
+        TRY(bench_mesh_smooth(mesh, error));
     }
-    if (status == GLINT_OK) {
-        status = store_soup(scene, error);
-    }
+    place_scene(mesh, &scene->scene);
+    TRY(store_vertices(mesh, scene, error));
+    TRY(store_soup(scene, error));
     look_at(from, &scene->camera);
     scene->jobs = from->jobs;
-    return status;
+    return GLINT_OK;
 }
 
 // The number of "PREFIX:NUMBER"; 0 for other names.
@@ -330,11 +327,9 @@ glint_status bench_environment_make(glint_environment *environment, glint_error 
     }
     environment->source_width = ENVIRONMENT_EDGE;
     environment->source_height = ENVIRONMENT_EDGE * GLINT_CUBE_FACES;
-    glint_status status = glint_cube_create(ENVIRONMENT_EDGE, &environment->radiance, error);
-    if (status == GLINT_OK) {
-        glint_cube *cube = &environment->radiance;
-        glint_parallel_for((size_t)GLINT_CUBE_FACES * ENVIRONMENT_EDGE, fill_row, cube);
-        glint_cube_fill_border(cube);
-    }
-    return status;
+    TRY(glint_cube_create(ENVIRONMENT_EDGE, &environment->radiance, error));
+    glint_cube *cube = &environment->radiance;
+    glint_parallel_for((size_t)GLINT_CUBE_FACES * ENVIRONMENT_EDGE, fill_row, cube);
+    glint_cube_fill_border(cube);
+    return GLINT_OK;
 }

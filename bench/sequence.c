@@ -88,13 +88,12 @@ static void path_of(const bench *b, int frame, char path[4096])
 static glint_status trace_alone(bench *b, int round, glint_error *error)
 {
     const double begun = glint_now_ms();
-    glint_status status = GLINT_OK;
-    for (int i = 0; status == GLINT_OK && i < b->frames; i++) {
+    for (int i = 0; i < b->frames; i++) {
         const glint_camera camera = camera_of(b, i);
-        status = glint_renderer_frame(b->renderer, &camera, NULL, &b->sample, NULL, error);
+        TRY(glint_renderer_frame(b->renderer, &camera, NULL, &b->sample, NULL, error));
     }
     b->trace_ms[round] = (glint_now_ms() - begun) / b->frames;
-    return status;
+    return GLINT_OK;
 }
 
 // The processor's time alone: waiting for the disk takes no core.
@@ -104,10 +103,9 @@ static glint_status encode_alone(bench *b, int index, int round, glint_error *er
     path_of(b, 0, path);
     const glint_write_options options = options_of(b->kind);
     struct timespec begun, ended;
-    glint_status status = GLINT_OK;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &begun);
-    for (int i = 0; status == GLINT_OK && i < ALONE; i++) {
-        status = glint_image_write(path, &b->sample, &options, error);
+    for (int i = 0; i < ALONE; i++) {
+        TRY(glint_image_write(path, &b->sample, &options, error));
     }
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ended);
     const double ms = 1e3 * (double)(ended.tv_sec - begun.tv_sec) +
@@ -115,7 +113,7 @@ static glint_status encode_alone(bench *b, int index, int round, glint_error *er
     b->encode_ms[index][round] = ms / ALONE;
     struct stat facts;
     b->bytes[index] = stat(path, &facts) == 0 ? (double)facts.st_size : 0;
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Together ----------------------------------------------------------------------------------
@@ -181,19 +179,10 @@ static glint_status prepare(bench *b, const char *scene, glint_error *error)
     b->settings = glint_settings_default;
     b->settings.width = WIDTH;
     b->settings.height = HEIGHT;
-    glint_status status = glint_scene_load(scene, NULL, &b->scene, NULL, error);
-    if (status == GLINT_OK) {
-        status = glint_scene_camera(&b->scene, NULL, &b->camera, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_environment_studio(&b->environment, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_device_open(NULL, &b->device, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_scene_load(scene, NULL, &b->scene, NULL, error));
+    TRY(glint_scene_camera(&b->scene, NULL, &b->camera, error));
+    TRY(glint_environment_studio(&b->environment, error));
+    TRY(glint_device_open(NULL, &b->device, error));
     const glint_renderer_inputs inputs = {.device = b->device,
                                           .scene = &b->scene,
                                           .environment = &b->environment,
@@ -218,10 +207,9 @@ static void remove_frames(bench *b)
 // All ways in turns, round by round.
 static glint_status measure(bench *b, glint_error *error)
 {
-    glint_status status = GLINT_OK;
-    for (int round = 0; status == GLINT_OK && round < b->rounds; round++) {
-        status = trace_alone(b, round, error);
-        for (int i = 0; status == GLINT_OK && i < ENCODINGS; i++) {
+    for (int round = 0; round < b->rounds; round++) {
+        TRY(trace_alone(b, round, error));
+        for (int i = 0; i < ENCODINGS; i++) {
             b->kind = &encodings[i];
             if (!is_chosen(b, b->kind)) {
                 continue;
@@ -229,13 +217,11 @@ static glint_status measure(bench *b, glint_error *error)
             char name[32];
             name_of(b->kind, name);
             fprintf(stderr, "round %d of %d: %s\n", round + 1, b->rounds, name);
-            status = encode_alone(b, i, round, error);
-            if (status == GLINT_OK) {
-                status = run_sequence(b, i, round, error);
-            }
+            TRY(encode_alone(b, i, round, error));
+            TRY(run_sequence(b, i, round, error));
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 static void report(bench *b)

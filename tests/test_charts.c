@@ -59,18 +59,19 @@ static const char *picture_of(glint_layout layout)
     }
 }
 
-static bool named_direction(const variant *v, int i, int j, double dx, double dy, glint_vec3 *d)
+static bool named_direction(const variant *v, const glint_chart_place *place, glint_vec3 *d)
 {
     static const char letters[] = "XxYyZz";
     const char *row = picture_of(v->layout);
-    for (int skip = j / EDGE; skip > 0; skip--) {
+    for (int skip = place->j / EDGE; skip > 0; skip--) {
         row = strchr(row, '/') + 1;
     }
-    const char *at = strchr(letters, row[i / EDGE]);
+    const char *at = strchr(letters, row[place->i / EDGE]);
     if (at == NULL) {
         return false;
     }
-    double s = (i % EDGE + 0.5 + dx) / EDGE, t = (j % EDGE + 0.5 + dy) / EDGE;
+    double s = (place->i % EDGE + 0.5 + place->dx) / EDGE;
+    double t = (place->j % EDGE + 0.5 + place->dy) / EDGE;
     if (v->layout == GLINT_LAYOUT_VCROSS && *at == 'z') {
         s = 1 - s;
         t = 1 - t;
@@ -106,15 +107,16 @@ static bool ball_direction(double distance, double x, double y, glint_vec3 *d)
     return true;
 }
 
-static bool oracle_direction(const variant *v, const glint_chart *chart, int i, int j, double dx,
-                             double dy, glint_vec3 *d)
+static bool oracle_direction(const variant *v, const glint_chart *chart,
+                             const glint_chart_place *place, glint_vec3 *d)
 {
     const double width = chart->width, height = chart->height;
-    const double x = i + 0.5 + dx, y = j + 0.5 + dy;
+    const double x = place->i + 0.5 + place->dx, y = place->j + 0.5 + place->dy;
     if (v->layout == GLINT_LAYOUT_CUBE) {
-        const double inside = j % EDGE + 0.5 + dy, last = EDGE - 1;
-        *d = v->on_edges ? openexr_cube_direction(j / EDGE, (x - 0.5) / last, (inside - 0.5) / last)
-                         : openexr_cube_direction(j / EDGE, x / EDGE, inside / EDGE);
+        const double inside = place->j % EDGE + 0.5 + place->dy, last = EDGE - 1;
+        *d = v->on_edges
+                 ? openexr_cube_direction(place->j / EDGE, (x - 0.5) / last, (inside - 0.5) / last)
+                 : openexr_cube_direction(place->j / EDGE, x / EDGE, inside / EDGE);
         return true;
     }
     if (v->layout == GLINT_LAYOUT_LATLONG) {
@@ -123,7 +125,7 @@ static bool oracle_direction(const variant *v, const glint_chart *chart, int i, 
         return true;
     }
     if (v->layout != GLINT_LAYOUT_BALL && v->layout != GLINT_LAYOUT_ANGULAR) {
-        return named_direction(v, i, j, dx, dy, d);
+        return named_direction(v, place, d);
     }
     const double right = 2 * x / width - 1, up = 1 - 2 * y / height;
     if (v->layout == GLINT_LAYOUT_BALL) {
@@ -153,7 +155,8 @@ static glint_image draw(const variant *v, const glint_chart *chart)
     for (int k = 0; k < chart->width * chart->height; k++) {
         glint_vec3 d;
         double rgb[3] = {0, 0, 0};
-        if (oracle_direction(v, chart, k % chart->width, k / chart->width, 0, 0, &d)) {
+        if (oracle_direction(v, chart,
+                             &(glint_chart_place){k % chart->width, k / chart->width, 0, 0}, &d)) {
             color_of(d, rgb);
         }
         for (int c = 0; c < 3; c++) {
@@ -212,8 +215,9 @@ static void mean_color(const variant *v, const glint_chart *chart, int i, int j,
         glint_vec3 d;
         double rgb[3];
         const int column = k % SIDE, row = k / SIDE;
-        if (oracle_direction(v, chart, i, j, (column + 0.5) / SIDE - 0.5, (row + 0.5) / SIDE - 0.5,
-                             &d)) {
+        const glint_chart_place place = {i, j, (column + 0.5) / SIDE - 0.5,
+                                         (row + 0.5) / SIDE - 0.5};
+        if (oracle_direction(v, chart, &place, &d)) {
             color_of(d, rgb);
             for (int c = 0; c < 3; c++) {
                 mean[c] += rgb[c];
@@ -236,7 +240,7 @@ static double grid_bound(const variant *v, const glint_chart *chart, int i, int 
     for (int corner = 0; corner < 4; corner++) {
         glint_vec3 d;
         const int right = corner % 2, down = corner / 2;
-        if (!oracle_direction(v, chart, i, j, right - 0.5, down - 0.5, &d) ||
+        if (!oracle_direction(v, chart, &(glint_chart_place){i, j, right - 0.5, down - 0.5}, &d) ||
             (v->layout == GLINT_LAYOUT_BALL && radii(chart, d) > 1 - 2 / chart->radius)) {
             return 1;
         }
@@ -256,7 +260,7 @@ static void compare(const variant *from, const variant *to)
         const int i = k % target.width, j = k / target.width;
         glint_vec3 d;
         double wanted[3] = {0, 0, 0}, bound = 0;
-        if (oracle_direction(to, &target, i, j, 0, 0, &d)) {
+        if (oracle_direction(to, &target, &(glint_chart_place){i, j, 0, 0}, &d)) {
             mean_color(to, &target, i, j, wanted);
             bound = 1e-6 + source_bound(from, &source, d) + grid_bound(to, &target, i, j);
             all++;
@@ -439,11 +443,10 @@ static void discs_are_inverted(void **state)
             double place[2];
             glint_disc_place(&chart, d, place);
             const int i = (int)floor(place[0]), j = (int)floor(place[1]);
+            const glint_chart_place within = {i, j, place[0] - i - 0.5, place[1] - j - 0.5};
             glint_vec3 there, oracle;
-            assert_true(glint_chart_direction(&chart, i, j, place[0] - i - 0.5, place[1] - j - 0.5,
-                                              &there));
-            assert_true(oracle_direction(&v, &chart, i, j, place[0] - i - 0.5, place[1] - j - 0.5,
-                                         &oracle));
+            assert_true(glint_chart_direction(&chart, &within, &there));
+            assert_true(oracle_direction(&v, &chart, &within, &oracle));
             // At the rim the angle goes with the root of the place.
             const double rim = sqrt(fmax(1 - radii(&chart, d), 1e-16));
             assert_true(angle_between(d, there) <= 1e-13 / rim + 1e-12);

@@ -1,6 +1,8 @@
 // Contact sheets: where pictures come to lie, and what a pixel of the sheet is the mean of.
+#include "report/compare/bitmap_font.h"
 #include "report/compare/contact_sheet.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,9 +16,9 @@ enum { GAP = 8, LABEL = 20 }; // contact_sheet.c's
 
 static glint_contact_sheet make_sheet(int count, int columns, int width, int height)
 {
-    glint_contact_sheet sheet;
-    assert_int_equal(glint_contact_sheet_create(count, columns, width, height, &sheet, NULL),
-                     GLINT_OK);
+    glint_contact_sheet sheet = {
+        .count = count, .columns = columns, .width = width, .height = height};
+    assert_int_equal(glint_contact_sheet_begin(&sheet, NULL), GLINT_OK);
     return sheet;
 }
 
@@ -125,13 +127,37 @@ static void alpha_nan_and_missing_pictures_are_seen(void **state)
 static void sheets_have_a_largest_size(void **state)
 {
     (void)state;
-    glint_contact_sheet sheet;
+    glint_contact_sheet large = {.count = 1000000, .width = 240, .height = 135};
     glint_error error = {0};
-    assert_int_equal(glint_contact_sheet_create(1000000, 0, 240, 135, &sheet, &error), GLINT_USAGE);
+    assert_int_equal(glint_contact_sheet_begin(&large, &error), GLINT_USAGE);
     assert_non_null(strstr(error.message, "--width"));
-    assert_int_equal(glint_contact_sheet_create(1, 7, 16, 16, &sheet, &error), GLINT_OK);
+    glint_contact_sheet sheet = make_sheet(1, 7, 16, 16);
     assert_int_equal(sheet.columns, 1);
     glint_contact_sheet_free(&sheet);
+}
+
+static void labels_are_numbers_or_names(void **state)
+{
+    (void)state;
+    static const char *const labels[][2] = {
+        {"turn/f.0012.exr", "0012"}, {"turn/f.0012b.exr", "0012"}, {"2/glass.exr", "glass"},
+        {"mirror.png", "mirror"},    {"a.b.hdr", "a.b"},           {"plain", "plain"},
+        {".hidden", ".hidden"},
+    };
+    for (size_t i = 0; i < sizeof labels / sizeof *labels; i++) {
+        char label[64];
+        glint_contact_label(labels[i][0], label, sizeof label);
+        assert_string_equal(label, labels[i][1]);
+    }
+    // Every letter of a name is seen.
+    for (char letter = 'A'; letter <= 'z'; letter++) {
+        bool is_drawn = !isalpha((unsigned char)letter);
+        for (int i = 0; i < GLINT_FONT_WIDTH * GLINT_FONT_HEIGHT; i++) {
+            is_drawn =
+                is_drawn || glint_font_dot(letter, i % GLINT_FONT_WIDTH, i / GLINT_FONT_WIDTH);
+        }
+        assert_true(is_drawn);
+    }
 }
 
 int main(void)
@@ -141,6 +167,7 @@ int main(void)
         cmocka_unit_test(pictures_lie_in_rows_and_fit),
         cmocka_unit_test(alpha_nan_and_missing_pictures_are_seen),
         cmocka_unit_test(sheets_have_a_largest_size),
+        cmocka_unit_test(labels_are_numbers_or_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

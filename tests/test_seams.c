@@ -71,7 +71,7 @@ static void make_latlong(glint_environment *environment)
             }
         }
     }
-    assert_int_equal(glint_environment_from_image("lines", &image, NULL, environment, NULL, NULL),
+    assert_int_equal(glint_environment_from_image("lines", &image, NULL, environment, NULL),
                      GLINT_OK);
 }
 

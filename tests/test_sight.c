@@ -35,58 +35,58 @@ static void add_quad(shape *s, double y, double x0, double x1, double tilt, shap
 
 static void one_ball(shape *s)
 {
-    shape_add_ball(s, middle, 0.5, 3, NULL, true, MATERIAL_MIRROR);
+    shape_add_ball(s, &(shape_ball){middle, 0.5, 3, MATERIAL_MIRROR, true, NULL});
 }
 
 static void one_flat_ball(shape *s)
 {
-    shape_add_ball(s, middle, 0.5, 1, NULL, false, MATERIAL_MIRROR);
+    shape_add_ball(s, &(shape_ball){middle, 0.5, 1, MATERIAL_MIRROR, false, NULL});
 }
 
 static void one_box(shape *s)
 {
     const double low[3] = {-0.5, -0.3, -0.4}, high[3] = {0.4, 0.45, 0.3};
-    shape_add_box(s, low, high, 3, false, MATERIAL_MIRROR);
+    shape_add_box(s, &(shape_box){low, high, 3, MATERIAL_MIRROR, false});
 }
 
 static void a_room(shape *s)
 {
     const double low[3] = {-0.5, -0.3, -0.4}, high[3] = {0.4, 0.45, 0.3};
-    shape_add_box(s, low, high, 1, true, MATERIAL_MIRROR);
+    shape_add_box(s, &(shape_box){low, high, 1, MATERIAL_MIRROR, true});
 }
 
 static void a_bumpy_ball(shape *s)
 {
-    shape_add_ball(s, middle, 0.5, 4, bumpy, true, MATERIAL_MIRROR);
+    shape_add_ball(s, &(shape_ball){middle, 0.5, 4, MATERIAL_MIRROR, true, bumpy});
 }
 
 static void a_dented_ball(shape *s)
 {
-    shape_add_ball(s, middle, 0.5, 5, dented, true, MATERIAL_MIRROR);
+    shape_add_ball(s, &(shape_ball){middle, 0.5, 5, MATERIAL_MIRROR, true, dented});
 }
 
 static void two_balls(shape *s)
 {
     const double left[3] = {-0.4, 0, 0}, right[3] = {0.4, 0, 0};
-    shape_add_ball(s, left, 0.3, 3, NULL, true, MATERIAL_MIRROR);
-    shape_add_ball(s, right, 0.3, 3, NULL, true, MATERIAL_MIRROR);
+    shape_add_ball(s, &(shape_ball){left, 0.3, 3, MATERIAL_MIRROR, true, NULL});
+    shape_add_ball(s, &(shape_ball){right, 0.3, 3, MATERIAL_MIRROR, true, NULL});
 }
 
 static void on_paint(shape *s) // MATERIAL_TINTED is paint here
 {
-    shape_add_ball(s, middle, 0.4, 3, NULL, true, MATERIAL_MIRROR);
+    shape_add_ball(s, &(shape_ball){middle, 0.4, 3, MATERIAL_MIRROR, true, NULL});
     add_quad(s, -0.45, -0.6, 0.6, 0, MATERIAL_TINTED);
 }
 
 static void beside_a_mirror(shape *s)
 {
-    shape_add_ball(s, middle, 0.4, 3, NULL, true, MATERIAL_MIRROR);
+    shape_add_ball(s, &(shape_ball){middle, 0.4, 3, MATERIAL_MIRROR, true, NULL});
     add_quad(s, -0.45, -0.6, 0.6, 0, MATERIAL_MIRROR);
 }
 
 static void paint_alone(shape *s)
 {
-    shape_add_ball(s, middle, 0.4, 3, bumpy, true, MATERIAL_TINTED);
+    shape_add_ball(s, &(shape_ball){middle, 0.4, 3, MATERIAL_TINTED, true, bumpy});
 }
 
 static void flat_mirrors(shape *s)
@@ -109,7 +109,7 @@ static void mirrors_at_an_angle(shape *s)
 static void a_mirror_over_paint(shape *s)
 {
     add_quad(s, 0.1, -0.6, 0.6, 0.2, MATERIAL_MIRROR);
-    shape_add_ball(s, middle, 0.3, 3, bumpy, true, MATERIAL_TINTED);
+    shape_add_ball(s, &(shape_ball){middle, 0.3, 3, MATERIAL_TINTED, true, bumpy});
 }
 
 static void a_pane(shape *s) // MATERIAL_CORE is a thin wall here
@@ -119,12 +119,12 @@ static void a_pane(shape *s) // MATERIAL_CORE is a thin wall here
 
 static void a_bubble(shape *s)
 {
-    shape_add_ball(s, middle, 0.5, 3, NULL, true, MATERIAL_CORE);
+    shape_add_ball(s, &(shape_ball){middle, 0.5, 3, MATERIAL_CORE, true, NULL});
 }
 
 static void a_glass_ball(shape *s)
 {
-    shape_add_ball(s, middle, 0.5, 3, NULL, true, MATERIAL_GLASS);
+    shape_add_ball(s, &(shape_ball){middle, 0.5, 3, MATERIAL_GLASS, true, NULL});
 }
 
 static void a_pane_before_a_mirror(shape *s) // so near that they might be taken for one plane
@@ -211,8 +211,8 @@ static void glass_on_paint(shape *s)
 
 static void two_glass_balls(shape *s)
 {
-    shape_add_ball(s, (double[3]){-0.6, 0, 0}, 0.5, 3, NULL, true, MATERIAL_GLASS);
-    shape_add_ball(s, (double[3]){0.6, 0, 0}, 0.5, 3, NULL, true, MATERIAL_GLASS);
+    shape_add_ball(s, &(shape_ball){(double[3]){-0.6, 0, 0}, 0.5, 3, MATERIAL_GLASS, true, NULL});
+    shape_add_ball(s, &(shape_ball){(double[3]){0.6, 0, 0}, 0.5, 3, MATERIAL_GLASS, true, NULL});
 }
 
 static const struct {

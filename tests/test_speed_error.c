@@ -1,6 +1,7 @@
 // The arithmetic of speed against error: which rungs a ladder has, which of them are beaten, how
 // far directions are off, and how a page puts texts and points.
 #include "render/ladder.h"
+#include "report/speed_error/data_uri.h"
 #include "report/speed_error/page_plot.h"
 #include "report/speed_error/speed_error.h"
 
@@ -277,6 +278,24 @@ static void points_stay_within_the_axes(void **state)
     }
 }
 
+// A PNG file begins with eight bytes that base64 turns into these.
+static void pictures_of_the_page_need_no_file(void **state)
+{
+    (void)state;
+    glint_image image;
+    char *uri;
+    assert_int_equal(glint_image_create(3, 2, 3, &image, NULL), GLINT_OK);
+    assert_int_equal(setenv("TMPDIR", "/nowhere", 1), 0);
+    assert_int_equal(glint_data_uri_make(&image, GLINT_DATA_PNG, &uri, NULL), GLINT_OK);
+    assert_memory_equal(uri, "data:image/png;base64,iVBORw0KGgo", 33);
+    free(uri);
+    assert_int_equal(glint_data_uri_make(&image, GLINT_DATA_JPEG, &uri, NULL), GLINT_OK);
+    assert_memory_equal(uri, "data:image/jpeg;base64,/9j/", 27);
+    free(uri);
+    assert_int_equal(unsetenv("TMPDIR"), 0);
+    glint_image_free(&image);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -286,6 +305,7 @@ int main(void)
         cmocka_unit_test(angles_are_told_in_degrees),
         cmocka_unit_test(what_can_be_shown_is),
         cmocka_unit_test(points_stay_within_the_axes),
+        cmocka_unit_test(pictures_of_the_page_need_no_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,13 +59,16 @@ aimed_ray aim_ray(const bench_scene *scene, bool at_edge, glint_random *random)
     }
 }
 
-static glint_status trace_item(glint_probe *probe, const bench_scene *scene, uint64_t item,
-                               uint64_t count, leak_count *leaks, glint_error *error)
+// The rays from `first` on, as many as an item has.
+static glint_status trace_item(glint_probe *probe, const bench_scene *scene, uint64_t first,
+                               leak_count *leaks, glint_error *error)
 {
+    const uint64_t left = leaks->rays - first;
+    const uint64_t count = left < AIMED_RAYS_PER_ITEM ? left : AIMED_RAYS_PER_ITEM;
     static glint_probe_ray in[AIMED_RAYS_PER_ITEM];
     static glint_probe_hit out[AIMED_RAYS_PER_ITEM];
     static float distances[AIMED_RAYS_PER_ITEM];
-    glint_random random = {item + 1};
+    glint_random random = {first / AIMED_RAYS_PER_ITEM + 1};
     for (uint64_t i = 0; i < count; i++) {
         const aimed_ray aimed = aim_ray(scene, i % 2 == 1, &random);
         in[i] = (glint_probe_ray){.from = -1};
@@ -75,32 +78,30 @@ static glint_status trace_item(glint_probe *probe, const bench_scene *scene, uin
         }
         distances[i] = aimed.distance;
     }
-    glint_status status =
-        glint_probe_call(probe, GLINT_PROBE_TRACE, NULL, in->origin, &out->distance, count, error);
-    for (uint64_t i = 0; status == GLINT_OK && i < count; i++) {
+    TRY(glint_probe_call(probe, GLINT_PROBE_TRACE, NULL, in->origin, &out->distance, count, error));
+    for (uint64_t i = 0; i < count; i++) {
         // NaN is a leak too.
         const bool leaks_here = !(out[i].distance <= AIMED_BEHIND * (double)distances[i]);
         *(i % 2 == 1 ? &leaks->at_edges : &leaks->at_vertices) += leaks_here;
     }
-    return status;
+    return GLINT_OK;
 }
 
 glint_status count_leaks_of_glint(const bench_scene *scene, const glint_environment *environment,
-                                  glint_device *device, uint64_t count, leak_count *leaks,
-                                  glint_error *error)
+                                  glint_device *device, leak_count *leaks, glint_error *error)
 {
-    *leaks = (leak_count){.rays = count};
+    leaks->at_vertices = leaks->at_edges = 0;
     const glint_renderer_inputs inputs = {.device = device,
                                           .scene = &scene->scene,
                                           .environment = environment,
                                           .settings = &glint_settings_default};
     glint_probe *probe;
-    glint_status status = glint_probe_create(&inputs, &probe, error);
-    for (uint64_t first = 0; status == GLINT_OK && first < count; first += AIMED_RAYS_PER_ITEM) {
-        const uint64_t left = count - first;
-        status = trace_item(probe, scene, first / AIMED_RAYS_PER_ITEM,
-                            left < AIMED_RAYS_PER_ITEM ? left : AIMED_RAYS_PER_ITEM, leaks, error);
+    glint_status status;
+    TRY_OR(cleanup, status, glint_probe_create(&inputs, &probe, error));
+    for (uint64_t first = 0; first < leaks->rays; first += AIMED_RAYS_PER_ITEM) {
+        TRY_OR(cleanup, status, trace_item(probe, scene, first, leaks, error));
     }
+cleanup:
     glint_probe_free(probe);
     return status;
 }

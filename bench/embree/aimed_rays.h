@@ -31,10 +31,9 @@ typedef struct leak_count {
 // must be closed and smooth.
 aimed_ray aim_ray(const bench_scene *scene, bool at_edge, glint_random *random);
 
-// What glint lets through of the first `count` rays: odd ones are aimed at edges, even ones at
+// What glint lets through of the first leaks->rays rays: odd ones are aimed at edges, even ones at
 // vertices. Errors: as glint_probe_create.
 glint_status count_leaks_of_glint(const bench_scene *scene, const glint_environment *environment,
-                                  glint_device *device, uint64_t count, leak_count *leaks,
-                                  glint_error *error);
+                                  glint_device *device, leak_count *leaks, glint_error *error);
 
 #endif

@@ -175,14 +175,12 @@ static glint_status find_agreement(const bench_arena *arena, const bench_contest
 {
     glint_renderer *renderer = NULL;
     glint_image image = {0};
-    glint_status status = create_renderer(arena, contest->job, depth, &renderer, error);
-    if (status == GLINT_OK) {
-        double ms; // of a first frame, which says nothing
-        status = bench_stage_frame(&arena->stage, renderer, &ms, &image, error);
-    }
-    if (status == GLINT_OK) {
-        *found = compare_frames(arena, contest, depth, &image);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, create_renderer(arena, contest->job, depth, &renderer, error));
+    double ms; // of a first frame, which says nothing
+    TRY_OR(cleanup, status, bench_stage_frame(&arena->stage, renderer, &ms, &image, error));
+    *found = compare_frames(arena, contest, depth, &image);
+cleanup:
     glint_image_free(&image);
     glint_renderer_free(renderer);
     return status;
@@ -191,15 +189,13 @@ static glint_status find_agreement(const bench_arena *arena, const bench_contest
 static glint_status check_agreement(const bench_arena *arena, bench_contest *contest,
                                     glint_error *error)
 {
-    glint_status status =
-        find_agreement(arena, contest, BENCH_GLASS_DEPTH, &contest->agreement, error);
+    TRY(find_agreement(arena, contest, BENCH_GLASS_DEPTH, &contest->agreement, error));
     contest->judged = contest->agreement;
-    if (status == GLINT_OK && contest->job == BENCH_GLASS) {
-        status = find_agreement(arena, contest, BENCH_JUDGED_DEPTH, &contest->judged, error);
+    if (contest->job == BENCH_GLASS) {
+        TRY(find_agreement(arena, contest, BENCH_JUDGED_DEPTH, &contest->judged, error));
     }
-    return status == GLINT_OK ? bench_check_agreement(&contest->judged, arena->stage.scene->name,
-                                                      bench_job_name(contest->job), error)
-                              : status;
+    return bench_check_agreement(&contest->judged, arena->stage.scene->name,
+                                 bench_job_name(contest->job), error);
 }
 
 static glint_status run_round(const bench_arena *arena, glint_renderer *renderer,
@@ -232,17 +228,15 @@ glint_status bench_contest_run(const bench_arena *arena, bench_job job, bench_co
     sweep(arena, contest);
     make_short_list(contest, EMBREE_PLAIN);
     make_short_list(contest, EMBREE_STAGED);
-    glint_status status = check_agreement(arena, contest, error);
-    if (status == GLINT_OK) {
-        status = create_renderer(arena, job, BENCH_GLASS_DEPTH, &renderer, error);
+    glint_status status;
+    TRY_OR(cleanup, status, check_agreement(arena, contest, error));
+    TRY_OR(cleanup, status, create_renderer(arena, job, BENCH_GLASS_DEPTH, &renderer, error));
+    double warming_up; // Embree's modes have run in the sweep
+    TRY_OR(cleanup, status, bench_stage_frame(&arena->stage, renderer, &warming_up, &image, error));
+    for (int round = 0; round < arena->stage.rounds; round++) {
+        TRY_OR(cleanup, status, run_round(arena, renderer, &image, contest, error));
     }
-    if (status == GLINT_OK) {
-        double warming_up; // Embree's modes have run in the sweep
-        status = bench_stage_frame(&arena->stage, renderer, &warming_up, &image, error);
-    }
-    for (int round = 0; status == GLINT_OK && round < arena->stage.rounds; round++) {
-        status = run_round(arena, renderer, &image, contest, error);
-    }
+cleanup:
     glint_image_free(&image);
     glint_renderer_free(renderer);
     return status;

@@ -3,6 +3,7 @@
 #define GLINT_BENCH_EMBREE_CONTEST_H
 
 #include "agreement.h"
+#include "embree/pool.h"
 #include "embree/reference.h"
 #include "series.h"
 #include "stage.h"
@@ -33,6 +34,7 @@ typedef struct bench_contest {
 typedef struct bench_arena {
     bench_stage stage;
     embree_program *program; // borrowed
+    bench_pool *pool;        // likewise
     int sweep_rounds;
     bool high;   // Embree's trees of quality HIGH compete too
     bool robust; // Embree's scenes carry RTC_SCENE_FLAG_ROBUST

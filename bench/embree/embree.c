@@ -129,9 +129,9 @@ static glint_status parse(int argc, char **argv, request *r, glint_error *error)
                    .jobs = (1u << (JOB_BUILD + 1)) - 1,
                    .sweep_rounds = 3,
                    .device = "cpu"};
-    glint_status status = bench_set_text(&r->shared.scenes, "S0,S1,S2,needles,stadium,G0", error);
-    return status == GLINT_OK ? bench_parse_options(argc, argv, long_options, take_option, r, error)
-                              : status;
+    TRY(bench_set_text(&r->shared.scenes, "S0,S1,S2,needles,stadium,G0", error));
+    const bench_parser parser = {long_options, take_option, r};
+    return bench_parse_options(argc, argv, &parser, error);
 }
 
 // ---- Work --------------------------------------------------------------------------------------
@@ -156,114 +156,114 @@ static glint_status list_scenes(glint_error *error)
     return GLINT_OK;
 }
 
+static glint_status run_build(const request *r, const bench_arena *arena, json_t *object,
+                              glint_error *error)
+{
+    const int rounds = r->shared.rounds > BUILD_ROUNDS ? r->shared.rounds : BUILD_ROUNDS;
+    bench_build build;
+    fprintf(stderr, "%s: build\n", arena->stage.scene->name);
+    TRY(bench_build_run(arena, rounds, &build, error));
+    embree_report_build(object, &build);
+    return GLINT_OK;
+}
+
 static glint_status run_jobs(const request *r, const bench_arena *arena, json_t *object,
                              glint_error *error)
 {
-    glint_status status = GLINT_OK;
     bench_contest *contest = malloc(sizeof *contest);
     if (contest == NULL) {
         return glint_fail_memory(error, "a contest");
     }
-    for (int job = 0; status == GLINT_OK && job < BENCH_JOBS; job++) {
+    glint_status status = GLINT_OK;
+    for (int job = 0; job < BENCH_JOBS; job++) {
         if (arena->stage.scene->jobs & r->jobs & 1u << job) {
             fprintf(stderr, "%s: %s\n", arena->stage.scene->name, bench_job_name((bench_job)job));
-            status = bench_contest_run(arena, (bench_job)job, contest, error);
-            if (status == GLINT_OK) {
-                embree_report_contest(object, contest);
-            }
+            TRY_OR(cleanup, status, bench_contest_run(arena, (bench_job)job, contest, error));
+            embree_report_contest(object, contest);
         }
     }
+    if (r->jobs & 1u << JOB_BUILD) {
+        status = run_build(r, arena, object, error);
+    }
+cleanup:
     free(contest);
-    if (status == GLINT_OK && r->jobs & 1u << JOB_BUILD) {
-        fprintf(stderr, "%s: build\n", arena->stage.scene->name);
-        bench_build build;
-        status = bench_build_run(arena,
-                                 r->shared.rounds > BUILD_ROUNDS ? r->shared.rounds : BUILD_ROUNDS,
-                                 &build, error);
-        if (status == GLINT_OK) {
-            embree_report_build(object, &build);
-        }
-    }
     return status;
 }
 
 // Sets up Embree's side and runs the jobs. `arena` lacks scene and program.
-static glint_status run_scene(const request *r, bench_arena arena, bench_pool *pool,
-                              const char *name, json_t *report, glint_error *error)
+static glint_status run_scene(const request *r, bench_arena arena, const char *name, json_t *report,
+                              glint_error *error)
 {
     bench_scene scene;
     fprintf(stderr, "%s: making the scene and Embree's trees\n", name);
-    glint_status status = bench_scene_make(name, &scene, error);
-    if (status == GLINT_OK) {
-        const embree_inputs inputs = {
-            .scene = &scene,
-            .environment = &arena.stage.environment->radiance,
-            .pool = pool,
-            .width = arena.stage.width,
-            .height = arena.stage.height,
-            .robust = arena.robust,
-            .high = arena.high,
-        };
-        arena.stage.scene = &scene;
-        status = embree_program_create(&inputs, &arena.program, error);
-    }
-    if (status == GLINT_OK) {
-        status = run_jobs(r, &arena, embree_report_add_scene(report, &scene), error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, bench_scene_make(name, &scene, error));
+    const embree_inputs inputs = {
+        .scene = &scene,
+        .environment = &arena.stage.environment->radiance,
+        .pool = arena.pool,
+        .width = arena.stage.width,
+        .height = arena.stage.height,
+        .robust = arena.robust,
+        .high = arena.high,
+    };
+    arena.stage.scene = &scene;
+    TRY_OR(cleanup, status, embree_program_create(&inputs, &arena.program, error));
+    TRY_OR(cleanup, status, run_jobs(r, &arena, embree_report_add_scene(report, &scene), error));
+cleanup:
     embree_program_free(arena.program);
     bench_scene_free(&scene);
     return status;
 }
 
-static glint_status run_leaks(const request *r, const bench_arena *arena, bench_pool *pool,
-                              json_t *report, glint_error *error)
+static glint_status run_leaks(const request *r, const bench_arena *arena, json_t *report,
+                              glint_error *error)
 {
     bench_scene scene;
-    glint_status status = bench_scene_make("S0", &scene, error);
-    for (int robust = 0; status == GLINT_OK && robust < 2; robust++) {
+    glint_status status;
+    TRY_OR(cleanup, status, bench_scene_make("S0", &scene, error));
+    for (int robust = 0; robust < 2; robust++) {
         const embree_inputs inputs = {
             .scene = &scene,
             .environment = &arena->stage.environment->radiance,
-            .pool = pool,
+            .pool = arena->pool,
             .width = arena->stage.width,
             .height = arena->stage.height,
             .robust = robust == 1,
         };
         embree_program *program;
-        status = embree_program_create(&inputs, &program, error);
-        if (status == GLINT_OK) {
-            embree_report_leaks(report, robust ? "Embree, ROBUST" : "Embree, default",
-                                embree_program_leaks(program, r->leaks));
-            embree_program_free(program);
-        }
+        TRY_OR(cleanup, status, embree_program_create(&inputs, &program, error));
+        embree_report_leaks(report, robust ? "Embree, ROBUST" : "Embree, default",
+                            embree_program_leaks(program, r->leaks));
+        embree_program_free(program);
     }
-    leak_count leaks;
-    if (status == GLINT_OK) {
-        status = count_leaks_of_glint(&scene, arena->stage.environment, arena->stage.device,
-                                      r->leaks / AIMED_RAYS_PER_ITEM * AIMED_RAYS_PER_ITEM, &leaks,
-                                      error);
-    }
-    if (status == GLINT_OK) {
-        embree_report_leaks(report, "glint", leaks);
-    }
+    leak_count leaks = {.rays = r->leaks / AIMED_RAYS_PER_ITEM * AIMED_RAYS_PER_ITEM};
+    TRY_OR(
+        cleanup, status,
+        count_leaks_of_glint(&scene, arena->stage.environment, arena->stage.device, &leaks, error));
+    embree_report_leaks(report, "glint", leaks);
+cleanup:
     bench_scene_free(&scene);
     return status;
 }
 
-static glint_status run_all(const request *r, const bench_arena *arena, bench_pool *pool,
-                            json_t *report, glint_error *error)
+static glint_status run_scenes(const request *r, const bench_arena *arena, json_t *report,
+                               glint_error *error)
 {
-    glint_status status = GLINT_OK;
-    if (r->leaks > 0) {
-        status = run_leaks(r, arena, pool, report, error);
-    } else {
-        bench_report_head("Embree");
-        char *rest = NULL;
-        for (char *name = strtok_r(r->shared.scenes, ",", &rest);
-             status == GLINT_OK && name != NULL; name = strtok_r(NULL, ",", &rest)) {
-            status = run_scene(r, *arena, pool, name, report, error);
-        }
+    char *rest = NULL;
+    bench_report_head("Embree");
+    for (char *name = strtok_r(r->shared.scenes, ",", &rest); name != NULL;
+         name = strtok_r(NULL, ",", &rest)) {
+        TRY(run_scene(r, *arena, name, report, error));
     }
+    return GLINT_OK;
+}
+
+static glint_status run_all(const request *r, const bench_arena *arena, json_t *report,
+                            glint_error *error)
+{
+    const glint_status status =
+        r->leaks > 0 ? run_leaks(r, arena, report, error) : run_scenes(r, arena, report, error);
     if (status == GLINT_OK && r->shared.json != NULL) {
         return glint_json_write(r->shared.json, report, error);
     }
@@ -274,7 +274,6 @@ static glint_status run_all(const request *r, const bench_arena *arena, bench_po
 static glint_status run(const request *r, glint_error *error)
 {
     glint_environment environment = {0};
-    bench_pool *pool = NULL;
     bench_arena arena = {
         .stage = {.environment = &environment,
                   .width = r->shared.width,
@@ -284,18 +283,14 @@ static glint_status run(const request *r, glint_error *error)
         .high = !r->medium_only,
         .robust = r->robust,
     };
-    glint_status status = bench_environment_make(&environment, error);
-    if (status == GLINT_OK) {
-        status = bench_pool_create(&pool, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_device_open(r->device, &arena.stage.device, error);
-    }
-    if (status == GLINT_OK) {
-        status = run_all(r, &arena, pool, embree_report_create(&arena), error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, bench_environment_make(&environment, error));
+    TRY_OR(cleanup, status, bench_pool_create(&arena.pool, error));
+    TRY_OR(cleanup, status, glint_device_open(r->device, &arena.stage.device, error));
+    TRY_OR(cleanup, status, run_all(r, &arena, embree_report_create(&arena), error));
+cleanup:
     glint_device_close(arena.stage.device);
-    bench_pool_free(pool);
+    bench_pool_free(arena.pool);
     glint_environment_free(&environment);
     return status;
 }

@@ -164,16 +164,14 @@ glint_status embree_program_create(const embree_inputs *inputs, embree_program *
         return glint_fail_memory(error, "the Embree program");
     }
     made->inputs = *inputs;
-    glint_status status = allocate(made, error);
-    if (status == GLINT_OK) {
-        status = build_scenes(made, error);
-    }
-    if (status != GLINT_OK) {
-        embree_program_free(made);
-        return status;
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, allocate(made, error));
+    TRY_OR(cleanup, status, build_scenes(made, error));
     *program = made;
     return GLINT_OK;
+cleanup:
+    embree_program_free(made);
+    return status;
 }
 
 void embree_program_free(embree_program *program)

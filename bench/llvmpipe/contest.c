@@ -15,21 +15,16 @@ typedef struct players {
 static glint_status create_players(const bench_stage *stage, players *p, glint_error *error)
 {
     glint_settings settings = bench_stage_settings(stage, BENCH_REFLECT, 1);
-    glint_status status = bench_stage_renderer(stage, BENCH_REFLECT, &settings, &p->glint, error);
-    if (status == GLINT_OK) {
-        settings.kernel_width = 1;
-        status = bench_stage_renderer(stage, BENCH_REFLECT, &settings, &p->one_ray, error);
-    }
-    if (status == GLINT_OK) {
-        const llvmpipe_inputs inputs = {
-            .scene = stage->scene,
-            .environment = &stage->environment->radiance,
-            .width = stage->width,
-            .height = stage->height,
-        };
-        status = llvmpipe_program_create(&inputs, &p->llvmpipe, error);
-    }
-    return status;
+    TRY(bench_stage_renderer(stage, BENCH_REFLECT, &settings, &p->glint, error));
+    settings.kernel_width = 1;
+    TRY(bench_stage_renderer(stage, BENCH_REFLECT, &settings, &p->one_ray, error));
+    const llvmpipe_inputs inputs = {
+        .scene = stage->scene,
+        .environment = &stage->environment->radiance,
+        .width = stage->width,
+        .height = stage->height,
+    };
+    return llvmpipe_program_create(&inputs, &p->llvmpipe, error);
 }
 
 static void free_players(players *p)
@@ -47,12 +42,12 @@ static glint_status compare_one_ray(const bench_stage *stage, const players *p,
 {
     glint_image other = {0};
     double ms;
-    glint_status status = bench_stage_frame(stage, p->one_ray, &ms, &other, error);
-    if (status == GLINT_OK) {
-        *found = bench_compare_colors(image, other.pixels);
-        status =
-            bench_check_agreement(found, stage->scene->name, "reflect, one ray a work-item", error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, bench_stage_frame(stage, p->one_ray, &ms, &other, error));
+    *found = bench_compare_colors(image, other.pixels);
+    TRY_OR(cleanup, status,
+           bench_check_agreement(found, stage->scene->name, "reflect, one ray a work-item", error));
+cleanup:
     glint_image_free(&other);
     return status;
 }
@@ -66,17 +61,15 @@ static glint_status compare_llvmpipe(const bench_stage *stage, const players *p,
         return glint_fail_memory(error, "a frame");
     }
     glint_status status = GLINT_OK;
-    for (int i = 0; status == GLINT_OK && i < LLVMPIPE_TEXELS; i++) {
+    for (int i = 0; i < LLVMPIPE_TEXELS; i++) {
         (void)llvmpipe_program_frame(p->llvmpipe, (llvmpipe_texels)i);
-        status = llvmpipe_program_read(p->llvmpipe, pixels, error);
-        if (status == GLINT_OK) {
-            *worst = bench_agreement_worse(*worst, bench_compare_colors(image, pixels));
-        }
+        TRY_OR(cleanup, status, llvmpipe_program_read(p->llvmpipe, pixels, error));
+        *worst = bench_agreement_worse(*worst, bench_compare_colors(image, pixels));
     }
+    status = bench_check_agreement(worst, stage->scene->name, "reflect, llvmpipe", error);
+cleanup:
     free(pixels);
-    return status == GLINT_OK
-               ? bench_check_agreement(worst, stage->scene->name, "reflect, llvmpipe", error)
-               : status;
+    return status;
 }
 
 // Draws the first frame of all, which warms them up, and compares.
@@ -85,15 +78,13 @@ static glint_status check_agreement(const bench_stage *stage, const players *p,
 {
     glint_image image = {0};
     double ms;
-    glint_status status = bench_stage_frame(stage, p->glint, &ms, &image, error);
+    glint_status status;
+    TRY_OR(cleanup, status, bench_stage_frame(stage, p->glint, &ms, &image, error));
     // What is found in no frame yet agrees.
     contest->agreement.pixels = (uint64_t)stage->width * (uint64_t)stage->height;
-    if (status == GLINT_OK) {
-        status = compare_one_ray(stage, p, &image, &contest->one_ray_agreement, error);
-    }
-    if (status == GLINT_OK) {
-        status = compare_llvmpipe(stage, p, &image, &contest->agreement, error);
-    }
+    TRY_OR(cleanup, status, compare_one_ray(stage, p, &image, &contest->one_ray_agreement, error));
+    TRY_OR(cleanup, status, compare_llvmpipe(stage, p, &image, &contest->agreement, error));
+cleanup:
     glint_image_free(&image);
     return status;
 }
@@ -108,13 +99,11 @@ static glint_status run_round(const bench_stage *stage, const players *p, glint_
         bench_series_add(&contest->llvmpipe[i],
                          llvmpipe_program_frame(p->llvmpipe, (llvmpipe_texels)i));
     }
-    glint_status status = bench_stage_frame(stage, p->glint, &ms, image, error);
-    if (status == GLINT_OK) {
-        bench_series_add(&contest->glint, ms);
-        status = bench_stage_frame(stage, p->one_ray, &ms, image, error);
-        bench_series_add(&contest->one_ray, ms);
-    }
-    return status;
+    TRY(bench_stage_frame(stage, p->glint, &ms, image, error));
+    bench_series_add(&contest->glint, ms);
+    TRY(bench_stage_frame(stage, p->one_ray, &ms, image, error));
+    bench_series_add(&contest->one_ray, ms);
+    return GLINT_OK;
 }
 
 glint_status llvmpipe_contest_run(const bench_stage *stage, llvmpipe_contest *contest,
@@ -123,13 +112,13 @@ glint_status llvmpipe_contest_run(const bench_stage *stage, llvmpipe_contest *co
     memset(contest, 0, sizeof *contest);
     players p = {0};
     glint_image image = {0};
-    glint_status status = create_players(stage, &p, error);
-    if (status == GLINT_OK) {
-        status = check_agreement(stage, &p, contest, error);
+    glint_status status;
+    TRY_OR(cleanup, status, create_players(stage, &p, error));
+    TRY_OR(cleanup, status, check_agreement(stage, &p, contest, error));
+    for (int round = 0; round < stage->rounds; round++) {
+        TRY_OR(cleanup, status, run_round(stage, &p, &image, contest, error));
     }
-    for (int round = 0; status == GLINT_OK && round < stage->rounds; round++) {
-        status = run_round(stage, &p, &image, contest, error);
-    }
+cleanup:
     glint_image_free(&image);
     free_players(&p);
     return status;

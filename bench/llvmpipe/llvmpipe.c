@@ -39,9 +39,9 @@ static glint_status take_option(int option, void *request, glint_error *error)
 static glint_status parse(int argc, char **argv, bench_request *r, glint_error *error)
 {
     *r = (bench_request){.width = 1920, .height = 1088, .rounds = 9};
-    glint_status status = bench_set_text(&r->scenes, "S0,S1", error);
-    return status == GLINT_OK ? bench_parse_options(argc, argv, long_options, take_option, r, error)
-                              : status;
+    TRY(bench_set_text(&r->scenes, "S0,S1", error));
+    const bench_parser parser = {long_options, take_option, r};
+    return bench_parse_options(argc, argv, &parser, error);
 }
 
 // ---- Work --------------------------------------------------------------------------------------
@@ -53,18 +53,18 @@ static glint_status run_scene(bench_stage stage, const char *name, json_t *repor
     fprintf(stderr, "%s\n", name);
     bench_scene scene = {0};
     llvmpipe_contest *contest = malloc(sizeof *contest);
-    glint_status status = contest != NULL ? bench_scene_make(name, &scene, error)
-                                          : glint_fail_memory(error, "a contest");
-    if (status == GLINT_OK && !(scene.jobs & 1u << BENCH_REFLECT)) {
+    glint_status status;
+    TRY_OR(cleanup, status,
+           contest != NULL ? bench_scene_make(name, &scene, error)
+                           : glint_fail_memory(error, "a contest"));
+    if (!(scene.jobs & 1u << BENCH_REFLECT)) {
         status = glint_fail(error, GLINT_USAGE, "--scenes: '%s' is no mirror", name);
+        goto cleanup;
     }
-    if (status == GLINT_OK) {
-        stage.scene = &scene;
-        status = llvmpipe_contest_run(&stage, contest, error);
-    }
-    if (status == GLINT_OK) {
-        llvmpipe_report_contest(report, &scene, contest);
-    }
+    stage.scene = &scene;
+    TRY_OR(cleanup, status, llvmpipe_contest_run(&stage, contest, error));
+    llvmpipe_report_contest(report, &scene, contest);
+cleanup:
     free(contest);
     bench_scene_free(&scene);
     return status;
@@ -73,12 +73,18 @@ static glint_status run_scene(bench_stage stage, const char *name, json_t *repor
 static glint_status run_scenes(const bench_request *r, const bench_stage *stage, json_t *report,
                                glint_error *error)
 {
-    glint_status status = GLINT_OK;
     char *rest = NULL;
-    for (char *name = strtok_r(r->scenes, ",", &rest); status == GLINT_OK && name != NULL;
+    for (char *name = strtok_r(r->scenes, ",", &rest); name != NULL;
          name = strtok_r(NULL, ",", &rest)) {
-        status = run_scene(*stage, name, report, error);
+        TRY(run_scene(*stage, name, report, error));
     }
+    return GLINT_OK;
+}
+
+static glint_status run_all(const bench_request *r, const bench_stage *stage, json_t *report,
+                            glint_error *error)
+{
+    const glint_status status = run_scenes(r, stage, report, error);
     if (status == GLINT_OK && r->json != NULL) {
         return glint_json_write(r->json, report, error);
     }
@@ -92,16 +98,12 @@ static glint_status run(const bench_request *r, glint_error *error)
     llvmpipe_context *context = NULL;
     bench_stage stage = {
         .environment = &environment, .width = r->width, .height = r->height, .rounds = r->rounds};
-    glint_status status = bench_environment_make(&environment, error);
-    if (status == GLINT_OK) {
-        status = glint_device_open("cpu", &stage.device, error);
-    }
-    if (status == GLINT_OK) {
-        status = llvmpipe_context_create(&context, error);
-    }
-    if (status == GLINT_OK) {
-        status = run_scenes(r, &stage, llvmpipe_report_create(&stage, context), error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, bench_environment_make(&environment, error));
+    TRY_OR(cleanup, status, glint_device_open("cpu", &stage.device, error));
+    TRY_OR(cleanup, status, llvmpipe_context_create(&context, error));
+    TRY_OR(cleanup, status, run_all(r, &stage, llvmpipe_report_create(&stage, context), error));
+cleanup:
     llvmpipe_context_free(context);
     glint_device_close(stage.device);
     glint_environment_free(&environment);

@@ -107,19 +107,15 @@ static glint_status link_program(const char *vertex, const char *fragment, GLuin
                                  glint_error *error)
 {
     *program = glCreateProgram();
-    glint_status status = compile(*program, GL_VERTEX_SHADER, vertex, error);
-    if (status == GLINT_OK) {
-        status = compile(*program, GL_FRAGMENT_SHADER, fragment, error);
+    TRY(compile(*program, GL_VERTEX_SHADER, vertex, error));
+    TRY(compile(*program, GL_FRAGMENT_SHADER, fragment, error));
+    GLint linked = GL_FALSE;
+    glLinkProgram(*program);
+    glGetProgramiv(*program, GL_LINK_STATUS, &linked);
+    if (!linked) {
+        return glint_fail(error, GLINT_DEVICE_FAILED, "llvmpipe: the shaders do not link");
     }
-    if (status == GLINT_OK) {
-        GLint linked = GL_FALSE;
-        glLinkProgram(*program);
-        glGetProgramiv(*program, GL_LINK_STATUS, &linked);
-        if (!linked) {
-            return glint_fail(error, GLINT_DEVICE_FAILED, "llvmpipe: the shaders do not link");
-        }
-    }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Camera ------------------------------------------------------------------------------------
@@ -302,29 +298,20 @@ glint_status llvmpipe_program_create(const llvmpipe_inputs *inputs, llvmpipe_pro
     }
     p->width = inputs->width;
     p->height = inputs->height;
-    glint_status status = link_program(mesh_vertex, mesh_fragment, &p->mesh, error);
-    if (status == GLINT_OK) {
-        status = link_program(background_vertex, background_fragment, &p->background, error);
-    }
-    if (status == GLINT_OK) {
-        set_camera(inputs, p);
-        status = upload_mesh(inputs->scene, p, error);
-    }
-    if (status == GLINT_OK) {
-        status = upload_environment(inputs->environment, p, error);
-    }
-    if (status == GLINT_OK) {
-        status = create_framebuffer(p, error);
-    }
-    if (status == GLINT_OK) {
-        status = check_errors(error);
-    }
-    if (status != GLINT_OK) {
-        llvmpipe_program_free(p);
-        return status;
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, link_program(mesh_vertex, mesh_fragment, &p->mesh, error));
+    TRY_OR(cleanup, status,
+           link_program(background_vertex, background_fragment, &p->background, error));
+    set_camera(inputs, p);
+    TRY_OR(cleanup, status, upload_mesh(inputs->scene, p, error));
+    TRY_OR(cleanup, status, upload_environment(inputs->environment, p, error));
+    TRY_OR(cleanup, status, create_framebuffer(p, error));
+    TRY_OR(cleanup, status, check_errors(error));
     *program = p;
     return GLINT_OK;
+cleanup:
+    llvmpipe_program_free(p);
+    return status;
 }
 
 void llvmpipe_program_free(llvmpipe_program *p)

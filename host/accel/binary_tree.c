@@ -216,8 +216,11 @@ static void divide_chunk(size_t index, void *context)
     if (e->has_split) {
         glint_reference *left = e->range.spare;
         glint_reference *right = left + e->split.references[0];
-        glint_split_apply(&e->split, &e->binning, e->range.references + c->first, c->count,
-                          left + c->left_before, right + c->right_before, c->boxes);
+        glint_split_sides to = {{left + c->left_before, right + c->right_before},
+                                {c->boxes[0], c->boxes[1]}};
+        glint_split_apply(&e->split, &e->binning, e->range.references + c->first, c->count, &to);
+        c->boxes[0] = to.middles[0];
+        c->boxes[1] = to.middles[1];
     }
 }
 

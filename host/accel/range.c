@@ -74,10 +74,10 @@ static void split_range(const worker *w, const glint_range *range, glint_binary_
         glint_range_halve(range, children, sides);
         return;
     }
-    glint_box middles[2] = {glint_box_empty(), glint_box_empty()};
-    glint_split_apply(&split, &binning, range->references, range->count, range->spare,
-                      range->spare + split.references[0], middles);
-    glint_range_divide(range, &split, middles, children, sides);
+    glint_split_sides to = {{range->spare, range->spare + split.references[0]},
+                            {glint_box_empty(), glint_box_empty()}};
+    glint_split_apply(&split, &binning, range->references, range->count, &to);
+    glint_range_divide(range, &split, to.middles, children, sides);
 }
 
 // One reference for each triangle, from here on down.
@@ -99,8 +99,8 @@ static bool build(const worker *w, const glint_range *range, bool bundled, glint
         return build(w, &single, false, costs);
     }
     if (!bundled && range->count <= GLINT_TREELET_MAX) {
-        return glint_treelet_build(w->in, range->references, range->count, w->arena, range->node,
-                                   costs);
+        const glint_treelet_range treelet = {range->references, range->count, range->node};
+        return glint_treelet_build(w->in, &treelet, w->arena, costs);
     }
     glint_binary_node *children = glint_arena_take(w->arena, 2 * sizeof *children);
     if (children == NULL) {

@@ -153,18 +153,17 @@ bool glint_split_find(const glint_bins *bins, glint_box bounds, glint_split *spl
 }
 
 void glint_split_apply(const glint_split *split, const glint_binning *binning,
-                       const glint_reference *references, size_t count, glint_reference *left,
-                       glint_reference *right, glint_box middles[2])
+                       const glint_reference *references, size_t count, glint_split_sides *sides)
 {
-    glint_box sides[2] = {middles[0], middles[1]};
-    glint_reference *to[2] = {left, right};
+    glint_split_sides next = *sides;
     for (size_t i = 0; i < count; i++) {
         const glint_reference reference = references[i];
         // No branch: which side it is cannot be predicted.
         const int side = bins_of(binning, reference)[split->axis] >= split->bin;
-        sides[side] = glint_box_union(sides[side], glint_box_of(glint_box_middle(reference)));
-        *to[side]++ = reference;
+        next.middles[side] =
+            glint_box_union(next.middles[side], glint_box_of(glint_box_middle(reference)));
+        *next.references[side]++ = reference;
     }
-    middles[0] = sides[0];
-    middles[1] = sides[1];
+    sides->middles[0] = next.middles[0];
+    sides->middles[1] = next.middles[1];
 }

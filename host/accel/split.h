@@ -52,10 +52,14 @@ size_t glint_bins_left_count(const glint_bins *bins, const glint_split *split);
 // expected to make. False where all references are in one bin of each axis.
 bool glint_split_find(const glint_bins *bins, glint_box bounds, glint_split *split);
 
-// Copies the references to `left` and `right`, in their order, and grows the boxes of the middles
-// of each side.
+// Where a split puts references, left and right, and the boxes of their middles.
+typedef struct glint_split_sides {
+    glint_reference *references[2];
+    glint_box middles[2];
+} glint_split_sides;
+
+// Copies the references to either side, in their order, and grows its box.
 void glint_split_apply(const glint_split *split, const glint_binning *binning,
-                       const glint_reference *references, size_t count, glint_reference *left,
-                       glint_reference *right, glint_box middles[2]);
+                       const glint_reference *references, size_t count, glint_split_sides *sides);
 
 #endif

@@ -306,22 +306,21 @@ static bool build(treelet *t, const part *p, glint_binary_node *node, glint_wide
     return true;
 }
 
-bool glint_treelet_build(const glint_bvh_inputs *in, const glint_reference *references,
-                         size_t count, glint_arena *arena, glint_binary_node *root,
-                         glint_wide_costs *costs)
+bool glint_treelet_build(const glint_bvh_inputs *in, const glint_treelet_range *range,
+                         glint_arena *arena, glint_wide_costs *costs)
 {
     treelet t;
     t.in = in;
     t.arena = arena;
-    t.scale = glint_box_scale(root->bounds);
-    t.count = (int)count;
+    t.scale = glint_box_scale(range->root->bounds);
+    t.count = (int)range->count;
     t.stamp = 0;
     memset(t.stamps, 0, sizeof t.stamps);
     glint_box middles = glint_box_empty();
     for (int i = 0; i < t.count; i++) {
-        t.references[i] = references[i];
-        middles = glint_box_union(middles, glint_box_of(glint_box_middle(references[i])));
-        t.triangles[i] = glint_reference_first(references[i]);
+        t.references[i] = range->references[i];
+        middles = glint_box_union(middles, glint_box_of(glint_box_middle(t.references[i])));
+        t.triangles[i] = glint_reference_first(t.references[i]);
         t.materials[i] = in->material_of[t.triangles[i]];
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -329,5 +328,5 @@ bool glint_treelet_build(const glint_bvh_inputs *in, const glint_reference *refe
     }
     expect_clusters(&t, number_vertices(&t));
     const part all = {0, t.count, fitting_count(&t, t.order[0], 1, t.count) == t.count};
-    return build(&t, &all, root, costs);
+    return build(&t, &all, range->root, costs);
 }

@@ -15,10 +15,15 @@
 #define GLINT_TREELET_MAX 64
 #endif
 
-// Makes the subtree of 1 to GLINT_TREELET_MAX triangles at *root, whose bounds are set, with what
-// it costs. False where memory is short.
-bool glint_treelet_build(const glint_bvh_inputs *in, const glint_reference *references,
-                         size_t count, glint_arena *arena, glint_binary_node *root,
-                         glint_wide_costs *costs);
+// 1 to GLINT_TREELET_MAX triangles, and the node that becomes their root, whose bounds are set.
+typedef struct glint_treelet_range {
+    const glint_reference *references; // one each
+    size_t count;
+    glint_binary_node *root;
+} glint_treelet_range;
+
+// Makes the subtree, with what it costs. False where memory is short.
+bool glint_treelet_build(const glint_bvh_inputs *in, const glint_treelet_range *range,
+                         glint_arena *arena, glint_wide_costs *costs);
 
 #endif

@@ -83,16 +83,16 @@ static double along_face(const glint_chart *chart, int edge, double pixels)
     return 2.0 * pixels / edge - 1.0;
 }
 
-static bool face_direction(const glint_chart *chart, const face_picture *picture, int i, int j,
-                           double dx, double dy, glint_vec3 *direction)
+static bool face_direction(const glint_chart *chart, const face_picture *picture,
+                           const glint_chart_place *at, glint_vec3 *direction)
 {
     const int edge = chart->width / picture->across;
     for (int face = 0; face < 6; face++) {
         const glint_face_cell *cell = &picture->cells[face];
-        if (i / edge == cell->column && j / edge == cell->row) {
+        if (at->i / edge == cell->column && at->j / edge == cell->row) {
             const double turn = cell->is_turned ? -1.0 : 1.0;
-            const double s = along_face(chart, edge, i % edge + 0.5 + dx);
-            const double t = along_face(chart, edge, j % edge + 0.5 + dy);
+            const double s = along_face(chart, edge, at->i % edge + 0.5 + at->dx);
+            const double t = along_face(chart, edge, at->j % edge + 0.5 + at->dy);
             *direction = glint_cube_direction(face, turn * s, turn * t);
             return true;
         }
@@ -267,14 +267,14 @@ glint_status glint_chart_make(glint_layout layout, int size, bool on_edges, glin
     return GLINT_OK;
 }
 
-bool glint_chart_direction(const glint_chart *chart, int i, int j, double dx, double dy,
+bool glint_chart_direction(const glint_chart *chart, const glint_chart_place *at,
                            glint_vec3 *direction)
 {
     const face_picture *picture = find_picture(chart->layout);
     if (picture != NULL) {
-        return face_direction(chart, picture, i, j, dx, dy, direction);
+        return face_direction(chart, picture, at, direction);
     }
-    const double x = i + 0.5 + dx, y = j + 0.5 + dy;
+    const double x = at->i + 0.5 + at->dx, y = at->j + 0.5 + at->dy;
     if (is_disc(chart->layout)) {
         return disc_direction(chart, x, y, direction);
     }

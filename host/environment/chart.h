@@ -41,9 +41,15 @@ typedef struct glint_face_cell {
 // that are no cubes. *across × *down faces (which may be NULL) are the whole picture.
 const glint_face_cell *glint_layout_cells(glint_layout layout, int *across, int *down);
 
-// The direction (not normalised) at (dx, dy) pixels, half a pixel at most, from the centre of pixel
-// (i, j). False where the picture holds none there: beside a cross, outside a disc.
-bool glint_chart_direction(const glint_chart *chart, int i, int j, double dx, double dy,
+// A place in pixel (i, j), at (dx, dy) pixels from its centre, half a pixel at most.
+typedef struct glint_chart_place {
+    int i, j;
+    double dx, dy;
+} glint_chart_place;
+
+// The direction (not normalised) of a place. False where the picture holds none there: beside a
+// cross, outside a disc.
+bool glint_chart_direction(const glint_chart *chart, const glint_chart_place *at,
                            glint_vec3 *direction);
 
 // The place where a disc shows a direction of any length but zero. What a ball hides from its

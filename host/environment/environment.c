@@ -86,13 +86,13 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
 
 glint_status glint_environment_from_image(const char *name, glint_image *image,
                                           const glint_layout_request *request,
-                                          glint_environment *environment, glint_warnings *warnings,
-                                          glint_error *error)
+                                          glint_environment *environment, glint_error *error)
 {
-    static const glint_image_facts nothing_more = {0};
+    const glint_image_file file = {.name = name, .image = *image};
     *environment = (glint_environment){0};
+    *image = (glint_image){0};
     glint_source source;
-    TRY(glint_source_take(name, image, &nothing_more, request, &source, warnings, error));
+    TRY(glint_source_take(&file, request, &source, NULL, error));
     return finish(name, &source, environment, error);
 }
 

@@ -47,12 +47,11 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
                                     glint_environment *environment, glint_warnings *warnings,
                                     glint_error *error);
 
-// The same from an image in memory, called `name` in messages: a single file's content. Values that
-// are no radiance are mended in it. Errors: GLINT_BAD_INPUT.
+// The same from an image in memory, called `name` in messages: a single file's content, which is
+// taken over. Values that are no radiance are mended in it. Errors: GLINT_BAD_INPUT.
 glint_status glint_environment_from_image(const char *name, glint_image *image,
                                           const glint_layout_request *request,
-                                          glint_environment *environment, glint_warnings *warnings,
-                                          glint_error *error);
+                                          glint_environment *environment, glint_error *error);
 
 // The built-in studio (studio.h), called "studio". Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_environment_studio(glint_environment *environment, glint_error *error);

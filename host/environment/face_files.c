@@ -281,17 +281,19 @@ glint_status glint_face_files_in_folder(const char *folder, glint_face_files *fi
     *files = (glint_face_files){0};
     sets all = {0};
     char missing[16] = "";
-    glint_status status = list_folder(folder, &all, error);
-    for (size_t k = 0; k < all.count && status == GLINT_OK; k++) {
+    glint_status status;
+    TRY_OR(cleanup, status, list_folder(folder, &all, error));
+    for (size_t k = 0; k < all.count; k++) {
         if (count_found(&all.items[k].files) > count_found(files)) {
             name_missing(&all.items[k].files, all.items[k].kind, missing, sizeof missing);
         }
-        status = keep_better(folder, files, &all.items[k].files, error);
+        TRY_OR(cleanup, status, keep_better(folder, files, &all.items[k].files, error));
     }
-    int found = count_found(files);
-    if (status == GLINT_OK && found < 6) {
+    const int found = count_found(files);
+    if (found < 6) {
         status = refuse_incomplete(folder, missing, found, error);
     }
+cleanup:
     if (status != GLINT_OK) {
         glint_face_files_free(files);
     }

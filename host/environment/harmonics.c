@@ -32,8 +32,11 @@ typedef struct job {
 
 // What a texel brings: its points, each weighed by the solid angle that a part of the face has
 // there.
-static void add_texel(const float *texel, int face, double s, double t, double half, row_sum *row)
+static void add_texel(const glint_cube *cube, int face, int i, int j, row_sum *row)
 {
+    const float *texel = glint_cube_texel(cube, face, i, j);
+    const int edge = cube->edge;
+    const double s = (2.0 * i + 1) / edge - 1, t = (2.0 * j + 1) / edge - 1, half = 1.0 / edge;
     const int points = half <= 1.0 / POINT_EDGE ? 1 : 4;
     const double aside = points == 1 ? 0 : half / sqrt(3.0), area = 4 * half * half / points;
     double sum[GLINT_HARMONICS] = {0};
@@ -63,8 +66,7 @@ static void sum_row(size_t index, void *context)
     const int face = (int)index / edge, j = (int)index % edge;
     row_sum row = {0};
     for (int i = 0; i < edge; i++) {
-        add_texel(glint_cube_texel(work->radiance, face, i, j), face, (2.0 * i + 1) / edge - 1,
-                  (2.0 * j + 1) / edge - 1, 1.0 / edge, &row);
+        add_texel(work->radiance, face, i, j, &row);
     }
     work->rows[index] = row;
 }

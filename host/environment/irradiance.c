@@ -309,19 +309,17 @@ glint_status glint_irradiance_map(const glint_cube *radiance, int edge, glint_cu
                                   glint_error *error)
 {
     job shared = {.radiance = radiance, .irradiance = irradiance};
-    glint_status status = glint_cube_create(edge, irradiance, error);
-    if (status == GLINT_OK) {
-        status = grid_create(radiance->edge, &shared.grid, error);
-    }
-    if (status == GLINT_OK) {
-        size_t lines = GLINT_CUBE_FACES * (size_t)shared.grid.blocks;
-        glint_parallel_for(lines, sum_row, &shared);
-        glint_parallel_for(lines, sum_column, &shared);
-        size_t pitch = (size_t)edge + 2 * GLINT_CUBE_BORDER;
-        glint_parallel_for(GLINT_CUBE_FACES * pitch, gather_row, &shared);
-    } else {
+    TRY(glint_cube_create(edge, irradiance, error));
+    const glint_status status = grid_create(radiance->edge, &shared.grid, error);
+    if (status != GLINT_OK) {
         glint_cube_free(irradiance);
+        return status;
     }
+    const size_t lines = GLINT_CUBE_FACES * (size_t)shared.grid.blocks;
+    glint_parallel_for(lines, sum_row, &shared);
+    glint_parallel_for(lines, sum_column, &shared);
+    const size_t pitch = (size_t)edge + 2 * GLINT_CUBE_BORDER;
+    glint_parallel_for(GLINT_CUBE_FACES * pitch, gather_row, &shared);
     grid_free(&shared.grid);
-    return status;
+    return GLINT_OK;
 }

@@ -122,11 +122,13 @@ static glint_layout layout_of_facts(const glint_image *image, const glint_image_
                                                                           : GLINT_LAYOUT_LATLONG;
 }
 
-glint_status glint_layout_recognise(const char *path, const glint_image *image,
-                                    const glint_image_facts *facts,
+glint_status glint_layout_recognise(const glint_image_file *file,
                                     const glint_layout_request *request,
                                     glint_recognised *recognised, glint_error *error)
 {
+    const char *path = file->name;
+    const glint_image *image = &file->image;
+    const glint_image_facts *facts = &file->facts;
     const char *reason;
     glint_layout layout = layout_of_facts(image, facts, request->layout, &reason);
     if (layout == GLINT_LAYOUT_UNKNOWN) {

@@ -11,17 +11,23 @@
 extern "C" {
 #endif
 
-// What a single file is.
+// A single file as it was read.
+typedef struct glint_image_file {
+    const char *name; // for messages
+    glint_image image;
+    glint_image_facts facts;
+} glint_image_file;
+
+// What it is.
 typedef struct glint_recognised {
     glint_chart chart;
     const char *reason; // static text
 } glint_recognised;
 
-// What the single file `image` is: what the user named, else what the envmap attribute says, else
-// its shape. GLINT_BAD_INPUT, naming `path` and the choices, for a shape that does not suit or says
-// too little, and for a disc that leaves the picture.
-glint_status glint_layout_recognise(const char *path, const glint_image *image,
-                                    const glint_image_facts *facts,
+// What a single file is: what the user named, else what the envmap attribute says, else its shape.
+// GLINT_BAD_INPUT, naming the file and the choices, for a shape that does not suit or says too
+// little, and for a disc that leaves the picture.
+glint_status glint_layout_recognise(const glint_image_file *file,
                                     const glint_layout_request *request,
                                     glint_recognised *recognised, glint_error *error);
 

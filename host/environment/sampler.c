@@ -149,11 +149,12 @@ typedef struct resampling {
 // How many look-ups a pixel takes along one of its sides: as many as the side is pixels of the
 // source long, rounded. A bilinear look-up is good for one and a half. Where one end of the side is
 // not in the layout, the other half counts twice.
-static int count_taps(const resampling *job, int i, int j, glint_vec3 center, double dx, double dy)
+static int count_taps(const resampling *job, const glint_chart_place *high_at, glint_vec3 center)
 {
     glint_vec3 low = center, high = center;
-    const bool has_low = glint_chart_direction(job->to, i, j, -dx, -dy, &low);
-    const bool has_high = glint_chart_direction(job->to, i, j, dx, dy, &high);
+    const glint_chart_place low_at = {high_at->i, high_at->j, -high_at->dx, -high_at->dy};
+    const bool has_low = glint_chart_direction(job->to, &low_at, &low);
+    const bool has_high = glint_chart_direction(job->to, high_at, &high);
     const glint_vec3 step =
         glint_vec3_subtract(glint_vec3_normalize(high), glint_vec3_normalize(low));
     const double pixels =
@@ -166,11 +167,11 @@ static void resample_pixel(const resampling *job, int i, int j)
 {
     glint_vec3 direction;
     float *pixel = glint_image_pixel(job->image, i, j);
-    if (!glint_chart_direction(job->to, i, j, 0, 0, &direction)) {
+    if (!glint_chart_direction(job->to, &(glint_chart_place){i, j, 0, 0}, &direction)) {
         return; // 0, as it was made
     }
-    int columns = count_taps(job, i, j, direction, 0.5, 0);
-    int rows = count_taps(job, i, j, direction, 0, 0.5);
+    int columns = count_taps(job, &(glint_chart_place){i, j, 0.5, 0}, direction);
+    int rows = count_taps(job, &(glint_chart_place){i, j, 0, 0.5}, direction);
     if ((double)columns * rows > TAPS_MAX) {
         const double share = sqrt(TAPS_MAX / ((double)columns * rows));
         columns = (int)fmax(1, columns * share);
@@ -182,7 +183,7 @@ static void resample_pixel(const resampling *job, int i, int j)
         const int column = tap % columns, row = tap / columns;
         const double dx = (column + 0.5) / columns - 0.5, dy = (row + 0.5) / rows - 0.5;
         double rgb[3];
-        if (glint_chart_direction(job->to, i, j, dx, dy, &direction)) {
+        if (glint_chart_direction(job->to, &(glint_chart_place){i, j, dx, dy}, &direction)) {
             glint_sampler_look_up(job->from, apply(job->turn, direction), rgb);
             for (int c = 0; c < 3; c++) {
                 sum[c] += rgb[c];

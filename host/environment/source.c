@@ -5,7 +5,6 @@
 
 #include "environment/face_files.h"
 #include "environment/radiance.h"
-#include "environment/recognise.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -16,15 +15,13 @@
 
 static const glint_layout_request nothing_known = {0};
 
-glint_status glint_source_take(const char *name, glint_image *image, const glint_image_facts *facts,
-                               const glint_layout_request *request, glint_source *source,
-                               glint_warnings *warnings, glint_error *error)
+glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
+                               glint_source *source, glint_warnings *warnings, glint_error *error)
 {
-    *source = (glint_source){.image = *image};
-    *image = (glint_image){0};
+    *source = (glint_source){.image = file->image};
     glint_recognised what;
-    glint_status status = glint_layout_recognise(
-        name, &source->image, facts, request != NULL ? request : &nothing_known, &what, error);
+    const glint_status status =
+        glint_layout_recognise(file, request != NULL ? request : &nothing_known, &what, error);
     if (status != GLINT_OK) {
         glint_source_free(source);
         return status;
@@ -32,21 +29,20 @@ glint_status glint_source_take(const char *name, glint_image *image, const glint
     const glint_image *taken = &source->image;
     if (what.chart.layout == GLINT_LAYOUT_LATLONG && taken->width != 2 * taken->height) {
         glint_warn(warnings, "%s: %d × %d pixels are not 2:1: stretched over the whole sphere",
-                   name, taken->width, taken->height);
+                   file->name, taken->width, taken->height);
     }
     source->chart = what.chart;
     source->reason = what.reason;
-    source->mended_texels = glint_radiance_mend(name, &source->image, warnings);
+    source->mended_texels = glint_radiance_mend(file->name, &source->image, warnings);
     return GLINT_OK;
 }
 
 static glint_status load_file(const char *path, const glint_layout_request *request,
                               glint_source *source, glint_warnings *warnings, glint_error *error)
 {
-    glint_image image = {0};
-    glint_image_facts facts = {0};
-    TRY(glint_image_read(path, &image, &facts, error));
-    return glint_source_take(path, &image, &facts, request, source, warnings, error);
+    glint_image_file file = {.name = path};
+    TRY(glint_image_read(path, &file.image, &file.facts, error));
+    return glint_source_take(&file, request, source, warnings, error);
 }
 
 // ---- Six files ----------------------------------------------------------------------------------
@@ -98,25 +94,41 @@ cleanup:
     return status;
 }
 
-static glint_status load_faces(const char *path, bool is_folder, glint_layout asked,
-                               glint_source *source, glint_warnings *warnings, glint_error *error)
+static glint_status check_asked(const char *path, bool is_folder, glint_layout asked,
+                                glint_error *error)
 {
-    if (asked != GLINT_LAYOUT_UNKNOWN && asked != GLINT_LAYOUT_FACES) {
-        return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: a %s holds six faces, not the layout %s (leave --env-layout out)",
-                          path, is_folder ? "folder" : "pattern", glint_layout_name(asked));
+    if (asked == GLINT_LAYOUT_UNKNOWN || asked == GLINT_LAYOUT_FACES) {
+        return GLINT_OK;
     }
+    return glint_fail(error, GLINT_BAD_INPUT,
+                      "%s: a %s holds six faces, not the layout %s (leave --env-layout out)", path,
+                      is_folder ? "folder" : "pattern", glint_layout_name(asked));
+}
+
+// Reads the six into one picture.
+static glint_status read_faces(const char *path, bool is_folder, glint_image *strip,
+                               glint_error *error)
+{
     glint_face_files files = {0};
-    glint_status status = is_folder ? glint_face_files_in_folder(path, &files, error)
-                                    : glint_face_files_by_pattern(path, &files, error);
-    for (int face = 0; status == GLINT_OK && face < 6; face++) {
-        status = read_face(&files, face, &source->image, error);
+    glint_status status;
+    TRY_OR(cleanup, status,
+           is_folder ? glint_face_files_in_folder(path, &files, error)
+                     : glint_face_files_by_pattern(path, &files, error));
+    for (int face = 0; face < 6; face++) {
+        TRY_OR(cleanup, status, read_face(&files, face, strip, error));
     }
+cleanup:
     glint_face_files_free(&files);
     if (status != GLINT_OK) {
-        glint_source_free(source);
-        return status;
+        glint_image_free(strip);
     }
+    return status;
+}
+
+static glint_status load_faces(const char *path, bool is_folder, glint_source *source,
+                               glint_warnings *warnings, glint_error *error)
+{
+    TRY(read_faces(path, is_folder, &source->image, error));
     source->chart = (glint_chart){.layout = GLINT_LAYOUT_FACES,
                                   .width = source->image.width,
                                   .height = source->image.height,
@@ -137,7 +149,8 @@ glint_status glint_source_load(const char *path, const glint_layout_request *req
     const bool exists = stat(path, &facts) == 0;
     const bool is_folder = exists && S_ISDIR(facts.st_mode);
     if (is_folder || (!exists && strstr(path, "%s") != NULL)) {
-        return load_faces(path, is_folder, request->layout, source, warnings, error);
+        TRY(check_asked(path, is_folder, request->layout, error));
+        return load_faces(path, is_folder, source, warnings, error);
     }
     return load_file(path, request, source, warnings, error);
 }

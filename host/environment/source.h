@@ -4,9 +4,8 @@
 
 #include "base/status.h"
 #include "environment/chart.h"
-#include "environment/layouts.h"
+#include "environment/recognise.h"
 #include "image/image.h"
-#include "image/image_io.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,11 +23,9 @@ typedef struct glint_source {
 glint_status glint_source_load(const char *path, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 
-// The same from an image in memory, called `name` in messages: a single file's content, which is
-// taken over (and freed on failure, too).
-glint_status glint_source_take(const char *name, glint_image *image, const glint_image_facts *facts,
-                               const glint_layout_request *request, glint_source *source,
-                               glint_warnings *warnings, glint_error *error);
+// The same from a single file's content, whose image is taken over (and freed on failure, too).
+glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
+                               glint_source *source, glint_warnings *warnings, glint_error *error);
 
 void glint_source_free(glint_source *source);
 

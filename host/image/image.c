@@ -7,32 +7,32 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-static glint_status make(int width, int height, int channels, void *(*allocate)(size_t, size_t),
-                         glint_image *image, glint_error *error)
+// Gives `made`, of which all but the pixels is set, its pixels; *image becomes it, or empty.
+static glint_status make(glint_image made, void *(*allocate)(size_t, size_t), glint_image *image,
+                         glint_error *error)
 {
     *image = (glint_image){0};
-    if (width < 1 || height < 1 || channels < 1 || channels > 4) {
+    if (made.width < 1 || made.height < 1 || made.channels < 1 || made.channels > 4) {
         return glint_fail(error, GLINT_BAD_INPUT,
-                          "image: %d × %d pixels of %d channels make no image", width, height,
-                          channels);
+                          "image: %d × %d pixels of %d channels make no image", made.width,
+                          made.height, made.channels);
     }
     size_t pixels = 0, values = 0;
-    if (!glint_multiply((size_t)width, (size_t)height, &pixels) ||
-        !glint_multiply(pixels, (size_t)channels, &values)) {
+    if (glint_multiply((size_t)made.width, (size_t)made.height, &pixels) &&
+        glint_multiply(pixels, (size_t)made.channels, &values)) {
+        made.pixels = allocate(values, sizeof(float));
+    }
+    if (made.pixels == NULL) {
         return glint_fail_memory(error, "an image");
     }
-    float *memory = allocate(values, sizeof(float));
-    if (memory == NULL) {
-        return glint_fail_memory(error, "an image");
-    }
-    *image = (glint_image){width, height, channels, memory};
+    *image = made;
     return GLINT_OK;
 }
 
 glint_status glint_image_create(int width, int height, int channels, glint_image *image,
                                 glint_error *error)
 {
-    return make(width, height, channels, glint_allocate, image, error);
+    return make((glint_image){width, height, channels, NULL}, glint_allocate, image, error);
 }
 
 glint_status glint_image_reuse(int width, int height, int channels, glint_image *image,
@@ -43,7 +43,7 @@ glint_status glint_image_reuse(int width, int height, int channels, glint_image 
         return GLINT_OK;
     }
     glint_image_free(image);
-    return make(width, height, channels, glint_allocate_unset, image, error);
+    return make((glint_image){width, height, channels, NULL}, glint_allocate_unset, image, error);
 }
 
 void glint_image_free(glint_image *image)

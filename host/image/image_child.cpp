@@ -85,16 +85,16 @@ void settle_child(unsigned seconds)
     }
 }
 
-[[noreturn]] void run_child(int pipe, const char *path, const char *plugin, std::uint64_t file_size)
+[[noreturn]] void run_child(int pipe, const Source &source)
 {
     static Answer answer;
     glint_error error = {};
     Decoded decoded;
     try {
-        answer.status = decode(path, plugin, file_size, decoded, &error);
+        answer.status = decode(source, decoded, &error);
     } catch (...) {
         answer.status =
-            glint_fail(&error, GLINT_BAD_INPUT, "%s: cannot be decoded (convert it)", path);
+            glint_fail(&error, GLINT_BAD_INPUT, "%s: cannot be decoded (convert it)", source.path);
     }
     std::memcpy(answer.message, error.message, sizeof answer.message);
     answer.facts = decoded.facts;
@@ -142,10 +142,10 @@ glint_status receive(int pipe, const char *path, Decoded &decoded, glint_error *
 }
 
 // One child. *is_late: an alarm ended it.
-glint_status decode_within(unsigned seconds, const char *path, const char *plugin,
-                           std::uint64_t file_size, Decoded &decoded, bool *is_late,
+glint_status decode_within(unsigned seconds, const Source &source, Decoded &decoded, bool *is_late,
                            glint_error *error)
 {
+    const char *path = source.path;
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: no pipe to a decoder: %s (try again)", path,
@@ -158,7 +158,7 @@ glint_status decode_within(unsigned seconds, const char *path, const char *plugi
     }
     if (child == 0) {
         settle_child(seconds);
-        run_child(ends[1], path, plugin, file_size);
+        run_child(ends[1], source);
     }
     close(ends[1]);
     if (child < 0) {
@@ -183,8 +183,7 @@ glint_status decode_within(unsigned seconds, const char *path, const char *plugi
 
 } // namespace
 
-glint_status decode_in_child(const char *path, const char *plugin, std::uint64_t file_size,
-                             Decoded &decoded, glint_error *error)
+glint_status decode_in_child(const Source &source, Decoded &decoded, glint_error *error)
 {
     glint_status status = GLINT_OK;
     bool is_late = true;
@@ -194,13 +193,13 @@ glint_status decode_in_child(const char *path, const char *plugin, std::uint64_t
             if (error != nullptr) {
                 glint_error_free(error);
             }
-            status = decode_within(seconds, path, plugin, file_size, decoded, &is_late, error);
+            status = decode_within(seconds, source, decoded, &is_late, error);
         }
     }
     if (is_late) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: the decoder was not done in two minutes (convert it to EXR or TIFF)",
-                          path);
+                          source.path);
     }
     return status;
 }

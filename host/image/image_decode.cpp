@@ -193,20 +193,20 @@ std::uint64_t expansion_max(const char *plugin)
 }
 
 // Before anything of the image's size is allocated.
-glint_status check_size(const char *path, const char *plugin, std::uint64_t file_size,
-                        const ImageSpec &spec, glint_error *error)
+glint_status check_size(const Source &source, const ImageSpec &spec, glint_error *error)
 {
+    const char *path = source.path;
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %d × %d × %d pixels are no picture", path,
                           spec.width, spec.height, spec.depth);
     }
     std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
-    if (pixels / expansion_max(plugin) * spec.pixel_bytes(true) > file_size) {
+    if (pixels / expansion_max(source.plugin) * spec.pixel_bytes(true) > source.size) {
         return glint_fail(
             error, GLINT_BAD_INPUT,
             "%s: says %d × %d pixels, which its %llu bytes cannot hold (it is damaged "
             "or cut short)",
-            path, spec.width, spec.height, (unsigned long long)file_size);
+            path, spec.width, spec.height, (unsigned long long)source.size);
     }
     if (pixels > values_max / 4) {
         return glint_fail(error, GLINT_BAD_INPUT,
@@ -362,17 +362,13 @@ glint_status frame_pixels(const char *path, const ImageSpec &spec, Decoded &deco
     return GLINT_OK;
 }
 
-glint_status decode_part(const char *path, const char *plugin, ImageInput &input,
-                         std::uint64_t file_size, Decoded &decoded, glint_error *error)
+glint_status decode_part(const Source &source, ImageInput &input, Decoded &decoded,
+                         glint_error *error)
 {
+    const char *path = source.path, *plugin = source.plugin;
     Part part;
-    glint_status status = find_part(path, input, part, error);
-    if (status == GLINT_OK) {
-        status = check_size(path, plugin, file_size, part.spec, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(find_part(path, input, part, error));
+    TRY(check_size(source, part.spec, error));
     find_facts(plugin, part, decoded.facts);
     if (!read_values(input, part, decoded)) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
@@ -380,17 +376,17 @@ glint_status decode_part(const char *path, const char *plugin, ImageInput &input
     }
     if (std::strcmp(plugin, "openexr") == 0 && decoded.facts.envmap == GLINT_ENVMAP_NONE &&
         decoded.facts.code_bits == 0) {
-        status = frame_pixels(path, part.spec, decoded, error);
+        TRY(frame_pixels(path, part.spec, decoded, error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 } // namespace
 
-glint_status decode(const char *path, const char *plugin, std::uint64_t file_size, Decoded &decoded,
-                    glint_error *error)
+glint_status decode(const Source &source, Decoded &decoded, glint_error *error)
 {
-    std::unique_ptr<ImageInput> input = ImageInput::create(plugin);
+    const char *path = source.path;
+    std::unique_ptr<ImageInput> input = ImageInput::create(source.plugin);
     if (input == nullptr) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: OpenImageIO was built without this format (convert it to .exr)",
@@ -403,7 +399,7 @@ glint_status decode(const char *path, const char *plugin, std::uint64_t file_siz
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
                           cause_of(*input, path).c_str());
     }
-    glint_status status = decode_part(path, plugin, *input, file_size, decoded, error);
+    glint_status status = decode_part(source, *input, decoded, error);
     input->close();
     return status;
 }

@@ -36,14 +36,19 @@ struct Decoded {
     std::vector<float> values;
 };
 
-// Decodes `path` by OpenImageIO's `plugin`. Throws nothing but std::bad_alloc. The caller holds the
+// A file to decode.
+struct Source {
+    const char *path;
+    const char *plugin; // OpenImageIO's name of the format
+    std::uint64_t size; // of the file, bytes
+};
+
+// Decodes a file. Throws nothing but std::bad_alloc. The caller holds the
 // gate.
-glint_status decode(const char *path, const char *plugin, std::uint64_t file_size, Decoded &decoded,
-                    glint_error *error);
+glint_status decode(const Source &source, Decoded &decoded, glint_error *error);
 
 // decode() in a child process, which may crash.
-glint_status decode_in_child(const char *path, const char *plugin, std::uint64_t file_size,
-                             Decoded &decoded, glint_error *error);
+glint_status decode_in_child(const Source &source, Decoded &decoded, glint_error *error);
 
 // Shared by all who are inside OpenImageIO, exclusive around fork: a child must not inherit a lock
 // of the library's that another thread holds, for in the child nobody would release it.

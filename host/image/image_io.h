@@ -101,6 +101,18 @@ glint_status glint_image_check_output(const char *path, const glint_write_option
 glint_status glint_image_write(const char *path, const glint_image *image,
                                const glint_write_options *options, glint_error *error);
 
+// An encoded file in memory: malloc'd; zero is valid.
+typedef struct glint_encoded {
+    unsigned char *bytes;
+    size_t size;
+} glint_encoded;
+
+// The bytes of the file that glint_image_write would put at `path`, of which the extension counts
+// alone. Errors: as glint_image_write, GLINT_OUT_OF_MEMORY.
+glint_status glint_image_encode(const char *path, const glint_image *image,
+                                const glint_write_options *options, glint_encoded *encoded,
+                                glint_error *error);
+
 // How many threads each read or write may use: 0 is one for each core, as it begins; 1 the caller's
 // alone, for those who encode several images side by side.
 void glint_image_use_threads(int count);

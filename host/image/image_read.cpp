@@ -299,10 +299,10 @@ glint_status read(const char *path, glint_image *image, glint_image_facts *facts
     }
     Decoded decoded;
     if (std::strcmp(plugin, "jpeg") == 0 || std::strcmp(plugin, "png") == 0) {
-        status = glint::decode_in_child(path, plugin, size, decoded, error);
+        status = glint::decode_in_child({path, plugin, size}, decoded, error);
     } else {
         std::shared_lock<std::shared_mutex> inside(glint::gate());
-        status = glint::decode(path, plugin, size, decoded, error);
+        status = glint::decode({path, plugin, size}, decoded, error);
     }
     if (status != GLINT_OK) {
         return status;

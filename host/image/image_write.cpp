@@ -410,21 +410,40 @@ glint_status encode(const char *path, const char *plugin, const Encoded &made,
     return GLINT_OK;
 }
 
-glint_status write(const char *path, const glint_image &image, const glint_write_options &options,
-                   glint_error *error)
+using File = OIIO::Filesystem::IOVecOutput;
+
+glint_status encode_image(const char *path, const glint_image &image,
+                          const glint_write_options &options, File &file, glint_error *error)
 {
     const Extension *extension = extension_of(path);
-    OIIO::Filesystem::IOVecOutput file;
-    glint_status status;
-    {
-        std::shared_lock<std::shared_mutex> inside(glint::gate());
-        Encoded made = prepare(image, extension->format, options);
-        status = encode(path, extension->plugin, made, file, error);
+    std::shared_lock<std::shared_mutex> inside(glint::gate());
+    Encoded made = prepare(image, extension->format, options);
+    return encode(path, extension->plugin, made, file, error);
+}
+
+// Encodes an image and hands the file to `take`, outside of OpenImageIO.
+template <typename Take>
+glint_status encode_for(const char *path, const glint_image *image,
+                        const glint_write_options *options, Take take, glint_error *error)
+{
+    const glint_write_options defaults = {};
+    const glint_write_options &given = options != nullptr ? *options : defaults;
+    TRY(glint_image_check_output(path, &given, error));
+    if (image->pixels == nullptr) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
     }
-    if (status != GLINT_OK) {
-        return status;
+    try {
+        File file;
+        TRY(encode_image(path, *image, given, file, error));
+        return take(file.buffer());
+    } catch (const std::bad_alloc &) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: not enough memory to encode it", path);
+    } catch (const std::exception &fault) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded: %s (try .exr)",
+                          path, fault.what());
+    } catch (...) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded (try .exr)", path);
     }
-    return glint_output_file_write(path, file.buffer().data(), file.buffer().size(), error);
 }
 
 } // namespace
@@ -451,25 +470,27 @@ glint_status glint_image_check_output(const char *path, const glint_write_option
 glint_status glint_image_write(const char *path, const glint_image *image,
                                const glint_write_options *options, glint_error *error)
 {
-    const glint_write_options defaults = {};
-    const glint_write_options &given = options != nullptr ? *options : defaults;
-    glint_status status = glint_image_check_output(path, &given, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
-    if (image->pixels == nullptr) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
-    }
-    try {
-        return write(path, *image, given, error);
-    } catch (const std::bad_alloc &) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: not enough memory to encode it", path);
-    } catch (const std::exception &fault) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded: %s (try .exr)",
-                          path, fault.what());
-    } catch (...) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: could not be encoded (try .exr)", path);
-    }
+    const auto write = [&](const std::vector<unsigned char> &file) {
+        return glint_output_file_write(path, file.data(), file.size(), error);
+    };
+    return encode_for(path, image, options, write, error);
+}
+
+glint_status glint_image_encode(const char *path, const glint_image *image,
+                                const glint_write_options *options, glint_encoded *encoded,
+                                glint_error *error)
+{
+    *encoded = {};
+    const auto keep = [&](const std::vector<unsigned char> &file) {
+        encoded->bytes = static_cast<unsigned char *>(std::malloc(file.size()));
+        if (encoded->bytes == nullptr) {
+            return glint_fail_memory(error, "an encoded image");
+        }
+        std::memcpy(encoded->bytes, file.data(), file.size());
+        encoded->size = file.size();
+        return GLINT_OK;
+    };
+    return encode_for(path, image, options, keep, error);
 }
 
 void glint_image_use_threads(int count)

@@ -177,11 +177,9 @@ static glint_status place_find(const char *path, place *where, glint_error *erro
                    path);
         return GLINT_OUTPUT_FAILED;
     }
-    glint_status status = place_split(where, error);
-    if (status == GLINT_OK) {
-        status = check_target(path, where, error);
-    }
-    return status == GLINT_OK ? check_folder(path, where, error) : status;
+    TRY(place_split(where, error));
+    TRY(check_target(path, where, error));
+    return check_folder(path, where, error);
 }
 
 glint_status glint_output_file_check_folder(const char *path, glint_error *error)
@@ -190,10 +188,10 @@ glint_status glint_output_file_check_folder(const char *path, glint_error *error
     if (where.path == NULL) {
         return glint_fail_memory(error, "a file name");
     }
-    glint_status status = place_split(&where, error);
-    if (status == GLINT_OK) {
-        status = check_folder(path, &where, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, place_split(&where, error));
+    TRY_OR(cleanup, status, check_folder(path, &where, error));
+cleanup:
     place_free(&where);
     return status;
 }

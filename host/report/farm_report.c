@@ -226,9 +226,10 @@ static glint_status read_lines(const char *path, glint_farm_part *part, part_lin
     char *text = NULL;
     size_t capacity = 0;
     glint_status status = GLINT_OK;
-    while (status == GLINT_OK && getline(&text, &capacity, file) >= 0) {
-        status = take(text, part, lines, error);
+    while (getline(&text, &capacity, file) >= 0) {
+        TRY_OR(cleanup, status, take(text, part, lines, error));
     }
+cleanup:
     free(text);
     fclose(file);
     return status;
@@ -318,31 +319,30 @@ static glint_status read_part(const char *folder, glint_farm_report *report, int
     return status;
 }
 
+static glint_status find_job(const char *folder, const char *job, glint_farm_job *found,
+                             glint_error *error)
+{
+    if (job == NULL) {
+        TRY(find_latest(folder, found->id, error));
+    } else if (strlen(job) < sizeof found->id && strspn(job, "0123456789") == strlen(job)) {
+        memcpy(found->id, job, strlen(job) + 1);
+    } else {
+        return glint_fail(error, GLINT_USAGE, "--job %s: a number is expected", job);
+    }
+    return read_job(folder, found, error);
+}
+
 glint_status glint_farm_report_read(const char *folder, const char *job, glint_farm_report *report,
                                     glint_error *error)
 {
     *report = (glint_farm_report){0};
-    char *id = report->job.id;
-    glint_status status = GLINT_OK;
-    if (job == NULL) {
-        status = find_latest(folder, id, error);
-    } else if (strlen(job) < sizeof report->job.id && strspn(job, "0123456789") == strlen(job)) {
-        memcpy(id, job, strlen(job) + 1);
-    } else {
-        status = glint_fail(error, GLINT_USAGE, "--job %s: a number is expected", job);
-    }
-    if (status == GLINT_OK) {
-        status = read_job(folder, &report->job, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(find_job(folder, job, &report->job, error));
     report->parts = calloc((size_t)report->job.parts, sizeof *report->parts);
     if (report->parts == NULL) {
         return glint_fail_memory(error, "the report");
     }
-    for (int i = 0; status == GLINT_OK && i < report->job.parts; i++) {
-        status = read_part(folder, report, i, error);
+    for (int i = 0; i < report->job.parts; i++) {
+        TRY(read_part(folder, report, i, error));
         const glint_farm_part *part = &report->parts[i];
         report->rendered += part->rendered;
         report->skipped += part->skipped;
@@ -353,7 +353,7 @@ glint_status glint_farm_report_read(const char *folder, const char *job, glint_f
     }
     const uint64_t known = report->rendered + report->skipped + report->failed;
     report->missing = known < report->job.frames ? report->job.frames - known : 0;
-    return status;
+    return GLINT_OK;
 }
 
 void glint_farm_report_free(glint_farm_report *report)

@@ -112,10 +112,10 @@ glint_status glint_json_print(json_t *root, char **text, glint_error *error)
 glint_status glint_json_write(const char *path, json_t *root, glint_error *error)
 {
     char *text = NULL;
-    glint_status status = glint_json_print(root, &text, error);
-    if (status == GLINT_OK) {
-        status = glint_output_file_write(path, text, strlen(text), error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_json_print(root, &text, error));
+    TRY_OR(cleanup, status, glint_output_file_write(path, text, strlen(text), error));
+cleanup:
     free(text);
     return status;
 }

@@ -15,10 +15,11 @@ static glint_status look_up(trial *t, const glint_environment *environment, doub
         in[i / 4][i % 4] = trial_rounded(t, in[i / 4][i % 4]);
     }
     glint_probe *probe;
-    glint_status status = trial_probe_environment(t, environment, &probe);
-    if (status == GLINT_OK) {
-        status = trial_call(t, probe, GLINT_PROBE_ENVIRONMENT, (const double(*)[4])in, out, count);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, trial_probe_environment(t, environment, &probe));
+    TRY_OR(cleanup, status,
+           trial_call(t, probe, GLINT_PROBE_ENVIRONMENT, &(trial_numbers){in, out, count}));
+cleanup:
     glint_probe_free(probe);
     return status;
 }
@@ -72,10 +73,29 @@ static int face_of_tie(const double d[3])
     return 2 * axis + (d[axis] < 0);
 }
 
+static void measure_odd(glint_measure *wild, const double d[3], const double v[3])
+{
+    const bool is_color =
+        v[0] >= 0 && v[0] <= 1 && v[1] >= 0 && v[1] <= 1 && v[2] >= 0 && v[2] <= 1;
+    measure_event(wild, !is_color, "along (%g, %g, %g): (%g, %g, %g)", d[0], d[1], d[2], v[0], v[1],
+                  v[2]);
+}
+
+// The face and the place there, in texels, that a tie falls on.
+static void measure_face(trial *t, glint_measure *others, const double d[3], const double f[4])
+{
+    // With the rounding of the place.
+    const double low = 0.5 - 2 * t->u * EDGE, high = EDGE + 0.5 + 2 * t->u * EDGE;
+    const bool inside = f[1] >= low && f[1] <= high && f[2] >= low && f[2] <= high;
+    measure_event(others, f[0] != face_of_tie(d) || !inside,
+                  "(%g, %g, %g): face %d expected; face %g, column %g, row %g", d[0], d[1], d[2],
+                  face_of_tie(d), f[0], f[1], f[2]);
+}
+
 // Both faces of a tie have the same value there but for the rounding of the border's texels, which
 // are floats, so that a step over it is no larger than one within a face: a few rounding errors of
 // the place, which the map turns into EDGE times as much.
-static glint_status cube_ties(trial *t)
+static glint_status measure_jumps(trial *t, glint_measure *jumps, glint_measure *wild)
 {
     static const double odd[ODD][3] = {{NAN, 0, -1},
                                        {0, NAN, 1},
@@ -85,13 +105,7 @@ static glint_status cube_ties(trial *t)
                                        {NAN, NAN, NAN},
                                        {1, INFINITY, -INFINITY},
                                        {-0.0, 0, NAN}};
-    static double in[3 * TIES + ODD][4], out[3 * TIES + ODD][4], faces[TIES][4];
-    glint_measure *others = trial_events(t, "ties that fall on another face, or beside it", 0);
-    glint_measure *jumps = trial_error(t, "jump from one face to the other", "2⁻²⁴ × edge", 4);
-    glint_measure *wild = trial_events(t, "colours along NaN, 0 and ∞ that no texel has", 0);
-    for (int i = 0; i < ODD; i++) {
-        memcpy(in[3 * TIES + i], odd[i], sizeof odd[i]);
-    }
+    static double in[3 * TIES + ODD][4], out[3 * TIES + ODD][4];
     for (int i = 0; i < TIES; i++) {
         double d[3];
         tie(i, d);
@@ -101,82 +115,94 @@ static glint_status cube_ties(trial *t)
         // A little to either side.
         in[3 * i + 1][(i + 1) % 3] *= 1 - 4 * t->u;
         in[3 * i + 2][(i + 2) % 3] *= 1 - 4 * t->u;
-        memcpy(faces[i], d, sizeof d);
+    }
+    for (int i = 0; i < ODD; i++) {
+        memcpy(in[3 * TIES + i], odd[i], sizeof odd[i]);
     }
     glint_environment environment;
-    glint_probe *probe = NULL;
-    glint_status status = trial_linear_environment(EDGE, &environment, t->error);
-    if (status == GLINT_OK) {
-        status = look_up(t, &environment, in, out, 3 * TIES + ODD);
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(EDGE, &environment, t->error));
+    TRY_OR(cleanup, status, look_up(t, &environment, in, out, 3 * TIES + ODD));
+    for (int i = 0; i < ODD; i++) {
+        measure_odd(wild, odd[i], out[3 * TIES + i]);
     }
-    for (int i = 0; status == GLINT_OK && i < ODD; i++) {
-        const double *v = out[3 * TIES + i];
-        measure_event(
-            wild, !(v[0] >= 0 && v[0] <= 1 && v[1] >= 0 && v[1] <= 1 && v[2] >= 0 && v[2] <= 1),
-            "along (%g, %g, %g): (%g, %g, %g)", odd[i][0], odd[i][1], odd[i][2], v[0], v[1], v[2]);
+    for (int i = 0; i < 2 * TIES; i++) {
+        const double *d = in[i / 2 * 3], *on = out[i / 2 * 3], *beside = out[i / 2 * 3 + 1 + i % 2];
+        const double jump = largest_difference(on, beside);
+        measure_error(jumps, jump / (0x1p-24 * EDGE), "(%g, %g, %g): a step of %.3g", d[0], d[1],
+                      d[2], jump);
     }
-    if (status == GLINT_OK) {
-        status = trial_functions(t, &probe);
-    }
-    if (status == GLINT_OK) {
-        status = trial_call(t, probe, GLINT_PROBE_FACE, (const double(*)[4])faces, faces, TIES);
-    }
-    for (int i = 0; status == GLINT_OK && i < TIES; i++) {
-        const double *d = in[3 * i], *f = faces[i];
-        // In texels, with the rounding of the place.
-        const double low = 0.5 - 2 * t->u * EDGE, high = EDGE + 0.5 + 2 * t->u * EDGE;
-        const bool inside = f[1] >= low && f[1] <= high && f[2] >= low && f[2] <= high;
-        measure_event(others, f[0] != face_of_tie(d) || !inside,
-                      "(%g, %g, %g): face %d expected; face %g, column %g, row %g", d[0], d[1],
-                      d[2], face_of_tie(d), f[0], f[1], f[2]);
-        for (int n = 1; n < 3; n++) {
-            const double jump = largest_difference(out[3 * i], out[3 * i + n]);
-            measure_error(jumps, jump / (0x1p-24 * EDGE), "(%g, %g, %g): a step of %.3g", d[0],
-                          d[1], d[2], jump);
-        }
-    }
-    glint_probe_free(probe);
+cleanup:
     glint_environment_free(&environment);
+    return status;
+}
+
+static glint_status cube_ties(trial *t)
+{
+    static double faces[TIES][4];
+    glint_measure *others = trial_events(t, "ties that fall on another face, or beside it", 0);
+    glint_measure *jumps = trial_error(t, "jump from one face to the other", "2⁻²⁴ × edge", 4);
+    glint_measure *wild = trial_events(t, "colours along NaN, 0 and ∞ that no texel has", 0);
+    TRY(measure_jumps(t, jumps, wild));
+    for (int i = 0; i < TIES; i++) {
+        tie(i, faces[i]);
+    }
+    glint_probe *probe = NULL;
+    glint_status status;
+    TRY_OR(cleanup, status, trial_functions(t, &probe));
+    TRY_OR(cleanup, status,
+           trial_call(t, probe, GLINT_PROBE_FACE, &(trial_numbers){faces, faces, TIES}));
+    for (int i = 0; i < TIES; i++) {
+        double d[3];
+        tie(i, d);
+        measure_face(t, others, d, faces[i]);
+    }
+cleanup:
+    glint_probe_free(probe);
     return status;
 }
 
 // ---- Edges and corners -------------------------------------------------------------------------
 
+#define SEAM_LOOKUPS 8192
+
+static glint_status seams_of_edge(trial *t, int edge, glint_measure *errors)
+{
+    static double in[SEAM_LOOKUPS][4], out[SEAM_LOOKUPS][4];
+    for (int i = 0; i < SEAM_LOOKUPS; i++) {
+        // Within a texel of an edge, every other one of a corner.
+        double d[3];
+        tie(i % 24, d);
+        const int axis = i % 3;
+        d[axis] = i % 2 ? trial_random(t, -1, 1) : copysign(1, d[axis]);
+        for (int k = 0; k < 3; k++) {
+            in[i][k] = d[k] * (1 - (k == axis && i % 2 ? 0 : trial_random(t, 0, 2.0 / edge)));
+        }
+    }
+    glint_environment environment;
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(edge, &environment, t->error));
+    TRY_OR(cleanup, status, look_up(t, &environment, in, out, SEAM_LOOKUPS));
+    for (int i = 0; i < SEAM_LOOKUPS; i++) {
+        double expected[3];
+        linear_color(in[i], expected);
+        const double error = largest_difference(out[i], expected);
+        measure_error(errors, error * edge * edge / 2, "edge %d, (%.9g, %.9g, %.9g): off by %.3g",
+                      edge, in[i][0], in[i][1], in[i][2], error);
+    }
+cleanup:
+    glint_environment_free(&environment);
+    return status;
+}
+
 static glint_status cube_seams(trial *t)
 {
-    enum { COUNT = 8192 };
     static const int edges[] = {2, 3, 16, 61};
-    static double in[COUNT][4], out[COUNT][4];
     glint_measure *errors = trial_error(t, "error at edges and corners", "2/edge²", 1);
-    glint_status status = GLINT_OK;
-    for (size_t n = 0; status == GLINT_OK && n < sizeof edges / sizeof *edges; n++) {
-        const int edge = edges[n];
-        for (int i = 0; i < COUNT; i++) {
-            // Within a texel of an edge, every other one of a corner.
-            double d[3];
-            tie(i % 24, d);
-            const int axis = i % 3;
-            d[axis] = i % 2 ? trial_random(t, -1, 1) : copysign(1, d[axis]);
-            for (int k = 0; k < 3; k++) {
-                in[i][k] = d[k] * (1 - (k == axis && i % 2 ? 0 : trial_random(t, 0, 2.0 / edge)));
-            }
-        }
-        glint_environment environment;
-        status = trial_linear_environment(edge, &environment, t->error);
-        if (status == GLINT_OK) {
-            status = look_up(t, &environment, in, out, COUNT);
-        }
-        for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
-            double expected[3];
-            linear_color(in[i], expected);
-            const double error = largest_difference(out[i], expected);
-            measure_error(errors, error * edge * edge / 2,
-                          "edge %d, (%.9g, %.9g, %.9g): off by %.3g", edge, in[i][0], in[i][1],
-                          in[i][2], error);
-        }
-        glint_environment_free(&environment);
+    for (size_t n = 0; n < sizeof edges / sizeof *edges; n++) {
+        TRY(seams_of_edge(t, edges[n], errors));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Centres and borders -----------------------------------------------------------------------
@@ -188,7 +214,8 @@ static glint_status texel_centres(trial *t)
     glint_measure *centres = trial_error(t, "value at a texel's centre", "u", 0);
     glint_measure *borders = trial_error(t, "value half-way beside the mean", "u", 2);
     glint_environment environment;
-    glint_status status = trial_linear_environment(EDGE, &environment, t->error);
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(EDGE, &environment, t->error));
     for (int i = 0; i < COUNT; i++) {
         const int face = i / (EDGE * EDGE), row = i / EDGE % EDGE, column = i % EDGE;
         // All are multiples of 1/16: exact.
@@ -199,24 +226,22 @@ static glint_status texel_centres(trial *t)
         memcpy(in[i], d, sizeof d);
         memcpy(in[COUNT + i], b, sizeof b);
     }
-    if (status == GLINT_OK) {
-        status = look_up(t, &environment, in, out, 2 * COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, look_up(t, &environment, in, out, 2 * COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const int face = i / (EDGE * EDGE), row = i / EDGE % EDGE, column = i % EDGE;
         const float *texel = glint_cube_texel(&environment.radiance, face, column, row);
         for (int k = 0; k < 3; k++) {
-            measure_value(centres, t, out[i][k], (double)texel[k], t->u,
-                          "face %d, column %d, row %d", face, column, row);
+            measure_value(centres, out[i][k], (double)texel[k], t->u, "face %d, column %d, row %d",
+                          face, column, row);
             // The last column's border lies on the cube's edge, where another face may answer.
             if (column + 1 < EDGE) {
-                measure_value(borders, t, out[COUNT + i][k],
-                              ((double)texel[k] + (double)texel[4 + k]) / 2, t->u,
-                              "face %d, between columns %d and %d, row %d", face, column,
-                              column + 1, row);
+                measure_value(
+                    borders, out[COUNT + i][k], ((double)texel[k] + (double)texel[4 + k]) / 2, t->u,
+                    "face %d, between columns %d and %d, row %d", face, column, column + 1, row);
             }
         }
     }
+cleanup:
     glint_environment_free(&environment);
     return status;
 }
@@ -229,8 +254,9 @@ static glint_status texel_centres(trial *t)
 static glint_status latlong_environment(trial *t, glint_environment *environment)
 {
     glint_image image;
-    glint_status status = glint_image_create(2 * ROWS, ROWS, 3, &image, t->error);
-    for (int i = 0; status == GLINT_OK && i < 2 * ROWS * ROWS; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, glint_image_create(2 * ROWS, ROWS, 3, &image, t->error));
+    for (int i = 0; i < 2 * ROWS * ROWS; i++) {
         const int column = i % (2 * ROWS), row = i / (2 * ROWS);
         const double longitude = GLINT_PI * (1 - (column + 0.5) / ROWS);
         const double latitude = GLINT_PI * (0.5 - (row + 0.5) / ROWS);
@@ -240,10 +266,9 @@ static glint_status latlong_environment(trial *t, glint_environment *environment
             image.pixels[3 * i + k] = (float)(0.5 + 0.5 * d[k]);
         }
     }
-    if (status == GLINT_OK) {
-        status = glint_environment_from_image("a lat-long map", &image, NULL, environment, NULL,
-                                              t->error);
-    }
+    TRY_OR(cleanup, status,
+           glint_environment_from_image("a lat-long map", &image, NULL, environment, t->error));
+cleanup:
     glint_image_free(&image);
     return status;
 }
@@ -265,18 +290,18 @@ static glint_status latlong_poles(trial *t)
         memcpy(in[i], i < COUNT / 2 ? pole : seam, sizeof pole);
     }
     glint_environment environment = {0};
-    glint_status status = latlong_environment(t, &environment);
-    if (status == GLINT_OK) {
-        status = look_up(t, &environment, in, out, COUNT);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, latlong_environment(t, &environment));
+    TRY_OR(cleanup, status, look_up(t, &environment, in, out, COUNT));
     const double scale = pow(GLINT_PI / ROWS, 2) / 4;
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    for (int i = 0; i < COUNT; i++) {
         double expected[3];
         linear_color(in[i], expected);
         const double error = largest_difference(out[i], expected);
         measure_error(errors, error / scale, "(%.9g, %.9g, %.9g): off by %.3g", in[i][0], in[i][1],
                       in[i][2], error);
     }
+cleanup:
     glint_environment_free(&environment);
     return status;
 }
@@ -298,26 +323,24 @@ static glint_status strip_environment(trial *t, bool spoilt, glint_environment *
 {
     glint_environment linear = {0};
     glint_image image = {0};
-    glint_status status = trial_linear_environment(EDGE, &linear, t->error);
-    if (status == GLINT_OK) {
-        status = glint_image_create(EDGE, 6 * EDGE, 3, &image, t->error);
-    }
-    for (int i = 0; status == GLINT_OK && i < 6 * EDGE * EDGE; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(EDGE, &linear, t->error));
+    TRY_OR(cleanup, status, glint_image_create(EDGE, 6 * EDGE, 3, &image, t->error));
+    for (int i = 0; i < 6 * EDGE * EDGE; i++) {
         const float *texel =
             glint_cube_texel(&linear.radiance, i / (EDGE * EDGE), i % EDGE, i / EDGE % EDGE);
         memcpy(image.pixels + 3 * i, texel, 3 * sizeof *texel);
     }
-    for (int b = 0; status == GLINT_OK && spoilt && b < BAD_TEXELS; b++) {
+    for (int b = 0; spoilt && b < BAD_TEXELS; b++) {
         const int row = bad_texels[b].face * EDGE + bad_texels[b].row;
         for (int k = 0; k < 3; k++) {
             glint_image_pixel(&image, bad_texels[b].column, row)[k] = bad_texels[b].value;
         }
     }
     const glint_layout_request strip = {.layout = GLINT_LAYOUT_CUBE};
-    if (status == GLINT_OK) {
-        status =
-            glint_environment_from_image("a strip", &image, &strip, environment, NULL, t->error);
-    }
+    TRY_OR(cleanup, status,
+           glint_environment_from_image("a strip", &image, &strip, environment, t->error));
+cleanup:
     glint_image_free(&image);
     glint_environment_free(&linear);
     return status;
@@ -360,23 +383,16 @@ static glint_status bad_radiance(trial *t)
         const double random[3] = {d.x, d.y, d.z}, at[3] = {centre.x, centre.y, centre.z};
         memcpy(in[i], i < BAD_TEXELS ? at : random, sizeof at);
     }
-    glint_status status = strip_environment(t, false, &whole);
-    if (status == GLINT_OK) {
-        status = strip_environment(t, true, &spoilt);
-    }
-    if (status == GLINT_OK) {
-        status = look_up(t, &whole, in, clean, COUNT);
-    }
-    if (status == GLINT_OK) {
-        status = look_up(t, &spoilt, in, found, COUNT);
-    }
-    if (status == GLINT_OK) {
-        measure_value(count, t, (double)spoilt.mended_texels, 4, 1, "of 5 texels");
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, strip_environment(t, false, &whole));
+    TRY_OR(cleanup, status, strip_environment(t, true, &spoilt));
+    TRY_OR(cleanup, status, look_up(t, &whole, in, clean, COUNT));
+    TRY_OR(cleanup, status, look_up(t, &spoilt, in, found, COUNT));
+    measure_value(count, (double)spoilt.mended_texels, 4, 1, "of 5 texels");
+    for (int i = 0; i < COUNT; i++) {
         const double *v = found[i];
         if (i < BAD_TEXELS) {
-            measure_value(values, t, v[0], (double)bad_texels[i].mended, 1, "%g on face %d",
+            measure_value(values, v[0], (double)bad_texels[i].mended, 1, "%g on face %d",
                           (double)bad_texels[i].value, bad_texels[i].face);
         }
         measure_event(changed, !in_footprint(in[i]) && !same_color(v, clean[i]),
@@ -386,6 +402,7 @@ static glint_status bad_radiance(trial *t)
                       "(%.9g, %.9g, %.9g): (%g, %g, %g)", in[i][0], in[i][1], in[i][2], v[0], v[1],
                       v[2]);
     }
+cleanup:
     glint_environment_free(&whole);
     glint_environment_free(&spoilt);
     return status;
@@ -400,8 +417,9 @@ static glint_status denormal_radiance(trial *t)
     static double in[COUNT][4], out[COUNT][4];
     glint_measure *errors = trial_error(t, "beside what IEEE arithmetic gives", "", 1.3e-38);
     glint_environment environment;
-    glint_status status = trial_linear_environment(EDGE, &environment, t->error);
-    for (size_t i = 0; status == GLINT_OK && i < glint_cube_size(&environment.radiance); i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(EDGE, &environment, t->error));
+    for (size_t i = 0; i < glint_cube_size(&environment.radiance); i++) {
         environment.radiance.texels[i] *= (float)scale;
     }
     for (int i = 0; i < COUNT; i++) {
@@ -409,17 +427,16 @@ static glint_status denormal_radiance(trial *t)
         const double random[3] = {d.x, d.y, d.z};
         memcpy(in[i], random, sizeof random);
     }
-    if (status == GLINT_OK) {
-        status = look_up(t, &environment, in, out, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, look_up(t, &environment, in, out, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         double rgb[3];
         linear_color(in[i], rgb);
         for (int k = 0; k < 3; k++) {
-            measure_value(errors, t, out[i][k], scale * rgb[k], 1, "(%.9g, %.9g, %.9g)", in[i][0],
+            measure_value(errors, out[i][k], scale * rgb[k], 1, "(%.9g, %.9g, %.9g)", in[i][0],
                           in[i][1], in[i][2]);
         }
     }
+cleanup:
     glint_environment_free(&environment);
     return status;
 }

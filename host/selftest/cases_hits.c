@@ -32,19 +32,19 @@ static glint_status closed_scene(trial *t, int which, glint_scene *scene)
     shape s = shape_begin();
     switch (which) {
     case 0:
-        shape_add_ball(&s, origin, 1, 5, spiky, true, MATERIAL_TINTED);
+        shape_add_ball(&s, &(shape_ball){origin, 1, 5, MATERIAL_TINTED, true, spiky});
         break;
     case 1:
-        shape_add_ball(&s, origin, 1, 6, bumpy, true, MATERIAL_TINTED);
+        shape_add_ball(&s, &(shape_ball){origin, 1, 6, MATERIAL_TINTED, true, bumpy});
         break;
     case 2:
-        shape_add_box(&s, low, high, 24, false, MATERIAL_TINTED);
+        shape_add_box(&s, &(shape_box){low, high, 24, MATERIAL_TINTED, false});
         break;
     case 3:
-        shape_add_ball(&s, origin, 0x1p-10, 4, NULL, true, MATERIAL_TINTED);
+        shape_add_ball(&s, &(shape_ball){origin, 0x1p-10, 4, MATERIAL_TINTED, true, NULL});
         break;
     default:
-        shape_add_ball(&s, aside, 0.15, 5, bumpy, true, MATERIAL_TINTED);
+        shape_add_ball(&s, &(shape_ball){aside, 0.15, 5, MATERIAL_TINTED, true, bumpy});
         break;
     }
     return shape_end(&s, scene, t->error);
@@ -76,52 +76,58 @@ static glint_probe_ray ray_from_inside(trial *t, const glint_scene *scene, const
 
 // `in` and `out` hold a batch.
 static glint_status trace_batch(trial *t, glint_probe *probe, const glint_scene *scene,
-                                bool at_vertex, glint_probe_ray *in, glint_probe_hit *out,
-                                glint_measure *leaks)
+                                bool at_vertex, glint_measure *leaks)
 {
+    static glint_probe_ray in[BATCH];
+    static glint_probe_hit out[BATCH];
     for (size_t i = 0; i < BATCH; i++) {
         double target[3];
         random_target(t, scene, at_vertex, target);
         in[i] = ray_from_inside(t, scene, target);
     }
-    glint_status status = trial_trace(t, probe, in, out, BATCH);
-    for (size_t i = 0; status == GLINT_OK && i < BATCH; i++) {
+    TRY(trial_trace(t, probe, in, out, BATCH));
+    for (size_t i = 0; i < BATCH; i++) {
         const double *o = in[i].origin, *d = in[i].direction;
         measure_event(leaks, !(out[i].triangle >= 0),
                       "the ray from (%.9g, %.9g, %.9g) along (%.9g, %.9g, %.9g) hits nothing", o[0],
                       o[1], o[2], d[0], d[1], d[2]);
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status count_leaks(trial *t, const glint_scene *scene, bool at_vertex, uint64_t rays,
                                 glint_measure *leaks)
 {
-    static glint_probe_ray in[BATCH];
-    static glint_probe_hit out[BATCH];
     glint_probe *probe;
-    glint_status status = trial_probe(t, scene, &probe);
-    for (uint64_t done = 0; status == GLINT_OK && done < rays; done += BATCH) {
-        status = trace_batch(t, probe, scene, at_vertex, in, out, leaks);
+    glint_status status;
+    TRY_OR(cleanup, status, trial_probe(t, scene, &probe));
+    for (uint64_t done = 0; done < rays; done += BATCH) {
+        TRY_OR(cleanup, status, trace_batch(t, probe, scene, at_vertex, leaks));
     }
+cleanup:
     glint_probe_free(probe);
+    return status;
+}
+
+static glint_status leaks_of_closed_mesh(trial *t, int which, bool at_vertex, glint_measure *leaks)
+{
+    const uint64_t rays = 1 + (t->options->rays - 1) / CLOSED_SCENES;
+    glint_scene scene;
+    glint_status status;
+    TRY_OR(cleanup, status, closed_scene(t, which, &scene));
+    TRY_OR(cleanup, status, count_leaks(t, &scene, at_vertex, rays, leaks));
+cleanup:
+    glint_scene_free(&scene);
     return status;
 }
 
 static glint_status leaks_of_closed_meshes(trial *t, bool at_vertex)
 {
     glint_measure *leaks = trial_events(t, "rays that pass between triangles", 0);
-    glint_status status = GLINT_OK;
-    for (int which = 0; status == GLINT_OK && which < CLOSED_SCENES; which++) {
-        glint_scene scene;
-        status = closed_scene(t, which, &scene);
-        if (status == GLINT_OK) {
-            status = count_leaks(t, &scene, at_vertex, 1 + (t->options->rays - 1) / CLOSED_SCENES,
-                                 leaks);
-        }
-        glint_scene_free(&scene);
+    for (int which = 0; which < CLOSED_SCENES; which++) {
+        TRY(leaks_of_closed_mesh(t, which, at_vertex, leaks));
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status rays_at_shared_edges(trial *t)
@@ -140,28 +146,25 @@ static glint_status trace_scene(trial *t, const glint_scene *scene, const glint_
                                 glint_probe_hit *hits, size_t count)
 {
     glint_probe *probe;
-    glint_status status = trial_probe(t, scene, &probe);
-    if (status == GLINT_OK) {
-        status = trial_trace(t, probe, rays, hits, count);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, trial_probe(t, scene, &probe));
+    TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, count));
+cleanup:
     glint_probe_free(probe);
     return status;
 }
 
 // What the probe and the oracle say of the rays, into arrays of `count`.
-static glint_status trace_both(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
-                               glint_probe_hit *found, oracle_hit *wanted, size_t count)
+static glint_status trace_by_oracle(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
+                                    oracle_hit *wanted, size_t count)
 {
     oracle_scene judge;
-    glint_status status = judge_begin(scene, &judge, t->error);
-    if (status == GLINT_OK) {
-        status = trace_scene(t, scene, rays, found, count);
-    }
-    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
+    TRY(judge_begin(scene, &judge, t->error));
+    for (size_t i = 0; i < count; i++) {
         wanted[i] = judge_ray(&judge, &rays[i]);
     }
     judge_end(&judge);
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Primary rays ------------------------------------------------------------------------------
@@ -210,26 +213,39 @@ static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthogr
     settings.output = GLINT_OUTPUT_HITS;
     glint_renderer *renderer = NULL;
     glint_image image = {0};
-    glint_status status = trial_uniform_environment(1, &environment, t->error);
+    glint_status status;
+    TRY_OR(cleanup, status, trial_uniform_environment(1, &environment, t->error));
     const glint_renderer_inputs inputs = trial_inputs(t, scene, &environment, &settings);
-    if (status == GLINT_OK) {
-        status = glint_renderer_create(&inputs, &renderer, t->error);
-    }
-    for (uint64_t done = 0; status == GLINT_OK && done < rays; done += SHEET * SHEET) {
+    TRY_OR(cleanup, status, glint_renderer_create(&inputs, &renderer, t->error));
+    for (uint64_t done = 0; done < rays; done += SHEET * SHEET) {
         // 0, 1, −1, 2, −2 and so on.
         const int frame = (int)(done / (SHEET * SHEET) % 17), off = (frame + 1) / 2;
         const double nudge = 1 + t->u * (frame % 2 == 1 ? off : -off);
         const glint_camera camera = shape_camera(eye, target, orthographic ? 0 : SHEET_YFOV * nudge,
                                                  2 * nudge * tan(SHEET_YFOV / 2));
-        status = glint_renderer_frame(renderer, &camera, NULL, &image, NULL, t->error);
-        for (int i = 0; status == GLINT_OK && i < SHEET * SHEET; i++) {
+        TRY_OR(cleanup, status,
+               glint_renderer_frame(renderer, &camera, NULL, &image, NULL, t->error));
+        for (int i = 0; i < SHEET * SHEET; i++) {
             measure_event(leaks, !(image.pixels[4 * i + 3] >= 0),
                           "pixel (%d, %d) looks through the sheet", i % SHEET, i / SHEET);
         }
     }
+cleanup:
     glint_image_free(&image);
     glint_renderer_free(renderer);
     glint_environment_free(&environment);
+    return status;
+}
+
+static glint_status leaks_of_sheet(trial *t, int kind, bool orthographic, glint_measure *leaks)
+{
+    glint_scene scene;
+    glint_status status;
+    TRY_OR(cleanup, status, sheet_scene(t, kind, orthographic, &scene));
+    TRY_OR(cleanup, status,
+           watch_sheet(t, &scene, orthographic, 1 + (t->options->rays - 1) / 4, leaks));
+cleanup:
+    glint_scene_free(&scene);
     return status;
 }
 
@@ -237,18 +253,10 @@ static glint_status primary_rays_at_edges(trial *t)
 {
     glint_measure *vertices = trial_events(t, "primary rays at vertices that pass", 0);
     glint_measure *edges = trial_events(t, "primary rays at edges that pass", 0);
-    glint_status status = GLINT_OK;
-    for (int kind = 0; status == GLINT_OK && kind < 4; kind++) {
-        const bool orthographic = kind % 2 == 1;
-        glint_scene scene;
-        status = sheet_scene(t, 1 + kind / 2, orthographic, &scene);
-        if (status == GLINT_OK) {
-            status = watch_sheet(t, &scene, orthographic, 1 + (t->options->rays - 1) / 4,
-                                 kind / 2 == 0 ? vertices : edges);
-        }
-        glint_scene_free(&scene);
+    for (int kind = 0; kind < 4; kind++) {
+        TRY(leaks_of_sheet(t, 1 + kind / 2, kind % 2 == 1, kind / 2 == 0 ? vertices : edges));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Zeros and NaN -----------------------------------------------------------------------------
@@ -277,7 +285,7 @@ static glint_status nested_boxes(trial *t, glint_scene *scene)
     for (int i = 1; i <= GRID / 2; i++) {
         const double h = (double)i / GRID;
         const double low[3] = {-h, -h, -h}, high[3] = {h, h, h};
-        shape_add_box(&s, low, high, 2 * i, i % 2 == 0, MATERIAL_TINTED);
+        shape_add_box(&s, &(shape_box){low, high, 2 * i, MATERIAL_TINTED, i % 2 == 0});
     }
     return shape_end(&s, scene, t->error);
 }
@@ -294,20 +302,21 @@ static glint_status directions_with_zeros(trial *t)
         rays[i] = axis_ray(i);
     }
     glint_scene scene;
-    glint_status status = nested_boxes(t, &scene);
-    if (status == GLINT_OK) {
-        status = trace_both(t, &scene, rays, found, wanted, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, nested_boxes(t, &scene));
+    TRY_OR(cleanup, status, trace_scene(t, &scene, rays, found, COUNT));
+    TRY_OR(cleanup, status, trace_by_oracle(t, &scene, rays, wanted, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const double *o = rays[i].origin;
         measure_event(others, found[i].triangle != (double)wanted[i].triangle,
                       "from (%g, %g, %g) along axis %d: triangle %d expected, %g found", o[0], o[1],
                       o[2], i % 3, wanted[i].triangle, found[i].triangle);
         if (wanted[i].triangle >= 0) {
-            measure_value(distances, t, found[i].distance, wanted[i].distance, t->u,
+            measure_value(distances, found[i].distance, wanted[i].distance, t->u,
                           "from (%g, %g, %g) along axis %d", o[0], o[1], o[2], i % 3);
         }
     }
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
@@ -318,7 +327,7 @@ static glint_status ball_scene(trial *t, bool spoilt, glint_scene *scene)
     static const double centre[3] = {0, 0, 0};
     glint_scene clean;
     shape plain = shape_begin();
-    shape_add_ball(&plain, centre, 1, 3, bumpy, false, MATERIAL_TINTED);
+    shape_add_ball(&plain, &(shape_ball){centre, 1, 3, MATERIAL_TINTED, false, bumpy});
     glint_status status = shape_end(&plain, &clean, t->error);
     if (status != GLINT_OK || !spoilt) {
         *scene = clean;
@@ -363,20 +372,13 @@ static glint_status triangles_without_area(trial *t)
     static glint_probe_hit clean[COUNT], found[COUNT];
     glint_measure *empty = trial_events(t, "rays that hit a triangle without area", 0);
     glint_measure *changed = trial_events(t, "hits of its neighbours that changed", 0);
-    for (int spoilt = 0; spoilt < 2; spoilt++) {
-        glint_scene scene;
-        glint_status status = ball_scene(t, spoilt == 1, &scene);
-        if (status == GLINT_OK && spoilt == 0) {
-            aim_at_mesh(t, &scene, rays, COUNT);
-        }
-        if (status == GLINT_OK) {
-            status = trace_scene(t, &scene, rays, spoilt ? found : clean, COUNT);
-        }
-        glint_scene_free(&scene);
-        if (status != GLINT_OK) {
-            return status;
-        }
-    }
+    glint_scene scene = {0}, spoilt = {0};
+    glint_status status;
+    TRY_OR(cleanup, status, ball_scene(t, false, &scene));
+    TRY_OR(cleanup, status, ball_scene(t, true, &spoilt));
+    aim_at_mesh(t, &scene, rays, COUNT);
+    TRY_OR(cleanup, status, trace_scene(t, &scene, rays, clean, COUNT));
+    TRY_OR(cleanup, status, trace_scene(t, &spoilt, rays, found, COUNT));
     for (int i = 0; i < COUNT; i++) {
         const double number = found[i].triangle;
         measure_event(empty, fmod(number, 2) != 0, "ray %d hits triangle %g", i, number);
@@ -385,7 +387,10 @@ static glint_status triangles_without_area(trial *t)
                       "ray %d: triangle %g at %.9g expected, %g at %.9g found", i,
                       2 * clean[i].triangle, clean[i].distance, number, found[i].distance);
     }
-    return GLINT_OK;
+cleanup:
+    glint_scene_free(&scene);
+    glint_scene_free(&spoilt);
+    return status;
 }
 
 // ---- Slivers -----------------------------------------------------------------------------------
@@ -461,12 +466,11 @@ static glint_status slivers(trial *t)
     // With that, the point lies in the triangle that is said to be hit.
     glint_measure *weights = trial_error(t, "barycentric weights outside of [0, 1]", "u", 4);
     glint_scene scene;
-    glint_status status = sliver_scene(t, &scene);
-    if (status == GLINT_OK) {
-        aim_at_mesh(t, &scene, rays, COUNT);
-        status = trace_scene(t, &scene, rays, found, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, sliver_scene(t, &scene));
+    aim_at_mesh(t, &scene, rays, COUNT);
+    TRY_OR(cleanup, status, trace_scene(t, &scene, rays, found, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const bool missed = !(found[i].triangle >= 0);
         measure_event(leaks, missed, "ray %d from (%.9g, %.9g, %.9g)", i, rays[i].origin[0],
                       rays[i].origin[1], rays[i].origin[2]);
@@ -476,6 +480,7 @@ static glint_status slivers(trial *t)
                           "ray %d, triangle %g", i, found[i].triangle);
         }
     }
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
@@ -509,19 +514,16 @@ static glint_status edge_on_triangles(trial *t)
     glint_scene scene;
     glint_probe *probe;
     shape s = shape_begin();
-    shape_add_box(&s, low, high, 2, false, MATERIAL_TINTED);
-    glint_status status = trial_build(t, &s, &scene, &probe);
+    shape_add_box(&s, &(shape_box){low, high, 2, MATERIAL_TINTED, false});
+    glint_status status;
+    TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
     aim_along_walls(t, rays, COUNT);
     for (int i = 0; i < COUNT; i++) {
         reversed[i] = rays[COUNT - 1 - i];
     }
-    if (status == GLINT_OK) {
-        status = trial_trace(t, probe, rays, found, COUNT);
-    }
-    if (status == GLINT_OK) {
-        status = trial_trace(t, probe, reversed, again, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, trial_trace(t, probe, rays, found, COUNT));
+    TRY_OR(cleanup, status, trial_trace(t, probe, reversed, again, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const glint_probe_hit *a = &found[i], *b = &again[COUNT - 1 - i];
         measure_event(company, a->triangle != b->triangle || a->distance != b->distance,
                       "ray %d: triangle %g at %.9g, in another order %g at %.9g", i, a->triangle,
@@ -530,6 +532,7 @@ static glint_status edge_on_triangles(trial *t)
             judge_weights(weights, t, a, i);
         }
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;

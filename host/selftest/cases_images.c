@@ -39,14 +39,12 @@ static void direction_of(const glint_camera *camera, const int size[2], double c
 static glint_status view_probe(trial *t, const glint_camera *camera, const int size[2],
                                glint_probe **probe, glint_frame_record *frame)
 {
-    glint_status status = trial_functions(t, probe);
-    if (status == GLINT_OK) {
-        glint_settings settings = trial_settings(t);
-        settings.width = size[0];
-        settings.height = size[1];
-        glint_probe_view(*probe, camera, &settings, frame);
-    }
-    return status;
+    TRY(trial_functions(t, probe));
+    glint_settings settings = trial_settings(t);
+    settings.width = size[0];
+    settings.height = size[1];
+    glint_probe_view(*probe, camera, &settings, frame);
+    return GLINT_OK;
 }
 
 // What rounding leaves of a direction, which is forward + X right + Y up, each rounded, then made a
@@ -102,7 +100,8 @@ static glint_status measure_rays(trial *t, const glint_camera *camera, const int
     static double in[COUNT][4], out[COUNT][4], from[COUNT][4];
     glint_probe *probe;
     glint_frame_record frame;
-    glint_status status = view_probe(t, camera, size, &probe, &frame);
+    glint_status status;
+    TRY_OR(cleanup, status, view_probe(t, camera, size, &probe, &frame));
     for (int i = 0; i < COUNT; i++) {
         const int columns[3] = {0, size[0] / 2, size[0] - 1},
                   rows[3] = {0, size[1] / 2, size[1] - 1};
@@ -110,23 +109,21 @@ static glint_status measure_rays(trial *t, const glint_camera *camera, const int
         const int which = i / 3 % 3;
         in[i][1] = i < 9 ? rows[which] : floor(trial_random(t, 0, size[1]));
     }
-    if (status == GLINT_OK) {
-        status =
-            glint_probe_call(probe, GLINT_PROBE_PRIMARY, &frame, in[0], out[0], COUNT, t->error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_probe_call(probe, GLINT_PROBE_PRIMARY_ORIGIN, &frame, in[0], from[0], COUNT,
-                                  t->error);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status,
+           glint_probe_call(probe, GLINT_PROBE_PRIMARY, &frame, in[0], out[0], COUNT, t->error));
+    TRY_OR(cleanup, status,
+           glint_probe_call(probe, GLINT_PROBE_PRIMARY_ORIGIN, &frame, in[0], from[0], COUNT,
+                            t->error));
+    for (int i = 0; i < COUNT; i++) {
         double expected[3];
         direction_of(camera, size, in[i][0], in[i][1], expected);
-        measure_vector(judged->directions, t, out[i], expected, t->u, "%s, pixel (%g, %g)", what,
+        measure_vector(judged->directions, out[i], expected, t->u, "%s, pixel (%g, %g)", what,
                        in[i][0], in[i][1]);
         measure_error(judged->starts, start_error(camera, size, in[i], from[i]) / t->u,
                       "%s, pixel (%g, %g): (%.9g, %.9g, %.9g)", what, in[i][0], in[i][1],
                       from[i][0], from[i][1], from[i][2]);
     }
+cleanup:
     glint_probe_free(probe);
     return status;
 }
@@ -140,16 +137,38 @@ static glint_status extreme_cameras(trial *t)
         {"parallel rays", 0}, {"0.01°", 0.01}, {"45°", 45}, {"179°", 179}, {"179.99°", 179.99}};
     static const int size[2] = {1920, 1080};
     const ray_measures judged = measures_of_rays(t);
-    glint_status status = GLINT_OK;
-    for (size_t i = 0; status == GLINT_OK && i < sizeof cameras / sizeof *cameras; i++) {
+    for (size_t i = 0; i < sizeof cameras / sizeof *cameras; i++) {
         const glint_camera camera =
             shape_camera(eye, target, cameras[i].degrees * GLINT_PI / 180, 0.5);
-        status = measure_rays(t, &camera, size, &judged, cameras[i].what);
+        TRY(measure_rays(t, &camera, size, &judged, cameras[i].what));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Odd sizes ---------------------------------------------------------------------------------
+
+// The picture of nothing at all, which shows the environment alone.
+static glint_status measure_sky(trial *t, const glint_camera *camera, const int size[2],
+                                const glint_environment *environment, glint_measure *pixels)
+{
+    const glint_scene empty = {.unit = 1, .low = {1, 1, 1}, .high = {-1, -1, -1}};
+    glint_settings settings = trial_settings(t);
+    settings.width = size[0];
+    settings.height = size[1];
+    trial_picture picture;
+    const glint_renderer_inputs inputs = trial_inputs(t, &empty, environment, &settings);
+    TRY(trial_frame(t, &inputs, camera, &picture));
+    for (int p = 0; p < picture.width * picture.height; p++) {
+        double d[3];
+        direction_of(camera, size, p % picture.width, p / picture.width, d);
+        for (int k = 0; k < 3; k++) {
+            measure_value(pixels, picture.values[4 * p + k], 0.5 + 0.5 * d[k],
+                          2.0 / 256 + 16 * t->u, "%d×%d, pixel %d", size[0], size[1], p);
+        }
+    }
+    trial_picture_free(&picture);
+    return GLINT_OK;
+}
 
 static glint_status odd_sizes(trial *t)
 {
@@ -159,86 +178,75 @@ static glint_status odd_sizes(trial *t)
     glint_measure *pixels = trial_error(t, "colours of the empty scene", "2/edge² + u", 1);
     const glint_camera camera = shape_camera(eye, target, 0.7, 0);
     glint_environment environment = {0};
-    glint_status status = trial_linear_environment(16, &environment, t->error);
-    for (size_t i = 0; status == GLINT_OK && i < sizeof sizes / sizeof *sizes; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(16, &environment, t->error));
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         char what[32];
         snprintf(what, sizeof what, "%d×%d", sizes[i][0], sizes[i][1]);
-        status = measure_rays(t, &camera, sizes[i], &judged, what);
-        glint_settings settings = trial_settings(t);
-        settings.width = sizes[i][0];
-        settings.height = sizes[i][1];
-        const glint_scene empty = {.unit = 1, .low = {1, 1, 1}, .high = {-1, -1, -1}};
-        trial_picture picture = {0};
-        const bool small = (double)settings.width * settings.height < 1e6;
-        if (status == GLINT_OK && small) {
-            status = trial_frame(t, &empty, &environment, &camera, &settings, &picture);
+        TRY_OR(cleanup, status, measure_rays(t, &camera, sizes[i], &judged, what));
+        if ((double)sizes[i][0] * sizes[i][1] < 1e6) {
+            TRY_OR(cleanup, status, measure_sky(t, &camera, sizes[i], &environment, pixels));
         }
-        for (int p = 0; status == GLINT_OK && p < picture.width * picture.height; p++) {
-            double d[3];
-            const int column = p % picture.width, row = p / picture.width;
-            direction_of(&camera, sizes[i], column, row, d);
-            for (int k = 0; k < 3; k++) {
-                measure_value(pixels, t, picture.values[4 * p + k], 0.5 + 0.5 * d[k],
-                              2.0 / 256 + 16 * t->u, "%s, pixel %d", what, p);
-            }
-        }
-        trial_picture_free(&picture);
     }
+cleanup:
     glint_environment_free(&environment);
     return status;
 }
 
 // ---- Numbers beyond 2^31 -----------------------------------------------------------------------
 
+#define TILES 64
+
+// Places in the picture of tiles of a square one, from the first to the last, where an int would
+// overflow.
+static glint_status measure_places(trial *t, int edge, glint_measure *wrong)
+{
+    static double in[TILES][4], out[TILES][4];
+    const int size[2] = {edge, edge};
+    glint_probe *probe;
+    glint_frame_record frame;
+    TRY(view_probe(t, NULL, size, &probe, &frame));
+    const glint_plan *plan = glint_probe_plan(probe);
+    const int lanes = plan->kernel_width, side = GLINT_TILE_SIDE(plan->tiles);
+    const int width = GLINT_PACKET_COLUMNS(lanes) * side, height = GLINT_PACKET_ROWS(lanes) * side;
+    frame.width = frame.height = edge;
+    frame.band = 4;
+    frame.first_band = 3;
+    for (int p = 0; p < TILES; p++) {
+        const int column = p % 8 * ((edge - 1) / width) / 7;
+        const int row = p / 8 * ((edge - 1) / height) / 7 - frame.first_band * frame.band;
+        const int above = row > 0 ? row : 0;
+        const int in_band = above % frame.band, band = above / frame.band;
+        in[p][0] = column * frame.band + in_band;
+        in[p][1] = band;
+    }
+    glint_status status;
+    TRY_OR(cleanup, status,
+           glint_probe_call(probe, GLINT_PROBE_TILE_PLACE, &frame, in[0], out[0], TILES, t->error));
+    for (int p = 0; p < TILES; p++) {
+        const int64_t across = (int64_t)in[p][0], down = (int64_t)in[p][1];
+        const int64_t column = across / frame.band * width;
+        const int64_t row = ((down + frame.first_band) * frame.band + across % frame.band) * height;
+        const int64_t place = 4 * (row * edge + column);
+        const double got = out[p][2] * 0x1p24 + out[p][3];
+        measure_event(wrong, out[p][0] != column || out[p][1] != row || got != (double)place,
+                      "%d×%d pixels, tile at (%lld, %lld): (%g, %g), value %.17g instead of %lld",
+                      edge, edge, (long long)column, (long long)row, out[p][0], out[p][1], got,
+                      (long long)place);
+    }
+cleanup:
+    glint_probe_free(probe);
+    return status;
+}
+
 static glint_status large_numbers(trial *t)
 {
     static const int edges[] = {23170, 23171, 46340, 46341, 65536};
     glint_measure *wrong = trial_events(t, "tiles that would be written elsewhere", 0);
-    glint_status status = GLINT_OK;
-    for (size_t i = 0; status == GLINT_OK && i < sizeof edges / sizeof *edges; i++) {
-        const int edge = edges[i], size[2] = {edge, edge};
-        glint_probe *probe;
-        glint_frame_record frame;
-        status = view_probe(t, NULL, size, &probe, &frame);
-        if (status != GLINT_OK) {
-            return status;
-        }
-        const glint_plan *plan = glint_probe_plan(probe);
-        const int lanes = plan->kernel_width, side = GLINT_TILE_SIDE(plan->tiles);
-        const int width = GLINT_PACKET_COLUMNS(lanes) * side,
-                  height = GLINT_PACKET_ROWS(lanes) * side;
-        frame.width = frame.height = edge;
-        frame.band = 4;
-        frame.first_band = 3;
-        // From the first tile to the last, where an int would overflow.
-        enum { COUNT = 64 };
-        static double in[COUNT][4], out[COUNT][4];
-        for (int p = 0; p < COUNT; p++) {
-            const int column = p % 8 * ((edge - 1) / width) / 7;
-            const int row = p / 8 * ((edge - 1) / height) / 7 - frame.first_band * frame.band;
-            const int above = row > 0 ? row : 0;
-            const int in_band = above % frame.band, band = above / frame.band;
-            in[p][0] = column * frame.band + in_band;
-            in[p][1] = band;
-        }
-        status =
-            glint_probe_call(probe, GLINT_PROBE_TILE_PLACE, &frame, in[0], out[0], COUNT, t->error);
-        for (int p = 0; status == GLINT_OK && p < COUNT; p++) {
-            const int64_t across = (int64_t)in[p][0], down = (int64_t)in[p][1];
-            const int64_t column = across / frame.band * width;
-            const int64_t row =
-                ((down + frame.first_band) * frame.band + across % frame.band) * height;
-            const int64_t place = 4 * (row * edge + column);
-            const double got = out[p][2] * 0x1p24 + out[p][3];
-            measure_event(
-                wrong, out[p][0] != column || out[p][1] != row || got != (double)place,
-                "%d×%d pixels, tile at (%lld, %lld): (%g, %g), value %.17g instead of %lld", edge,
-                edge, (long long)column, (long long)row, out[p][0], out[p][1], got,
-                (long long)place);
-        }
-        glint_probe_free(probe);
+    for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
+        TRY(measure_places(t, edges[i], wrong));
     }
-    return status;
+    return GLINT_OK;
 }
 
 const trial_case image_cases[] = {

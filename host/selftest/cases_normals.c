@@ -29,10 +29,10 @@ static glint_status bounce_off(trial *t, const double normal[3], const glint_pro
     glint_probe *probe;
     shape s = shape_begin();
     add_square(&s, normal);
-    glint_status status = trial_build(t, &s, &scene, &probe);
-    if (status == GLINT_OK) {
-        status = trial_bounce(t, probe, rays, bounces, count);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
+    TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, count));
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
@@ -63,16 +63,15 @@ static glint_status leaning_normals(trial *t)
     static glint_probe_bounce bounces[STEPS];
     glint_measure *under = trial_error(t, "how far reflections go under the surface", "u", 2);
     glint_measure *jumps = trial_error(t, "jump between neighbouring rays", "u", 16);
-    glint_status status = GLINT_OK;
-    for (int lean = 0; status == GLINT_OK && lean < 8; lean++) {
+    for (int lean = 0; lean < 8; lean++) {
         const double tilt = (lean < 7 ? 12.5 * lean : 89.9) * GLINT_PI / 180;
         const double azimuth = trial_random(t, 0, 2 * GLINT_PI);
         const double normal[3] = {sin(tilt), 0, cos(tilt)};
         for (int i = 0; i < STEPS; i++) {
             rays[i] = from_above(t, (2.0 * (i + 0.5) / STEPS - 1) * 89.9 * GLINT_PI / 180, azimuth);
         }
-        status = bounce_off(t, normal, rays, bounces, STEPS);
-        for (int i = 0; status == GLINT_OK && i < STEPS; i++) {
+        TRY(bounce_off(t, normal, rays, bounces, STEPS));
+        for (int i = 0; i < STEPS; i++) {
             const glint_probe_bounce *b = &bounces[i];
             const double along = dot(b->reflected, b->geometric_normal);
             measure_error(under, above_zero(-along) / t->u,
@@ -89,7 +88,7 @@ static glint_status leaning_normals(trial *t)
                           tilt * 180 / GLINT_PI, i - 1, i, sqrt(turn), sqrt(step));
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Lengths -----------------------------------------------------------------------------------
@@ -112,11 +111,11 @@ static glint_status measure_lengths(trial *t, glint_measure *lengths, glint_meas
         memcpy(in[i], i < odd_count ? odd[i] : v, sizeof v);
     }
     glint_probe *probe;
-    glint_status status = trial_functions(t, &probe);
-    if (status == GLINT_OK) {
-        status = trial_call(t, probe, GLINT_PROBE_NORMALIZED, in, out, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, trial_functions(t, &probe));
+    TRY_OR(cleanup, status,
+           trial_call(t, probe, GLINT_PROBE_NORMALIZED, &(trial_numbers){in, out, COUNT}));
+    for (int i = 0; i < COUNT; i++) {
         const double *v = out[i];
         if (i < odd_count) {
             measure_event(hopeless, v[3] != 0, "(%g, %g, %g) is said to have a direction", in[i][0],
@@ -131,9 +130,10 @@ static glint_status measure_lengths(trial *t, glint_measure *lengths, glint_meas
             expected[k] /= largest; // so that squares do not overflow
         }
         make_unit(expected);
-        measure_vector(lengths, t, v, expected, t->u, "along (%g, %g, %g)", in[i][0], in[i][1],
+        measure_vector(lengths, v, expected, t->u, "along (%g, %g, %g)", in[i][0], in[i][1],
                        in[i][2]);
     }
+cleanup:
     glint_probe_free(probe);
     return status;
 }
@@ -152,13 +152,13 @@ static glint_status odd_normals(trial *t)
     // Three products with weights that add up to 1 within 2u, added up, then made a unit vector.
     glint_measure *taken = trial_error(t, "the normal that is taken", "u", 8);
     glint_measure *hopeless = trial_events(t, "vectors misjudged", 0);
-    glint_status status = measure_lengths(t, lengths, hopeless);
-    for (size_t n = 0; status == GLINT_OK && n < sizeof normals / sizeof *normals; n++) {
+    TRY(measure_lengths(t, lengths, hopeless));
+    for (size_t n = 0; n < sizeof normals / sizeof *normals; n++) {
         const double *normal = normals[n];
         for (int i = 0; i < COUNT; i++) {
             rays[i] = from_above(t, trial_random(t, 0, 1.5), trial_random(t, 0, 2 * GLINT_PI));
         }
-        status = bounce_off(t, normal, rays, bounces, COUNT);
+        TRY(bounce_off(t, normal, rays, bounces, COUNT));
         // What is wanted: along the vertices' normal as it is stored, towards the viewer, or the
         // square's own.
         double wanted[3] = {(double)(float)normal[0], (double)(float)normal[1],
@@ -168,18 +168,18 @@ static glint_status odd_normals(trial *t)
             memcpy(wanted, axis, sizeof wanted);
         }
         make_unit(wanted);
-        for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+        for (int i = 0; i < COUNT; i++) {
             const glint_probe_bounce *b = &bounces[i];
             const double above = wanted[2] < 0 ? -1 : 1;
             const double facing = -above * dot(wanted, rays[i].direction) < 0 ? -above : above;
             const double towards[3] = {facing * wanted[0], facing * wanted[1], facing * wanted[2]};
-            measure_vector(taken, t, b->normal, towards, t->u, "normal (%g, %g, %g), ray %d",
+            measure_vector(taken, b->normal, towards, t->u, "normal (%g, %g, %g), ray %d",
                            normal[0], normal[1], normal[2], i);
-            measure_value(lengths, t, sqrt(dot(b->reflected, b->reflected)), 1, t->u,
+            measure_value(lengths, sqrt(dot(b->reflected, b->reflected)), 1, t->u,
                           "normal (%g, %g, %g), ray %d", normal[0], normal[1], normal[2], i);
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Drift -------------------------------------------------------------------------------------
@@ -189,9 +189,9 @@ static glint_status mirrored_room(trial *t, double length, glint_scene *scene)
 {
     static const double low[3] = {-0.75, -0.75, -0.75}, high[3] = {0.75, 0.75, 0.75};
     shape s = shape_begin();
-    shape_add_box(&s, low, high, 1, true, MATERIAL_TINTED);
-    glint_status status = shape_end(&s, scene, t->error);
-    for (size_t i = 0; status == GLINT_OK && i < scene->triangle_count; i++) {
+    shape_add_box(&s, &(shape_box){low, high, 1, MATERIAL_TINTED, true});
+    TRY(shape_end(&s, scene, t->error));
+    for (size_t i = 0; i < scene->triangle_count; i++) {
         const float *p = scene->positions + 9 * i;
         for (size_t k = 0; k < 3; k++) {
             // The axis along which all three corners agree, inwards.
@@ -201,7 +201,7 @@ static glint_status mirrored_room(trial *t, double length, glint_scene *scene)
             }
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status drift(trial *t)
@@ -214,26 +214,26 @@ static glint_status drift(trial *t)
     glint_measure *lengths = trial_error(t, "|r| − 1 after 1000 bounces", "u", 1e-6 / 0x1p-24);
     glint_scene scene;
     glint_probe *probe = NULL;
-    glint_status status = mirrored_room(t, 1 + 1e-6, &scene);
+    glint_status status;
+    TRY_OR(cleanup, status, mirrored_room(t, 1 + 1e-6, &scene));
     for (int i = 0; i < COUNT; i++) {
         rays[i] = trial_random_ray(t, middle);
     }
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
-    for (int n = 0; status == GLINT_OK && n < BOUNCES; n++) {
-        status = trial_bounce(t, probe, rays, bounces, COUNT);
-        for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    for (int n = 0; n < BOUNCES; n++) {
+        TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, COUNT));
+        for (int i = 0; i < COUNT; i++) {
             measure_event(lost, !(bounces[i].hit.triangle >= 0), "ray %d at bounce %d", i, n);
             memcpy(rays[i].origin, bounces[i].reflected_origin, sizeof rays[i].origin);
             memcpy(rays[i].direction, bounces[i].reflected, sizeof rays[i].direction);
             rays[i].from = bounces[i].place;
         }
     }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
-        measure_value(lengths, t, sqrt(dot(rays[i].direction, rays[i].direction)), 1, t->u,
-                      "ray %d", i);
+    for (int i = 0; i < COUNT; i++) {
+        measure_value(lengths, sqrt(dot(rays[i].direction, rays[i].direction)), 1, t->u, "ray %d",
+                      i);
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;

@@ -34,10 +34,10 @@ static glint_status call_functions(trial *t, glint_probe_part part, double (*in)
         in[i / 4][i % 4] = trial_rounded(t, in[i / 4][i % 4]);
     }
     glint_probe *probe;
-    glint_status status = trial_functions(t, &probe);
-    if (status == GLINT_OK) {
-        status = trial_call(t, probe, part, (const double(*)[4])in, out, count);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, trial_functions(t, &probe));
+    TRY_OR(cleanup, status, trial_call(t, probe, part, &(trial_numbers){in, out, count}));
+cleanup:
     glint_probe_free(probe);
     return status;
 }
@@ -60,8 +60,8 @@ static glint_status critical_formulas(trial *t, double exempt)
         in[i][0] = cos(fmin(fmax(critical + distance, 0), GLINT_PI / 2));
         in[i][1] = eta;
     }
-    glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY(call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const double cosine = in[i][0], eta = in[i][1];
         const double distance = fabs(acos(cosine) - asin(1 / eta));
         const double squared = transmitted_squared(cosine, eta);
@@ -73,14 +73,14 @@ static glint_status critical_formulas(trial *t, double exempt)
                       out[i][0]);
         // What scatter() makes of it: all is reflected where the square is below 0.
         const double got = out[i][0] < 0 ? 1 : out[i][1];
-        measure_value(errors, t, got, reflectance(cosine, eta), t->u * eta * eta / sqrt(distance),
+        measure_value(errors, got, reflectance(cosine, eta), t->u * eta * eta / sqrt(distance),
                       "cos θ %.9g, η %.9g", cosine, eta);
         if (distance > 10 * exempt && eta < 3) {
-            measure_value(beyond, t, got, reflectance(cosine, eta), 1, "cos θ %.9g, η %.9g", cosine,
+            measure_value(beyond, got, reflectance(cosine, eta), 1, "cos θ %.9g, η %.9g", cosine,
                           eta);
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 // Nearer to it than the rounding of the cosine itself, nobody knows the side; that is 10⁻⁶ for
@@ -92,15 +92,14 @@ static glint_status critical_angle(trial *t)
     static glint_probe_ray rays[COUNT];
     static glint_probe_bounce bounces[COUNT];
     const double exempt = 1e-6 * t->u / 0x1p-24;
-    glint_status status = critical_formulas(t, exempt);
+    TRY(critical_formulas(t, exempt));
+    glint_status status;
     glint_measure *wrong = trial_events(t, "rays on the wrong side beyond the exempt band", 0);
     glint_scene scene = {0};
     glint_probe *probe = NULL;
-    if (status == GLINT_OK) {
-        shape s = shape_begin();
-        shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
-        status = trial_build(t, &s, &scene, &probe);
-    }
+    shape s = shape_begin();
+    shape_add_box(&s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
+    TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
     // From the middle of a glass box to its upper face.
     const double critical = asin(1 / SHAPE_GLASS_IOR);
     for (int i = 0; i < COUNT; i++) {
@@ -112,10 +111,8 @@ static glint_status critical_angle(trial *t)
             rays[i].direction[k] = trial_rounded(t, d[k]);
         }
     }
-    if (status == GLINT_OK) {
-        status = trial_bounce(t, probe, rays, bounces, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const double *d = rays[i].direction, angle = atan2(hypot(d[0], d[1]), d[2]);
         if (fabs(angle - critical) > exempt) {
             measure_event(wrong, bounces[i].total_reflection != (angle > critical),
@@ -124,6 +121,7 @@ static glint_status critical_angle(trial *t)
                           bounces[i].total_reflection);
         }
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
@@ -143,8 +141,8 @@ static glint_status equal_indices(trial *t)
         const int step = i / 512 - 1;
         in[i][1] = 1 + step * 1e-7;
     }
-    glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY(call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         if (in[i][0] == 1) {
             measure_error(reflected, fabs(out[i][1]), "η %.9g: %.3g", in[i][1], out[i][1]);
         }
@@ -152,17 +150,15 @@ static glint_status equal_indices(trial *t)
             measure_error(slanting, fabs(out[i][1]), "cos θ %.9g: %.3g", in[i][0], out[i][1]);
         }
     }
-    if (status == GLINT_OK) {
-        status = call_functions(t, GLINT_PROBE_DIRECTIONS, in, out, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY(call_functions(t, GLINT_PROBE_DIRECTIONS, in, out, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const double sine = sqrt((1 - in[i][0]) * (1 + in[i][0]));
         const double bend = hypot(out[i][0] + sine, out[i][1] + in[i][0]);
         // Snell's law bends by Δη tan θ.
         measure_error(bends, bend / fmax(1, sine / in[i][0]), "cos θ %.9g, η %.9g: %.3g", in[i][0],
                       in[i][1], bend);
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Indices far apart -------------------------------------------------------------------------
@@ -180,16 +176,15 @@ static glint_status extreme_indices(trial *t)
         // From the index 10 most is reflected: of the rest.
         in[i][0] = i % 2 ? cos(trial_random(t, 0, 0.0995)) : trial_random(t, 0, 1);
     }
-    glint_status status = call_functions(t, GLINT_PROBE_DIRECTIONS, in, out, COUNT);
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY(call_functions(t, GLINT_PROBE_DIRECTIONS, in, out, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const double cosine = in[i][0], eta = in[i][1], scale = fmax(1, eta);
         const double sine = sqrt((1 - cosine) * (1 + cosine));
-        measure_value(snell, t, -out[i][0], eta * sine, t->u * scale, "cos θ %.9g, η %g", cosine,
-                      eta);
-        measure_value(mirrored, t, hypot(out[i][2] + sine, out[i][3] - cosine), 0, t->u,
-                      "cos θ %.9g", cosine);
+        measure_value(snell, -out[i][0], eta * sine, t->u * scale, "cos θ %.9g, η %g", cosine, eta);
+        measure_value(mirrored, hypot(out[i][2] + sine, out[i][3] - cosine), 0, t->u, "cos θ %.9g",
+                      cosine);
         const double root = sqrt(fmax(0, transmitted_squared(cosine, eta)));
-        measure_value(lengths, t, hypot(out[i][0], out[i][1]), 1, t->u * fmax(1, eta * eta) / root,
+        measure_value(lengths, hypot(out[i][0], out[i][1]), 1, t->u * fmax(1, eta * eta) / root,
                       "cos θ %.9g, η %g", cosine, eta);
     }
     for (int i = 0; i < COUNT; i++) {
@@ -197,14 +192,12 @@ static glint_status extreme_indices(trial *t)
         in[i][1] = 10;
         in[i][0] = cos((5.739170 + (i % 2 ? away : -away)) * GLINT_PI / 180);
     }
-    if (status == GLINT_OK) {
-        status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY(call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         measure_event(sides, isnan(out[i][0]) || (out[i][0] >= 0) != (i % 2 == 0),
                       "cos θ %.9g: cos² θt %.3g", in[i][0], out[i][0]);
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Fresnel's term ----------------------------------------------------------------------------
@@ -226,25 +219,24 @@ static glint_status fresnel_at_its_ends(trial *t)
         in[i][0] = i % 8 == 1 ? 0 : cos(angles[i % 8]);
         in[i][1] = 1 / n;
     }
-    glint_status status = call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT);
-    for (size_t i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY(call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT));
+    for (size_t i = 0; i < COUNT; i++) {
         const double n = indices[i / 8], got = out[i][1];
         if (i % 8 == 0) {
-            measure_value(head_on, t, got, pow((n - 1) / (n + 1), 2), t->u, "n %g", n);
+            measure_value(head_on, got, pow((n - 1) / (n + 1), 2), t->u, "n %g", n);
         } else if (i % 8 == 1) {
-            measure_value(grazing, t, got, 1, t->u, "n %g", n);
+            measure_value(grazing, got, 1, t->u, "n %g", n);
         } else if (i % 8 == 2) {
             // sin(θi − θt), where θi + θt is a right angle: −cos 2θi; half of its square is left.
-            measure_value(brewster, t, got, 0.5 * pow((n * n - 1) / (n * n + 1), 2), t->u, "n %g",
-                          n);
+            measure_value(brewster, got, 0.5 * pow((n * n - 1) / (n * n + 1), 2), t->u, "n %g", n);
         } else {
-            measure_value(between, t, got, reflectance(in[i][0], in[i][1]), t->u,
-                          "n %g, cos θ %.9g", n, in[i][0]);
+            measure_value(between, got, reflectance(in[i][0], in[i][1]), t->u, "n %g, cos θ %.9g",
+                          n, in[i][0]);
         }
-        measure_value(surfaces, t, out[i][2], reflectance(in[i][0], in[i][1]), t->u,
+        measure_value(surfaces, out[i][2], reflectance(in[i][0], in[i][1]), t->u,
                       "n %g, cos θ %.9g", n, in[i][0]);
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status metal_at_its_ends(trial *t)
@@ -256,13 +248,12 @@ static glint_status metal_at_its_ends(trial *t)
         in[i][0] = i % 4 == 0 ? 0 : i % 4 == 1 ? 1 : trial_random(t, 0, 1);
         in[i][1] = i % 5 == 0 ? 0 : i % 5 == 1 ? 1 : trial_random(t, 0, 1);
     }
-    glint_status status = call_functions(t, GLINT_PROBE_METAL, in, out, COUNT);
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY(call_functions(t, GLINT_PROBE_METAL, in, out, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const double expected = in[i][1] + (1 - in[i][1]) * pow(1 - in[i][0], 5);
-        measure_value(errors, t, out[i][0], expected, t->u, "F0 %.9g, cos θ %.9g", in[i][1],
-                      in[i][0]);
+        measure_value(errors, out[i][0], expected, t->u, "F0 %.9g, cos θ %.9g", in[i][1], in[i][0]);
     }
-    return status;
+    return GLINT_OK;
 }
 
 const trial_case refraction_cases[] = {

@@ -8,11 +8,19 @@
 
 static const double middle[3] = {0, 0, 0};
 
+typedef struct watched {
+    const glint_camera *camera;
+    int size[2];
+    double last; // triangles from this one on are not told apart
+} watched;
+
 // Judges the pixels: which show another triangle than the oracle's. Triangles from `last` on count
 // as one.
-static glint_status compare_hits(trial *t, const glint_scene *scene, const glint_camera *camera,
-                                 const int size[2], double last, glint_measure *others)
+static glint_status compare_hits(trial *t, const glint_scene *scene, const watched *view,
+                                 glint_measure *others)
 {
+    const int *size = view->size;
+    const double last = view->last;
     glint_environment environment;
     oracle_scene judge = {0};
     trial_picture picture = {0};
@@ -20,22 +28,21 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const glint
     settings.width = size[0];
     settings.height = size[1];
     settings.output = GLINT_OUTPUT_HITS;
-    glint_status status = trial_uniform_environment(1, &environment, t->error);
-    if (status == GLINT_OK) {
-        status = judge_begin(scene, &judge, t->error);
-    }
-    if (status == GLINT_OK) {
-        status = trial_frame(t, scene, &environment, camera, &settings, &picture);
-    }
-    const oracle_view view = judge_view(camera, &settings);
-    for (int i = 0; status == GLINT_OK && i < size[0] * size[1]; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, trial_uniform_environment(1, &environment, t->error));
+    TRY_OR(cleanup, status, judge_begin(scene, &judge, t->error));
+    const glint_renderer_inputs inputs = trial_inputs(t, scene, &environment, &settings);
+    TRY_OR(cleanup, status, trial_frame(t, &inputs, view->camera, &picture));
+    const oracle_view judged = judge_view(view->camera, &settings);
+    for (int i = 0; i < size[0] * size[1]; i++) {
         const int column = i % size[0], row = i / size[0];
-        const double wanted = fmin(judge_pixel(&judge, &view, column, row), last);
+        const double wanted = fmin(judge_pixel(&judge, &judged, column, row), last);
         const double number = picture.values[4 * i + 3];
         const double found = number > last ? last : number; // NaN stays NaN
         measure_event(others, found != wanted, "pixel (%d, %d): triangle %g expected, %g found",
                       column, row, wanted, found);
     }
+cleanup:
     trial_picture_free(&picture);
     judge_end(&judge);
     glint_environment_free(&environment);
@@ -47,12 +54,12 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const glint
 static glint_status watch_ball(trial *t, glint_scene *scene, const double place[3], double size,
                                glint_measure *others)
 {
-    static const int pixels[2] = {200, 150};
     const double eye[3] = {place[0] + 10 * size, place[1] + 5 * size, place[2] + 14 * size};
     const glint_camera camera = shape_camera(eye, place, 0.9, 0);
     scene->origin = (glint_vec3){place[0], place[1], place[2]};
     glint_scene_find_bounds(scene);
-    return compare_hits(t, scene, &camera, pixels, INFINITY, others);
+    const watched view = {&camera, {200, 150}, INFINITY};
+    return compare_hits(t, scene, &view, others);
 }
 
 // A ball a million metres from the origin, where a float steps by 1/16 of a metre: all that single
@@ -63,15 +70,15 @@ static glint_status rounded_ball(trial *t, glint_measure *others)
     static const double far[3] = {1e6, -1e6, 1e6};
     glint_scene scene;
     shape s = shape_begin();
-    shape_add_ball(&s, middle, 1, 3, NULL, true, MATERIAL_MIRROR);
-    glint_status status = shape_end_with_unit(&s, UNIT, &scene, t->error);
-    for (size_t i = 0; status == GLINT_OK && i < 9 * scene.triangle_count; i++) {
+    shape_add_ball(&s, &(shape_ball){middle, 1, 3, MATERIAL_MIRROR, true, NULL});
+    glint_status status;
+    TRY_OR(cleanup, status, shape_end_with_unit(&s, UNIT, &scene, t->error));
+    for (size_t i = 0; i < 9 * scene.triangle_count; i++) {
         const float world = (float)(far[i % 3] + 7 * (double)scene.positions[i]);
         scene.positions[i] = (float)(((double)world - far[i % 3]) / UNIT);
     }
-    if (status == GLINT_OK) {
-        status = watch_ball(t, &scene, far, 1, others);
-    }
+    TRY_OR(cleanup, status, watch_ball(t, &scene, far, 1, others));
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
@@ -84,11 +91,11 @@ static glint_status small_ball(trial *t, glint_measure *others)
     static const double unit = 0x1p-8, far[3] = {1e7, -1e7, 1e7};
     glint_scene scene;
     shape s = shape_begin();
-    shape_add_ball(&s, middle, 0.002 / unit, 3, NULL, true, MATERIAL_MIRROR);
-    glint_status status = shape_end_with_unit(&s, unit, &scene, t->error);
-    if (status == GLINT_OK) {
-        status = watch_ball(t, &scene, far, 4e-4, others);
-    }
+    shape_add_ball(&s, &(shape_ball){middle, 0.002 / unit, 3, MATERIAL_MIRROR, true, NULL});
+    glint_status status;
+    TRY_OR(cleanup, status, shape_end_with_unit(&s, unit, &scene, t->error));
+    TRY_OR(cleanup, status, watch_ball(t, &scene, far, 4e-4, others));
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
@@ -97,8 +104,8 @@ static glint_status far_from_origin(trial *t)
 {
     glint_measure *rounded = trial_share(t, "at 10⁶ m: pixels that show another triangle", 1e-4);
     glint_measure *small = trial_share(t, "at 10⁷ m, of a ball of 4 mm", 1e-4);
-    const glint_status status = rounded_ball(t, rounded);
-    return status == GLINT_OK ? small_ball(t, small) : status;
+    TRY(rounded_ball(t, rounded));
+    return small_ball(t, small);
 }
 
 // A ball of a millimetre on a plane of twenty kilometres. The plane's halves count as one: where
@@ -106,21 +113,21 @@ static glint_status far_from_origin(trial *t)
 static glint_status tiny_on_huge(trial *t)
 {
     static const double unit = 0x1p14, radius = 5e-4, half = 1e4;
-    static const int size[2] = {400, 300};
     glint_measure *others = trial_share(t, "pixels that show another triangle", 1e-5);
     glint_scene scene;
     shape s = shape_begin();
     const double h = half / unit, centre[3] = {0, radius / unit, 0};
     const double plane[4][3] = {{-h, 0, h}, {h, 0, h}, {h, 0, -h}, {-h, 0, -h}};
-    shape_add_ball(&s, centre, radius / unit, 4, NULL, true, MATERIAL_MIRROR);
+    shape_add_ball(&s, &(shape_ball){centre, radius / unit, 4, MATERIAL_MIRROR, true, NULL});
     shape_add_quad(&s, plane, MATERIAL_MIRROR);
-    glint_status status = shape_end_with_unit(&s, unit, &scene, t->error);
-    if (status == GLINT_OK) {
-        const double halves = (double)scene.triangle_count - 2;
-        const double eye[3] = {6e-4, 1.2e-3, 2e-3}, target[3] = {0, radius, 0};
-        const glint_camera camera = shape_camera(eye, target, 0.9, 0);
-        status = compare_hits(t, &scene, &camera, size, halves, others);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, shape_end_with_unit(&s, unit, &scene, t->error));
+    const double halves = (double)scene.triangle_count - 2;
+    const double eye[3] = {6e-4, 1.2e-3, 2e-3}, target[3] = {0, radius, 0};
+    const glint_camera camera = shape_camera(eye, target, 0.9, 0);
+    const watched view = {&camera, {400, 300}, halves};
+    TRY_OR(cleanup, status, compare_hits(t, &scene, &view, others));
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
@@ -135,22 +142,21 @@ static glint_status scaled_picture(trial *t, const glint_environment *environmen
     const double scale = ldexp(1, k), eye[3] = {0.3 * scale, 0.4 * scale, 2 * scale};
     glint_scene scene;
     shape s = shape_begin();
-    shape_add_ball(&s, ball, 0.4, 3, NULL, true, MATERIAL_GLASS);
+    shape_add_ball(&s, &(shape_ball){ball, 0.4, 3, MATERIAL_GLASS, true, NULL});
     shape_add_quad(&s, wall, MATERIAL_MIRROR);
-    glint_status status = shape_end_with_unit(&s, ldexp(1, unit), &scene, t->error);
-    for (size_t i = 0; status == GLINT_OK && i < 9 * scene.triangle_count; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, shape_end_with_unit(&s, ldexp(1, unit), &scene, t->error));
+    for (size_t i = 0; i < 9 * scene.triangle_count; i++) {
         scene.positions[i] *= (float)ldexp(1, k - unit);
     }
-    if (status == GLINT_OK) {
-        glint_scene_find_bounds(&scene);
-    }
+    glint_scene_find_bounds(&scene);
     const glint_camera camera = shape_camera(eye, middle, 0.8, 0);
     glint_settings settings = trial_settings(t);
     settings.depth = 8;
     settings.min_weight = 1.0 / 256;
-    if (status == GLINT_OK) {
-        status = trial_frame(t, &scene, environment, &camera, &settings, picture);
-    }
+    const glint_renderer_inputs inputs = trial_inputs(t, &scene, environment, &settings);
+    TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, picture));
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
@@ -164,20 +170,21 @@ static glint_status powers_of_two(trial *t)
     glint_measure *errors = trial_error(t, "colours of the scaled scene", "ulp", 4);
     glint_environment environment;
     trial_picture plain = {0};
-    glint_status status = trial_linear_environment(16, &environment, t->error);
-    if (status == GLINT_OK) {
-        status = scaled_picture(t, &environment, 0, 0, &plain);
-    }
-    for (size_t i = 0; status == GLINT_OK && i < sizeof scales / sizeof *scales; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(16, &environment, t->error));
+    TRY_OR(cleanup, status, scaled_picture(t, &environment, 0, 0, &plain));
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         trial_picture scaled;
-        status = scaled_picture(t, &environment, scales[i].scale, scales[i].unit, &scaled);
-        for (int p = 0; status == GLINT_OK && p < 4 * plain.width * plain.height; p++) {
+        TRY_OR(cleanup, status,
+               scaled_picture(t, &environment, scales[i].scale, scales[i].unit, &scaled));
+        for (int p = 0; p < 4 * plain.width * plain.height; p++) {
             measure_error(errors, fabs(trial_ulps(t, scaled.values[p], plain.values[p])),
                           "2^%d, value %d: %.9g unscaled, %.9g scaled", scales[i].scale, p,
                           plain.values[p], scaled.values[p]);
         }
         trial_picture_free(&scaled);
     }
+cleanup:
     trial_picture_free(&plain);
     glint_environment_free(&environment);
     return status;

@@ -34,17 +34,24 @@ static void random_frame(trial *t, double along[3], double across[3])
     make_unit(across);
 }
 
+// Rays on their way through a scene, and what the last surface did to each.
+typedef struct flock {
+    glint_probe *probe;
+    glint_probe_ray *rays;
+    glint_probe_bounce *bounces;
+    size_t count;
+} flock;
+
 // Sends `count` rays through `surfaces` surfaces one after the other: transmitted at all but the
 // reflected ones (bits). In the end *rays is what leaves the last of them.
-static glint_status follow(trial *t, glint_probe *probe, int surfaces, unsigned reflected,
-                           glint_probe_ray *rays, glint_probe_bounce *bounces, size_t count)
+static glint_status follow(trial *t, const flock *f, int surfaces, unsigned reflected)
 {
-    glint_status status = GLINT_OK;
-    for (int n = 0; status == GLINT_OK && n < surfaces; n++) {
+    glint_probe_ray *rays = f->rays;
+    for (int n = 0; n < surfaces; n++) {
         const bool back = (reflected >> n & 1) != 0;
-        status = trial_bounce(t, probe, rays, bounces, count);
-        for (size_t i = 0; status == GLINT_OK && i < count; i++) {
-            const glint_probe_bounce *b = &bounces[i];
+        TRY(trial_bounce(t, f->probe, rays, f->bounces, f->count));
+        for (size_t i = 0; i < f->count; i++) {
+            const glint_probe_bounce *b = &f->bounces[i];
             const bool met = b->hit.triangle >= 0;
             for (int k = 0; k < 3; k++) {
                 rays[i].origin[k] = back ? b->reflected_origin[k] : b->transmitted_origin[k];
@@ -55,7 +62,7 @@ static glint_status follow(trial *t, glint_probe *probe, int surfaces, unsigned 
             rays[i].media = back ? b->reflected_media : b->transmitted_media;
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Slabs and prisms --------------------------------------------------------------------------
@@ -72,8 +79,9 @@ static glint_status slab(trial *t)
     glint_scene scene;
     glint_probe *probe;
     shape s = shape_begin();
-    shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
-    glint_status status = trial_build(t, &s, &scene, &probe);
+    shape_add_box(&s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
+    glint_status status;
+    TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
     for (int i = 0; i < COUNT; i++) {
         const double angle = trial_random(t, 0, 1.4), azimuth = trial_random(t, 0, 2 * GLINT_PI);
         const double d[3] = {sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), -cos(angle)};
@@ -84,23 +92,22 @@ static glint_status slab(trial *t)
         }
     }
     memcpy(begun, rays, sizeof rays);
-    if (status == GLINT_OK) {
-        status = follow(t, probe, 2, 0, rays, bounces, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, follow(t, &(flock){probe, rays, bounces, COUNT}, 2, 0));
+    for (int i = 0; i < COUNT; i++) {
         const double *d = begun[i].direction, n = SHAPE_GLASS_IOR;
         const double sine = hypot(d[0], d[1]), cosine = -d[2];
         const double degrees = atan2(sine, cosine) * 180 / GLINT_PI;
-        measure_vector(directions, t, rays[i].direction, d, n * n * t->u / cosine,
+        measure_vector(directions, rays[i].direction, d, n * n * t->u / cosine,
                        "%.4g° off the normal", degrees);
         double away[3];
         for (int k = 0; k < 3; k++) {
             away[k] = rays[i].origin[k] - begun[i].origin[k];
         }
         const double expected = 0.25 * sine * (1 - cosine / sqrt(n * n - sine * sine));
-        measure_value(shifts, t, distance_from_line(away, d), expected, t->u / cosine,
+        measure_value(shifts, distance_from_line(away, d), expected, t->u / cosine,
                       "%.4g° off the normal", degrees);
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
@@ -139,7 +146,8 @@ static glint_status prism(trial *t)
     glint_measure *deviations = trial_error(t, "deviations at all angles", "°", 1e-4);
     glint_scene scene;
     glint_probe *probe = NULL;
-    glint_status status = prism_scene(t, &scene);
+    glint_status status;
+    TRY_OR(cleanup, status, prism_scene(t, &scene));
     for (int i = 0; i < COUNT; i++) {
         // Onto the left face, whose normal is 150° from +x, from below its normal.
         const double incidence = (30.0 + 50.0 * i / (COUNT - 1)) * degrees;
@@ -153,25 +161,20 @@ static glint_status prism(trial *t)
         }
     }
     memcpy(begun, rays, sizeof rays);
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
-    if (status == GLINT_OK) {
-        status = follow(t, probe, 2, 0, rays, bounces, COUNT);
-    }
+    TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    TRY_OR(cleanup, status, follow(t, &(flock){probe, rays, bounces, COUNT}, 2, 0));
     double smallest = INFINITY;
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    for (int i = 0; i < COUNT; i++) {
         const double got = angle_between(begun[i].direction, rays[i].direction);
         const double incidence = atan2(begun[i].direction[1], begun[i].direction[0]) + 30 * degrees;
         const double inside = 60 * degrees - asin(sin(incidence) / n);
         const double expected = incidence + asin(n * sin(inside)) - 60 * degrees;
         smallest = fmin(smallest, got);
-        measure_value(deviations, t, got / degrees, expected / degrees, 1, "incidence %.6g°",
+        measure_value(deviations, got / degrees, expected / degrees, 1, "incidence %.6g°",
                       incidence / degrees);
     }
-    if (status == GLINT_OK) {
-        measure_value(minimum, t, smallest / degrees, least / degrees, 1, "in degrees");
-    }
+    measure_value(minimum, smallest / degrees, least / degrees, 1, "in degrees");
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
@@ -206,11 +209,17 @@ static void aim_at_ball(trial *t, double most, glint_probe_ray *rays, double *im
     }
 }
 
+typedef struct glass_ball {
+    int internal; // reflections inside
+    bool smooth, core;
+} glass_ball;
+
 // The mean of the errors of the deviations, in radians. `internal` reflections happen inside;
 // `core` adds the inner ball, whose index is lower.
-static glint_status ball_error(trial *t, int level, bool smooth, int internal, bool core,
-                               double *mean)
+static glint_status ball_error(trial *t, const glass_ball *of, int level, double *mean)
 {
+    const bool core = of->core;
+    const int internal = of->internal;
     static const double centre[3] = {0, 0, 0};
     static glint_probe_ray rays[BALL_RAYS], begun[BALL_RAYS];
     static glint_probe_bounce bounces[BALL_RAYS];
@@ -218,20 +227,22 @@ static glint_status ball_error(trial *t, int level, bool smooth, int internal, b
     glint_scene scene;
     glint_probe *probe;
     shape s = shape_begin();
-    shape_add_ball(&s, centre, BALL_RADIUS, level, NULL, smooth, MATERIAL_GLASS);
+    shape_add_ball(&s, &(shape_ball){centre, BALL_RADIUS, level, MATERIAL_GLASS, of->smooth, NULL});
     if (core) {
-        shape_add_ball(&s, centre, CORE_RADIUS, level, NULL, smooth, MATERIAL_CORE);
+        shape_add_ball(&s,
+                       &(shape_ball){centre, CORE_RADIUS, level, MATERIAL_CORE, of->smooth, NULL});
     }
-    glint_status status = trial_build(t, &s, &scene, &probe);
+    glint_status status;
+    TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
     aim_at_ball(t, core ? 0.55 : 0.85, rays, impacts);
     memcpy(begun, rays, sizeof rays);
-    if (status == GLINT_OK) {
-        // Reflected at the surfaces after the first, before the last.
-        const unsigned reflected = ((1u << internal) - 1) << 1;
-        status = follow(t, probe, (core ? 4 : 2) + internal, reflected, rays, bounces, BALL_RAYS);
-    }
+    // Reflected at the surfaces after the first, before the last.
+    const unsigned reflected = ((1u << internal) - 1) << 1;
+    TRY_OR(
+        cleanup, status,
+        follow(t, &(flock){probe, rays, bounces, BALL_RAYS}, (core ? 4 : 2) + internal, reflected));
     double sum = 0;
-    for (int i = 0; status == GLINT_OK && i < BALL_RAYS; i++) {
+    for (int i = 0; i < BALL_RAYS; i++) {
         const double b = impacts[i], n = SHAPE_GLASS_IOR, m = SHAPE_CORE_IOR;
         double turned = 2 * (asin(b / BALL_RADIUS) - asin(b / (n * BALL_RADIUS)));
         turned += internal * (GLINT_PI - 2 * asin(b / (n * BALL_RADIUS)));
@@ -241,28 +252,28 @@ static glint_status ball_error(trial *t, int level, bool smooth, int internal, b
         sum += fabs(angle_between(begun[i].direction, rays[i].direction) - expected);
     }
     *mean = sum / BALL_RAYS;
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
 }
 
 // How the mean error falls from one level to the next, where edges are half as long: as h^order.
-static glint_status measure_order(trial *t, bool smooth, int internal, bool core, double order,
+static glint_status measure_order(trial *t, const glass_ball *of, double order,
                                   glint_measure *orders, double *last)
 {
     double coarse = 0;
-    glint_status status = GLINT_OK;
-    for (int level = 3; status == GLINT_OK && level <= 5; level++) {
-        status = ball_error(t, level, smooth, internal, core, last);
-        if (status == GLINT_OK && level > 3) {
+    for (int level = 3; level <= 5; level++) {
+        TRY(ball_error(t, of, level, last));
+        if (level > 3) {
             const double got = log2(coarse / *last);
             measure_error(orders, order - got,
                           "%s, %d reflections inside, level %d: %.3g rad, before %.3g: order %.3g",
-                          smooth ? "smooth" : "flat", internal, level, *last, coarse, got);
+                          of->smooth ? "smooth" : "flat", of->internal, level, *last, coarse, got);
         }
         coarse = *last;
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status ball(trial *t)
@@ -272,16 +283,14 @@ static glint_status ball(trial *t)
     glint_measure *smooth =
         trial_error(t, "smooth: order 2 of the error less the order found", "", 0.2);
     glint_measure *last = trial_error(t, "mean error of 20,480 smooth triangles", "rad", SAGITTA);
-    glint_status status = GLINT_OK;
-    for (int internal = 0; status == GLINT_OK && internal < 3; internal++) {
+    for (int internal = 0; internal < 3; internal++) {
         double mean;
-        status = measure_order(t, false, internal, false, 1, flat, &mean);
-        if (status == GLINT_OK) {
-            status = measure_order(t, true, internal, false, 2, smooth, &mean);
-        }
+        TRY(measure_order(t, &(glass_ball){.internal = internal}, 1, flat, &mean));
+        TRY(measure_order(t, &(glass_ball){.internal = internal, .smooth = true}, 2, smooth,
+                          &mean));
         measure_error(last, mean / (1 + internal), "%d reflections inside: %.3g", internal, mean);
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status ball_in_ball(trial *t)
@@ -289,7 +298,8 @@ static glint_status ball_in_ball(trial *t)
     glint_measure *order = trial_error(t, "order 2 of the error less the order found", "", 0.2);
     glint_measure *last = trial_error(t, "mean error of 40,960 smooth triangles", "rad", SAGITTA);
     double mean = NAN;
-    glint_status status = measure_order(t, true, 0, true, 2, order, &mean);
+    glint_status status =
+        measure_order(t, &(glass_ball){.smooth = true, .core = true}, 2, order, &mean);
     measure_error(last, mean, "%.3g", mean);
     return status;
 }
@@ -333,6 +343,28 @@ static glint_status corner_scene(trial *t, double axes[3][3], glint_scene *scene
     return shape_end(&s, scene, t->error);
 }
 
+// From a place in front of all three mirrors, to one near the corner beyond the first.
+static glint_probe_ray aim_at_corner(trial *t, const double axes[3][3])
+{
+    const double from[3] = {0.06, 0.12, 0.2},
+                 steps[3] = {-1, trial_random(t, -1.2, -0.8), trial_random(t, -1.2, -0.8)};
+    double d[3] = {0, 0, 0};
+    glint_probe_ray ray = {.from = -1};
+    for (int k = 0; k < 3; k++) {
+        double at = 0;
+        for (int m = 0; m < 3; m++) {
+            at += axes[m][k] * from[m];
+            d[k] += axes[m][k] * steps[m];
+        }
+        ray.origin[k] = trial_rounded(t, at);
+    }
+    make_unit(d);
+    for (int k = 0; k < 3; k++) {
+        ray.direction[k] = trial_rounded(t, d[k]);
+    }
+    return ray;
+}
+
 static glint_status corner_of_mirrors(trial *t)
 {
     enum { COUNT = 1024 };
@@ -345,44 +377,29 @@ static glint_status corner_of_mirrors(trial *t)
     double axes[3][3];
     glint_scene scene;
     glint_probe *probe = NULL;
-    glint_status status = corner_scene(t, axes, &scene);
+    glint_status status;
+    TRY_OR(cleanup, status, corner_scene(t, axes, &scene));
     for (int i = 0; i < COUNT; i++) {
-        // From a place in front of all three mirrors, to one near the corner beyond the first.
-        double d[3] = {0, 0, 0};
-        const double from[3] = {0.06, 0.12, 0.2},
-                     steps[3] = {-1, trial_random(t, -1.2, -0.8), trial_random(t, -1.2, -0.8)};
-        rays[i] = (glint_probe_ray){.from = -1};
-        for (int k = 0; k < 3; k++) {
-            double at = 0;
-            for (int m = 0; m < 3; m++) {
-                at += axes[m][k] * from[m];
-                d[k] += axes[m][k] * steps[m];
-            }
-            rays[i].origin[k] = trial_rounded(t, at);
-        }
-        make_unit(d);
-        for (int k = 0; k < 3; k++) {
-            judged[i][k] = rays[i].direction[k] = trial_rounded(t, d[k]);
-        }
+        rays[i] = aim_at_corner(t, (const double(*)[3])axes);
+        memcpy(judged[i], rays[i].direction, sizeof judged[i]);
     }
     memcpy(begun, rays, sizeof rays);
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
-    for (int n = 0; status == GLINT_OK && n < 3; n++) {
-        status = follow(t, probe, 1, 1, rays, bounces, COUNT);
+    TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    for (int n = 0; n < 3; n++) {
+        TRY_OR(cleanup, status, follow(t, &(flock){probe, rays, bounces, COUNT}, 1, 1));
         for (int i = 0; i < COUNT && bounces[i].hit.triangle >= 0; i++) {
             reflect_by_plane(&scene, bounces[i].hit.triangle, judged[i]);
         }
     }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    for (int i = 0; i < COUNT; i++) {
         double reversed[3];
         for (int k = 0; k < 3; k++) {
             reversed[k] = -begun[i].direction[k];
         }
-        measure_vector(back, t, rays[i].direction, reversed, 0x1p-24, "ray %d", i);
-        measure_vector(planes, t, rays[i].direction, judged[i], t->u, "ray %d", i);
+        measure_vector(back, rays[i].direction, reversed, 0x1p-24, "ray %d", i);
+        measure_vector(planes, rays[i].direction, judged[i], t->u, "ray %d", i);
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;

@@ -94,8 +94,8 @@ static glint_status judge_departures(trial *t, glint_probe *probe,
         const glint_probe_bounce *b = &bounces[i / 2];
         rays[i] = branch_of(b, i % 2 == 1 && !(b->transmitted_weight <= 0));
     }
-    status = trial_trace(t, probe, rays, hits, 2 * count);
-    for (size_t i = 0; status == GLINT_OK && i < 2 * count; i++) {
+    TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, 2 * count));
+    for (size_t i = 0; i < 2 * count; i++) {
         const glint_probe_bounce *b = &bounces[i / 2];
         const bool leaves = i % 2 == 0 || !(b->transmitted_weight <= 0);
         if (b->hit.triangle >= 0 && leaves) {
@@ -125,20 +125,19 @@ static glint_status no_second_hit(trial *t)
     glint_probe *probe = NULL;
     glint_probe_ray *rays = glint_allocate(BATCH, sizeof *rays);
     glint_probe_bounce *bounces = glint_allocate(BATCH, sizeof *bounces);
-    glint_status status = random_quads(t, &scene);
-    if (status == GLINT_OK && (rays == NULL || bounces == NULL)) {
+    glint_status status;
+    TRY_OR(cleanup, status, random_quads(t, &scene));
+    if (rays == NULL || bounces == NULL) {
         status = glint_fail_memory(t->error, "a self-test");
+        goto cleanup;
     }
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
-    for (uint64_t done = 0; status == GLINT_OK && done < t->options->rays; done += BATCH) {
+    TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    for (uint64_t done = 0; done < t->options->rays; done += BATCH) {
         aim_at_quads(t, &scene, rays, BATCH);
-        status = trial_bounce(t, probe, rays, bounces, BATCH);
-        if (status == GLINT_OK) {
-            status = judge_departures(t, probe, bounces, BATCH, &judged);
-        }
+        TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, BATCH));
+        TRY_OR(cleanup, status, judge_departures(t, probe, bounces, BATCH, &judged));
     }
+cleanup:
     glint_probe_free(probe);
     free(rays);
     free(bounces);
@@ -148,17 +147,25 @@ static glint_status no_second_hit(trial *t)
 
 // ---- Gaps --------------------------------------------------------------------------------------
 
-// Two mirrors that face each other along an axis, the lower one at `height`.
-static glint_status facing_mirrors(trial *t, int axis, double size, double height, double gap,
-                                   glint_scene *scene)
+// Between two mirrors that face each other along an axis.
+typedef struct gap {
+    int axis;
+    double size;   // of the mirrors
+    double height; // of the lower one
+    double width;
+} gap;
+
+static glint_status facing_mirrors(trial *t, const gap *between, glint_scene *scene)
 {
+    const int axis = between->axis;
+    const double size = between->size;
     static const int around[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     shape s = shape_begin();
     for (int upper = 0; upper < 2; upper++) {
         double corner[4][3];
         for (int k = 0; k < 4; k++) {
             const int *at = around[upper ? 3 - k : k];
-            corner[k][axis] = height + upper * gap;
+            corner[k][axis] = between->height + upper * between->width;
             corner[k][(axis + 1) % 3] = at[0] * size;
             corner[k][(axis + 2) % 3] = at[1] * size;
         }
@@ -170,42 +177,39 @@ static glint_status facing_mirrors(trial *t, int axis, double size, double heigh
 #define GAP_RAYS 256
 
 // Whether all rays that start in the gap meet the lower mirror and then the upper one.
-static glint_status gap_is_seen(trial *t, int axis, double size, double height, double gap,
-                                bool *seen)
+static glint_status gap_is_seen(trial *t, const gap *between, bool *seen)
 {
+    const int axis = between->axis;
+    const double size = between->size, height = between->height;
     static glint_probe_ray rays[GAP_RAYS];
     static glint_probe_bounce bounces[GAP_RAYS];
     static glint_probe_hit hits[GAP_RAYS];
     glint_scene scene;
     glint_probe *probe = NULL;
-    glint_status status = facing_mirrors(t, axis, size, height, gap, &scene);
+    glint_status status;
+    TRY_OR(cleanup, status, facing_mirrors(t, between, &scene));
     for (int i = 0; i < GAP_RAYS; i++) {
         double from[3], to[3];
         for (int k = 0; k < 3; k++) {
             from[k] = trial_random(t, -size, size) / 2;
             to[k] = from[k] + trial_random(t, -size, size) / 4;
         }
-        from[axis] = height + gap / 2;
+        from[axis] = height + between->width / 2;
         to[axis] = height - size / 8;
         rays[i] = trial_aim(t, from, to);
     }
-    if (status == GLINT_OK) {
-        status = trial_probe(t, &scene, &probe);
-    }
-    if (status == GLINT_OK) {
-        status = trial_bounce(t, probe, rays, bounces, GAP_RAYS);
-    }
-    for (int i = 0; status == GLINT_OK && i < GAP_RAYS; i++) {
+    TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, GAP_RAYS));
+    for (int i = 0; i < GAP_RAYS; i++) {
         rays[i] = branch_of(&bounces[i], false);
     }
-    if (status == GLINT_OK) {
-        status = trial_trace(t, probe, rays, hits, GAP_RAYS);
-    }
+    TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, GAP_RAYS));
     *seen = true;
-    for (int i = 0; status == GLINT_OK && i < GAP_RAYS; i++) {
+    for (int i = 0; i < GAP_RAYS; i++) {
         *seen =
             *seen && floor(bounces[i].hit.triangle / 2) == 0 && floor(hits[i].triangle / 2) == 1;
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
@@ -217,20 +221,20 @@ static glint_status smallest_gap(trial *t)
 {
     static const double sizes[] = {1, 0x1p-10, 0x1p-20};
     glint_measure *smallest = trial_error(t, "smallest gap that is seen", "2⁻²⁴ × height", 16);
-    glint_status status = GLINT_OK;
-    for (int i = 0; status == GLINT_OK && i < 9; i++) {
+    for (int i = 0; i < 9; i++) {
         const double size = sizes[i / 3], height = 0.75 * size;
         bool seen = true;
         int k = 12;
-        for (; status == GLINT_OK && seen && k >= 0; k--) {
-            status = gap_is_seen(t, i % 3, size, height, ldexp(height, k - 24), &seen);
+        for (; seen && k >= 0; k--) {
+            const gap between = {i % 3, size, height, ldexp(height, k - 24)};
+            TRY(gap_is_seen(t, &between, &seen));
         }
         // The last one tried is the first that is not seen, if any.
         const int last = seen ? 0 : k + 2;
         measure_error(smallest, ldexp(1, last), "along axis %d, mirrors of %g: 2^%d", i % 3, size,
                       last);
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Grazing rays ------------------------------------------------------------------------------
@@ -252,14 +256,14 @@ static glint_status tilted_square(trial *t, double normal[3], glint_scene *scene
     }
     shape s = shape_begin();
     shape_add_quad(&s, (const double(*)[3])quad, MATERIAL_TINTED);
-    glint_status status = shape_end(&s, scene, t->error);
-    for (int k = 0; status == GLINT_OK && k < 3; k++) {
+    TRY(shape_end(&s, scene, t->error));
+    for (int k = 0; k < 3; k++) {
         a[k] = (double)scene->positions[3 + k] - (double)scene->positions[k];
         b[k] = (double)scene->positions[6 + k] - (double)scene->positions[k];
     }
     cross(a, b, normal);
     make_unit(normal);
-    return status;
+    return GLINT_OK;
 }
 
 #define GRAZING_RAYS 3072 // of six angles
@@ -311,45 +315,48 @@ static double distance_to_plane(const glint_scene *scene, const glint_probe_ray 
 
 // The numerator of the distance errs by a few u of the coordinates, which the division by cos θ
 // multiplies.
-static glint_status grazing_rays(trial *t)
+static glint_status graze_plane(trial *t, int plane, glint_measure *errors, glint_measure *others)
 {
     static glint_probe_ray rays[GRAZING_RAYS];
     static glint_probe_hit hits[GRAZING_RAYS];
+    const glint_vec3 up = glint_random_direction(&t->random);
+    double normal[3] = {plane == 0 ? 0 : up.x, plane == 0 ? 1 : up.y, plane == 0 ? 0 : up.z};
+    glint_scene scene;
+    glint_probe *probe = NULL;
+    glint_status status;
+    TRY_OR(cleanup, status, tilted_square(t, normal, &scene));
+    aim_grazing(t, &scene, normal, rays);
+    TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, GRAZING_RAYS));
+    for (int i = 0; i < GRAZING_RAYS; i++) {
+        double cosine;
+        const double wanted = distance_to_plane(&scene, &rays[i], &cosine);
+        // Where the rounded ray still meets the triangle well inside; where the bound is half
+        // of the distance itself, below 10⁻⁴ degrees in float, anything may be true of it.
+        const bool known = 8 * t->u / fabs(cosine) < 0.5;
+        if (!(cosine > 0 && wanted > 0.3 && wanted < 0.5 && known)) {
+            continue;
+        }
+        measure_value(errors, hits[i].distance, wanted, t->u * wanted / cosine,
+                      "plane %d, 10^%d° above it, ray %d", plane, -1 - i % 6, i);
+        measure_event(others, hits[i].triangle != 0,
+                      "plane %d, 10^%d° above it, ray %d: triangle %g", plane, -1 - i % 6, i,
+                      hits[i].triangle);
+    }
+cleanup:
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+static glint_status grazing_rays(trial *t)
+{
     glint_measure *errors = trial_error(t, "error of the distance", "u·t/cos θ", 8);
     glint_measure *others = trial_events(t, "rays that do not meet the triangle", 0);
-    glint_status status = GLINT_OK;
-    for (int plane = 0; status == GLINT_OK && plane < 8; plane++) {
-        const glint_vec3 up = glint_random_direction(&t->random);
-        double normal[3] = {plane == 0 ? 0 : up.x, plane == 0 ? 1 : up.y, plane == 0 ? 0 : up.z};
-        glint_scene scene;
-        glint_probe *probe = NULL;
-        status = tilted_square(t, normal, &scene);
-        if (status == GLINT_OK) {
-            aim_grazing(t, &scene, normal, rays);
-            status = trial_probe(t, &scene, &probe);
-        }
-        if (status == GLINT_OK) {
-            status = trial_trace(t, probe, rays, hits, GRAZING_RAYS);
-        }
-        for (int i = 0; status == GLINT_OK && i < GRAZING_RAYS; i++) {
-            double cosine;
-            const double wanted = distance_to_plane(&scene, &rays[i], &cosine);
-            // Where the rounded ray still meets the triangle well inside; where the bound is half
-            // of the distance itself, below 10⁻⁴ degrees in float, anything may be true of it.
-            const bool known = 8 * t->u / fabs(cosine) < 0.5;
-            if (!(cosine > 0 && wanted > 0.3 && wanted < 0.5 && known)) {
-                continue;
-            }
-            measure_value(errors, t, hits[i].distance, wanted, t->u * wanted / cosine,
-                          "plane %d, 10^%d° above it, ray %d", plane, -1 - i % 6, i);
-            measure_event(others, hits[i].triangle != 0,
-                          "plane %d, 10^%d° above it, ray %d: triangle %g", plane, -1 - i % 6, i,
-                          hits[i].triangle);
-        }
-        glint_probe_free(probe);
-        glint_scene_free(&scene);
+    for (int plane = 0; plane < 8; plane++) {
+        TRY(graze_plane(t, plane, errors, others));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Thin slabs --------------------------------------------------------------------------------
@@ -364,29 +371,24 @@ static glint_status pass_slab(trial *t, double thickness, glint_measure *others)
     glint_scene scene;
     glint_probe *probe;
     shape s = shape_begin();
-    shape_add_box(&s, low, high, 1, false, MATERIAL_GLASS);
-    glint_status status = trial_build(t, &s, &scene, &probe);
+    shape_add_box(&s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
+    glint_status status;
+    TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
     for (int i = 0; i < COUNT; i++) {
         const double from[3] = {trial_random(t, -0.9, 0.9), trial_random(t, -0.9, 0.9), 0.9};
         const double to[3] = {trial_random(t, -0.4, 0.4), trial_random(t, -0.4, 0.4), 0.7};
         rays[i] = trial_aim(t, from, to);
     }
-    if (status == GLINT_OK) {
-        status = trial_bounce(t, probe, rays, first, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, trial_bounce(t, probe, rays, first, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         rays[i] = branch_of(&first[i], true);
     }
-    if (status == GLINT_OK) {
-        status = trial_bounce(t, probe, rays, second, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, trial_bounce(t, probe, rays, second, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         rays[i] = branch_of(&second[i], true);
     }
-    if (status == GLINT_OK) {
-        status = trial_trace(t, probe, rays, hits, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const bool right = first[i].outside == 1 && second[i].hit.triangle >= 0 &&
                            second[i].outside == 0 && hits[i].triangle < 0;
         measure_event(others, !right,
@@ -394,6 +396,7 @@ static glint_status pass_slab(trial *t, double thickness, glint_measure *others)
                       thickness, i, first[i].hit.triangle, first[i].outside, second[i].hit.triangle,
                       second[i].outside, hits[i].triangle);
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
@@ -402,11 +405,10 @@ static glint_status pass_slab(trial *t, double thickness, glint_measure *others)
 static glint_status thin_slabs(trial *t)
 {
     glint_measure *others = trial_events(t, "rays that do not cross two interfaces", 0);
-    glint_status status = GLINT_OK;
-    for (int k = -6; status == GLINT_OK && k <= -3; k++) {
-        status = pass_slab(t, pow(10, k), others);
+    for (int k = -6; k <= -3; k++) {
+        TRY(pass_slab(t, pow(10, k), others));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Eyes in odd places ------------------------------------------------------------------------
@@ -424,23 +426,23 @@ static glint_status eye_inside_glass(trial *t)
     glint_scene scene;
     glint_probe *probe;
     shape s = shape_begin();
-    shape_add_ball(&s, centre, 0.75, 3, NULL, true, MATERIAL_GLASS);
-    glint_status status = trial_build(t, &s, &scene, &probe);
+    shape_add_ball(&s, &(shape_ball){centre, 0.75, 3, MATERIAL_GLASS, true, NULL});
+    glint_status status;
+    TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
     for (int i = 0; i < COUNT; i++) {
         rays[i] = trial_random_ray(t, centre);
     }
-    if (status == GLINT_OK) {
-        status = trial_bounce(t, probe, rays, bounces, COUNT);
-    }
-    for (int i = 0; status == GLINT_OK && i < COUNT; i++) {
+    TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, COUNT));
+    for (int i = 0; i < COUNT; i++) {
         const glint_probe_bounce *b = &bounces[i];
         measure_event(media,
                       !(b->outside == 0 && b->transmitted_media == 0 && b->reflected_media != 0),
                       "ray %d: outside %g, media %g and %g", i, b->outside, b->reflected_media,
                       b->transmitted_media);
-        measure_vector(bends, t, b->transmitted, rays[i].direction, 0x1p-24, "ray %d", i);
-        measure_value(weights, t, b->transmitted_weight, 0.96, 0x1p-24, "ray %d", i);
+        measure_vector(bends, b->transmitted, rays[i].direction, 0x1p-24, "ray %d", i);
+        measure_value(weights, b->transmitted_weight, 0.96, 0x1p-24, "ray %d", i);
     }
+cleanup:
     glint_probe_free(probe);
     glint_scene_free(&scene);
     return status;
@@ -449,37 +451,50 @@ static glint_status eye_inside_glass(trial *t)
 // Eyes on a face, on an edge and on a corner of a box, of glass or of mirrors, which look along the
 // surface, away from it and into it. Each colour is a mean of the environment's, which lie in
 // [0, 1], with weights that add up to 1 within 4u a surface: six, each path.
-static glint_status eye_on_surface(trial *t)
+static glint_status look_from_surface(trial *t, const glint_environment *environment,
+                                      const glint_camera *camera, shape_material material,
+                                      glint_measure *bad)
 {
     static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
+    glint_settings settings = trial_settings(t);
+    settings.depth = 6;
+    settings.min_weight = 1.0 / 64;
+    glint_scene scene;
+    trial_picture picture = {0};
+    shape s = shape_begin();
+    shape_add_box(&s, &(shape_box){low, high, 1, material, false});
+    glint_status status;
+    TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
+    const glint_renderer_inputs inputs = trial_inputs(t, &scene, environment, &settings);
+    TRY_OR(cleanup, status, trial_frame(t, &inputs, camera, &picture));
+    for (int p = 0; p < 4 * picture.width * picture.height; p++) {
+        const double value = picture.values[p];
+        measure_event(bad, !(value >= 0 && value <= 1 + 24 * t->u),
+                      "eye (%g, %g, %g) that looks along (%g, %g, %g): pixel %d has %g",
+                      camera->eye.x, camera->eye.y, camera->eye.z, -camera->back.x, -camera->back.y,
+                      -camera->back.z, p / 4, value);
+    }
+cleanup:
+    trial_picture_free(&picture);
+    glint_scene_free(&scene);
+    return status;
+}
+
+static glint_status eye_on_surface(trial *t)
+{
     static const double eyes[][3] = {{0.5, 0.125, 0.25}, {0.5, 0.5, 0.25}, {0.5, 0.5, 0.5}};
     static const double targets[][3] = {{0, 0, 0}, {1, 0.5, 0.5}, {0.5, 0.25, -0.5}};
     glint_measure *bad = trial_events(t, "pixels that are not finite or not in [0, 1]", 0);
     glint_environment environment;
-    glint_status status = trial_linear_environment(16, &environment, t->error);
-    for (int i = 0; status == GLINT_OK && i < 18; i++) {
-        glint_scene scene;
-        shape s = shape_begin();
-        shape_add_box(&s, low, high, 1, false, i / 9 ? MATERIAL_GLASS : MATERIAL_MIRROR);
-        status = shape_end(&s, &scene, t->error);
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(16, &environment, t->error));
+    for (int i = 0; i < 18; i++) {
         const glint_camera camera = shape_camera(eyes[i % 3], targets[i / 3 % 3], 1.2, 0);
-        glint_settings settings = trial_settings(t);
-        settings.depth = 6;
-        settings.min_weight = 1.0 / 64;
-        trial_picture picture = {0};
-        if (status == GLINT_OK) {
-            status = trial_frame(t, &scene, &environment, &camera, &settings, &picture);
-        }
-        for (int p = 0; status == GLINT_OK && p < 4 * picture.width * picture.height; p++) {
-            const double value = picture.values[p];
-            measure_event(bad, !(value >= 0 && value <= 1 + 24 * t->u),
-                          "eye (%g, %g, %g) that looks at (%g, %g, %g): pixel %d has %g",
-                          eyes[i % 3][0], eyes[i % 3][1], eyes[i % 3][2], targets[i / 3 % 3][0],
-                          targets[i / 3 % 3][1], targets[i / 3 % 3][2], p / 4, value);
-        }
-        trial_picture_free(&picture);
-        glint_scene_free(&scene);
+        TRY_OR(cleanup, status,
+               look_from_surface(t, &environment, &camera, i / 9 ? MATERIAL_GLASS : MATERIAL_MIRROR,
+                                 bad));
     }
+cleanup:
     glint_environment_free(&environment);
     return status;
 }

@@ -22,6 +22,7 @@ typedef struct glint_measure {
                       // 2⁻²⁴ or 2⁻⁵³; "" for counts and shares
     double measured, bound;
     uint64_t judged; // values, rays or pixels
+    bool in_double;  // units in the last place are those of double, else of float
     bool is_share;   // events over `judged`; else a count of events, or the largest error
     char worst[320]; // the worst one: which, what was expected, what was got; "" where none erred
 } glint_measure;

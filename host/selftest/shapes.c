@@ -83,46 +83,42 @@ void shape_add_quad(shape *s, const double corners[4][3], shape_material materia
     }
 }
 
-// One corner of a part of a box's face: `across` and `up` in [0, parts].
-static void face_corner(const double low[3], const double high[3], int face, double across,
-                        double up, double corner[3])
+// The corner of a face at (across, up), each in [0, 1].
+static void face_corner(const shape_box *box, int face, const double at[2], double corner[3])
 {
     const int axis = face / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
-    corner[axis] = face % 2 == 0 ? high[axis] : low[axis];
-    corner[first] = low[first] + across * (high[first] - low[first]);
-    corner[second] = low[second] + up * (high[second] - low[second]);
+    corner[axis] = face % 2 == 0 ? box->high[axis] : box->low[axis];
+    corner[first] = box->low[first] + at[0] * (box->high[first] - box->low[first]);
+    corner[second] = box->low[second] + at[1] * (box->high[second] - box->low[second]);
 }
 
-void shape_add_box(shape *s, const double low[3], const double high[3], int parts, bool inward,
-                   shape_material material)
+void shape_add_box(shape *s, const shape_box *box)
 {
     static const int around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const int parts = box->parts;
     for (int part = 0; part < 6 * parts * parts; part++) {
         const int face = part / (parts * parts), i = part / parts % parts, j = part % parts;
         // first × second points along +axis.
-        const bool reversed = (face % 2 == 1) != inward;
+        const bool reversed = (face % 2 == 1) != box->inward;
         double corners[4][3];
         for (int k = 0; k < 4; k++) {
-            const int *at = around[reversed ? 3 - k : k];
-            face_corner(low, high, face, (double)(i + at[0]) / parts, (double)(j + at[1]) / parts,
-                        corners[k]);
+            const int *step = around[reversed ? 3 - k : k];
+            const double at[2] = {(double)(i + step[0]) / parts, (double)(j + step[1]) / parts};
+            face_corner(box, face, at, corners[k]);
         }
-        shape_add_quad(s, (const double(*)[3])corners, material);
+        shape_add_quad(s, (const double(*)[3])corners, box->material);
     }
 }
 
-typedef struct ball {
+typedef struct ball_in_shape {
     shape *s;
-    const double *centre;
-    double size;
-    shape_radius *radius;
-    bool smooth;
-    shape_material material;
-} ball;
+    const shape_ball *ball;
+} ball_in_shape;
 
 static void add_ball_triangle(void *context, const glint_vec3 corners[3])
 {
-    const ball *b = context;
+    const ball_in_shape *of = context;
+    const shape_ball *b = of->ball;
     double positions[3][3], normals[3][3];
     for (int k = 0; k < 3; k++) {
         const double u[3] = {corners[k].x, corners[k].y, corners[k].z};
@@ -132,15 +128,14 @@ static void add_ball_triangle(void *context, const glint_vec3 corners[3])
             normals[k][axis] = u[axis];
         }
     }
-    shape_add(b->s, (const double(*)[3])positions, b->smooth ? (const double(*)[3])normals : NULL,
+    shape_add(of->s, (const double(*)[3])positions, b->smooth ? (const double(*)[3])normals : NULL,
               b->material);
 }
 
-void shape_add_ball(shape *s, const double centre[3], double size, int level, shape_radius *radius,
-                    bool smooth, shape_material material)
+void shape_add_ball(shape *s, const shape_ball *ball)
 {
-    ball b = {s, centre, size, radius, smooth, material};
-    glint_icosphere(level, add_ball_triangle, &b);
+    ball_in_shape of = {s, ball};
+    glint_icosphere(ball->level, add_ball_triangle, &of);
 }
 
 static bool add_materials(shape *s)

@@ -39,17 +39,30 @@ void shape_add(shape *s, const double corners[3][3], const double normals[3][3],
 // Corners in their order around, counter-clockwise seen from outside.
 void shape_add_quad(shape *s, const double corners[4][3], shape_material material);
 
-// The box [low, high]; `inward` for a room, whose walls face its inside. Each face is divided into
-// `parts` × `parts` quads.
-void shape_add_box(shape *s, const double low[3], const double high[3], int parts, bool inward,
-                   shape_material material);
+// Each face is divided into `parts` × `parts` quads.
+typedef struct shape_box {
+    const double *low, *high; // [3]
+    int parts;
+    shape_material material;
+    bool inward; // a room, whose walls face its inside
+} shape_box;
+
+void shape_add_box(shape *s, const shape_box *box);
+
+typedef double shape_radius(const double direction[3]);
 
 // An icosahedron whose triangles are quartered `level` times, its vertices at the radius that
-// `radius` says for their direction, or NULL: 1; times `size`, about `centre`. Smooth: with the
-// vertices' directions as normals.
-typedef double shape_radius(const double direction[3]);
-void shape_add_ball(shape *s, const double centre[3], double size, int level, shape_radius *radius,
-                    bool smooth, shape_material material);
+// `radius` says for their direction, or NULL: 1; times `size`, about `centre`.
+typedef struct shape_ball {
+    const double *centre; // [3]
+    double size;
+    int level;
+    shape_material material;
+    bool smooth; // with the vertices' directions as normals
+    shape_radius *radius;
+} shape_ball;
+
+void shape_add_ball(shape *s, const shape_ball *ball);
 
 // Ends the scene: with unit 1, so that stored coordinates are those that were given (all within
 // [−1, 1]); or with another power of two, by which stored ones are multiplied.

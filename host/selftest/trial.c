@@ -18,7 +18,10 @@ static glint_measure *add_measure(trial *t, const char *what, const char *unit, 
 {
     assert(t->result->measure_count < GLINT_SELFTEST_MEASURES);
     glint_measure *m = &t->result->measures[t->result->measure_count++];
-    *m = (glint_measure){.what = what, .unit = unit, .bound = bound};
+    *m = (glint_measure){.what = what,
+                         .unit = unit,
+                         .bound = bound,
+                         .in_double = t->options->precision == GLINT_PRECISION_DOUBLE};
     return m;
 }
 
@@ -39,15 +42,18 @@ glint_measure *trial_share(trial *t, const char *what, double bound)
     return m;
 }
 
-// The units in the last place of `precision` between two values.
-double trial_ulps(const trial *t, double got, double expected)
+static double ulps(bool is_double, double got, double expected)
 {
     int exponent;
     frexp(fmax(fabs(expected), DBL_MIN), &exponent);
-    const bool is_double = t->options->precision == GLINT_PRECISION_DOUBLE;
     const int least = is_double ? -1074 : -149;
     const int unit = exponent - (is_double ? 53 : 24);
     return (got - expected) / ldexp(1, unit > least ? unit : least);
+}
+
+double trial_ulps(const trial *t, double got, double expected)
+{
+    return ulps(t->options->precision == GLINT_PRECISION_DOUBLE, got, expected);
 }
 
 // True where `error` is the worst so far.
@@ -83,8 +89,8 @@ static void append(glint_measure *m, const char *format, ...)
     va_end(arguments);
 }
 
-void measure_value(glint_measure *m, const trial *t, double got, double expected, double scale,
-                   const char *format, ...)
+void measure_value(glint_measure *m, double got, double expected, double scale, const char *format,
+                   ...)
 {
     if (takes_lead(m, got == expected ? 0 : fabs(got - expected) / scale)) {
         va_list arguments;
@@ -92,12 +98,12 @@ void measure_value(glint_measure *m, const trial *t, double got, double expected
         vsnprintf(m->worst, sizeof m->worst, format, arguments);
         va_end(arguments);
         append(m, ": expected %.9g, got %.9g (%+.3g ulp)", expected, got,
-               trial_ulps(t, got, expected));
+               ulps(m->in_double, got, expected));
     }
 }
 
-void measure_vector(glint_measure *m, const trial *t, const double got[3], const double expected[3],
-                    double scale, const char *format, ...)
+void measure_vector(glint_measure *m, const double got[3], const double expected[3], double scale,
+                    const char *format, ...)
 {
     double squares = 0;
     int largest = 0;
@@ -112,7 +118,7 @@ void measure_vector(glint_measure *m, const trial *t, const double got[3], const
         va_end(arguments);
         append(m, ": expected (%.9g, %.9g, %.9g), got (%.9g, %.9g, %.9g) (%c by %+.3g ulp)",
                expected[0], expected[1], expected[2], got[0], got[1], got[2], "xyz"[largest],
-               trial_ulps(t, got[largest], expected[largest]));
+               ulps(m->in_double, got[largest], expected[largest]));
     }
 }
 
@@ -166,8 +172,8 @@ glint_status trial_linear_environment(int edge, glint_environment *environment, 
 {
     *environment = (glint_environment){0};
     glint_cube *cube = &environment->radiance;
-    glint_status status = glint_cube_create(edge, cube, error);
-    for (int texel = 0; status == GLINT_OK && texel < GLINT_CUBE_FACES * edge * edge; texel++) {
+    TRY(glint_cube_create(edge, cube, error));
+    for (int texel = 0; texel < GLINT_CUBE_FACES * edge * edge; texel++) {
         const int face = texel / (edge * edge), j = texel / edge % edge, i = texel % edge;
         const glint_vec3 d = glint_vec3_normalize(
             glint_cube_direction(face, (2.0 * i + 1) / edge - 1, (2.0 * j + 1) / edge - 1));
@@ -176,10 +182,8 @@ glint_status trial_linear_environment(int edge, glint_environment *environment, 
         rgb[1] = (float)(0.5 + 0.5 * d.y);
         rgb[2] = (float)(0.5 + 0.5 * d.z);
     }
-    if (status == GLINT_OK) {
-        glint_cube_fill_border(cube);
-    }
-    return status;
+    glint_cube_fill_border(cube);
+    return GLINT_OK;
 }
 
 glint_status trial_uniform_environment(float radiance, glint_environment *environment,
@@ -187,11 +191,11 @@ glint_status trial_uniform_environment(float radiance, glint_environment *enviro
 {
     *environment = (glint_environment){0};
     glint_cube *cube = &environment->radiance;
-    glint_status status = glint_cube_create(4, cube, error);
-    for (size_t i = 0; status == GLINT_OK && i < glint_cube_size(cube); i++) {
+    TRY(glint_cube_create(4, cube, error));
+    for (size_t i = 0; i < glint_cube_size(cube); i++) {
         cube->texels[i] = radiance;
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Probes ------------------------------------------------------------------------------------
@@ -210,10 +214,10 @@ glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe *
 {
     glint_environment environment;
     *probe = NULL;
-    glint_status status = trial_linear_environment(16, &environment, t->error);
-    if (status == GLINT_OK) {
-        status = make_probe(t, scene, &environment, probe);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(16, &environment, t->error));
+    TRY_OR(cleanup, status, make_probe(t, scene, &environment, probe));
+cleanup:
     glint_environment_free(&environment);
     return status;
 }
@@ -221,8 +225,8 @@ glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe *
 glint_status trial_build(const trial *t, shape *s, glint_scene *scene, glint_probe **probe)
 {
     *probe = NULL;
-    const glint_status status = shape_end(s, scene, t->error);
-    return status == GLINT_OK ? trial_probe(t, scene, probe) : status;
+    TRY(shape_end(s, scene, t->error));
+    return trial_probe(t, scene, probe);
 }
 
 glint_status trial_probe_environment(const trial *t, const glint_environment *environment,
@@ -233,10 +237,10 @@ glint_status trial_probe_environment(const trial *t, const glint_environment *en
     *probe = NULL;
     shape s = shape_begin();
     shape_add(&s, corners, NULL, MATERIAL_TINTED);
-    glint_status status = shape_end(&s, &scene, t->error);
-    if (status == GLINT_OK) {
-        status = make_probe(t, &scene, environment, probe);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
+    TRY_OR(cleanup, status, make_probe(t, &scene, environment, probe));
+cleanup:
     glint_scene_free(&scene);
     return status;
 }
@@ -245,18 +249,19 @@ glint_status trial_functions(const trial *t, glint_probe **probe)
 {
     glint_environment environment;
     *probe = NULL;
-    glint_status status = trial_linear_environment(16, &environment, t->error);
-    if (status == GLINT_OK) {
-        status = trial_probe_environment(t, &environment, probe);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(16, &environment, t->error));
+    TRY_OR(cleanup, status, trial_probe_environment(t, &environment, probe));
+cleanup:
     glint_environment_free(&environment);
     return status;
 }
 
-glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part, const double (*in)[4],
-                        double (*out)[4], size_t count)
+glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part,
+                        const trial_numbers *numbers)
 {
-    return glint_probe_call(probe, part, NULL, &in[0][0], &out[0][0], count, t->error);
+    return glint_probe_call(probe, part, NULL, numbers->in[0], numbers->out[0], numbers->count,
+                            t->error);
 }
 
 glint_status trial_trace(trial *t, glint_probe *probe, const glint_probe_ray *rays,
@@ -320,21 +325,18 @@ static glint_status read_picture(glint_renderer *renderer, const glint_image *im
     return GLINT_OK;
 }
 
-glint_status trial_frame(trial *t, const glint_scene *scene, const glint_environment *environment,
-                         const glint_camera *camera, const glint_settings *settings,
+glint_status trial_frame(trial *t, const glint_renderer_inputs *inputs, const glint_camera *camera,
                          trial_picture *picture)
 {
     *picture = (trial_picture){0};
-    const glint_renderer_inputs inputs = trial_inputs(t, scene, environment, settings);
     glint_renderer *renderer = NULL;
     glint_image image = {0};
-    glint_status status = glint_renderer_create(&inputs, &renderer, t->error);
-    if (status == GLINT_OK) {
-        status = glint_renderer_frame(renderer, camera, NULL, &image, &picture->report, t->error);
-    }
-    if (status == GLINT_OK) {
-        status = read_picture(renderer, &image, picture, t->error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_renderer_create(inputs, &renderer, t->error));
+    TRY_OR(cleanup, status,
+           glint_renderer_frame(renderer, camera, NULL, &image, &picture->report, t->error));
+    TRY_OR(cleanup, status, read_picture(renderer, &image, picture, t->error));
+cleanup:
     glint_image_free(&image);
     glint_renderer_free(renderer);
     return status;

@@ -43,12 +43,12 @@ void measure_error(glint_measure *m, double error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 // |got − expected|/scale, with both values and their distance in units in the last place.
-void measure_value(glint_measure *m, const trial *t, double got, double expected, double scale,
-                   const char *format, ...) __attribute__((format(printf, 6, 7)));
+void measure_value(glint_measure *m, double got, double expected, double scale, const char *format,
+                   ...) __attribute__((format(printf, 5, 6)));
 
 // The same of a vector: the length of the difference.
-void measure_vector(glint_measure *m, const trial *t, const double got[3], const double expected[3],
-                    double scale, const char *format, ...) __attribute__((format(printf, 6, 7)));
+void measure_vector(glint_measure *m, const double got[3], const double expected[3], double scale,
+                    const char *format, ...) __attribute__((format(printf, 5, 6)));
 
 // Judges one thing: whether it is the event that should not be. The first one is described.
 void measure_event(glint_measure *m, bool happened, const char *format, ...)
@@ -82,9 +82,15 @@ glint_status trial_build(const trial *t, shape *s, glint_scene *scene, glint_pro
 // The same of a scene that no one looks at, to call functions of numbers alone.
 glint_status trial_functions(const trial *t, glint_probe **probe);
 
-// Calls a part on `count` elements of four numbers in and out, of double[count][4].
-glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part, const double (*in)[4],
-                        double (*out)[4], size_t count);
+// Elements of four numbers; `in` and `out` may be the same.
+typedef struct trial_numbers {
+    double (*in)[4], (*out)[4];
+    size_t count;
+} trial_numbers;
+
+// Calls a part on elements of four numbers.
+glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part,
+                        const trial_numbers *numbers);
 glint_status trial_trace(trial *t, glint_probe *probe, const glint_probe_ray *rays,
                          glint_probe_hit *hits, size_t count);
 glint_status trial_bounce(trial *t, glint_probe *probe, const glint_probe_ray *rays,
@@ -111,8 +117,7 @@ glint_renderer_inputs trial_inputs(const trial *t, const glint_scene *scene,
                                    const glint_environment *environment,
                                    const glint_settings *settings);
 
-glint_status trial_frame(trial *t, const glint_scene *scene, const glint_environment *environment,
-                         const glint_camera *camera, const glint_settings *settings,
+glint_status trial_frame(trial *t, const glint_renderer_inputs *inputs, const glint_camera *camera,
                          trial_picture *picture);
 void trial_picture_free(trial_picture *picture);
 

@@ -17,11 +17,10 @@ glint_status bench_error_check(const glint_settings *settings, glint_error *erro
                                     own->option.name);
 }
 
-glint_status bench_error_measure(const glint_input_request *request, const glint_inputs *loaded,
-                                 const glint_speed_error_options *options,
-                                 const glint_bench_watcher *watcher, char **text,
-                                 glint_error *error)
+glint_status bench_error_measure(const bench_error_task *task, char **text, glint_error *error)
 {
+    const glint_input_request *request = task->request;
+    const glint_inputs *loaded = task->loaded;
     const glint_bench_inputs inputs = {
         .device = request->device,
         .scene = &loaded->scene,
@@ -34,22 +33,21 @@ glint_status bench_error_measure(const glint_input_request *request, const glint
     if (result == NULL) {
         return glint_fail_memory(error, "the errors");
     }
-    glint_status status = glint_speed_error_measure(&inputs, options, watcher, result, error);
+    glint_status status;
+    TRY_OR(cleanup, status,
+           glint_speed_error_measure(&inputs, task->options, task->watcher, result, error));
     json_t *entry = NULL;
-    if (status == GLINT_OK) {
-        const glint_bench_scene scene = {
-            .name = request->scene,
-            .subject = {.scene = &loaded->scene,
-                        .environment = &loaded->environment,
-                        .camera = &loaded->viewpoint.camera,
-                        .settings = &request->settings,
-                        .warnings = &loaded->warnings},
-        };
-        status = glint_speed_error_scene_json(&scene, result, &entry, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_json_print(entry, text, error);
-    }
+    const glint_bench_scene scene = {
+        .name = request->scene,
+        .subject = {.scene = &loaded->scene,
+                    .environment = &loaded->environment,
+                    .camera = &loaded->viewpoint.camera,
+                    .settings = &request->settings,
+                    .warnings = &loaded->warnings},
+    };
+    TRY_OR(cleanup, status, glint_speed_error_scene_json(&scene, result, &entry, error));
+    status = glint_json_print(entry, text, error);
+cleanup:
     glint_speed_error_free(result);
     free(result);
     return status;
@@ -58,13 +56,12 @@ glint_status bench_error_measure(const glint_input_request *request, const glint
 glint_status bench_error_write(json_t *document, const char *html, const char *json,
                                glint_error *error)
 {
-    glint_status status = GLINT_OK;
     if (html != NULL) {
-        status = glint_speed_error_page_write(html, document, error);
+        TRY(glint_speed_error_page_write(html, document, error));
     }
     glint_speed_error_drop_pictures(document);
-    if (status == GLINT_OK && json != NULL) {
-        status = glint_write_json(json, json_incref(document), error);
+    if (json != NULL) {
+        TRY(glint_write_json(json, json_incref(document), error));
     }
-    return status;
+    return GLINT_OK;
 }

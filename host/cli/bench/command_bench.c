@@ -176,18 +176,25 @@ static glint_status measure(scene_task *task, glint_inputs *loaded, char **text,
     return glint_json_print(glint_bench_scene_json(&scene, &result), text, error);
 }
 
+static glint_status measure_task(scene_task *task, glint_inputs *loaded, char **text,
+                                 glint_error *error)
+{
+    if (!task->error) {
+        return measure(task, loaded, text, error);
+    }
+    const glint_bench_watcher watcher = {show, task, stop_requested};
+    const bench_error_task errors = {&task->inputs, loaded, &task->error_options, &watcher};
+    return bench_error_measure(&errors, text, error);
+}
+
 static glint_status run_task(void *context, char **text, glint_error *error)
 {
     scene_task *task = context;
     glint_inputs loaded;
-    glint_status status = glint_inputs_load(&task->inputs, task->display, &loaded, error);
-    if (status == GLINT_OK && task->error) {
-        const glint_bench_watcher watcher = {show, task, stop_requested};
-        status = bench_error_measure(&task->inputs, &loaded, &task->error_options, &watcher, text,
-                                     error);
-    } else if (status == GLINT_OK) {
-        status = measure(task, &loaded, text, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_inputs_load(&task->inputs, task->display, &loaded, error));
+    status = measure_task(task, &loaded, text, error);
+cleanup:
     glint_progress_clear(task->display);
     if (status == GLINT_OK) {
         glint_say_warnings(&loaded.warnings, 0);
@@ -234,11 +241,11 @@ static glint_status measure_scene(bench_work *work, const char *name, json_t **e
     const glint_child child = {
         .work = run_task, .context = &task, .stop_requested = glint_stop_requested};
     char *text = NULL;
-    glint_status status = glint_child_run(&child, &text, error);
-    if (status == GLINT_OK) {
-        *entry = json_loads(text, 0, NULL);
-        status = *entry != NULL ? GLINT_OK : glint_fail_memory(error, "a report");
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_child_run(&child, &text, error));
+    *entry = json_loads(text, 0, NULL);
+    status = *entry != NULL ? GLINT_OK : glint_fail_memory(error, "a report");
+cleanup:
     free(text);
     return status;
 }
@@ -305,21 +312,19 @@ static glint_status take_scene(bench_work *work, json_t *entry, glint_error *err
 static glint_status measure_scenes(bench_work *work, const char *const *names, size_t count,
                                    glint_error *error)
 {
-    glint_status status = GLINT_OK;
-    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         json_t *entry = NULL;
         glint_signals_cooperate(true);
-        status = measure_scene(work, names[i], &entry, error);
+        const glint_status status = measure_scene(work, names[i], &entry, error);
         glint_signals_cooperate(false);
-        if (status == GLINT_OK && glint_stop_requested()) {
+        TRY(status);
+        if (glint_stop_requested()) {
             json_decref(entry);
             return glint_fail(error, GLINT_INTERRUPTED, "stopped");
         }
-        if (status == GLINT_OK) {
-            status = take_scene(work, entry, error);
-        }
+        TRY(take_scene(work, entry, error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // The comparison with the baseline, in the report and on the table.
@@ -364,12 +369,8 @@ static glint_status bench(bench_work *work, const char *const *names, size_t cou
                           glint_error *error)
 {
     const bench_request *request = work->request;
-    glint_status status = GLINT_OK;
     if (request->baseline != NULL) {
-        status = glint_baseline_load(request->baseline, &work->baseline, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
+        TRY(glint_baseline_load(request->baseline, &work->baseline, error));
     }
     const glint_bench_options options = options_of(request);
     const glint_speed_error_options error_options = error_options_of(request);
@@ -379,10 +380,7 @@ static glint_status bench(bench_work *work, const char *const *names, size_t cou
                          ? glint_speed_error_document(&machine, &error_options, work->command)
                          : glint_bench_document(&machine, &options);
     work->comparisons = json_array();
-    status = measure_scenes(work, names, count, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(measure_scenes(work, names, count, error));
     if (request->error) {
         return bench_error_write(work->document, request->html, request->json, error);
     }
@@ -390,9 +388,9 @@ static glint_status bench(bench_work *work, const char *const *names, size_t cou
         add_comparisons(work);
     }
     if (request->json != NULL) {
-        status = glint_write_json(request->json, json_incref(work->document), error);
+        TRY(glint_write_json(request->json, json_incref(work->document), error));
     }
-    return status == GLINT_OK ? give_verdict(work, count, error) : status;
+    return give_verdict(work, count, error);
 }
 
 // ---- The request -------------------------------------------------------------------------------
@@ -412,15 +410,24 @@ static glint_status check_scene(const bench_request *request, const char *name, 
 }
 
 // A report that would replace an input. `option` names it.
-static glint_status check_report(const bench_request *request, const char *option, const char *path,
-                                 const char *const *names, size_t count, glint_error *error)
+static bool is_input(const bench_request *request, const char *path, const char *const *names,
+                     size_t count)
 {
-    bool is_input =
-        glint_same_file(path, request->baseline) || glint_same_file(path, request->inputs.env);
-    for (size_t i = 0; i < count; i++) {
-        is_input = is_input || (!is_built_in(names[i]) && glint_same_file(path, names[i]));
+    if (glint_same_file(path, request->baseline) || glint_same_file(path, request->inputs.env)) {
+        return true;
     }
-    if (is_input) {
+    for (size_t i = 0; i < count; i++) {
+        if (!is_built_in(names[i]) && glint_same_file(path, names[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static glint_status check_report(const char *option, const char *path, bool is_read,
+                                 glint_error *error)
+{
+    if (is_read) {
         return glint_fail(error, GLINT_USAGE, "--%s %s: this is an input (name another file)",
                           option, path);
     }
@@ -430,20 +437,21 @@ static glint_status check_report(const bench_request *request, const char *optio
 static glint_status check_reports(const bench_request *request, const char *const *names,
                                   size_t count, glint_error *error)
 {
-    glint_status status = GLINT_OK;
     if (request->json != NULL && !glint_is_stdout(request->json)) {
-        status = check_report(request, "json", request->json, names, count, error);
+        TRY(check_report("json", request->json, is_input(request, request->json, names, count),
+                         error));
     }
-    if (status == GLINT_OK && request->html != NULL) {
+    if (request->html != NULL) {
         if (glint_same_file(request->html, request->json)) {
             return glint_fail(error, GLINT_USAGE,
                               "--html %s: --json goes there, too (name another "
                               "file)",
                               request->html);
         }
-        status = check_report(request, "html", request->html, names, count, error);
+        TRY(check_report("html", request->html, is_input(request, request->html, names, count),
+                         error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // What goes with --error and what without.
@@ -476,22 +484,20 @@ static glint_status check_request(bench_request *request, const char *const *nam
     if (request->margin >= 0 && request->baseline == NULL) {
         return glint_fail(error, GLINT_USAGE, "--margin: there is no --baseline");
     }
-    glint_status status = check_kind(request, error);
-    if (status == GLINT_OK) {
-        status = glint_input_request_finish(&request->inputs, error);
+    TRY(check_kind(request, error));
+    TRY(glint_input_request_finish(&request->inputs, error));
+    if (request->error) {
+        TRY(bench_error_check(&request->inputs.settings, error));
     }
-    if (status == GLINT_OK && request->error) {
-        status = bench_error_check(&request->inputs.settings, error);
-    }
-    for (size_t i = 0; status == GLINT_OK && i < count; i++) {
-        status = check_scene(request, names[i], error);
-        for (size_t k = 0; status == GLINT_OK && k < i; k++) {
+    for (size_t i = 0; i < count; i++) {
+        TRY(check_scene(request, names[i], error));
+        for (size_t k = 0; k < i; k++) {
             if (strcmp(names[i], names[k]) == 0) {
-                status = glint_fail(error, GLINT_USAGE, "%s: named twice", names[i]);
+                return glint_fail(error, GLINT_USAGE, "%s: named twice", names[i]);
             }
         }
     }
-    return status == GLINT_OK ? check_reports(request, names, count, error) : status;
+    return check_reports(request, names, count, error);
 }
 
 static void print_list(void)
@@ -536,19 +542,19 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     if (names == NULL) {
         return glint_fail_memory(error, "the scenes' names");
     }
-    glint_status status = check_request(request, names, count, error);
-    if (status == GLINT_OK) {
-        bench_work work = {.request = request, .command = glint_command_line(arguments)};
-        glint_progress_begin(&work.display, GLINT_PROGRESS_AUTO);
-        if (work.display.mode != GLINT_PROGRESS_BAR) {
-            work.display.mode = GLINT_PROGRESS_NONE;
-        }
-        status = bench(&work, names, count, error);
-        json_decref(work.comparisons);
-        json_decref(work.baseline);
-        json_decref(work.document);
-        free(work.command);
+    glint_status status;
+    TRY_OR(cleanup, status, check_request(request, names, count, error));
+    bench_work work = {.request = request, .command = glint_command_line(arguments)};
+    glint_progress_begin(&work.display, GLINT_PROGRESS_AUTO);
+    if (work.display.mode != GLINT_PROGRESS_BAR) {
+        work.display.mode = GLINT_PROGRESS_NONE;
     }
+    status = bench(&work, names, count, error);
+    json_decref(work.comparisons);
+    json_decref(work.baseline);
+    json_decref(work.document);
+    free(work.command);
+cleanup:
     free(names);
     return status;
 }

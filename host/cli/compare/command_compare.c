@@ -144,21 +144,20 @@ static glint_status check_request(const compare_request *request, glint_error *e
                           "--heat: there is no heat map (name one: -o "
                           "heat.png)");
     }
-    glint_status status = GLINT_OK;
     if (request->output != NULL) {
-        status = glint_image_check_output(request->output, NULL, error);
+        TRY(glint_image_check_output(request->output, NULL, error));
     }
-    if (status == GLINT_OK && writes_json && glint_same_file(request->json, request->output)) {
-        status = glint_fail(error, GLINT_USAGE,
-                            "--json %s: this is the heat map (name another file)", request->json);
+    if (writes_json && glint_same_file(request->json, request->output)) {
+        return glint_fail(error, GLINT_USAGE, "--json %s: this is the heat map (name another file)",
+                          request->json);
     }
-    if (status == GLINT_OK && request->output != NULL) {
-        status = check_output(request, "output", request->output, error);
+    if (request->output != NULL) {
+        TRY(check_output(request, "output", request->output, error));
     }
-    if (status == GLINT_OK && writes_json) {
-        status = check_output(request, "json", request->json, error);
+    if (writes_json) {
+        TRY(check_output(request, "json", request->json, error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- The comparison -----------------------------------------------------------------------------
@@ -172,18 +171,15 @@ typedef struct compare_work {
 static glint_status load(const compare_request *request, compare_work *work, glint_error *error)
 {
     const glint_image *image = &work->image, *reference = &work->reference;
-    glint_status status = glint_image_read(request->image, &work->image, NULL, error);
-    if (status == GLINT_OK) {
-        status = glint_image_read(request->reference, &work->reference, NULL, error);
+    TRY(glint_image_read(request->image, &work->image, NULL, error));
+    TRY(glint_image_read(request->reference, &work->reference, NULL, error));
+    if (image->width != reference->width || image->height != reference->height) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: it is %dx%d pixels and %s %dx%d (give pictures of one size)",
+                          request->image, image->width, image->height, request->reference,
+                          reference->width, reference->height);
     }
-    if (status == GLINT_OK &&
-        (image->width != reference->width || image->height != reference->height)) {
-        status = glint_fail(error, GLINT_BAD_INPUT,
-                            "%s: it is %dx%d pixels and %s %dx%d (give pictures of one size)",
-                            request->image, image->width, image->height, request->reference,
-                            reference->width, reference->height);
-    }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status write_heat_map(const compare_request *request, const compare_work *work,
@@ -193,38 +189,35 @@ static glint_status write_heat_map(const compare_request *request, const compare
     const glint_heat heat = request->heat > 0 ? (glint_heat)request->heat : GLINT_HEAT_RELATIVE;
     const glint_write_options options = {.exr_float = true};
     glint_image map = {0};
-    glint_status status =
-        is_exr ? glint_heat_map_differences(&work->image, &work->reference, heat, &map, error)
-               : glint_heat_map_paint(&work->image, &work->reference, heat, &map, error);
-    if (status == GLINT_OK) {
-        status = glint_image_write(request->output, &map, &options, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status,
+           is_exr ? glint_heat_map_differences(&work->image, &work->reference, heat, &map, error)
+                  : glint_heat_map_paint(&work->image, &work->reference, heat, &map, error));
+    TRY_OR(cleanup, status, glint_image_write(request->output, &map, &options, error));
+cleanup:
     glint_image_free(&map);
     return status;
 }
 
 static glint_status compare(const compare_request *request, compare_work *work, glint_error *error)
 {
-    glint_status status = load(request, work, error);
-    if (status == GLINT_OK) {
-        status = glint_metrics_find(&work->image, &work->reference, NULL, &work->metrics, error);
-    }
-    if (status == GLINT_OK && request->output != NULL) {
-        status = write_heat_map(request, work, error);
+    TRY(load(request, work, error));
+    TRY(glint_metrics_find(&work->image, &work->reference, NULL, &work->metrics, error));
+    if (request->output != NULL) {
+        TRY(write_heat_map(request, work, error));
     }
     const glint_compare_result result = {.image = {request->image, &work->image},
                                          .reference = {request->reference, &work->reference},
                                          .metrics = &work->metrics,
                                          .bounds = &request->bounds};
-    if (status == GLINT_OK && request->json != NULL) {
-        status = glint_write_json(request->json, glint_compare_json(&result), error);
+    if (request->json != NULL) {
+        TRY(glint_write_json(request->json, glint_compare_json(&result), error));
     }
-    if (status == GLINT_OK && !glint_is_stdout(request->json)) {
+    if (!glint_is_stdout(request->json)) {
         glint_compare_print(&result, stdout);
     }
-    return status == GLINT_OK ? glint_bounds_check(&request->bounds, &work->metrics, request->image,
-                                                   request->reference, error)
-                              : status;
+    return glint_bounds_check(&request->bounds, &work->metrics, request->image, request->reference,
+                              error);
 }
 
 static void set_defaults(void *request)
@@ -238,13 +231,11 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     request->image = arguments->positionals[0];
     request->reference = arguments->positionals[1];
     glint_bounds_complete(&request->bounds);
-    glint_status status = check_request(request, error);
-    if (status == GLINT_OK) {
-        compare_work work = {0};
-        status = compare(request, &work, error);
-        glint_image_free(&work.reference);
-        glint_image_free(&work.image);
-    }
+    TRY(check_request(request, error));
+    compare_work work = {0};
+    const glint_status status = compare(request, &work, error);
+    glint_image_free(&work.reference);
+    glint_image_free(&work.image);
     return status;
 }
 

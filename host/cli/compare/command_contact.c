@@ -8,10 +8,8 @@
 #include "image/output_file.h"
 #include "report/compare/contact_sheet.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct contact_request {
     const char *output;
@@ -56,30 +54,8 @@ static glint_status check_request(const contact_request *request, char *const *n
                               request->output);
         }
     }
-    glint_status status = glint_image_check_output(request->output, NULL, error);
-    return status == GLINT_OK ? glint_output_file_check(request->output, error) : status;
-}
-
-// What stands below an image: the last number in its file's name, which is a frame's; else where it
-// comes on the sheet.
-static void label_of(const char *path, int index, char *label, size_t capacity)
-{
-    const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
-    const char *end = dot != NULL ? dot : name + strlen(name);
-    while (end > name && !isdigit((unsigned char)end[-1])) {
-        end--;
-    }
-    const char *begin = end;
-    while (begin > name && isdigit((unsigned char)begin[-1])) {
-        begin--;
-    }
-    if (begin < end) {
-        snprintf(label, capacity, "%.*s", (int)(end - begin), begin);
-    } else {
-        snprintf(label, capacity, "%d", index + 1);
-    }
+    TRY(glint_image_check_output(request->output, NULL, error));
+    return glint_output_file_check(request->output, error);
 }
 
 // Reads an image; one that cannot be read is said, and no error of the sheet.
@@ -94,68 +70,84 @@ static bool read_image(const char *path, glint_image *image)
     return is_read;
 }
 
-// The shape of the first image that can be read is that of all places.
-static glint_status begin_sheet(const contact_request *request, const glint_image *first, int count,
-                                glint_contact_sheet *sheet, glint_error *error)
+// The sheet while it is filled.
+typedef struct contact_work {
+    const contact_request *request;
+    char *const *names;
+    int count, missing;
+    glint_contact_sheet sheet;
+} contact_work;
+
+static void put(contact_work *work, int index, const glint_image *image)
 {
-    const double height = (double)request->width * first->height / first->width;
-    const int rounded = (int)fmin(fmax(1, round(height)), 65536);
-    return glint_contact_sheet_create(count, request->columns, request->width, rounded, sheet,
-                                      error);
+    char label[64];
+    glint_contact_label(work->names[index], label, sizeof label);
+    glint_contact_sheet_put(&work->sheet, index, image, label);
 }
 
-static glint_status fill_sheet(const contact_request *request, char *const *names, int count,
-                               glint_contact_sheet *sheet, int *missing, glint_error *error)
+// The shape of the first image that can be read is that of all places. The images before it are
+// missing.
+static glint_status begin_sheet(contact_work *work, const glint_image *first, int index,
+                                glint_error *error)
 {
-    glint_status status = GLINT_OK;
-    int waiting = 0; // images before the first that could be read
-    for (int i = 0; status == GLINT_OK && i < count; i++) {
-        glint_image image = {0};
-        const bool is_read = read_image(names[i], &image);
-        *missing += !is_read;
-        if (is_read && sheet->columns == 0) {
-            status = begin_sheet(request, &image, count, sheet, error);
-        } else if (sheet->columns == 0) {
-            waiting++;
-        }
-        for (; status == GLINT_OK && sheet->columns > 0 && waiting > 0; waiting--) {
-            char label[64];
-            label_of(names[i - waiting], i - waiting, label, sizeof label);
-            glint_contact_sheet_put(sheet, i - waiting, NULL, label);
-        }
-        if (status == GLINT_OK && sheet->columns > 0) {
-            char label[64];
-            label_of(names[i], i, label, sizeof label);
-            glint_contact_sheet_put(sheet, i, is_read ? &image : NULL, label);
-        }
-        glint_image_free(&image);
+    const int width = work->request->width;
+    const double height = round((double)width * first->height / first->width);
+    work->sheet = (glint_contact_sheet){.count = work->count,
+                                        .columns = work->request->columns,
+                                        .width = width,
+                                        .height = (int)fmin(fmax(1, height), 65536)};
+    TRY(glint_contact_sheet_begin(&work->sheet, error));
+    for (int i = 0; i < index; i++) {
+        put(work, i, NULL);
     }
+    return GLINT_OK;
+}
+
+static glint_status add_image(contact_work *work, int index, glint_error *error)
+{
+    glint_image image = {0};
+    glint_status status = GLINT_OK;
+    if (!read_image(work->names[index], &image)) {
+        work->missing++;
+        if (work->sheet.image.pixels != NULL) {
+            put(work, index, NULL);
+        }
+        return GLINT_OK;
+    }
+    if (work->sheet.image.pixels == NULL) {
+        TRY_OR(cleanup, status, begin_sheet(work, &image, index, error));
+    }
+    put(work, index, &image);
+cleanup:
+    glint_image_free(&image);
     return status;
+}
+
+static glint_status make_sheet(contact_work *work, glint_error *error)
+{
+    const contact_request *request = work->request;
+    const glint_write_options options = {.exposure = (float)request->exposure};
+    for (int i = 0; i < work->count; i++) {
+        TRY(add_image(work, i, error));
+    }
+    if (work->missing == work->count) {
+        return glint_fail(error, GLINT_BAD_INPUT, "none of the images could be read");
+    }
+    TRY(glint_image_write(request->output, &work->sheet.image, &options, error));
+    if (work->missing > 0) {
+        return glint_fail(error, GLINT_FRAMES_FAILED, "%s: %d of %d images are missing on it",
+                          request->output, work->missing, work->count);
+    }
+    return GLINT_OK;
 }
 
 static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
-    const contact_request *request = context;
-    const int count = arguments->positional_count;
-    glint_status status = check_request(request, arguments->positionals, count, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
-    glint_contact_sheet sheet = {0};
-    int missing = 0;
-    status = fill_sheet(request, arguments->positionals, count, &sheet, &missing, error);
-    if (status == GLINT_OK && missing == count) {
-        status = glint_fail(error, GLINT_BAD_INPUT, "none of the images could be read");
-    }
-    if (status == GLINT_OK) {
-        const glint_write_options options = {.exposure = (float)request->exposure};
-        status = glint_image_write(request->output, &sheet.image, &options, error);
-    }
-    glint_contact_sheet_free(&sheet);
-    if (status == GLINT_OK && missing > 0) {
-        status = glint_fail(error, GLINT_FRAMES_FAILED, "%s: %d of %d images are missing on it",
-                            request->output, missing, count);
-    }
+    contact_work work = {
+        .request = context, .names = arguments->positionals, .count = arguments->positional_count};
+    TRY(check_request(work.request, work.names, work.count, error));
+    const glint_status status = make_sheet(&work, error);
+    glint_contact_sheet_free(&work.sheet);
     return status;
 }
 
@@ -168,10 +160,11 @@ const glint_command glint_command_contact = {
     .name = "contact",
     .summary = "show many images on one sheet",
     .synopsis = "IMAGE… -o SHEET [options]",
-    .description = "Makes each image small and puts them in rows, in the order in which they are "
-                   "named, with the last number in their name below. Transparent ones stand over "
-                   "grey; a pixel with NaN or infinity in it is magenta; an image that cannot be "
-                   "read is a crossed box, and gives exit status 6.",
+    .description =
+        "Makes each image small and puts them in rows, in the order in which they are "
+        "named, with the last number in their name below, or the name. Transparent ones stand over "
+        "grey; a pixel with NaN or infinity in it is magenta; an image that cannot be "
+        "read is a crossed box, and gives exit status 6.",
     .examples = "  glint contact turn/*.exr -o sheet.png\n"
                 "  glint contact turn/*.exr --columns 12 --width 160 --exposure 1 -o sheet.jpg\n",
     .groups = groups,

@@ -88,8 +88,8 @@ static glint_status find_place(capture *work, glint_error *error)
         return GLINT_OK;
     }
     glint_scene *scene = &work->inputs.scene;
-    glint_status status = glint_scene_middle_of_nodes(scene, request->around, &work->at, error);
-    return status == GLINT_OK ? glint_scene_remove_nodes(scene, request->around, error) : status;
+    TRY(glint_scene_middle_of_nodes(scene, request->around, &work->at, error));
+    return glint_scene_remove_nodes(scene, request->around, error);
 }
 
 // Brings a scene that moves to a time, and gives it to the renderer, if there is one.
@@ -106,19 +106,14 @@ static glint_status set_time(capture *work, double time, glint_error *error)
         return find_place(work, error);
     }
     glint_scene_free(&inputs->scene);
-    glint_status status = glint_scene_at(inputs->source, time, &inputs->scene, NULL, error);
-    if (status == GLINT_OK) {
-        status =
-            glint_inputs_stage(&work->request->inputs, &inputs->scene, &inputs->viewpoint, error);
+    TRY(glint_scene_at(inputs->source, time, &inputs->scene, NULL, error));
+    TRY(glint_inputs_stage(&work->request->inputs, &inputs->scene, &inputs->viewpoint, error));
+    TRY(find_place(work, error));
+    if (work->renderer != NULL) {
+        TRY(glint_renderer_set_scene(work->renderer, &inputs->scene, error));
     }
-    if (status == GLINT_OK) {
-        status = find_place(work, error);
-    }
-    if (status == GLINT_OK && work->renderer != NULL) {
-        status = glint_renderer_set_scene(work->renderer, &inputs->scene, error);
-    }
-    work->stands = status == GLINT_OK;
-    return status;
+    work->stands = true;
+    return GLINT_OK;
 }
 
 // ---- Rendering ----------------------------------------------------------------------------------
@@ -173,23 +168,16 @@ static glint_status find_first(capture *work, glint_error *error)
 static glint_status prepare(capture *work, glint_error *error)
 {
     const glint_input_request *request = &work->request->inputs;
-    glint_status status = glint_inputs_load(request, &work->display, &work->inputs, error);
-    if (status == GLINT_OK) {
-        status = find_first(work, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_device_open(request->device, &work->device, error);
-    }
-    if (status == GLINT_OK) {
-        glint_progress_phase(&work->display, "prepare", "building the tree and the kernels");
-        const glint_renderer_inputs inputs = {.device = work->device,
-                                              .scene = &work->inputs.scene,
-                                              .environment = &work->inputs.environment,
-                                              .settings = &request->settings,
-                                              .kernel_dir = request->kernel_dir};
-        status = glint_renderer_create(&inputs, &work->renderer, error);
-    }
-    return status;
+    TRY(glint_inputs_load(request, &work->display, &work->inputs, error));
+    TRY(find_first(work, error));
+    TRY(glint_device_open(request->device, &work->device, error));
+    glint_progress_phase(&work->display, "prepare", "building the tree and the kernels");
+    const glint_renderer_inputs inputs = {.device = work->device,
+                                          .scene = &work->inputs.scene,
+                                          .environment = &work->inputs.environment,
+                                          .settings = &request->settings,
+                                          .kernel_dir = request->kernel_dir};
+    return glint_renderer_create(&inputs, &work->renderer, error);
 }
 
 // ---- The request --------------------------------------------------------------------------------
@@ -206,21 +194,21 @@ static glint_status check_request(const capture_request *request, glint_error *e
 
 static glint_status find_frames(capture_request *request, const char *path, glint_error *error)
 {
-    glint_status status = glint_frame_name_parse(path, &request->name, error);
+    TRY(glint_frame_name_parse(path, &request->name, error));
     request->is_sequence = request->frames_text != NULL;
-    if (status == GLINT_OK && request->is_sequence) {
-        status = glint_frame_list_parse(request->frames_text, &request->frames, error);
+    if (request->is_sequence) {
+        TRY(glint_frame_list_parse(request->frames_text, &request->frames, error));
     }
-    if (status == GLINT_OK && request->frames.count > 1 && request->name.length == 0) {
+    if (request->frames.count > 1 && request->name.length == 0) {
         return glint_fail(error, GLINT_USAGE,
                           "%s: %llu frames need a place for their number (as in ball.####.exr)",
                           path, (unsigned long long)request->frames.count);
     }
-    if (status == GLINT_OK && request->name.length > 0 && !request->is_sequence) {
+    if (request->name.length > 0 && !request->is_sequence) {
         return glint_fail(error, GLINT_USAGE, "%s: which frames? (name them with --frames 1-24)",
                           path);
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status check_settings(const glint_settings *settings, glint_error *error)
@@ -249,16 +237,12 @@ static glint_status settle(capture_request *request, const char *path, glint_err
         output->size = glint_chart_size_for(output->to, FACE_EDGE);
     }
     glint_chart chart;
-    glint_status status = glint_chart_make(output->to, output->size, false, &chart, error);
-    if (status == GLINT_OK) {
-        const int edge = (int)fmax(1, round(glint_chart_quarter_turn(&chart)));
-        request->inputs.settings.width = request->inputs.settings.height = edge;
-        status = glint_input_request_finish(&request->inputs, error);
-    }
-    if (status == GLINT_OK) {
-        status = check_settings(&request->inputs.settings, error);
-    }
-    return status == GLINT_OK ? find_frames(request, path, error) : status;
+    TRY(glint_chart_make(output->to, output->size, false, &chart, error));
+    const int edge = (int)fmax(1, round(glint_chart_quarter_turn(&chart)));
+    request->inputs.settings.width = request->inputs.settings.height = edge;
+    TRY(glint_input_request_finish(&request->inputs, error));
+    TRY(check_settings(&request->inputs.settings, error));
+    return find_frames(request, path, error);
 }
 
 static void say_done(const capture *work, const env_output *output, double ms)
@@ -280,18 +264,29 @@ static glint_status capture_to(capture *work, const char *path, glint_error *err
     const double begun = glint_now_ms();
     env_output output;
     glint_cube cube = {0};
-    glint_status status = env_output_open(request, path, request->to, &output, error);
-    if (status == GLINT_OK) {
-        status = render(work, path, &cube, error);
-    }
-    if (status == GLINT_OK) {
-        const glint_sampler sampler = glint_sampler_of_cube(&cube);
-        status = env_output_write(&output, &sampler, &glint_turn_none, error);
-    }
-    if (status == GLINT_OK) {
-        say_done(work, &output, glint_now_ms() - begun);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, env_output_open(request, path, request->to, &output, error));
+    TRY_OR(cleanup, status, render(work, path, &cube, error));
+    const glint_sampler sampler = glint_sampler_of_cube(&cube);
+    TRY_OR(cleanup, status, env_output_write(&output, &sampler, &glint_turn_none, error));
+    say_done(work, &output, glint_now_ms() - begun);
+cleanup:
     glint_cube_free(&cube);
+    return status;
+}
+
+// Captures a frame of a sequence.
+static glint_status capture_frame(capture *work, int frame, glint_error *error)
+{
+    char *path = glint_frame_name_make(&work->request->name, frame);
+    if (path == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    glint_status status;
+    TRY_OR(cleanup, status, set_time(work, (frame - 1) / work->request->fps, error));
+    status = capture_to(work, path, error);
+cleanup:
+    free(path);
     return status;
 }
 
@@ -302,13 +297,7 @@ static glint_status capture_frames(capture *work, glint_error *error)
     unsigned long long failed = 0;
     int frame, first_failed = 0;
     while (glint_frame_next(&cursor, &frame)) {
-        char *path = glint_frame_name_make(&request->name, frame);
-        glint_status status = path != NULL ? set_time(work, (frame - 1) / request->fps, error)
-                                           : glint_fail_memory(error, "a file name");
-        if (status == GLINT_OK) {
-            status = capture_to(work, path, error);
-        }
-        free(path);
+        const glint_status status = capture_frame(work, frame, error);
         if (glint_status_is_of_machine(status) || status == GLINT_INTERRUPTED) {
             return status;
         }
@@ -328,30 +317,36 @@ static glint_status capture_frames(capture *work, glint_error *error)
 
 // Looks at where the files go, before any work is done: the first in all respects, the others to
 // see that they replace no input.
+static glint_status check_output(const capture_request *request, int frame, bool is_first,
+                                 glint_error *error)
+{
+    env_output output;
+    char *path = glint_frame_name_make(&request->name, frame);
+    if (path == NULL) {
+        return glint_fail_memory(error, "a file name");
+    }
+    glint_status status = GLINT_OK;
+    if (glint_same_file(path, request->inputs.scene) ||
+        glint_same_file(path, request->inputs.env)) {
+        status = glint_fail(error, GLINT_USAGE, "%s: this is an input (name another file)", path);
+    } else if (is_first) {
+        status = env_output_open(&request->output, path, request->output.to, &output, error);
+    }
+    free(path);
+    return status;
+}
+
 static glint_status check_outputs(const capture_request *request, glint_error *error)
 {
     glint_frame_cursor cursor = {.list = &request->frames, .shard = {1, 1}};
-    glint_status status = GLINT_OK;
-    int frame = 1;
-    bool is_first = true, is_left = !request->is_sequence || glint_frame_next(&cursor, &frame);
-    while (status == GLINT_OK && is_left) {
-        env_output output;
-        char *path = glint_frame_name_make(&request->name, frame);
-        if (path == NULL) {
-            return glint_fail_memory(error, "a file name");
-        }
-        if (glint_same_file(path, request->inputs.scene) ||
-            glint_same_file(path, request->inputs.env)) {
-            status =
-                glint_fail(error, GLINT_USAGE, "%s: this is an input (name another file)", path);
-        } else if (is_first) {
-            status = env_output_open(&request->output, path, request->output.to, &output, error);
-        }
-        free(path);
-        is_first = false;
-        is_left = request->is_sequence && glint_frame_next(&cursor, &frame);
+    if (!request->is_sequence) {
+        return check_output(request, 1, true, error);
     }
-    return status;
+    int frame;
+    for (bool is_first = true; glint_frame_next(&cursor, &frame); is_first = false) {
+        TRY(check_output(request, frame, is_first, error));
+    }
+    return GLINT_OK;
 }
 
 static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
@@ -361,26 +356,22 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     capture work = {.request = request};
     request->inputs.scene = arguments->positionals[0];
     glint_progress_begin(&work.display, (glint_progress_mode)request->progress);
-    glint_status status = check_request(request, error);
-    if (status == GLINT_OK) {
-        status = settle(request, path, error);
-    }
-    if (status == GLINT_OK) {
-        status = check_outputs(request, error);
-    }
-    if (status == GLINT_OK) {
-        status = prepare(&work, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, check_request(request, error));
+    TRY_OR(cleanup, status, settle(request, path, error));
+    TRY_OR(cleanup, status, check_outputs(request, error));
+    status = prepare(&work, error);
     glint_progress_clear(&work.display);
-    if (status == GLINT_OK) {
-        if (request->frames.count > 1 && !work.inputs.motion.moves_triangles) {
-            glint_warn(&work.inputs.warnings, "%s: nothing moves: all %llu frames are the same",
-                       request->inputs.scene, (unsigned long long)request->frames.count);
-        }
-        glint_say_warnings(&work.inputs.warnings, 0);
-        status =
-            request->is_sequence ? capture_frames(&work, error) : capture_to(&work, path, error);
+    if (status != GLINT_OK) {
+        goto cleanup;
     }
+    if (request->frames.count > 1 && !work.inputs.motion.moves_triangles) {
+        glint_warn(&work.inputs.warnings, "%s: nothing moves: all %llu frames are the same",
+                   request->inputs.scene, (unsigned long long)request->frames.count);
+    }
+    glint_say_warnings(&work.inputs.warnings, 0);
+    status = request->is_sequence ? capture_frames(&work, error) : capture_to(&work, path, error);
+cleanup:
     glint_renderer_free(work.renderer);
     glint_device_close(work.device);
     glint_inputs_free(&work.inputs);

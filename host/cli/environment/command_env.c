@@ -67,23 +67,20 @@ typedef struct conversion {
 static glint_status load(conversion *work, glint_error *error)
 {
     const env_request *request = work->request;
-    glint_status status;
     if (request->probe) {
         const int size = request->output.size, edge = size > AXES_EDGE ? size : AXES_EDGE;
-        status = glint_axes_cube(edge < 4096 ? edge : 4096, &work->axes, error);
+        TRY(glint_axes_cube(edge < 4096 ? edge : 4096, &work->axes, error));
         work->sampler = glint_sampler_of_cube(&work->axes);
     } else if (request->studio) {
-        status = glint_environment_studio(&work->studio, error);
+        TRY(glint_environment_studio(&work->studio, error));
         work->sampler = glint_sampler_of_cube(&work->studio.radiance);
     } else {
-        status =
-            glint_source_load(work->input, &request->env_as, &work->source, &work->warnings, error);
-        if (status == GLINT_OK) {
-            status = glint_sampler_of_image(&work->source.image, &work->source.chart,
-                                            &work->sampler, error);
-        }
+        TRY(glint_source_load(work->input, &request->env_as, &work->source, &work->warnings,
+                              error));
+        TRY(glint_sampler_of_image(&work->source.image, &work->source.chart, &work->sampler,
+                                   error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- The request --------------------------------------------------------------------------------
@@ -114,16 +111,14 @@ static bool is_read_too(const conversion *work)
 static glint_status open_output(conversion *work, glint_error *error)
 {
     const bool is_set = work->input != NULL && env_output_is_set(work->input);
-    glint_status status =
-        env_output_open(&work->request->output, work->path,
-                        is_set ? GLINT_LAYOUT_FACES : GLINT_LAYOUT_UNKNOWN, &work->output, error);
-    if (status == GLINT_OK && work->input != NULL &&
-        (glint_same_file(work->input, work->path) ||
-         (work->output.as_faces && is_read_too(work)))) {
+    TRY(env_output_open(&work->request->output, work->path,
+                        is_set ? GLINT_LAYOUT_FACES : GLINT_LAYOUT_UNKNOWN, &work->output, error));
+    if (work->input != NULL && (glint_same_file(work->input, work->path) ||
+                                (work->output.as_faces && is_read_too(work)))) {
         return glint_fail(error, GLINT_USAGE, "%s: this is the input (name another file)",
                           work->path);
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status take_names(const glint_arguments *arguments, conversion *work,
@@ -166,31 +161,23 @@ static void say_done(const conversion *work, double ms)
 static glint_status convert(conversion *work, glint_error *error)
 {
     const double begun = glint_now_ms();
-    glint_status status = load(work, error);
-    if (status == GLINT_OK) {
-        const glint_turn turn = glint_turn_of(work->request->rotate, work->request->flip);
-        status = env_output_write(&work->output, &work->sampler, &turn, error);
-    }
-    if (status == GLINT_OK) {
-        glint_say_warnings(&work->warnings, 0);
-        say_done(work, glint_now_ms() - begun);
-    }
-    return status;
+    TRY(load(work, error));
+    const glint_turn turn = glint_turn_of(work->request->rotate, work->request->flip);
+    TRY(env_output_write(&work->output, &work->sampler, &turn, error));
+    glint_say_warnings(&work->warnings, 0);
+    say_done(work, glint_now_ms() - begun);
+    return GLINT_OK;
 }
 
 static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
     conversion work = {.request = context, .path = ""};
-    glint_status status = glint_layout_request_check(&work.request->env_as, error);
-    if (status == GLINT_OK) {
-        status = take_names(arguments, &work, error);
-    }
-    if (status == GLINT_OK) {
-        status = open_output(&work, error);
-    }
-    if (status == GLINT_OK) {
-        status = convert(&work, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_layout_request_check(&work.request->env_as, error));
+    TRY_OR(cleanup, status, take_names(arguments, &work, error));
+    TRY_OR(cleanup, status, open_output(&work, error));
+    TRY_OR(cleanup, status, convert(&work, error));
+cleanup:
     glint_sampler_free(&work.sampler);
     glint_source_free(&work.source);
     glint_cube_free(&work.axes);

@@ -84,11 +84,9 @@ static glint_status check_request(const relight_request *request, const char *pa
         return glint_fail(error, GLINT_USAGE,
                           "--env-layout: it says how a file is read, but no --env is given");
     }
-    glint_status status = glint_layout_request_check(&request->inputs.env_as, error);
-    if (status == GLINT_OK) {
-        status = glint_image_check_output(request->output, &options, error);
-    }
-    return status == GLINT_OK ? glint_output_file_check(request->output, error) : status;
+    TRY(glint_layout_request_check(&request->inputs.env_as, error));
+    TRY(glint_image_check_output(request->output, &options, error));
+    return glint_output_file_check(request->output, error);
 }
 
 static void warn_of_dropped(const char *path, const glint_terms *terms)
@@ -111,35 +109,38 @@ static glint_status light(const relight_request *request, const char *path, glin
     glint_progress_phase(&display, "read", "reading the directions");
     const double begun = glint_now_ms();
     double clock = begun;
-    glint_status status = glint_terms_read(path, terms, error);
-    const double read_ms = glint_lap_ms(&clock);
-    if (status == GLINT_OK) {
-        status = glint_inputs_load_environment(&request->inputs, &display, inputs, error);
+    glint_status status;
+    status = glint_terms_read(path, terms, error);
+    if (status != GLINT_OK) {
+        glint_progress_clear(&display);
+        goto cleanup;
     }
+    const double read_ms = glint_lap_ms(&clock);
+    status = glint_inputs_load_environment(&request->inputs, &display, inputs, error);
     const double environment_ms = glint_lap_ms(&clock);
     glint_progress_clear(&display);
-    if (status == GLINT_OK) {
-        glint_say_warnings(&inputs->warnings, 0);
-        warn_of_dropped(path, terms);
-        status = glint_terms_relight(terms, &inputs->environment,
-                                     request->inputs.settings.env_rotate, &image, error);
+    if (status != GLINT_OK) {
+        goto cleanup;
     }
+    glint_say_warnings(&inputs->warnings, 0);
+    warn_of_dropped(path, terms);
+    TRY_OR(cleanup, status,
+           glint_terms_relight(terms, &inputs->environment, request->inputs.settings.env_rotate,
+                               &image, error));
     const double light_ms = glint_lap_ms(&clock);
     const size_t nonfinite = glint_image_count_nonfinite(&image);
     if (nonfinite > 0) {
         glint_say("warning: %zu pixels are not finite", nonfinite);
     }
-    if (status == GLINT_OK) {
-        const glint_write_options options = write_options(request);
-        status = glint_image_write(request->output, &image, &options, error);
-    }
-    if (status == GLINT_OK && display.mode != GLINT_PROGRESS_NONE &&
-        display.mode != GLINT_PROGRESS_JSON) {
+    const glint_write_options options = write_options(request);
+    TRY_OR(cleanup, status, glint_image_write(request->output, &image, &options, error));
+    if (display.mode != GLINT_PROGRESS_NONE && display.mode != GLINT_PROGRESS_JSON) {
         glint_say("%s: %dx%d, %d directions a pixel, %.0f ms (read %.0f, environment %.0f, light "
                   "%.0f, encode %.0f)",
                   request->output, image.width, image.height, terms->capacity,
                   glint_now_ms() - begun, read_ms, environment_ms, light_ms, glint_lap_ms(&clock));
     }
+cleanup:
     glint_image_free(&image);
     return status;
 }
@@ -150,10 +151,10 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     const char *path = arguments->positionals[0];
     glint_terms terms = {0};
     glint_inputs inputs = {0};
-    glint_status status = check_request(request, path, error);
-    if (status == GLINT_OK) {
-        status = light(request, path, &terms, &inputs, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, check_request(request, path, error));
+    TRY_OR(cleanup, status, light(request, path, &terms, &inputs, error));
+cleanup:
     glint_terms_free(&terms);
     glint_inputs_free(&inputs);
     return status;

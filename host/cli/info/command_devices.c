@@ -50,17 +50,17 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     glint_capabilities *devices = NULL;
     char *text = NULL;
     size_t count = 0;
-    glint_status status = glint_device_list(&devices, &count, error);
-    if (status == GLINT_OK && request->json) {
-        status = glint_devices_json(devices, count, &text, error);
+    glint_status status;
+    TRY_OR(cleanup, status, glint_device_list(&devices, &count, error));
+    if (request->json) {
+        TRY_OR(cleanup, status, glint_devices_json(devices, count, &text, error));
     }
-    if (status == GLINT_OK) {
-        if (request->json) {
-            fputs(text, stdout);
-        } else {
-            print_table(devices, count);
-        }
+    if (request->json) {
+        fputs(text, stdout);
+    } else {
+        print_table(devices, count);
     }
+cleanup:
     free(text);
     free(devices);
     return status;

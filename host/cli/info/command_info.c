@@ -293,14 +293,9 @@ static glint_status gather(const info_request *request, info_work *work, glint_e
 {
     glint_progress_display display;
     glint_progress_begin(&display, GLINT_PROGRESS_NONE);
-    glint_status status = glint_inputs_load(&request->inputs, &display, &work->inputs, error);
-    if (status == GLINT_OK) {
-        status = glint_topology_find(&work->inputs.scene, &work->topology, error);
-    }
-    if (status == GLINT_OK) {
-        status = make_plan(request, work, error);
-    }
-    return status;
+    TRY(glint_inputs_load(&request->inputs, &display, &work->inputs, error));
+    TRY(glint_topology_find(&work->inputs.scene, &work->topology, error));
+    return make_plan(request, work, error);
 }
 
 static glint_status print(const info_request *request, info_work *work, glint_error *error)
@@ -322,11 +317,9 @@ static glint_status print(const info_request *request, info_work *work, glint_er
         print_text(&subject);
         return GLINT_OK;
     }
-    glint_status status = glint_inventory_json(&subject, &work->json, error);
-    if (status == GLINT_OK) {
-        fputs(work->json, stdout);
-    }
-    return status;
+    TRY(glint_inventory_json(&subject, &work->json, error));
+    fputs(work->json, stdout);
+    return GLINT_OK;
 }
 
 static void set_defaults(void *request)
@@ -339,13 +332,11 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     info_request *request = context;
     request->inputs.scene = arguments->positionals[0];
     info_work work = {0};
-    glint_status status = glint_input_request_finish(&request->inputs, error);
-    if (status == GLINT_OK) {
-        status = gather(request, &work, error);
-    }
-    if (status == GLINT_OK) {
-        status = print(request, &work, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_input_request_finish(&request->inputs, error));
+    TRY_OR(cleanup, status, gather(request, &work, error));
+    TRY_OR(cleanup, status, print(request, &work, error));
+cleanup:
     free(work.json);
     glint_bvh_free(&work.bvh);
     glint_topology_free(&work.topology);

@@ -157,14 +157,13 @@ static glint_status check_request(const selftest_request *request, glint_error *
         return glint_fail(error, GLINT_USAGE, "--json %s: --junit writes there (name another file)",
                           request->json);
     }
-    glint_status status = GLINT_OK;
     if (request->junit != NULL) {
-        status = glint_output_file_check(request->junit, error);
+        TRY(glint_output_file_check(request->junit, error));
     }
-    if (status == GLINT_OK && writes_json) {
-        status = glint_output_file_check(request->json, error);
+    if (writes_json) {
+        TRY(glint_output_file_check(request->json, error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Running -----------------------------------------------------------------------------------
@@ -236,39 +235,36 @@ static glint_status run_cases(selftest_work *work, int width, glint_precision pr
                                             .precision = precision,
                                             .rays = (uint64_t)request->rays,
                                             .seed = (uint32_t)request->seed};
-    glint_status status = GLINT_OK;
     bool is_first = true;
-    for (size_t i = 0; status == GLINT_OK && glint_selftest_name(i) != NULL; i++) {
+    for (size_t i = 0; glint_selftest_name(i) != NULL; i++) {
         if ((!request->cases.any || request->cases.has[i]) && !has_enough(work)) {
-            status = run_case(work, i, &options, is_first, error);
+            TRY(run_case(work, i, &options, is_first, error));
             is_first = false;
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status run_all(selftest_work *work, glint_error *error)
 {
     const selftest_request *request = work->request;
     const bool has_double = glint_device_capabilities(work->device)->has_double;
-    glint_status status = GLINT_OK;
     for (int w = 0; w < ALL_WIDTHS; w++) {
         const bool all = request->width == ALL_WIDTHS;
         if (all ? w == 0 : w != request->width) {
             continue;
         }
-        for (int p = FLOAT; status == GLINT_OK && p <= DOUBLE; p++) {
+        for (int p = FLOAT; p <= DOUBLE; p++) {
             // Asked for, double is skipped case by case where the device has none.
             const bool wanted = request->precision == ALL_PRECISIONS ? p == FLOAT || has_double
                                                                      : p == request->precision;
             if (wanted) {
-                status =
-                    run_cases(work, widths[w],
-                              p == DOUBLE ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT, error);
+                TRY(run_cases(work, widths[w],
+                              p == DOUBLE ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT, error));
             }
         }
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status write_reports(const selftest_work *work, glint_error *error)
@@ -285,14 +281,13 @@ static glint_status write_reports(const selftest_work *work, glint_error *error)
         .results = work->results,
         .count = work->count,
     };
-    glint_status status = GLINT_OK;
     if (request->junit != NULL) {
-        status = glint_junit_write(request->junit, &run, error);
+        TRY(glint_junit_write(request->junit, &run, error));
     }
-    if (status == GLINT_OK && request->json != NULL) {
-        status = glint_write_json(request->json, glint_selftest_json(&run), error);
+    if (request->json != NULL) {
+        TRY(glint_write_json(request->json, glint_selftest_json(&run), error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 // The same case failed at another width or precision.
@@ -347,16 +342,12 @@ static glint_status selftest(const selftest_request *request, glint_error *error
     if (work.results == NULL) {
         return glint_fail_memory(error, "the results");
     }
-    glint_status status = glint_device_open(request->device, &work.device, error);
-    if (status == GLINT_OK) {
-        status = run_all(&work, error);
-    }
-    if (status == GLINT_OK) {
-        status = write_reports(&work, error);
-    }
-    if (status == GLINT_OK) {
-        status = give_verdict(&work, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_device_open(request->device, &work.device, error));
+    TRY_OR(cleanup, status, run_all(&work, error));
+    TRY_OR(cleanup, status, write_reports(&work, error));
+    TRY_OR(cleanup, status, give_verdict(&work, error));
+cleanup:
     glint_device_close(work.device);
     free(work.results);
     return status;
@@ -370,8 +361,8 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
         print_list();
         return GLINT_OK;
     }
-    const glint_status status = check_request(request, error);
-    return status == GLINT_OK ? selftest(request, error) : status;
+    TRY(check_request(request, error));
+    return selftest(request, error);
 }
 
 const glint_command glint_command_selftest = {

@@ -70,10 +70,7 @@ static glint_status create_renderer(bench_run *run, glint_error *error)
 {
     const glint_bench_inputs *in = run->inputs;
     glint_bench_result *result = run->result;
-    glint_status status = glint_device_open(in->device, &run->device, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_device_open(in->device, &run->device, error));
     const glint_renderer_inputs inputs = {
         .device = run->device,
         .scene = in->scene,
@@ -81,13 +78,11 @@ static glint_status create_renderer(bench_run *run, glint_error *error)
         .settings = in->settings,
         .kernel_dir = in->kernel_dir,
     };
-    status = glint_renderer_create(&inputs, &run->renderer, error);
-    if (status == GLINT_OK) {
-        result->device = *glint_device_capabilities(run->device);
-        result->bvh = *glint_renderer_bvh(run->renderer);
-        result->bytes = glint_renderer_device_bytes(run->renderer);
-    }
-    return status;
+    TRY(glint_renderer_create(&inputs, &run->renderer, error));
+    result->device = *glint_device_capabilities(run->device);
+    result->bvh = *glint_renderer_bvh(run->renderer);
+    result->bytes = glint_renderer_device_bytes(run->renderer);
+    return GLINT_OK;
 }
 
 static glint_status render_first(bench_run *run, glint_error *error)
@@ -122,8 +117,8 @@ static glint_status check(bench_run *run, glint_error *error)
         return GLINT_OK;
     }
     const glint_progress progress = glint_bench_progress(&run->watcher);
-    return glint_bench_check_picture(run->inputs, run->device, &progress, &run->first, check,
-                                     error);
+    const glint_bench_judge judge = {run->inputs, run->device, &progress};
+    return glint_bench_check_picture(&judge, &run->first, check, error);
 }
 
 // One frame more, which is compared with the first.
@@ -131,15 +126,12 @@ static glint_status repeat(bench_run *run, glint_frame_report *report, glint_err
 {
     glint_image *image = &run->again;
     const glint_progress progress = glint_bench_progress(&run->watcher);
-    glint_status status =
-        glint_renderer_frame(run->renderer, run->inputs->camera, &progress, image, report, error);
-    if (status == GLINT_OK) {
-        size_t bytes = (size_t)image->width * (size_t)image->height * (size_t)image->channels *
-                       sizeof *image->pixels;
-        run->result->check.unsteady_frames +=
-            memcmp(image->pixels, run->first.pixels, bytes) != 0 ? 1 : 0;
-    }
-    return status;
+    TRY(glint_renderer_frame(run->renderer, run->inputs->camera, &progress, image, report, error));
+    size_t bytes = (size_t)image->width * (size_t)image->height * (size_t)image->channels *
+                   sizeof *image->pixels;
+    run->result->check.unsteady_frames +=
+        memcmp(image->pixels, run->first.pixels, bytes) != 0 ? 1 : 0;
+    return GLINT_OK;
 }
 
 static glint_status warm_up(bench_run *run, glint_error *error)
@@ -191,19 +183,16 @@ static bool wants_more(const bench_run *run, double elapsed_ms)
 static glint_status measure_frames(bench_run *run, glint_error *error)
 {
     double begun = glint_now_ms(), shown = -INFINITY;
-    glint_status status = GLINT_OK;
-    while (status == GLINT_OK && wants_more(run, glint_now_ms() - begun)) {
+    while (wants_more(run, glint_now_ms() - begun)) {
         if (glint_now_ms() - shown > SHOW_MS) {
             shown = glint_now_ms();
             show(run, "measuring, frame %zu, %.1f s", run->count + 1, shown - begun);
         }
         glint_frame_report report;
-        status = repeat(run, &report, error);
-        if (status == GLINT_OK) {
-            status = keep_time(run, &report, error);
-        }
+        TRY(repeat(run, &report, error));
+        TRY(keep_time(run, &report, error));
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status summarize(bench_run *run, glint_error *error)
@@ -249,35 +238,23 @@ static void judge_steadiness(bench_run *run)
 static glint_status measure(bench_run *run, glint_error *error)
 {
     show(run, "compiling the kernels, cold and warm");
-    glint_status status = glint_bench_compile_time(run->inputs, run->watcher.stop_requested,
-                                                   &run->result->compile, error);
-    if (status == GLINT_OK) {
-        show(run, "building the tree and the kernels");
-        status = create_renderer(run, error);
-    }
-    if (status == GLINT_OK) {
-        show(run, "rendering the first frame");
-        status = render_first(run, error);
-    }
-    if (status == GLINT_OK) {
-        show(run, "checking the picture");
-        status = check(run, error);
-    }
-    if (status != GLINT_OK || run->result->check.outcome == GLINT_CHECK_FAILED) {
-        return status;
+    TRY(glint_bench_compile_time(run->inputs, run->watcher.stop_requested, &run->result->compile,
+                                 error));
+    show(run, "building the tree and the kernels");
+    TRY(create_renderer(run, error));
+    show(run, "rendering the first frame");
+    TRY(render_first(run, error));
+    show(run, "checking the picture");
+    TRY(check(run, error));
+    if (run->result->check.outcome == GLINT_CHECK_FAILED) {
+        return GLINT_OK;
     }
     show(run, "warming up");
-    status = warm_up(run, error);
-    if (status == GLINT_OK) {
-        status = measure_frames(run, error);
-    }
-    if (status == GLINT_OK) {
-        status = summarize(run, error);
-    }
-    if (status == GLINT_OK) {
-        judge_steadiness(run);
-    }
-    return status;
+    TRY(warm_up(run, error));
+    TRY(measure_frames(run, error));
+    TRY(summarize(run, error));
+    judge_steadiness(run);
+    return GLINT_OK;
 }
 
 glint_status glint_bench_measure(const glint_bench_inputs *inputs,

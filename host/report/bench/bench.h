@@ -105,10 +105,16 @@ glint_status glint_bench_compile_time(const glint_bench_inputs *inputs,
                                       bool (*stop_requested)(void), glint_compile_time *result,
                                       glint_error *error);
 
+// What the picture is judged with; all borrowed.
+typedef struct glint_bench_judge {
+    const glint_bench_inputs *inputs;
+    glint_device *device;
+    const glint_progress *progress;
+} glint_bench_judge;
+
 // Renders the reference on `device`, the same in double precision by the embedded kernels, and
 // judges `image`. `progress` may be NULL.
-glint_status glint_bench_check_picture(const glint_bench_inputs *inputs, glint_device *device,
-                                       const glint_progress *progress, const glint_image *image,
+glint_status glint_bench_check_picture(const glint_bench_judge *judge, const glint_image *image,
                                        glint_bench_check *check, glint_error *error);
 
 #endif

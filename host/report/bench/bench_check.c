@@ -29,7 +29,7 @@
 #define FLIPPED 5e-4
 #define LEAST_JUDGED 0.1 // share of the pixels: fewer say nothing of the picture
 
-static void judge(glint_bench_check *check)
+static void decide(glint_bench_check *check)
 {
     const glint_metrics *judged = &check->judged;
     double differing = (double)judged->differing / (double)judged->compared;
@@ -71,10 +71,10 @@ static glint_camera moved(const glint_camera *camera, double unit)
 }
 
 // The reference, and the same from the moved eye.
-static glint_status render_references(const glint_bench_inputs *inputs, glint_device *device,
-                                      const glint_progress *progress, glint_image references[2],
+static glint_status render_references(const glint_bench_judge *judge, glint_image references[2],
                                       glint_error *error)
 {
+    const glint_bench_inputs *inputs = judge->inputs;
     glint_settings settings = *inputs->settings;
     settings.precision = GLINT_PRECISION_DOUBLE;
     settings.texels = GLINT_TEXELS_FLOAT;
@@ -82,17 +82,21 @@ static glint_status render_references(const glint_bench_inputs *inputs, glint_de
     settings.tile_packets = 0;
     settings.depth = settings.depth == 0 ? GLINT_DEPTH_MAX : settings.depth; // nothing is proved
     const glint_renderer_inputs exact = {
-        .device = device,
+        .device = judge->device,
         .scene = inputs->scene,
         .environment = inputs->environment,
         .settings = &settings,
     };
     const glint_camera cameras[2] = {*inputs->camera, moved(inputs->camera, inputs->scene->unit)};
     glint_renderer *renderer;
-    glint_status status = glint_renderer_create(&exact, &renderer, error);
-    for (int i = 0; status == GLINT_OK && i < 2; i++) {
-        status = glint_renderer_frame(renderer, &cameras[i], progress, &references[i], NULL, error);
+    glint_status status;
+    TRY_OR(cleanup, status, glint_renderer_create(&exact, &renderer, error));
+    for (int i = 0; i < 2; i++) {
+        TRY_OR(cleanup, status,
+               glint_renderer_frame(renderer, &cameras[i], judge->progress, &references[i], NULL,
+                                    error));
     }
+cleanup:
     glint_renderer_free(renderer);
     return status;
 }
@@ -109,32 +113,30 @@ static glint_status compare(const glint_image *image, const glint_image referenc
     uint64_t marked = glint_metrics_mark(&references[1], &references[0], STABLE, ill_conditioned);
     check->ill_conditioned = (double)marked / (double)pixels;
     check->most_differing = FLIPPED + HIDDEN * check->ill_conditioned;
-    glint_status status = glint_metrics_find(image, &references[0], NULL, &check->error, error);
-    if (status == GLINT_OK) {
-        status = glint_metrics_find(image, &references[0], ill_conditioned, &check->judged, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_metrics_find(image, &references[0], NULL, &check->error, error));
+    TRY_OR(cleanup, status,
+           glint_metrics_find(image, &references[0], ill_conditioned, &check->judged, error));
+cleanup:
     free(ill_conditioned);
     return status;
 }
 
-glint_status glint_bench_check_picture(const glint_bench_inputs *inputs, glint_device *device,
-                                       const glint_progress *progress, const glint_image *image,
+glint_status glint_bench_check_picture(const glint_bench_judge *judge, const glint_image *image,
                                        glint_bench_check *check, glint_error *error)
 {
     glint_image references[2] = {{0}, {0}};
     glint_error cause = {0};
-    glint_status status = render_references(inputs, device, progress, references, &cause);
+    glint_status status = render_references(judge, references, &cause);
     if (status != GLINT_OK) {
         glint_fail(error, status, "the reference in double precision: %s (--no-check does without)",
                    cause.message);
+        goto cleanup;
     }
+    TRY_OR(cleanup, status, compare(image, references, check, error));
+    decide(check);
+cleanup:
     glint_error_free(&cause);
-    if (status == GLINT_OK) {
-        status = compare(image, references, check, error);
-    }
-    if (status == GLINT_OK) {
-        judge(check);
-    }
     glint_image_free(&references[0]);
     glint_image_free(&references[1]);
     return status;

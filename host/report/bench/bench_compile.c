@@ -34,20 +34,18 @@ static glint_status build_once(const timed_build *build, double *milliseconds, g
 {
     glint_device *device = NULL;
     glint_renderer *renderer = NULL;
-    glint_status status = glint_device_open(build->inputs->device, &device, error);
-    if (status == GLINT_OK) {
-        const glint_renderer_inputs inputs = {
-            .device = device,
-            .scene = build->inputs->scene,
-            .environment = build->inputs->environment,
-            .settings = &build->settings,
-            .kernel_dir = build->inputs->kernel_dir,
-        };
-        status = glint_renderer_create(&inputs, &renderer, error);
-    }
-    if (status == GLINT_OK) {
-        *milliseconds = glint_renderer_phases(renderer)->kernel_build;
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_device_open(build->inputs->device, &device, error));
+    const glint_renderer_inputs inputs = {
+        .device = device,
+        .scene = build->inputs->scene,
+        .environment = build->inputs->environment,
+        .settings = &build->settings,
+        .kernel_dir = build->inputs->kernel_dir,
+    };
+    TRY_OR(cleanup, status, glint_renderer_create(&inputs, &renderer, error));
+    *milliseconds = glint_renderer_phases(renderer)->kernel_build;
+cleanup:
     glint_renderer_free(renderer);
     glint_device_close(device);
     return status;
@@ -61,21 +59,21 @@ static glint_status work(void *context, char **text, glint_error *error)
         setenv(cache_variables[i], build->folder, 1);
     }
     double milliseconds = 0;
-    glint_status status = build_once(build, &milliseconds, error);
-    if (status == GLINT_OK && asprintf(text, "%.17g", milliseconds) < 0) {
+    TRY(build_once(build, &milliseconds, error));
+    if (asprintf(text, "%.17g", milliseconds) < 0) {
         *text = NULL;
-        status = glint_fail_memory(error, "a compile time");
+        return glint_fail_memory(error, "a compile time");
     }
-    return status;
+    return GLINT_OK;
 }
 
 static glint_status time_build(const glint_child *child, double *milliseconds, glint_error *error)
 {
     char *text;
-    glint_status status = glint_child_run(child, &text, error);
-    if (status == GLINT_OK) {
-        *milliseconds = strtod(text, NULL);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_child_run(child, &text, error));
+    *milliseconds = strtod(text, NULL);
+cleanup:
     free(text);
     return status;
 }
@@ -113,10 +111,10 @@ glint_status glint_bench_compile_time(const glint_bench_inputs *inputs,
     build.settings.build_tag = new_tag();
     const glint_child child = {
         .work = work, .context = &build, .stop_requested = stop_requested, .is_expendable = true};
-    glint_status status = time_build(&child, &result->cold, error);
-    if (status == GLINT_OK) {
-        status = time_build(&child, &result->warm, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, time_build(&child, &result->cold, error));
+    TRY_OR(cleanup, status, time_build(&child, &result->warm, error));
+cleanup:
     nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     return status;
 }

@@ -4,7 +4,9 @@
 #include "report/compare/bitmap_font.h"
 #include "report/compare/heat_scale.h"
 
+#include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,11 +29,10 @@ static int cell_height(const glint_contact_sheet *sheet)
     return sheet->height + LABEL + GAP;
 }
 
-glint_status glint_contact_sheet_create(int count, int columns, int width, int height,
-                                        glint_contact_sheet *sheet, glint_error *error)
+glint_status glint_contact_sheet_begin(glint_contact_sheet *sheet, glint_error *error)
 {
-    *sheet = (glint_contact_sheet){.count = count, .width = width, .height = height};
-    sheet->columns = columns > 0 ? columns : (int)ceil(sqrt((double)count));
+    const int count = sheet->count;
+    sheet->columns = sheet->columns > 0 ? sheet->columns : (int)ceil(sqrt((double)count));
     sheet->columns = sheet->columns < count ? sheet->columns : count;
     const int rows = (count + sheet->columns - 1) / sheet->columns;
     const double sheet_width = (double)sheet->columns * cell_width(sheet) + GAP;
@@ -40,15 +41,12 @@ glint_status glint_contact_sheet_create(int count, int columns, int width, int h
         return glint_fail(error, GLINT_USAGE,
                           "%d pictures of %d pixels make a sheet of %.0fx%.0f, more than %d on a "
                           "side (give a smaller --width, or fewer)",
-                          count, width, sheet_width, sheet_height, SIDE_MAX);
+                          count, sheet->width, sheet_width, sheet_height, SIDE_MAX);
     }
-    glint_status status =
-        glint_image_create((int)sheet_width, (int)sheet_height, 3, &sheet->image, error);
-    if (status == GLINT_OK) {
-        const int all[4] = {0, 0, (int)sheet_width, (int)sheet_height};
-        glint_font_fill(&sheet->image, all, background);
-    }
-    return status;
+    TRY(glint_image_create((int)sheet_width, (int)sheet_height, 3, &sheet->image, error));
+    const int all[4] = {0, 0, (int)sheet_width, (int)sheet_height};
+    glint_font_fill(&sheet->image, all, background);
+    return GLINT_OK;
 }
 
 void glint_contact_sheet_free(glint_contact_sheet *sheet)
@@ -150,6 +148,30 @@ void glint_contact_sheet_put(glint_contact_sheet *sheet, int index, const glint_
     const size_t shown_length = length < (size_t)room ? length : (size_t)room;
     if (shown_length < sizeof text) {
         memcpy(text, label + length - shown_length, shown_length + 1);
-        glint_font_draw(&sheet->image, left, top + sheet->height + 4, UNIT, text, ink);
+        const int at[2] = {left, top + sheet->height + 4};
+        glint_font_draw(&sheet->image, at, UNIT, text, ink);
     }
+}
+
+// ---- Labels ------------------------------------------------------------------------------------
+
+void glint_contact_label(const char *path, char *label, size_t capacity)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    const char *stem_end = dot != NULL && dot != name ? dot : name + strlen(name);
+    const char *end = stem_end;
+    while (end > name && !isdigit((unsigned char)end[-1])) {
+        end--;
+    }
+    const char *begin = end;
+    while (begin > name && isdigit((unsigned char)begin[-1])) {
+        begin--;
+    }
+    if (begin == end) { // no number
+        begin = name;
+        end = stem_end;
+    }
+    snprintf(label, capacity, "%.*s", (int)(end - begin), begin);
 }

@@ -5,20 +5,19 @@
 #include "base/status.h"
 #include "image/image.h"
 
-#include <stdbool.h>
+#include <stddef.h>
 
 // Zero is valid: no sheet.
 typedef struct glint_contact_sheet {
-    int columns, count;
-    int width, height; // of a picture on the sheet, pixels
+    int count;         // pictures
+    int columns;       // in a row; 0 before it begins: about as many as rows
+    int width, height; // each picture lies within, pixels
     glint_image image; // 3 channels, linear
 } glint_contact_sheet;
 
-// A sheet for `count` pictures, `columns` in a row (0: about as many as give the sheet the
-// pictures' own shape), each within width × height. Errors: GLINT_USAGE where it would be too
-// large, GLINT_DEVICE_FAILED.
-glint_status glint_contact_sheet_create(int count, int columns, int width, int height,
-                                        glint_contact_sheet *sheet, glint_error *error);
+// Makes the image of a sheet whose other members are set, and settles the columns. Errors:
+// GLINT_USAGE where it would be too large, GLINT_OUT_OF_MEMORY.
+glint_status glint_contact_sheet_begin(glint_contact_sheet *sheet, glint_error *error);
 void glint_contact_sheet_free(glint_contact_sheet *sheet);
 
 // Puts a picture of any size in its place, as large as fits, with `label` below: each pixel of the
@@ -27,5 +26,9 @@ void glint_contact_sheet_free(glint_contact_sheet *sheet);
 // the font has not are blank.
 void glint_contact_sheet_put(glint_contact_sheet *sheet, int index, const glint_image *picture,
                              const char *label);
+
+// What stands below an image of this path: the last number in its file's name, which is a frame's;
+// where there is none, the name without its ending.
+void glint_contact_label(const char *path, char *label, size_t capacity);
 
 #endif

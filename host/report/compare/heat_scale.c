@@ -93,8 +93,8 @@ glint_heat_layout glint_heat_layout_for(int width, int height)
 static void draw_label(const glint_heat_layout *layout, int x, const char *text, glint_image *map)
 {
     const int width = ((int)strlen(text) * GLINT_FONT_ADVANCE - 1) * layout->unit;
-    glint_font_draw(map, x - width / 2, layout->strip_y + LABEL_Y * layout->unit, layout->unit,
-                    text, ink);
+    const int at[2] = {x - width / 2, layout->strip_y + LABEL_Y * layout->unit};
+    glint_font_draw(map, at, layout->unit, text, ink);
 }
 
 static void draw_box(const glint_heat_layout *layout, int x, const float color[3], const char *text,
@@ -153,8 +153,8 @@ static void draw_title(const glint_heat_legend *legend, const glint_heat_layout 
     } else {
         snprintf(text, sizeof text, "%s difference, worst 0", legend->measure);
     }
-    glint_font_draw(map, MARGIN * layout->unit, layout->strip_y + TITLE_Y * layout->unit,
-                    layout->unit, text, ink);
+    const int at[2] = {MARGIN * layout->unit, layout->strip_y + TITLE_Y * layout->unit};
+    glint_font_draw(map, at, layout->unit, text, ink);
 }
 
 void glint_heat_scale_draw(const glint_heat_legend *legend, const glint_heat_layout *layout,

@@ -78,10 +78,14 @@ static void draw_text(const plot *p, double x, double y, const char *anchor, con
     fputs("</text>\n", p->out);
 }
 
-static void draw_line(const plot *p, const char *kind, double x0, double y0, double x1, double y1)
+typedef struct spot {
+    double x, y;
+} spot;
+
+static void draw_line(const plot *p, const char *kind, spot from, spot to)
 {
     fprintf(p->out, "<line class=\"%s\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>\n", kind,
-            x0, y0, x1, y1);
+            from.x, from.y, to.x, to.y);
 }
 
 static void draw_axes(const plot *p)
@@ -93,7 +97,8 @@ static void draw_axes(const plot *p)
             if (place < p->ms.low - 1e-6 || place > p->ms.high + 1e-6) {
                 continue;
             }
-            draw_line(p, k == 1 ? "grid" : "grid minor", x_of(p, ms), TOP, x_of(p, ms), BOTTOM);
+            draw_line(p, k == 1 ? "grid" : "grid minor", (spot){x_of(p, ms), TOP},
+                      (spot){x_of(p, ms), BOTTOM});
             if (k == 1 || k == 2 || k == 5) {
                 snprintf(text, sizeof text, "%g", ms);
                 draw_text(p, x_of(p, ms), ZERO + 25, "middle", text);
@@ -102,12 +107,12 @@ static void draw_axes(const plot *p)
     }
     for (int decade = (int)p->error.low; decade <= p->error.high; decade++) {
         const double y = y_of(p, pow(10, decade));
-        draw_line(p, "grid", LEFT, y, RIGHT, y);
+        draw_line(p, "grid", (spot){LEFT, y}, (spot){RIGHT, y});
         snprintf(text, sizeof text, "%g", pow(10, decade));
         draw_text(p, LEFT - 8, y + 4, "end", text);
     }
     if (p->has_zero) {
-        draw_line(p, "grid", LEFT, ZERO, RIGHT, ZERO);
+        draw_line(p, "grid", (spot){LEFT, ZERO}, (spot){RIGHT, ZERO});
         draw_text(p, LEFT - 8, ZERO + 4, "end", "none");
     }
     draw_text(p, (LEFT + RIGHT) / 2, HEIGHT - 6, "middle", "milliseconds a frame");
@@ -160,7 +165,7 @@ static void draw_point(const plot *p, const glint_plot_point *point, size_t numb
     glint_markup_text(p->out, point->label);
     fputs("</title>\n", p->out);
     if (point->low > 0 && point->high > point->low) {
-        draw_line(p, "spread", x_of(p, point->low), y, x_of(p, point->high), y);
+        draw_line(p, "spread", (spot){x_of(p, point->low), y}, (spot){x_of(p, point->high), y});
     }
     fprintf(p->out,
             "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"9\"/><text x=\"%.1f\" y=\"%.1f\" "

@@ -101,17 +101,15 @@ static glint_status open_device(run *r, glint_error *error)
 
 static glint_status make_ladder(run *r, glint_error *error)
 {
-    glint_status status = create(r, r->inputs->settings, &r->shared, error);
-    if (status == GLINT_OK) {
-        glint_plan plan = *glint_renderer_plan(r->shared);
-        const glint_stored_space space = glint_stored_space_of(r->inputs->scene);
-        glint_plan_suit(&plan, &space, r->inputs->camera);
-        glint_ladder_make(&plan, r->inputs->settings, &r->ladder);
-        r->result->bvh = *glint_renderer_bvh(r->shared);
-        r->result->count = r->ladder.count;
-        r->result->reference = r->ladder.reference;
-    }
-    return status;
+    TRY(create(r, r->inputs->settings, &r->shared, error));
+    glint_plan plan = *glint_renderer_plan(r->shared);
+    const glint_stored_space space = glint_stored_space_of(r->inputs->scene);
+    glint_plan_suit(&plan, &space, r->inputs->camera);
+    glint_ladder_make(&plan, r->inputs->settings, &r->ladder);
+    r->result->bvh = *glint_renderer_bvh(r->shared);
+    r->result->count = r->ladder.count;
+    r->result->reference = r->ladder.reference;
+    return GLINT_OK;
 }
 
 // ---- The reference -----------------------------------------------------------------------------
@@ -125,13 +123,11 @@ static glint_status find_change(run *r, int times_depth, double times_weight, gl
     settings.min_weight *= times_weight;
     glint_renderer *own = NULL, *renderer;
     glint_image image = {0};
-    glint_status status = provide(r, &settings, &own, &renderer, error);
-    if (status == GLINT_OK) {
-        status = render(r, renderer, &image, NULL, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_metrics_find(&image, &r->reference, NULL, change, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, provide(r, &settings, &own, &renderer, error));
+    TRY_OR(cleanup, status, render(r, renderer, &image, NULL, error));
+    TRY_OR(cleanup, status, glint_metrics_find(&image, &r->reference, NULL, change, error));
+cleanup:
     glint_image_free(&image);
     glint_renderer_free(own);
     return status;
@@ -143,19 +139,13 @@ static glint_status render_reference(run *r, glint_error *error)
     glint_renderer *renderer;
     glint_frame_report report;
     show(r, "rendering ", r->ladder.reference.name);
-    glint_status status =
-        provide(r, &r->ladder.reference.settings, &r->own[REFERENCE], &renderer, error);
-    if (status == GLINT_OK) {
-        status = render(r, renderer, &r->reference, &report, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(provide(r, &r->ladder.reference.settings, &r->own[REFERENCE], &renderer, error));
+    TRY(render(r, renderer, &r->reference, &report, error));
     result->reference_plan = *glint_renderer_plan(renderer);
     result->reference_truncation = report.truncation;
     show(r, "how good is ", r->ladder.reference.name);
-    status = find_change(r, 1, 4, &result->change_by_weights, error);
-    return status == GLINT_OK ? find_change(r, 2, 1, &result->change_by_depth, error) : status;
+    TRY(find_change(r, 1, 4, &result->change_by_weights, error));
+    return find_change(r, 2, 1, &result->change_by_depth, error);
 }
 
 // ---- Errors ------------------------------------------------------------------------------------
@@ -183,23 +173,22 @@ static glint_status judge_rung(run *r, size_t which, glint_error *error)
     rung->rung = r->ladder.rungs[which];
     rung->dominated_by = -1;
     show(r, "rendering ", rung->rung.name);
-    glint_status status = provide(r, &rung->rung.settings, &r->own[which], &renderer, error);
-    if (status == GLINT_OK) {
-        status = render(r, renderer, &image, &report, error);
-    }
-    if (status == GLINT_OK) {
-        rung->plan = *glint_renderer_plan(renderer);
-        rung->phases = phases_since(r, &before, renderer);
-        rung->rays = report.rays;
-        rung->truncation = report.truncation;
-        status = glint_metrics_find(&image, &r->reference, NULL, &rung->error, error);
-    }
-    if (status == GLINT_OK && r->options->pictures) {
-        status =
-            glint_heat_map_paint(&image, &r->reference, GLINT_HEAT_RELATIVE, &rung->heat, error);
+    glint_status status;
+    TRY_OR(cleanup, status, provide(r, &rung->rung.settings, &r->own[which], &renderer, error));
+    TRY_OR(cleanup, status, render(r, renderer, &image, &report, error));
+    rung->plan = *glint_renderer_plan(renderer);
+    rung->phases = phases_since(r, &before, renderer);
+    rung->rays = report.rays;
+    rung->truncation = report.truncation;
+    TRY_OR(cleanup, status, glint_metrics_find(&image, &r->reference, NULL, &rung->error, error));
+    if (r->options->pictures) {
+        TRY_OR(
+            cleanup, status,
+            glint_heat_map_paint(&image, &r->reference, GLINT_HEAT_RELATIVE, &rung->heat, error));
         rung->picture = image;
         image = (glint_image){0};
     }
+cleanup:
     glint_image_free(&image);
     return status;
 }
@@ -213,13 +202,11 @@ static glint_status render_directions(run *r, const glint_settings *settings, gl
     with.aovs = GLINT_AOV_BIT(GLINT_AOV_TRIANGLE);
     *layers = (glint_layers){0};
     glint_renderer *own = NULL, *renderer;
-    glint_status status = provide(r, &with, &own, &renderer, error);
-    if (status == GLINT_OK) {
-        status = render(r, renderer, &r->again, NULL, error);
-    }
-    if (status == GLINT_OK) {
-        status = glint_renderer_layers(renderer, layers, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, provide(r, &with, &own, &renderer, error));
+    TRY_OR(cleanup, status, render(r, renderer, &r->again, NULL, error));
+    TRY_OR(cleanup, status, glint_renderer_layers(renderer, layers, error));
+cleanup:
     glint_renderer_free(own);
     return status;
 }
@@ -250,31 +237,29 @@ static glint_status judge_directions(run *r, size_t which, glint_error *error)
         return GLINT_OK;
     }
     show(r, "directions of ", rung->rung.name);
-    glint_status status = render_directions(r, &rung->rung.settings, &layers, error);
-    if (status == GLINT_OK) {
-        rung->wrong_hits = count_wrong_hits(r, &layers);
-        rung->has_directions = true;
-        status = glint_direction_error_find(&layers, &r->reference_layers, pixel_count(r),
-                                            &rung->directions, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, render_directions(r, &rung->rung.settings, &layers, error));
+    rung->wrong_hits = count_wrong_hits(r, &layers);
+    rung->has_directions = true;
+    TRY_OR(cleanup, status,
+           glint_direction_error_find(&layers, &r->reference_layers, pixel_count(r),
+                                      &rung->directions, error));
+cleanup:
     glint_layers_free(&layers);
     return status;
 }
 
 static glint_status judge(run *r, glint_error *error)
 {
-    glint_status status = GLINT_OK;
-    for (size_t i = 0; status == GLINT_OK && i < r->ladder.count; i++) {
-        status = judge_rung(r, i, error);
+    for (size_t i = 0; i < r->ladder.count; i++) {
+        TRY(judge_rung(r, i, error));
     }
-    if (status == GLINT_OK) {
-        show(r, "directions of ", r->ladder.reference.name);
-        status = render_directions(r, &r->ladder.reference.settings, &r->reference_layers, error);
+    show(r, "directions of ", r->ladder.reference.name);
+    TRY(render_directions(r, &r->ladder.reference.settings, &r->reference_layers, error));
+    for (size_t i = 0; i < r->ladder.count; i++) {
+        TRY(judge_directions(r, i, error));
     }
-    for (size_t i = 0; status == GLINT_OK && i < r->ladder.count; i++) {
-        status = judge_directions(r, i, error);
-    }
-    return status;
+    return GLINT_OK;
 }
 
 // ---- Times -------------------------------------------------------------------------------------
@@ -300,11 +285,9 @@ static glint_status time_frame(run *r, size_t which, glint_error *error)
     const glint_rung *rung = which == REFERENCE ? &r->ladder.reference : &r->ladder.rungs[which];
     glint_renderer *renderer;
     glint_frame_report report;
-    glint_status status = provide(r, &rung->settings, &r->own[which], &renderer, error);
-    if (status == GLINT_OK) {
-        status = render(r, renderer, &r->again, &report, error);
-    }
-    return status == GLINT_OK ? keep_time(&r->times[which], report.kernel_ms, error) : status;
+    TRY(provide(r, &rung->settings, &r->own[which], &renderer, error));
+    TRY(render(r, renderer, &r->again, &report, error));
+    return keep_time(&r->times[which], report.kernel_ms, error);
 }
 
 // Whether there is another round after `done`, of which `measured` took so many milliseconds in
@@ -322,18 +305,16 @@ static glint_status time_rungs(run *r, glint_error *error)
     glint_status status = GLINT_OK;
     const double begun = glint_now_ms();
     char round[32];
-    for (size_t done = 0;
-         status == GLINT_OK && wants_more(r, done, r->ladder.count + 1, glint_now_ms() - begun);
+    for (size_t done = 0; wants_more(r, done, r->ladder.count + 1, glint_now_ms() - begun);
          done++) {
         snprintf(round, sizeof round, "%zu", done + 1);
         show(r, "measuring, round ", round);
-        for (size_t i = 0; status == GLINT_OK && i < r->ladder.count; i++) {
-            status = time_frame(r, i, error);
+        for (size_t i = 0; i < r->ladder.count; i++) {
+            TRY_OR(cleanup, status, time_frame(r, i, error));
         }
-        if (status == GLINT_OK) {
-            status = time_frame(r, REFERENCE, error);
-        }
+        TRY_OR(cleanup, status, time_frame(r, REFERENCE, error));
     }
+cleanup:
     for (size_t i = 0; i < r->ladder.count; i++) {
         r->result->rungs[i].kernel = glint_summarize(r->times[i].values, r->times[i].count);
     }
@@ -374,23 +355,47 @@ void glint_speed_error_compare(glint_rung_result *rungs, size_t count)
 
 // ---- Sampling ----------------------------------------------------------------------------------
 
-static glint_status render_samples(run *r, int axis, bool is_mip, glint_image *image, times *t,
-                                   glint_error *error)
+static glint_status render_samples(run *r, const glint_settings *settings, glint_image *image,
+                                   times *t, glint_error *error)
+{
+    glint_renderer *own = NULL, *renderer;
+    glint_frame_report report;
+    glint_status status;
+    TRY_OR(cleanup, status, provide(r, settings, &own, &renderer, error));
+    const int frames = t != NULL ? 4 : 1;
+    for (int i = 0; i < frames; i++) {
+        TRY_OR(cleanup, status, render(r, renderer, image, &report, error));
+        if (i > 0) { // the first warms up
+            TRY_OR(cleanup, status, keep_time(t, report.kernel_ms, error));
+        }
+    }
+cleanup:
+    glint_renderer_free(own);
+    return status;
+}
+
+static glint_settings with_samples(const run *r, int axis, bool is_mip)
 {
     glint_settings settings = *r->inputs->settings;
     settings.samples_per_axis = axis;
     settings.filter = is_mip ? GLINT_FILTER_MIP : GLINT_FILTER_BILINEAR;
-    glint_renderer *own = NULL, *renderer;
-    glint_frame_report report;
-    glint_status status = provide(r, &settings, &own, &renderer, error);
-    const int frames = t != NULL ? 4 : 1;
-    for (int i = 0; status == GLINT_OK && i < frames; i++) {
-        status = render(r, renderer, image, &report, error);
-        if (status == GLINT_OK && i > 0) { // the first warms up
-            status = keep_time(t, report.kernel_ms, error);
-        }
-    }
-    glint_renderer_free(own);
+    return settings;
+}
+
+// Times and judges `axis` × `axis` samples a pixel, with the filter that *row names.
+static glint_status judge_samples(run *r, int axis, const glint_image *truth,
+                                  glint_sampling_result *row, glint_error *error)
+{
+    const glint_settings settings = with_samples(r, axis, row->is_mip);
+    times t = {0};
+    row->samples = axis * axis;
+    show(r, "rendering ", row->is_mip ? "with the mip filter" : "with more samples");
+    glint_status status;
+    TRY_OR(cleanup, status, render_samples(r, &settings, &r->again, &t, error));
+    row->kernel = glint_summarize(t.values, t.count);
+    status = glint_metrics_find(&r->again, truth, NULL, &row->error, error);
+cleanup:
+    free(t.values);
     return status;
 }
 
@@ -405,24 +410,18 @@ static glint_status judge_sampling(run *r, glint_error *error)
     if (r->options->no_sampling || axis > GLINT_SAMPLES_PER_AXIS_MAX) {
         return GLINT_OK;
     }
+    const glint_settings settings = with_samples(r, axis, false);
     glint_image truth = {0};
     show(r, "rendering ", "with very many samples");
-    glint_status status = render_samples(r, axis, false, &truth, NULL, error);
     r->result->sampling_truth = axis * axis;
-    for (int i = 0; status == GLINT_OK && i < GLINT_SAMPLING_ROWS; i++) {
+    glint_status status;
+    TRY_OR(cleanup, status, render_samples(r, &settings, &truth, NULL, error));
+    for (int i = 0; i < GLINT_SAMPLING_ROWS; i++) {
         glint_sampling_result *row = &r->result->sampling[i];
-        const int k = base * rows[i].times;
-        row->samples = k * k;
         row->is_mip = rows[i].is_mip;
-        times t = {0};
-        show(r, "rendering ", row->is_mip ? "with the mip filter" : "with more samples");
-        status = render_samples(r, k, row->is_mip, &r->again, &t, error);
-        if (status == GLINT_OK) {
-            row->kernel = glint_summarize(t.values, t.count);
-            status = glint_metrics_find(&r->again, &truth, NULL, &row->error, error);
-        }
-        free(t.values);
+        TRY_OR(cleanup, status, judge_samples(r, base * rows[i].times, &truth, row, error));
     }
+cleanup:
     glint_image_free(&truth);
     return status;
 }
@@ -433,18 +432,15 @@ static glint_status measure(run *r, glint_error *error)
 {
     static glint_status (*const steps[])(run *, glint_error *) = {
         open_device, make_ladder, render_reference, judge, time_rungs, judge_sampling};
-    glint_status status = GLINT_OK;
-    for (size_t i = 0; status == GLINT_OK && i < sizeof steps / sizeof *steps; i++) {
-        status = steps[i](r, error);
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        TRY(steps[i](r, error));
     }
-    if (status == GLINT_OK) {
-        glint_speed_error_compare(r->result->rungs, r->result->count);
-    }
-    if (status == GLINT_OK && r->options->pictures) {
+    glint_speed_error_compare(r->result->rungs, r->result->count);
+    if (r->options->pictures) {
         r->result->reference_picture = r->reference;
         r->reference = (glint_image){0};
     }
-    return status;
+    return GLINT_OK;
 }
 
 glint_status glint_speed_error_measure(const glint_bench_inputs *inputs,

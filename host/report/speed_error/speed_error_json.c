@@ -14,10 +14,10 @@ static glint_status put_picture(json_t *object, const char *key, const glint_ima
         return GLINT_OK;
     }
     char *uri;
-    glint_status status = glint_data_uri_make(image, format, &uri, error);
-    if (status == GLINT_OK) {
-        glint_json_put_text(object, key, uri);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, glint_data_uri_make(image, format, &uri, error));
+    glint_json_put_text(object, key, uri);
+cleanup:
     free(uri);
     return status;
 }
@@ -80,10 +80,10 @@ static glint_status put_rung(json_t *list, const glint_speed_error_result *resul
     glint_json_put(object, "truncated_weight", glint_json_truncation(&rung->truncation));
     glint_json_put(object, "phases", phases_object(&rung->phases));
     put_plan(object, &rung->plan);
-    glint_status status = put_picture(object, "picture", &rung->picture, GLINT_DATA_JPEG, error);
-    if (status == GLINT_OK) {
-        status = put_picture(object, "heat", &rung->heat, GLINT_DATA_PNG, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, put_picture(object, "picture", &rung->picture, GLINT_DATA_JPEG, error));
+    TRY_OR(cleanup, status, put_picture(object, "heat", &rung->heat, GLINT_DATA_PNG, error));
+cleanup:
     (void)json_array_append_new(list, object);
     return status;
 }
@@ -140,10 +140,8 @@ static void put_fingerprint(json_t *object, const glint_fingerprint *fingerprint
 static glint_status put_subject(json_t *entry, const glint_subject *subject, glint_error *error)
 {
     glint_fingerprint scene_is = {0}, environment_is = {0};
-    glint_status status = glint_fingerprint_scene(subject->scene, &scene_is, error);
-    if (status == GLINT_OK) {
-        status = glint_fingerprint_environment(subject->environment, &environment_is, error);
-    }
+    TRY(glint_fingerprint_scene(subject->scene, &scene_is, error));
+    TRY(glint_fingerprint_environment(subject->environment, &environment_is, error));
     json_t *scene = glint_json_scene(subject->scene, NULL, false);
     json_t *environment = glint_json_environment(subject->environment);
     put_fingerprint(scene, &scene_is);
@@ -153,7 +151,7 @@ static glint_status put_subject(json_t *entry, const glint_subject *subject, gli
     glint_json_put(entry, "camera", glint_json_camera(subject->camera));
     glint_json_put(entry, "settings", glint_json_settings(subject->settings));
     glint_json_put(entry, "warnings", glint_json_warnings(subject->warnings));
-    return status;
+    return GLINT_OK;
 }
 
 glint_status glint_speed_error_scene_json(const glint_bench_scene *scene,
@@ -165,15 +163,15 @@ glint_status glint_speed_error_scene_json(const glint_bench_scene *scene,
     glint_json_put(*entry, "device", glint_json_device(&result->device));
     glint_json_put(*entry, "bvh", glint_json_bvh(&result->bvh));
     json_t *rungs = json_array();
-    glint_status status = put_reference(*entry, result, error);
-    for (size_t i = 0; status == GLINT_OK && i < result->count; i++) {
-        status = put_rung(rungs, result, i, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, put_reference(*entry, result, error));
     glint_json_put(*entry, "rungs", rungs);
-    glint_json_put(*entry, "sampling", sampling_object(result));
-    if (status == GLINT_OK) {
-        status = put_subject(*entry, &scene->subject, error);
+    for (size_t i = 0; i < result->count; i++) {
+        TRY_OR(cleanup, status, put_rung(rungs, result, i, error));
     }
+    glint_json_put(*entry, "sampling", sampling_object(result));
+    TRY_OR(cleanup, status, put_subject(*entry, &scene->subject, error));
+cleanup:
     if (status != GLINT_OK) {
         json_decref(*entry);
         *entry = NULL;
