@@ -3,7 +3,7 @@
 #include "embree/contest.h"
 #include "embree/report.h"
 #include "options.h"
-#include "report.h"
+#include "results.h"
 
 #include "report/json.h"
 

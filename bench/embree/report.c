@@ -1,8 +1,8 @@
 // What bench/embree says. See embree_report.h.
 #include "embree/report.h"
 
-#include "report.h"
 #include "report/json.h"
+#include "results.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 // What bench/llvmpipe says. See llvmpipe_report.h.
 #include "llvmpipe/report.h"
 
-#include "report.h"
 #include "report/json.h"
+#include "results.h"
 
 #include <stdio.h>
 

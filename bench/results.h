@@ -1,6 +1,6 @@
 // What the contests' reports share.
-#ifndef GLINT_BENCH_REPORT_H
-#define GLINT_BENCH_REPORT_H
+#ifndef GLINT_BENCH_RESULTS_H
+#define GLINT_BENCH_RESULTS_H
 
 #include "agreement.h"
 #include "series.h"

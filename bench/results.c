@@ -1,5 +1,5 @@
-// What the contests' reports share. See report.h.
-#include "report.h"
+// What the contests' reports share. See results.h.
+#include "results.h"
 
 #include "report/json.h"
 #include "report/machine.h"
