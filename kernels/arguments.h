@@ -19,13 +19,12 @@
     ARGUMENT(global const uint *, listed) /* pixels, with GLINT_PIXEL_LIST */
 
 // What render_tiles writes: pixels [height][width][4] (R, G, B premultiplied, alpha); counters;
-// layers [height][width]; terms; doubts [height][width], the weight that is in doubt (doubts.cl).
+// layers [height][width]; terms.
 #define GLINT_OUTPUT_ARGUMENTS(ARGUMENT)                                                           \
     ARGUMENT(global scalar *, pixels)                                                              \
     ARGUMENT(global uint *, counters)                                                              \
     ARGUMENT(global glint_layers_record *, layers)                                                 \
-    ARGUMENT(global float *, terms)                                                                \
-    ARGUMENT(global float *, doubts)
+    ARGUMENT(global float *, terms)
 
 // What the kernels of probes.cl read and write.
 #define GLINT_PROBE_ARGUMENTS(ARGUMENT)                                                            \

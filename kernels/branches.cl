@@ -33,9 +33,6 @@ typedef struct branch {
 #if GLINT_MIP_LEVELS
     scalar width, spread; // see cone
 #endif
-#if GLINT_DOUBTS
-    scalar drift, turn; // see doubts.cl
-#endif
     lane_int from, media;
     int pixel, met, kind;
 } branch;
@@ -100,10 +97,6 @@ static inline void save_branch(const path *ray, const pixels *pixels, lanes_int 
 #if GLINT_MIP_LEVELS
     b->width = LANE(ray->cone.width, lane);
     b->spread = LANE(ray->cone.spread, lane);
-#endif
-#if GLINT_DOUBTS
-    b->drift = LANE(ray->drift.width, lane);
-    b->turn = LANE(ray->drift.spread, lane);
 #endif
     b->from = LANE_INT(ray->from, lane);
     b->media = LANE_INT(ray->media, lane);
@@ -177,10 +170,6 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
 #if GLINT_MIP_LEVELS
         LANE(ray->cone.width, lane) = list[i].width;
         LANE(ray->cone.spread, lane) = list[i].spread;
-#endif
-#if GLINT_DOUBTS
-        LANE(ray->drift.width, lane) = list[i].drift;
-        LANE(ray->drift.spread, lane) = list[i].turn;
 #endif
         LANE_INT(ray->from, lane) = list[i].from;
         LANE_INT(ray->media, lane) = list[i].media;

@@ -35,7 +35,6 @@
     FEATURE(VERTEX_COLOR, "colours are found at vertices and interpolated")                        \
     FEATURE(VERTEX_DIRECTION, "directions are found at vertices and interpolated")                 \
     FEATURE(PIXEL_LIST, "the pixels that are rendered stand in a list")                            \
-    FEATURE(DOUBTS, "what hangs on which side of an edge single precision sees is added up")       \
     FEATURE(HITS, "a pixel holds what its ray met instead of a colour")                            \
     FEATURE(TERMS, "what pixels are the sum of is stored, to light them anew")                     \
     FEATURE(TRUNCATION_SQUARES, "how unevenly truncated light is spread over pixels is counted")   \

@@ -8,16 +8,7 @@
 // 1], slopes in ±2.5, ways of 2 and divisions off by 5 (OpenCL's 2.5 units in the last place): a
 // slope at the far end 30, the planes' slopes 30, their places 17, their offsets 17; Woop's test
 // 17, or 43 across an axis that is not the ray's largest: 140 in all.
-// What a ray misses by up to DRIFT_MOST, or by √3 times that across its largest axis, is looked at,
-// too (doubts.cl).
-#define DRIFT_MOST R(0x1p-17)
-// By how much primary rays may be off.
-#define EYE_NOISE (R(6.0) * EPSILON)
-#if GLINT_DOUBTS
-#define FRUSTUM_SLACK (R(256.0) * EPSILON + R(2.0) * DRIFT_MOST)
-#else
 #define FRUSTUM_SLACK (R(256.0) * EPSILON)
-#endif
 // A ray belongs to the frustum along an axis if its direction's component there is at least this
 // part of the largest.
 #define FRUSTUM_ALONG R(0.4)

@@ -20,18 +20,12 @@ typedef struct packet {
     lanes_int axis; // the direction's largest component: the third axis of the sheared space
     real shear_x, shear_y, shear_z;
     real inverse[3]; // 1/direction, finite
-#if GLINT_DOUBTS
-    real margin; // see margin_of_rays
-#endif
 } packet;
 
 typedef struct closest {
     real t;          // in lengths of the direction; HUGE where nothing was hit
     real b1, b2;     // barycentric weights of the second and third vertex
     lanes_int place; // of the triangle hit, −1: none
-#if GLINT_DOUBTS
-    real beside; // distance of the nearest triangle that the ray may have missed by rounding alone
-#endif
 } closest;
 
 // The far distance is widened by this much, so that rounding never loses a box that is touched
@@ -227,20 +221,6 @@ static inline mask start_off_plane(const leaf *leaf, lanes_int from, const float
     return start == (lane_int)0;
 }
 
-#if GLINT_DOUBTS
-// The distance at which rays pass a triangle by: of its plane, where that is no farther than its
-// corners, whose depths are given.
-static inline real distance_beside(const real products[3], const real depths[3], real shear_z)
-{
-    const real sum = products[0] + products[1] + products[2];
-    const real along = fused(products[0], depths[0],
-                             fused(products[1], depths[1], products[2] * depths[2]));
-    const real t = along / SELECT(sum != R(0.0), sum, real_of(1)) * shear_z;
-    const real a = depths[0] * shear_z, b = depths[1] * shear_z, c = depths[2] * shear_z;
-    return LARGER(SMALLER(t, LARGEST3(a, b, c)), SMALLEST3(a, b, c));
-}
-#endif
-
 // Tests a leaf's triangle at `place` against the rays in `active`, which start on the triangles at
 // the places `from`, and keeps the nearer hit.
 static inline bool intersect_triangle(const packet *p, int axes, const leaf *leaf, int place,
@@ -250,9 +230,6 @@ static inline bool intersect_triangle(const packet *p, int axes, const leaf *lea
     float vertices[9];
     load_triangle(leaf->cluster, place - leaf->first, vertices);
     active = active & (from != (lane_int)place);
-#if GLINT_DOUBTS
-    const real margin = p->margin * leaf->cluster[GLINT_CLUSTER_LONGEST];
-#endif
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         if (!(axes & (1 << k))) {
@@ -276,18 +253,6 @@ static inline bool intersect_triangle(const packet *p, int axes, const leaf *lea
         if (axes != 1 << k) {
             inside = inside & (p->axis == (lane_int)k);
         }
-#if GLINT_DOUBTS
-        mask beside = active & !inside & ((least >= -margin) | (most <= margin));
-        if (axes != 1 << k) {
-            beside = beside & (p->axis == (lane_int)k);
-        }
-        if (any_lane(beside)) {
-            const real depths[3] = {az, bz, cz}, products[3] = {u, v, w};
-            const real t = distance_beside(products, depths, p->shear_z);
-            beside = beside & (t > R(0.0)) & (t < hit->beside);
-            hit->beside = SELECT(beside, t, hit->beside);
-        }
-#endif
         if (!any_lane(inside)) {
             continue;
         }
@@ -326,9 +291,6 @@ typedef struct lone_ray {
     scalar origin[3];
     scalar shear_x, shear_y, shear_z;
     int axis, from; // `from` is the place of the triangle that it starts on, −1: none
-#if GLINT_DOUBTS
-    scalar margin;
-#endif
 } lone_ray;
 
 static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
@@ -343,9 +305,6 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
     ray.shear_z = LANE(p->shear_z, lane);
     ray.axis = (int)LANE_INT(p->axis, lane);
     ray.from = (int)LANE_INT(from, lane);
-#if GLINT_DOUBTS
-    ray.margin = LANE(p->margin, lane);
-#endif
     return ray;
 }
 
@@ -353,9 +312,6 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
 // rounding alone, on an edge; u, v and w as in intersect_triangle.
 typedef struct cluster_test {
     uint inside, on_edge;
-#if GLINT_DOUBTS
-    uint beside; // by so little that the ray may be inside
-#endif
     block u, v, w;
 } cluster_test;
 
@@ -380,15 +336,10 @@ static inline void test_cluster(const lone_ray *ray, const leaf *leaf, cluster_t
     block cx = permute_block(across, c), cy = permute_block(up, c);
     block u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
     block least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
-    block_mask others = (BLOCK_LANES < (scalar)count) &
+    block_mask inside = ((least >= R(0.0)) | (most <= R(0.0))) & (u + v + w != R(0.0)) &
+                        (BLOCK_LANES < (scalar)count) &
                         (BLOCK_LANES != (scalar)(ray->from - leaf->first));
-    block_mask inside =
-        ((least >= R(0.0)) | (most <= R(0.0))) & (u + v + w != R(0.0)) & others;
     test->inside = block_bits(inside);
-#if GLINT_DOUBTS
-    const block margin = block_of(ray->margin * cluster[GLINT_CLUSTER_LONGEST]);
-    test->beside = block_bits(((least >= -margin) | (most <= margin)) & !inside & others);
-#endif
     test->on_edge = block_bits(inside & ((least == R(0.0)) | (most == R(0.0))));
     test->u = u;
     test->v = v;
@@ -445,40 +396,11 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
     return true;
 }
 
-#if GLINT_DOUBTS
-// Notes what a ray missed by so little that it may have met it.
-static inline void note_beside(const lone_ray *ray, const leaf *leaf, const cluster_test *test,
-                               closest *hit, int lane)
-{
-    for (uint left = test->beside; left != 0; left &= left - 1) {
-        const int i = lowest_bit(left);
-        float at[9];
-        load_triangle(leaf->cluster, i, at);
-        const scalar o = ray->origin[ray->axis];
-        real depths[3], products[3] = {real_of(((const scalar *)&test->u)[i]),
-                                       real_of(((const scalar *)&test->v)[i]),
-                                       real_of(((const scalar *)&test->w)[i])};
-#pragma unroll
-        for (int k = 0; k < 3; k++) {
-            depths[k] = real_of(at[3 * k + ray->axis] - o);
-        }
-        const real distance = distance_beside(products, depths, real_of(ray->shear_z));
-        const scalar t = LANE(distance, 0);
-        if (t > R(0.0) && t < LANE(hit->beside, lane)) {
-            LANE(hit->beside, lane) = t;
-        }
-    }
-}
-#endif
-
 // The triangles of the cluster that the test found, against the ray's hit. True if one is nearer.
 static inline bool take_nearest(const lone_ray *ray, const leaf *leaf, const cluster_test *test,
                                 closest *hit, int lane)
 {
     bool found = false;
-#if GLINT_DOUBTS
-    note_beside(ray, leaf, test, hit, lane);
-#endif
     for (uint left = test->inside; left != 0; left &= left - 1) {
         found |= take_if_nearer(ray, leaf, test, lowest_bit(left), hit, lane);
     }

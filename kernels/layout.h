@@ -50,9 +50,7 @@
 // most 16. It is 64 32-bit values, 256 bytes aligned to 64:
 //   x[16], y[16], z[16]     floats: the vertices' positions in stored coordinates
 //   3 × 16 bytes            the triangles' first, second and third corner, each a vertex's lane
-//   count, material         ints: how many triangles there are, 1 to 16, and their material
-//   longest, curvature      floats: no edge of theirs is longer, and how fast the shading normals
-//                           of one turn at most, per unit of length, above 0 where they part
+//   count, material, 0, 0   ints: how many triangles there are, 1 to 16, and their material
 // Lanes past the last vertex repeat the first; triangles past the last have corners 0, 0, 0.
 // Clusters stand in the order of the leaves, left to right, whatever the nodes' width. A triangle's
 // place is cluster × 16 + its lane. Beside the clusters stand
@@ -64,9 +62,7 @@
 #define GLINT_CLUSTER_CORNERS 48  // where the corners begin, in values
 #define GLINT_CLUSTER_COUNT 60    // of triangles
 #define GLINT_CLUSTER_MATERIAL 61 // their common material
-#define GLINT_CLUSTER_LONGEST 62  // edge
-#define GLINT_CLUSTER_CURVATURE 63
-#define GLINT_CLUSTER_NORMALS 48 // values of normals per cluster
+#define GLINT_CLUSTER_NORMALS 48  // values of normals per cluster
 // The largest number of triangles that a place can name even if each has a cluster of its own.
 #define GLINT_TRIANGLES_MAX ((1u << 27) - 1)
 
@@ -135,7 +131,6 @@ typedef struct glint_frame_record {
     glint_split_vector proxy_center, proxy_middle, proxy_half;
     int proxy_is_sphere;
     float min_weight;  // a branch whose largest weight is below takes the environment
-    float mend;        // with GLINT_DOUBTS: what is in doubt and weighs more need not be followed
     int width, height; // pixels that are rendered: of the image's every `step`th of every
                        // `step`th row, from `first_pixel` on; all of them where step is 1. With
                        // GLINT_PIXEL_LIST [height][width] uints name them, row by row of the image

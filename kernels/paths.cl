@@ -8,9 +8,6 @@ typedef struct tally {
 #if GLINT_TRUNCATION_SQUARES
     scalar truncated[TILE_PIXELS]; // weight that the pixels' paths were cut short of
 #endif
-#if GLINT_DOUBTS
-    scalar doubts[TILE_PIXELS]; // weight of the pixels' paths that is in doubt
-#endif
 #if GLINT_DIAGNOSTICS
     layers *layers; // of the tile's pixels
 #endif
@@ -32,11 +29,6 @@ static inline tally no_tally(void)
         t.truncated[i] = 0;
     }
 #endif
-#if GLINT_DOUBTS
-    for (int i = 0; i < TILE_PIXELS; i++) {
-        t.doubts[i] = 0;
-    }
-#endif
     return t;
 }
 
@@ -51,35 +43,11 @@ static inline void count_truncated(tally *tally, const pixels *pixels, mask thes
 #endif
 }
 
-#if GLINT_DOUBTS
-// Some of the rays are in doubt from here on: counts them, and no more of them. Those for which
-// their pixels will be rendered again end here.
-static inline void doubt(const glint_frame_record *frame, const pixels *pixels, mask these,
-                         path *ray, tally *tally)
-{
-    const real weight = largest3(ray->weight), zero = real_of(0);
-    these = these & (weight > R(0.0)) & (ray->drift.width == ray->drift.width);
-    if (!any_lane(these)) {
-        return;
-    }
-    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
-        const int lane = lowest_bit(left);
-        tally->doubts[pixel_of(*pixels, lane)] += LANE(weight, lane);
-    }
-    ray->drift.width = SELECT(these, real_of((scalar)NAN), ray->drift.width);
-    const mask ends = these & (weight > frame->mend);
-    ray->weight = select3(ends, real3_of(zero, zero, zero), ray->weight);
-}
-#endif
-
 // A packet of primary rays, which pixels' samples they are, and what they meet.
 typedef struct primary {
     real x, y;        // places on the image plane
     real length;      // of the directions before they were made unit vectors
     lanes_int places; // of the triangles hit, −1: none
-#if GLINT_DOUBTS
-    mask beside; // may have missed a nearer one
-#endif
 } primary;
 
 // The directions of the primary rays through points (x, y) of the image plane, see
@@ -111,10 +79,6 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 #endif
 #if GLINT_MIP_LEVELS
     ray.cone = primary_cone(frame, inverse);
-#endif
-#if GLINT_DOUBTS
-    ray.drift.width = real_of(EYE_NOISE);
-    ray.drift.spread = real_of(TURN_NOISE);
 #endif
     ray.from = int_of(-1);
     ray.met = int_of(0);
@@ -190,10 +154,6 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
 #if GLINT_MIP_LEVELS
     ray->cone.width = SELECT(yes, branch->cone.width, ray->cone.width);
     ray->cone.spread = SELECT(yes, branch->cone.spread, ray->cone.spread);
-#endif
-#if GLINT_DOUBTS
-    ray->drift.width = SELECT(yes, branch->drift.width, ray->drift.width);
-    ray->drift.spread = SELECT(yes, branch->drift.spread, ray->drift.spread);
 #endif
     ray->from = SELECT(yes, branch->from, ray->from);
     ray->met = SELECT(yes, branch->met, ray->met);
@@ -341,23 +301,11 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     const real spread = ray->cone.spread;
 #endif
 
-#if GLINT_DOUBTS
-    const real off = drift_of_hits(&ray->drift, hit->t);
-    const mask doubtful = met & are_in_doubt(triangles, hit, ray, off);
-    doubt(frame, &all->pixels[slot], doubtful, ray, tally);
-    const drifting drifting =
-        drift_at_surface(ray, triangles, &s, SELECT(doubtful, ray->drift.width, off));
-#endif
     path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
     reflected.weight = multiply(ray->weight, out.reflected_weight);
     reflected.media = out.media_reflected;
 #if GLINT_MIP_LEVELS
     reflected.cone = leave_surface(width, spread, real_of(1), real_of(2), s.curvature);
-#endif
-#if GLINT_DOUBTS
-    reflected.drift = drift_of_reflected(&drifting, &s);
-    doubt(frame, &all->pixels[slot], met & (fabs(reflected.drift.spread) > TURN_MOST), &reflected,
-          tally);
 #endif
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
@@ -369,11 +317,6 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     transmitted.media = out.media_transmitted;
 #if GLINT_MIP_LEVELS
     transmitted.cone = leave_surface(width, spread, out.eta, out.bend, s.curvature);
-#endif
-#if GLINT_DOUBTS
-    transmitted.drift = drift_of_transmitted(&drifting, &s, out.eta, out.bend);
-    doubt(frame, &all->pixels[slot], met & (fabs(transmitted.drift.spread) > TURN_MOST),
-          &transmitted, tally);
 #endif
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
     end_branch(frame, &transmitted, transmits, &all->pixels[slot], tally);
@@ -443,9 +386,6 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     mask active = all->active[slot];
     mask met = active & (hit->place >= (lane_int)0);
     mask escaped = active & !met;
-#if GLINT_DOUBTS
-    doubt(frame, &all->pixels[slot], escaped & (hit->beside < HUGE), &all->ray[slot], tally);
-#endif
     if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
         const path *ray = &all->ray[slot];
         const real3 direction = turn_into_environment(frame, environment_seen(frame, ray, first));
@@ -486,9 +426,6 @@ static inline void follow_paths(const scene_buffers *scene, const glint_frame_re
     for (int i = 0; i < PATH_GROUPS; i++) {
         hits[SLOT(i)] = no_hit();
         hits[SLOT(i)].place = first[SLOT(i)].places;
-#if GLINT_DOUBTS
-        hits[SLOT(i)].beside = SELECT(first[SLOT(i)].beside, real_of(0), real_of(HUGE));
-#endif
     }
 #if GLINT_SPLIT
     no_branches(&all->branches);

@@ -63,9 +63,6 @@ static inline void probe_rays(global const scalar *in, size_t first, path *rays,
 #if GLINT_MIP_LEVELS
         ray->cone.width = ray->cone.spread = real_of(0);
 #endif
-#if GLINT_DOUBTS
-        ray->drift.width = ray->drift.spread = real_of(0);
-#endif
         active[SLOT(g)] = mask_all();
     }
 }

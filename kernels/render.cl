@@ -56,7 +56,6 @@
 #include "light.cl"
 #include "cones.cl"
 #include "shade.cl"
-#include "doubts.cl"
 #include "scatter.cl"
 #include "branches.cl"
 #include "lookups.cl"
@@ -148,9 +147,6 @@ static inline primary primary_of(const tile *t, int group)
     first.x = t->x[group % TILE_COLUMNS];
     first.y = t->y[group / TILE_COLUMNS];
     first.places = t->place[group];
-#if GLINT_DOUBTS
-    first.beside = t->beside[group] > t->key[group];
-#endif
     return first;
 }
 
@@ -300,27 +296,6 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #endif
 }
 
-#if GLINT_DOUBTS
-// Writes those of the tile's pixels that lie inside the image: their samples' mean.
-static inline void store_doubts(const tally *tally, const glint_frame_record *frame, int column,
-                                int row, global float *stored)
-{
-    const int k = SAMPLES_PER_AXIS(frame);
-    const scalar share = R(1.0) / (scalar)(k * k);
-    for (int g = 0; g < TILE_GROUPS; g++) {
-        const int x0 = column + g % TILE_COLUMNS * PACKET_WIDTH;
-        const int y0 = row + g / TILE_COLUMNS * PACKET_HEIGHT;
-        for (int i = 0; i < GLINT_WIDTH; i++) {
-            const int x = x0 + i % PACKET_WIDTH, y = y0 + i / PACKET_WIDTH;
-            if (x < frame->width && y < frame->height) {
-                stored[pixel_number(frame, x, y)] =
-                    (float)(tally->doubts[g * GLINT_WIDTH + i] * share);
-            }
-        }
-    }
-}
-#endif
-
 typedef struct outputs {
     GLINT_OUTPUT_ARGUMENTS(MEMBER)
 } outputs;
@@ -350,9 +325,6 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
 #endif
 #if GLINT_TERMS
     store_terms(&terms);
-#endif
-#if GLINT_DOUBTS
-    store_doubts(&tally, frame, column, row, out->doubts);
 #endif
     const int k = SAMPLES_PER_AXIS(frame);
     scalar share = R(1.0) / (scalar)(k * k);
@@ -384,6 +356,6 @@ kernel void render_tiles(GLINT_SCENE_ARGUMENTS(PARAMETER) GLINT_OUTPUT_ARGUMENTS
     if (column >= frame.width || row >= frame.height) {
         return;
     }
-    const outputs out = {pixels, counters, layers, terms, doubts};
+    const outputs out = {pixels, counters, layers, terms};
     render_tile(&scene, &frame, column, row, &out);
 }

@@ -8,7 +8,7 @@ typedef struct scattering {
     real3 transmitted, transmitted_weight;
     lanes_int media_transmitted; // the stack of media beyond the surface
     mask total_reflection;
-#if GLINT_MIP_LEVELS || GLINT_DOUBTS
+#if GLINT_MIP_LEVELS
     real eta, bend; // of the transmitted ray, see leave_surface
 #endif
 #endif
@@ -112,7 +112,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     bend = SELECT(thin, real_of(0), bend);
     eta = SELECT(thin, real_of(1), eta);
 #endif
-#if GLINT_MIP_LEVELS || GLINT_DOUBTS
+#if GLINT_MIP_LEVELS
     result.eta = eta;
     result.bend = bend;
 #endif

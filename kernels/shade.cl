@@ -3,14 +3,6 @@
 
 #define ESCAPES 2
 
-#if GLINT_DOUBTS
-// How far a ray may be off, see doubts.cl; the width is NaN where that counts no more.
-typedef struct drift {
-    real width;  // across, stored units
-    real spread; // what is added to the width per unit of length
-} drift;
-#endif
-
 // A path on its way: a ray, its weight and what it has passed.
 typedef struct path {
     real3 origin, direction; // the direction is a unit vector
@@ -20,9 +12,6 @@ typedef struct path {
 #endif
 #if GLINT_MIP_LEVELS
     cone cone;
-#endif
-#if GLINT_DOUBTS
-    drift drift; // how far it may be off, see doubts.cl
 #endif
     lanes_int from;      // place of the triangle that the ray starts on, −1: none
     lanes_int met;       // surfaces met so far
@@ -59,10 +48,6 @@ typedef struct triangle {
 #endif
 #if GLINT_MANY_MATERIALS
     lanes_int material;
-#endif
-#if GLINT_DOUBTS
-    real longest;   // edge of their clusters' triangles
-    real curvature; // of their clusters, seen from outside: more than 0 where they are convex
 #endif
 #if GLINT_HITS
     real number; // in the scene
@@ -127,9 +112,6 @@ static inline triangle load_triangles(const scene_buffers *scene, lanes_int plac
 #if GLINT_MANY_MATERIALS
     t.material = int_of(0);
 #endif
-#if GLINT_DOUBTS
-    t.longest = t.curvature = real_of(0);
-#endif
 #if GLINT_HITS
     t.number = real_of(-1);
 #endif
@@ -145,10 +127,6 @@ static inline triangle load_triangles(const scene_buffers *scene, lanes_int plac
 #if GLINT_MANY_MATERIALS
         const int material = ((global const int *)values)[GLINT_CLUSTER_MATERIAL];
         t.material = SELECT(here, int_of(material), t.material);
-#endif
-#if GLINT_DOUBTS
-        t.longest = SELECT(here, real_of(values[GLINT_CLUSTER_LONGEST]), t.longest);
-        t.curvature = SELECT(here, real_of(values[GLINT_CLUSTER_CURVATURE]), t.curvature);
 #endif
 #if GLINT_HITS
         global const int *numbers = scene->numbers + cluster * GLINT_CLUSTER_LANES;

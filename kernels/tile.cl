@@ -20,9 +20,6 @@ typedef struct image_space {
     scalar key_one, key_depth, key_normal; // see image_key
     scalar key_limit;                      // of the depth 0, where the rays start
     scalar slack;                          // what rounding may move a box's corner by
-#if GLINT_DOUBTS
-    scalar drift[2]; // by how much x and y may be off, see doubts.cl
-#endif
     scalar near_offset, far_offset; // what to add to z·corner for a depth, see tile_meets_boxes
     scalar end; // deeper than the scene goes; children that are not there lie beyond
 } image_space;
@@ -40,9 +37,6 @@ typedef struct tile {
     scalar planes[4][3], plane_offsets[4]; // inside is ≥ 0
     real key[TILE_GROUPS];                 // of the nearest hit; see image_key
     lanes_int place[TILE_GROUPS];          // of the triangle hit, −1: none
-#if GLINT_DOUBTS
-    real beside[TILE_GROUPS]; // key of the nearest triangle that may have been missed
-#endif
     block farthest;                        // the least key of each group
     scalar least;                          // and of the tile
     scalar z_far;                          // no hit of the tile lies deeper
@@ -67,13 +61,6 @@ static inline image_space make_image_space(const glint_frame_record *frame)
     const scalar *o = s.origin, *z = s.rows[2];
     scalar distance = fabs(o[0]) + fabs(o[1]) + fabs(o[2]);
     s.slack = (distance + SCENE_REACH) * (R(64.0) * EPSILON);
-#if GLINT_DOUBTS
-#pragma unroll
-    for (int i = 0; i < 2; i++) {
-        const scalar *row = s.rows[i];
-        s.drift[i] = EYE_NOISE * sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-    }
-#endif
     scalar start = z[0] * o[0] + z[1] * o[1] + z[2] * o[2];
     scalar slack = s.slack * (fabs(z[0]) + fabs(z[1]) + fabs(z[2]));
     s.near_offset = -start - slack;
@@ -186,9 +173,6 @@ static inline void clear_tile(const image_space *s, const glint_frame_record *fr
     for (int g = 0; g < TILE_GROUPS; g++) {
         t->key[g] = real_of(nothing);
         t->place[g] = int_of(-1);
-#if GLINT_DOUBTS
-        t->beside[g] = real_of(nothing);
-#endif
     }
     const bool cut = column + TILE_COLUMNS * PACKET_WIDTH > frame->width ||
                      row + TILE_ROWS * PACKET_HEIGHT > frame->height;

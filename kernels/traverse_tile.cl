@@ -11,9 +11,6 @@
 typedef struct image_triangles {
     block edges[3][3]; // ≥ 0 inside
     block uncertain;   // edges closer to 0 than this may have the wrong sign
-#if GLINT_DOUBTS
-    block margin; // by which triangles are larger, see doubts.cl
-#endif
     block key[3];
     block key_largest; // at the vertices
     block_mask groups; // those that the triangle's bounds reach, as bits
@@ -102,8 +99,7 @@ static inline void key_function(const image_space *s, block corners[3][4], block
 }
 
 // How large the triangles' edges and places are in the tile: what rounding errors grow with.
-static inline block rounding_bound(const image_space *s, const tile *t, block corners[3][4],
-                                   block *largest_h)
+static inline block rounding_bound(const tile *t, block corners[3][4], block *largest_h)
 {
     block place_x = 0, place_y = 0, edge_x = 0, edge_y = 0;
     *largest_h = 0;
@@ -121,18 +117,13 @@ static inline block rounding_bound(const image_space *s, const tile *t, block co
         edge_x = LARGER(dx, edge_x);
         edge_y = LARGER(dy, edge_y);
     }
-#if GLINT_DOUBTS
-    place_x += s->drift[0] * (R(0.0625) / EPSILON);
-    place_y += s->drift[1] * (R(0.0625) / EPSILON);
-#endif
     return (place_x * edge_y + place_y * edge_x) * (R(32.0) * EPSILON);
 }
 
 // The groups that the bounds of triangles reach, as bits. A triangle that a pixel sees has corners,
-// as they are stored, on both sides of it or on it (covers): beyond their quotients'
+// as they are stored, on both sides of it or on it (covers_exactly): beyond their quotients'
 // rounding nothing is lost. One with a corner that is not in front of the eye may reach all.
-static inline block_mask groups_in_bounds(const image_space *s, const tile *t,
-                                          const block places[2], block in_front,
+static inline block_mask groups_in_bounds(const tile *t, const block places[2], block in_front,
                                           const uchar16 corners[3])
 {
     block low[2], high[2];
@@ -145,11 +136,6 @@ static inline block_mask groups_in_bounds(const image_space *s, const tile *t,
         high[i] = LARGEST3(a, b, c);
         low[i] -= (fabs(low[i]) + largest) * slack;
         high[i] += (fabs(high[i]) + largest) * slack;
-#if GLINT_DOUBTS
-        const block off = s->drift[i] / in_front;
-        low[i] -= off;
-        high[i] += off;
-#endif
     }
     block_mask columns = 0, groups = 0;
 #pragma unroll
@@ -193,17 +179,14 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
     if (TILE_GROUPS > 1) {
         const block places[2] = {vertices[0] * inverse, vertices[1] * inverse};
         block least_h = SMALLEST3(corners[0][3], corners[1][3], corners[2][3]);
-        out->groups = groups_in_bounds(s, t, places, least_h, lanes);
+        out->groups = groups_in_bounds(t, places, least_h, lanes);
         if (block_bits((out->groups != 0) & (out->key_largest >= t->least)) == 0) {
             return 0;
         }
     }
     block side, largest_h;
     key_function(s, corners, out->key, &side);
-    block bound = rounding_bound(s, t, corners, &largest_h);
-#if GLINT_DOUBTS
-    out->margin = R(0.5) * bound;
-#endif
+    block bound = rounding_bound(t, corners, &largest_h);
     // A triangle seen (nearly) edge-on may wind either way: nothing is certain about it.
     block_mask edge_on = !(fabs(side) > R(2.0) * largest_h * bound);
     out->uncertain = SELECT(edge_on, block_of(HUGE), bound);
@@ -297,10 +280,9 @@ static inline void image_weights(const image_corners *c, real x, real y, mask se
     refine_weights(across, up, seen, weights);
 }
 
-// The slow way, for pixels where an edge's function is too close to 0. `margin` is what products
-// may be beyond 0, and `drift` corners: 0 but with DOUBTS.
-static inline mask covers(const block vertices[4], global const float *cluster, int i, real x,
-                          real y, scalar margin, const scalar drift[2])
+// The slow way, for pixels where an edge's function is too close to 0.
+static inline mask covers_exactly(const block vertices[4], global const float *cluster, int i,
+                                  real x, real y)
 {
     global const uchar *indices = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
     image_corners c;
@@ -316,12 +298,11 @@ static inline mask covers(const block vertices[4], global const float *cluster, 
     corners_about_ray(&c, x, y, cx, cy);
     weigh_corners(cx, cy, weights);
     const real u = weights[0], v = weights[1], w = weights[2];
-    mask inside = ((u >= -margin) & (v >= -margin) & (w >= -margin)) |
-                  ((u <= margin) & (v <= margin) & (w <= margin));
-    return inside & (u + v + w != R(0.0)) & (SMALLEST3(cx[0], cx[1], cx[2]) <= drift[0]) &
-           (LARGEST3(cx[0], cx[1], cx[2]) >= -drift[0]) &
-           (SMALLEST3(cy[0], cy[1], cy[2]) <= drift[1]) &
-           (LARGEST3(cy[0], cy[1], cy[2]) >= -drift[1]);
+    mask inside = ((u >= R(0.0)) & (v >= R(0.0)) & (w >= R(0.0))) |
+                  ((u <= R(0.0)) & (v <= R(0.0)) & (w <= R(0.0)));
+    return inside & (u + v + w != R(0.0)) & (SMALLEST3(cx[0], cx[1], cx[2]) <= R(0.0)) &
+           (LARGEST3(cx[0], cx[1], cx[2]) >= R(0.0)) & (SMALLEST3(cy[0], cy[1], cy[2]) <= R(0.0)) &
+           (LARGEST3(cy[0], cy[1], cy[2]) >= R(0.0));
 }
 
 // Tests triangle i of a cluster against the pixels of one group; true if any sees it.
@@ -350,15 +331,7 @@ static inline bool meet_group(const image_space *s, tile *t, const image_triangl
         seen &= key <= s->key_limit; // what lies behind the start is not seen
     }
     if (any_lane(seen & (least <= uncertain))) {
-        const scalar none[2] = {0, 0};
-        const mask covered = (least > uncertain) | covers(vertices, cluster, i, x, y, 0, none);
-#if GLINT_DOUBTS
-        const scalar margin = ((const scalar *)&triangles->margin)[i];
-        const mask beside =
-            seen & !covered & covers(vertices, cluster, i, x, y, margin, s->drift);
-        t->beside[g] = SELECT(beside & (key > t->beside[g]), key, t->beside[g]);
-#endif
-        seen &= covered;
+        seen &= (least > uncertain) | covers_exactly(vertices, cluster, i, x, y);
     }
     int place = cluster_index * GLINT_CLUSTER_LANES + i;
     mask tied = seen & (key == t->key[g]);

@@ -31,9 +31,6 @@ static inline closest no_hit(void)
     hit.b1 = real_of(0);
     hit.b2 = real_of(0);
     hit.place = int_of(-1);
-#if GLINT_DOUBTS
-    hit.beside = real_of(HUGE);
-#endif
     return hit;
 }
 
@@ -266,9 +263,6 @@ static inline void trace_groups(const scene_buffers *scene, const path *rays, co
             active[g] & (ray->looked_up == (lane_int)0) & is_sound(ray->origin, ray->direction);
         if (any_lane(c.left[g])) {
             c.packets[g] = make_packet(ray->origin, ray->direction);
-#if GLINT_DOUBTS
-            c.packets[g].margin = margin_of_rays(&ray->drift);
-#endif
         }
     }
     while (any_active(c.left)) {

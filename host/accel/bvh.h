@@ -13,8 +13,7 @@
 typedef struct glint_cluster {
     float positions[3][GLINT_CLUSTER_LANES]; // x, y, z of each vertex
     uint8_t corners[3][GLINT_CLUSTER_LANES]; // first, second, third corner of each triangle
-    int32_t count, material;
-    float longest, curvature;
+    int32_t count, material, unused[2];
 } glint_cluster;
 
 // What was built, for `info` and statistics.

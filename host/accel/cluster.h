@@ -22,10 +22,6 @@ static inline float glint_cluster_cost(glint_box box, float scale, float cluster
     return (glint_box_area(box, scale) + 0x1p-20f) * clusters;
 }
 
-// Sets the cluster's `longest` and `curvature` by its other members and the normals of its vertices
-// [3][GLINT_CLUSTER_LANES]; NULL: flat.
-void glint_cluster_measure(glint_cluster *cluster, const float *normals);
-
 // Fills cluster `index` of the tree's arrays.
 void glint_cluster_fill(const glint_bvh_inputs *in, const glint_leaf *leaf, const glint_bvh *bvh,
                         size_t index);

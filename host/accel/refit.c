@@ -3,7 +3,6 @@
 #include "accel/bvh.h"
 
 #include "accel/box.h"
-#include "accel/cluster.h"
 #include "accel/wide_box.h"
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -99,8 +98,6 @@ static void refit_some(size_t task, void *context)
             atomic_store(&r->has_torn, true);
             return;
         }
-        glint_cluster_measure(
-            cluster, bvh->normals != NULL ? bvh->normals + i * GLINT_CLUSTER_NORMALS : NULL);
         r->boxes[i] = cluster_box(cluster);
     }
 }

@@ -10,64 +10,95 @@
 #define TILE 16 // pixels of a tile are listed after each other
 #define BLOCK 4
 
-// A frame whose pixels are marked. Pointers are borrowed.
-typedef struct marked_frame {
-    const glint_image *image;
-    const float *doubts; // of each pixel, how much of its light is in doubt
-    float limit;
-} marked_frame;
-
-// Whether more than `limit` of a pixel's light is in doubt, or it is not finite.
-static bool is_marked(const marked_frame *f, size_t pixel)
+static double mean_of(const glint_image *image)
 {
-    const float *p = f->image->pixels + 4 * pixel;
-    return !(f->doubts[pixel] <= f->limit) || !isfinite(p[0] + p[1] + p[2]);
+    double sum = 0, count = 0;
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < pixels; i++) {
+        const float *p = image->pixels + 4 * i;
+        const double light = ((double)p[0] + (double)p[1] + (double)p[2]) / 3;
+        if (isfinite(light)) {
+            sum += light;
+            count++;
+        }
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+// Three times the mean square; infinite or NaN where one is not finite.
+static float square_difference(const float *a, const float *b)
+{
+    const float r = a[0] - b[0], g = a[1] - b[1], blue = a[2] - b[2];
+    return r * r + g * g + blue * blue;
+}
+
+// Marks both of two neighbours that differ by more than `limit`; of each pixel those are looked at
+// that come after it. Returns how many pixels are marked.
+static size_t mark(const glint_image *image, double limit, uint8_t *marks)
+{
+    const ptrdiff_t width = image->width;
+    const float square = (float)(3 * limit * limit);
+    size_t count = 0;
+    for (ptrdiff_t y = 0; y < image->height; y++) {
+        for (ptrdiff_t x = 0; x < width; x++) {
+            const ptrdiff_t i = y * width + x;
+            const bool is_there[] = {x + 1 < width, y + 1 < image->height};
+            const ptrdiff_t steps[] = {1, width};
+            const float *pixel = image->pixels + 4 * i;
+            for (int k = 0; k < 2; k++) {
+                if (is_there[k] && !(square_difference(pixel, pixel + 4 * steps[k]) <= square)) {
+                    marks[i] = marks[i + steps[k]] = 1;
+                }
+            }
+            count += marks[i]; // no later pixel marks this one
+        }
+    }
+    return count;
 }
 
 // Block by block.
-static void list_tile(const marked_frame *f, int left, int top, glint_pixel_list *list)
+static void list_tile(const glint_image *image, const uint8_t *marks, int left, int top,
+                      glint_pixel_list *list)
 {
-    const int width = f->image->width;
+    const int width = image->width;
     for (int k = 0; k < TILE * TILE; k++) {
         const int block = k / (BLOCK * BLOCK), i = k % (BLOCK * BLOCK);
         const int x = left + block % (TILE / BLOCK) * BLOCK + i % BLOCK;
         const int y = top + block / (TILE / BLOCK) * BLOCK + i / BLOCK;
-        if (x < width && y < f->image->height && is_marked(f, glint_pixel_number(width, x, y))) {
+        if (x < width && y < image->height && marks[glint_pixel_number(width, x, y)] != 0) {
             glint_pixel_list_add(list, glint_pixel_number(width, x, y));
         }
     }
 }
 
-static glint_status list_marked(const marked_frame *f, glint_pixel_list *list, glint_error *error)
+static void list_marked(const glint_image *image, const uint8_t *marks, glint_pixel_list *list)
 {
-    const glint_image *image = f->image;
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    size_t count = 0;
-    for (size_t i = 0; i < pixels; i++) {
-        count += is_marked(f, i);
-    }
-    TRY(glint_pixel_list_create(count, list, error));
     for (int top = 0; top < image->height; top += TILE) {
         for (int left = 0; left < image->width; left += TILE) {
-            list_tile(f, left, top, list);
+            list_tile(image, marks, left, top, list);
         }
     }
     glint_pixel_list_fill(list);
-    return GLINT_OK;
 }
 
-static glint_status find_pixels(const glint_renderer *r, const glint_image *image,
-                                glint_pixel_list *list, glint_error *error)
+static glint_status find_pixels(const glint_image *image, double mend, glint_pixel_list *list,
+                                glint_error *error)
 {
-    if ((uint64_t)image->width * (uint64_t)image->height > GLINT_PIXEL_NUMBERS) {
+    const uint64_t pixels = (uint64_t)image->width * (uint64_t)image->height;
+    if (pixels > GLINT_PIXEL_NUMBERS) {
         return glint_fail(error, GLINT_USAGE, "--mend: %dx%d is too large", image->width,
                           image->height);
     }
-    float *doubts;
-    TRY(glint_target_doubts(&r->target, &r->settings, &doubts, error));
-    const marked_frame f = {image, doubts, (float)r->settings.mend};
-    const glint_status status = list_marked(&f, list, error);
-    free(doubts);
+    uint8_t *marks = calloc(pixels, 1);
+    if (marks == NULL) {
+        return glint_fail_memory(error, "the pixels to be mended");
+    }
+    const size_t count = mark(image, mend * fabs(mean_of(image)), marks);
+    const glint_status status = glint_pixel_list_create(count, list, error);
+    if (status == GLINT_OK) {
+        list_marked(image, marks, list);
+    }
+    free(marks);
     return status;
 }
 
@@ -129,7 +160,8 @@ static glint_status render_again(const glint_frame_request *request, const glint
 glint_status glint_mend(const glint_frame_request *request, glint_error *error)
 {
     glint_pixel_list list = {0};
-    glint_status status = find_pixels(request->renderer, request->image, &list, error);
+    glint_status status =
+        find_pixels(request->image, request->renderer->settings.mend, &list, error);
     if (status == GLINT_OK && list.count > 0) {
         status = render_again(request, &list, error);
     }

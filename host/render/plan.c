@@ -217,9 +217,6 @@ static void decide_extras(const glint_settings *settings, glint_plan *plan)
     }
     decide(plan, GLINT_FEATURE_PIXEL_LIST, settings->list != NULL, "%s",
            settings->list != NULL ? "a list was given" : "all pixels, or a grid of them");
-    const bool doubts = settings->mend > 0 && plan->features[GLINT_FEATURE_GEOMETRY].compiled;
-    decide(plan, GLINT_FEATURE_DOUBTS, doubts, "%s",
-           doubts ? "what is in doubt is to be mended" : "nothing is to be mended");
     decide(plan, GLINT_FEATURE_TRUNCATION_SQUARES, settings->truncation_squares, "%s",
            settings->truncation_squares ? "errors are to be bounded" : "no error is to be bounded");
     decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
@@ -419,11 +416,11 @@ static void compile_everything(glint_plan *plan)
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         bool stays = i == GLINT_FEATURE_TRANSPARENT || i == GLINT_FEATURE_FRESNEL ||
                      i == GLINT_FEATURE_HITS || i == GLINT_FEATURE_PROXY ||
-                     i == GLINT_FEATURE_PIXEL_LIST || i == GLINT_FEATURE_DOUBTS ||
-                     i == GLINT_FEATURE_MIP_LEVELS || i == GLINT_FEATURE_IRRADIANCE_HARMONICS ||
-                     i == GLINT_FEATURE_SMOOTH_NORMALS || i == GLINT_FEATURE_DIAGNOSTICS ||
-                     i == GLINT_FEATURE_TERMS || i == GLINT_FEATURE_VERTEX_COLOR ||
-                     i == GLINT_FEATURE_VERTEX_DIRECTION || i == GLINT_FEATURE_CONVEX_SOLID ||
+                     i == GLINT_FEATURE_PIXEL_LIST || i == GLINT_FEATURE_MIP_LEVELS ||
+                     i == GLINT_FEATURE_IRRADIANCE_HARMONICS || i == GLINT_FEATURE_SMOOTH_NORMALS ||
+                     i == GLINT_FEATURE_DIAGNOSTICS || i == GLINT_FEATURE_TERMS ||
+                     i == GLINT_FEATURE_VERTEX_COLOR || i == GLINT_FEATURE_VERTEX_DIRECTION ||
+                     i == GLINT_FEATURE_CONVEX_SOLID ||
                      (i == GLINT_FEATURE_INTERREFLECTION && plan->depth == 1);
         if (stays || plan->features[i].compiled ||
             !plan->features[GLINT_FEATURE_GEOMETRY].compiled) {

@@ -29,7 +29,6 @@ glint_status glint_target_measure(const glint_settings *settings, size_t scalar_
         [GLINT_TARGET_LAYERS] = {"the layers",
                                  settings->aovs != 0 ? sizeof(glint_layers_record) : 0, NULL},
         [GLINT_TARGET_TERMS] = {"the directions", terms * GLINT_TERM_VALUES * sizeof(float), NULL},
-        [GLINT_TARGET_DOUBTS] = {"the doubts", settings->mend > 0 ? sizeof(float) : 0, NULL},
         [GLINT_TARGET_LIST] = {"the list of pixels",
                                settings->list != NULL ? sizeof *settings->list : 0, settings->list},
     };
@@ -52,7 +51,7 @@ size_t glint_target_frame_bytes(const glint_settings *settings, size_t scalar_by
         return 0;
     }
     return contents[GLINT_TARGET_PIXELS].bytes + contents[GLINT_TARGET_LAYERS].bytes +
-           contents[GLINT_TARGET_TERMS].bytes + contents[GLINT_TARGET_DOUBTS].bytes;
+           contents[GLINT_TARGET_TERMS].bytes;
 }
 
 glint_status glint_target_fit(glint_target *target, const glint_settings *settings,
@@ -78,8 +77,7 @@ glint_output_arguments glint_target_arguments(const glint_target *target)
     return (glint_output_arguments){.pixels = target->buffers[GLINT_TARGET_PIXELS],
                                     .counters = target->buffers[GLINT_TARGET_COUNTERS],
                                     .layers = target->buffers[GLINT_TARGET_LAYERS],
-                                    .terms = target->buffers[GLINT_TARGET_TERMS],
-                                    .doubts = target->buffers[GLINT_TARGET_DOUBTS]};
+                                    .terms = target->buffers[GLINT_TARGET_TERMS]};
 }
 
 glint_status glint_target_clear_counters(const glint_target *target, glint_error *error)
@@ -147,15 +145,6 @@ cleanup:
         glint_layers_free(layers);
     }
     return status;
-}
-
-glint_status glint_target_doubts(const glint_target *target, const glint_settings *settings,
-                                 float **doubts, glint_error *error)
-{
-    void *copy;
-    TRY(read_part(target, GLINT_TARGET_DOUBTS, settings, &copy, error));
-    *doubts = copy;
-    return GLINT_OK;
 }
 
 void glint_target_free(glint_target *target)

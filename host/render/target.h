@@ -18,7 +18,6 @@ typedef enum glint_target_part {
     GLINT_TARGET_COUNTERS,
     GLINT_TARGET_LAYERS,
     GLINT_TARGET_TERMS,
-    GLINT_TARGET_DOUBTS,
     GLINT_TARGET_LIST, // what is read: which pixels are rendered
     GLINT_TARGET_PARTS
 } glint_target_part;
@@ -57,10 +56,6 @@ glint_status glint_target_read_counters(const glint_target *target,
 // *layers is empty.
 glint_status glint_target_layers(const glint_target *target, const glint_settings *settings,
                                  glint_layers *layers, glint_error *error);
-
-// The doubts of the last frame, one for each pixel; the caller frees them.
-glint_status glint_target_doubts(const glint_target *target, const glint_settings *settings,
-                                 float **doubts, glint_error *error);
 
 void glint_target_free(glint_target *target);
 

@@ -97,9 +97,6 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
     split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
     record->min_weight = (float)settings->min_weight;
-    // Of a sample, where doubts are a pixel's.
-    record->mend =
-        (float)(settings->mend * settings->samples_per_axis * settings->samples_per_axis);
     int pixels[2];
     glint_settings_pixels(settings, pixels);
     record->width = pixels[0];

@@ -170,6 +170,7 @@ static void check_cluster(test_walk *w, size_t index, const float low[3], const 
     const float *normals = w->bvh->normals + index * GLINT_CLUSTER_NORMALS;
     const int32_t *numbers = w->bvh->numbers + index * GLINT_CLUSTER_LANES;
     assert_in_range(cluster->count, 1, GLINT_CLUSTER_LANES);
+    assert_true(cluster->unused[0] == 0 && cluster->unused[1] == 0);
     for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {
         if (lane >= cluster->count) {
             assert_int_equal(numbers[lane], -1);
