@@ -4,6 +4,7 @@
 #include "support/scratch.h"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -217,6 +218,39 @@ static void a_signal_leaves_no_temporary(void **state)
     }
 }
 
+static void *write_without_end(void *name)
+{
+    for (;;) {
+        glint_output_file_write(name, "x", 1, NULL);
+    }
+    return NULL;
+}
+
+// The signal comes to one thread while others are creating temporaries.
+static void a_signal_to_another_thread_leaves_no_temporary(void **state)
+{
+    (void)state;
+    enum { WRITERS = 4, ROUNDS = 60 };
+    for (int round = 0; round < ROUNDS; round++) {
+        static const char *const names[WRITERS] = {"0.exr", "1.exr", "2.exr", "3.exr"};
+        pid_t child = fork();
+        if (child == 0) {
+            for (int k = 0; k < WRITERS; k++) {
+                pthread_t thread;
+                pthread_create(&thread, NULL, write_without_end, (void *)scratch_path(names[k]));
+            }
+            usleep((useconds_t)(1000 + round * 50));
+            stop(SIGTERM);
+        }
+        waitpid(child, NULL, 0);
+        int whole = 0;
+        for (int k = 0; k < WRITERS; k++) {
+            whole += access(scratch_path(names[k]), F_OK) == 0;
+        }
+        assert_int_equal(scratch_count(), whole);
+    }
+}
+
 static void long_names_find_a_temporary(void **state)
 {
     (void)state;
@@ -240,6 +274,7 @@ int main(void)
         IN_FOLDER(a_write_that_fails_leaves_nothing_and_keeps_what_was),
         IN_FOLDER(images_that_do_not_fit_on_the_disk_leave_nothing),
         IN_FOLDER(a_signal_leaves_no_temporary),
+        IN_FOLDER(a_signal_to_another_thread_leaves_no_temporary),
         IN_FOLDER(long_names_find_a_temporary),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -50,6 +51,9 @@ static bool send_all(int pipe, const void *from, size_t size)
 _Noreturn static void be_child(const glint_child *child, int pipe)
 {
     own_pipe = pipe;
+    if (child->is_expendable) { // it ends with its parent, whatever signals it blocks
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+    }
     char *text = NULL;
     glint_error error = {0};
     answer reply = {.status = child->work(child->context, &text, &error)};

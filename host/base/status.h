@@ -16,7 +16,8 @@ typedef enum glint_status {
     GLINT_OK = 0,
     GLINT_USAGE = 2,         // the command line makes no sense
     GLINT_BAD_INPUT = 3,     // a scene, environment or image that cannot be used
-    GLINT_DEVICE_FAILED = 4, // no device, too little memory on it, or the driver reported an error
+    GLINT_DEVICE_FAILED = 4, // no device, too little memory on it, or the driver reported an error;
+                             // no cluster, or it refused a job
     GLINT_OUTPUT_FAILED = 5, // an output file could not be written
     GLINT_FRAMES_FAILED = 6, // some frames of a sequence failed
     GLINT_MISMATCH = 7,      // a comparison or a self-test found an error

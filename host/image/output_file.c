@@ -12,6 +12,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -25,12 +26,19 @@
 
 #define SLOTS (GLINT_OUTPUT_FILES_AT_ONCE + 8)
 #define SLOT_PATH 1024
+#define OPENING_MS 1000 // the most that discarding waits for a file that is being created
 
 // ---- Temporaries in flight ----------------------------------------------------------------------
 
+typedef enum slot_state {
+    SLOT_EMPTY,
+    SLOT_OPENING, // the file may exist any moment; the thread that creates it blocks all signals
+    SLOT_THERE,   // it exists
+} slot_state;
+
 typedef struct slot {
-    atomic_int active; // the path is complete, and the file may exist
-    bool taken;        // under slots_lock
+    atomic_int state; // a slot_state
+    bool taken;       // under slots_lock
     char path[SLOT_PATH];
 } slot;
 
@@ -39,24 +47,26 @@ static pthread_mutex_t slots_lock = PTHREAD_MUTEX_INITIALIZER;
 static atomic_int unregistered; // temporaries in flight without a slot
 static atomic_int discarding;
 
-// NULL when there is no room: the file is then counted in `unregistered`.
-static slot *slot_take(const char *path)
+// False once temporaries are discarded: a path must not change while it is read. *found is NULL
+// when there is no room: the file is then counted in `unregistered`.
+static bool slot_take(const char *path, slot **found)
 {
-    slot *found = NULL;
+    *found = NULL;
     pthread_mutex_lock(&slots_lock);
-    for (int i = 0; i < SLOTS && strlen(path) < SLOT_PATH && found == NULL; i++) {
+    const bool is_allowed = !atomic_load(&discarding);
+    for (int i = 0; is_allowed && i < SLOTS && strlen(path) < SLOT_PATH && *found == NULL; i++) {
         if (!slots[i].taken) {
-            found = &slots[i];
-            found->taken = true;
-            memcpy(found->path, path, strlen(path) + 1);
-            atomic_store(&found->active, 1);
+            *found = &slots[i];
+            slots[i].taken = true;
+            memcpy(slots[i].path, path, strlen(path) + 1);
+            atomic_store(&slots[i].state, SLOT_OPENING);
         }
     }
-    if (found == NULL) {
+    if (is_allowed && *found == NULL) {
         atomic_fetch_add(&unregistered, 1);
     }
     pthread_mutex_unlock(&slots_lock);
-    return found;
+    return is_allowed;
 }
 
 static void slot_release(slot *taken)
@@ -65,7 +75,7 @@ static void slot_release(slot *taken)
     if (taken == NULL) {
         atomic_fetch_sub(&unregistered, 1);
     } else {
-        atomic_store(&taken->active, 0);
+        atomic_store(&taken->state, SLOT_EMPTY);
         taken->taken = false;
     }
     pthread_mutex_unlock(&slots_lock);
@@ -86,7 +96,12 @@ void glint_output_file_discard_all(void)
 {
     atomic_store(&discarding, 1);
     for (int i = 0; i < SLOTS; i++) {
-        if (atomic_load(&slots[i].active)) {
+        // Another thread is between its look at `discarding` and the file: this one has no handler.
+        for (int waited = 0; waited < OPENING_MS && atomic_load(&slots[i].state) == SLOT_OPENING;
+             waited++) {
+            poll(NULL, 0, 1);
+        }
+        if (atomic_load(&slots[i].state) != SLOT_EMPTY) {
             unlink(slots[i].path);
         }
     }
@@ -304,6 +319,31 @@ typedef struct temporary {
     int folder, file;
 } temporary;
 
+// Creates the temporary of made->path: 0, or why not. It is registered before it exists, and known
+// to exist before a signal can come to this thread.
+static int create_temporary(temporary *made)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    int cause = EINTR;
+    if (slot_take(made->path, &made->registered)) {
+        made->file =
+            atomic_load(&discarding)
+                ? (errno = EINTR, -1)
+                : openat(made->folder, made->name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        cause = made->file >= 0 ? 0 : errno;
+        made->made = cause == 0;
+        if (made->made && made->registered != NULL) {
+            atomic_store(&made->registered->state, SLOT_THERE);
+        } else if (!made->made) {
+            slot_release(made->registered);
+        }
+    }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return cause;
+}
+
 static int open_temporary(const place *where, temporary *made)
 {
     static atomic_uint next;
@@ -321,18 +361,7 @@ static int open_temporary(const place *where, temporary *made)
         if (printed < 0 || (size_t)printed >= sizeof made->path) {
             return ENAMETOOLONG;
         }
-        // Registered before it exists, so that a signal in between leaves nothing.
-        made->registered = slot_take(made->path);
-        made->file =
-            atomic_load(&discarding)
-                ? (errno = EINTR, -1)
-                : openat(made->folder, made->name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (made->file >= 0) {
-            made->made = true;
-            return 0;
-        }
-        int cause = errno;
-        slot_release(made->registered);
+        const int cause = create_temporary(made);
         if (cause != EEXIST) {
             return cause;
         }

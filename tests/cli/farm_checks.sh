@@ -87,7 +87,7 @@ check 'frames without a name' grep -qFx '#SBATCH --job-name="frames"' stdout
 PATH=$real_path
 if ! command -v sbatch >/dev/null; then
     run farm slurm -- "$scene" --turntable 8 -o out/f.####.exr
-    check 'without Slurm: exit status 5' test "$status" -eq 5
+    check 'without Slurm: exit status 4' test "$status" -eq 4
     check 'without Slurm: said' grep -q '^glint: sbatch: No such file' stderr
     clean
 else
@@ -98,7 +98,7 @@ printf '#!/bin/sh\necho no partition >&2\nexit 1\n' >bin/refusing
 chmod +x bin/refusing
 mkdir refusing && mv bin/refusing refusing/sbatch
 PATH=$work/refusing:$PATH run farm slurm -- "$scene" --turntable 8 -o out/f.####.exr
-check 'refused by Slurm: exit status 5' test "$status" -eq 5
+check 'refused by Slurm: exit status 4' test "$status" -eq 4
 check 'refused by Slurm: its words and ours' test "$(wc -l <stderr)" -eq 2
 check 'refused by Slurm: no job' test -z "$(find out/f.farm -name '*.json')"
 clean

@@ -267,6 +267,11 @@ check 'a clip of two frames and one' test "$(files out)" = 's.1.hdr s.2.hdr s.3.
 check 'a step is not early' cmp out/s.1.hdr out/s.2.hdr
 check 'a step is not late' test "$(cmp -s out/s.2.hdr out/s.3.hdr; echo $?)" -eq 1
 clean
+# Near enough the triangle fills the picture.
+sed 's/"yfov": 0.8/"yfov": 0.1/' in/step.gltf >in/near.gltf
+run render in/near.gltf --size 8x8 --progress none --depth 1 --aov depth --animation none -o out/near.exr
+check 'a share of 100%' grep -q 'warning: 100% of the light took the environment' stderr
+clean
 # A camera without a direction at frame 3, which comes first.
 stepping 1 scale "$one$nothing" >in/lost.gltf
 run render in/lost.gltf "${small[@]}" --frames 3,1-2 -o out/s.#.hdr
@@ -300,6 +305,10 @@ for pair in INT:130 TERM:143; do
         [ ! -e out/f.000003.exr ] || break
         sleep 0.1
     done
+    # SIGINT is 2 and SIGTERM 15: the bits of 4002.
+    check 'one thread alone takes signals' test "$(sed -n 's/^SigBlk:.*\(....\)$/0x\1/p' \
+        /proc/"$process"/task/*/status | while read -r mask; do echo $((mask & 0x4002)); done |
+        grep -vcx $((0x4002)))" -eq 1
     kill "-${pair%:*}" "$process"
     wait "$process"
     check "SIG${pair%:*}: exit status ${pair#*:}" test $? -eq "${pair#*:}"

@@ -93,7 +93,7 @@ static void warn_of_dropped(const char *path, const glint_terms *terms)
 {
     if (terms->dropped > DROPPED_WORTH_SAYING) {
         glint_say(
-            "warning: %s: %.2g%% of the weight found no room in %d directions a pixel, and is "
+            "warning: %s: %.3g%% of the weight found no room in %d directions a pixel, and is "
             "missing (render with more: --directions %d)",
             path, 100 * terms->dropped, terms->capacity,
             terms->capacity * 2 < GLINT_TERMS_MAX ? terms->capacity * 2 : GLINT_TERMS_MAX);

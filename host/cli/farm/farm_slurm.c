@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -248,9 +249,16 @@ static int run_program(char *const *words, char *output, size_t capacity, int *c
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawnattr_t attributes; // a Ctrl-C ends the program, too: it blocks no signals
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     pid_t process;
-    *cause = posix_spawnp(&process, words[0], &actions, NULL, words, environ);
+    *cause = posix_spawnp(&process, words[0], &actions, &attributes, words, environ);
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
     close(ends[1]);
     int how = -1;
     if (*cause == 0) {
@@ -290,15 +298,15 @@ glint_status farm_slurm_submit(const farm_slurm *slurm, const char *path, const 
     const int status = run_program(words, id, FARM_ID_CAPACITY, &cause);
     id[strcspn(id, ";\r\n")] = '\0'; // the cluster's name may follow
     if (cause != 0) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED,
+        return glint_fail(error, GLINT_DEVICE_FAILED,
                           "sbatch: %s (install Slurm's client, or see the script with --dry-run)",
                           strerror(cause));
     }
     if (id[0] == '\0' || strspn(id, "0123456789") != strlen(id)) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED,
+        return glint_fail(error, GLINT_DEVICE_FAILED,
                           "%s: sbatch did not take it (its own words stand above)", path);
     }
     return status == 0 ? GLINT_OK
-                       : glint_fail(error, wait ? GLINT_FRAMES_FAILED : GLINT_OUTPUT_FAILED,
+                       : glint_fail(error, wait ? GLINT_FRAMES_FAILED : GLINT_DEVICE_FAILED,
                                     "%s: sbatch ended with status %d", path, status);
 }

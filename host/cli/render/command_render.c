@@ -103,7 +103,7 @@ static void warn_of_report(const render_run *run, glint_warnings *warnings)
     if (run->request->max_error == 0 &&
         glint_truncation_total(truncation) > TRUNCATION_WORTH_SAYING) {
         glint_warn(warnings,
-                   "%.2g%% of the light took the environment before its path had ended (%s)",
+                   "%.3g%% of the light took the environment before its path had ended (%s)",
                    100 * glint_truncation_total(truncation),
                    truncation_advice(truncation, run->request->inputs.settings.shading));
     }

@@ -235,7 +235,7 @@ static void put_making(const json_t *scene, FILE *out)
     put_fact(out, "scene", text_at(scene, "scene.fingerprint"));
     put_fact(out, "environment", text_at(scene, "environment.fingerprint"));
     snprintf(text, sizeof text,
-             "%s: %.4g ms a frame, %.2g%% of the weight truncated. With four times the weights it "
+             "%s: %.4g ms a frame, %.3g%% of the weight truncated. With four times the weights it "
              "changes by %.2g, with twice the depth by %.2g",
              text_at(scene, "reference.options"),
              glint_json_real_at(scene, "reference.milliseconds.median"),
