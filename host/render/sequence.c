@@ -217,31 +217,39 @@ static slot *take_slot(pipeline *p, glint_status *status, glint_error *error)
     }
 }
 
+// Asks for the next frame, and brings it on its way. *is_over: there is none.
+static glint_status feed_one(pipeline *p, slot *s, bool *is_over, glint_error *error)
+{
+    const glint_sequence *sequence = p->sequence;
+    // The image's memory serves again.
+    s->frame = (glint_sequence_frame){.image = s->frame.image};
+    const glint_sequence_next next = sequence->next(sequence->context, &s->frame);
+    *is_over = next == GLINT_NEXT_NONE;
+    if (next == GLINT_NEXT_FRAME) {
+        TRY(trace(p, s, error));
+        sequence->traced(sequence->context, &s->frame);
+    }
+    if (next == GLINT_NEXT_FRAME || next == GLINT_NEXT_TRACED) {
+        queue_for_writing(p, s);
+        return GLINT_OK;
+    }
+    push(&p->idle, s);
+    if (next == GLINT_NEXT_WAIT) {
+        wait_for_writers(p);
+    }
+    return GLINT_OK;
+}
+
 static glint_status feed(pipeline *p, glint_error *error)
 {
     glint_status status = GLINT_OK;
-    while (status == GLINT_OK) {
+    bool is_over = false;
+    while (status == GLINT_OK && !is_over) {
         slot *s = take_slot(p, &status, error);
         if (s == NULL) {
-            return status;
+            break;
         }
-        // The image's memory serves again.
-        s->frame = (glint_sequence_frame){.image = s->frame.image};
-        const glint_sequence_next next = p->sequence->next(p->sequence->context, &s->frame);
-        if (next != GLINT_NEXT_FRAME) {
-            push(&p->idle, s);
-        }
-        if (next == GLINT_NEXT_NONE) {
-            return GLINT_OK;
-        }
-        if (next == GLINT_NEXT_AGAIN) {
-            continue;
-        }
-        status = trace(p, s, error);
-        if (status == GLINT_OK) {
-            p->sequence->traced(p->sequence->context, &s->frame);
-            queue_for_writing(p, s);
-        }
+        status = feed_one(p, s, &is_over, error);
     }
     return status;
 }

@@ -22,13 +22,15 @@ typedef struct glint_sequence_frame {
     double write_ms;
     glint_status status; // of `write`
     glint_error error;   // where that is not GLINT_OK
-    void *own;           // the caller's: set by `traced`, released by `done`
+    void *own;           // the caller's: set by `next` or `traced`, released by `done`
 } glint_sequence_frame;
 
 // What `next` has to say.
 typedef enum glint_sequence_next {
     GLINT_NEXT_FRAME,
-    GLINT_NEXT_AGAIN, // this one needs no rendering: ask once more, after a look at the others
+    GLINT_NEXT_TRACED, // this one needs no tracing, and goes to `write` at once
+    GLINT_NEXT_AGAIN,  // this one needs nothing: ask once more, after a look at the others
+    GLINT_NEXT_WAIT,   // a frame that is being written may bring another: ask again after that
     GLINT_NEXT_NONE,
 } glint_sequence_next;
 

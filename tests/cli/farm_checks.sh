@@ -50,7 +50,7 @@ refuses 2 'does not say how it was made' farm slurm -- "$scene" --turntable 8 -o
 refuses 2 'unknown option --turntabel' farm slurm -- "$scene" --turntabel 8 -o out/f.####.exr
 refuses 2 '--help is no sequence' farm slurm -- --help
 refuses 3 'in/none.gltf' farm slurm -- in/none.gltf --turntable 8 -o out/f.####.exr
-refuses 5 'out/none' farm slurm -- "$scene" --turntable 8 -o out/none/f.####.exr
+refuses 5 'out/none' farm slurm -- "$scene" --turntable 8 -o out/none/none/f.####.exr
 refuses 2 'a control character' farm slurm --name $'a\nb' -- "$scene" --turntable 8 -o out/f.####.exr
 refuses 2 'Slurm has no way to write' farm slurm --folder 'out/a"b' -- "$scene" --turntable 8 -o out/f.####.exr
 refuses 2 '--json: this is for the report' farm slurm --json - -- "$scene" --turntable 8 -o out/f.####.exr

@@ -63,7 +63,7 @@ inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera animat
 # shellcheck disable=SC2046,SC2086 # lists of words
 {
     check 'render --help tells every option' help_mentions render $inputs output exposure compression \
-        exr-type preview stats progress frames turntable fps skip-existing shard max-error surroundings \
+        exr-type preview stats progress progress-fd frames turntable fps skip-existing shard max-error surroundings \
         capture-size proxy env-at kernel-dir $(settings_of environment size frame device layers)
     check 'info --help tells every option' help_mentions info $inputs json \
         $(settings_of environment size frame device)

@@ -35,7 +35,10 @@ refuses 2 "shard '3/2'" render "$scene" --frames 1-9 --shard 3/2 -o out/f.##.exr
 refuses 2 'one frame alone' render "$scene" --shard 1/2 -o out/f.exr
 refuses 2 '--turntable' render "$scene" --turntable 0 -o out/f.##.exr
 refuses 2 'does not say how it was made' render "$scene" --skip-existing -o out/f.hdr
-refuses 5 'out/none' render "$scene" --turntable 2 -o out/none/f.####.exr
+refuses 5 'out/none' render "$scene" --turntable 2 -o out/none/none/f.####.exr
+refuses 3 'in/none.exr' render "$scene" --turntable 2 --env in/none.exr -o out/new/f.####.exr
+refuses 2 'it is for --progress json' render "$scene" --progress-fd 3 -o out/f.exr
+refuses 2 '--progress-fd 77: ' render "$scene" --progress json --progress-fd 77 -o out/f.exr
 cp "$scenes/axes.hdr" in/env.0003.hdr
 refuses 2 'this is an input' render "$scene" --env in/env.0003.hdr --frames 1-9 -o in/env.####.hdr
 run render "$scene" --env in/env.0003.hdr --frames 4-5 "${small[@]}" -o in/env.####.hdr
@@ -76,6 +79,15 @@ check 'each frame once' test "$(files out)" = 'f.1.hdr f.2.hdr f.3.hdr f.5.hdr '
 check 'without a motion frames are alike' cmp out/f.1.hdr out/f.5.hdr
 clean
 
+sequence --frames 1-2 -o out/new/f.####.exr --stats out/new/s.jsonl
+check 'a folder is made' test "$(files out/new)" = 'f.0001.exr f.0002.exr s.jsonl '
+clean
+sequence --frames 1-2 -o out/f.####.exr --stats -
+check 'statistics on stdout' test "$(wc -l <stdout)" -eq 4 -a ! -e ./-
+run render "$scene" "${small[@]}" -o out/f.exr --stats -
+check 'statistics of one frame on stdout' test "$("$json_get" stdout rays primary)" = 1536 -a ! -e ./-
+clean
+
 # ---- parts --------------------------------------------------------------------------------------
 
 for part in 1 2 3; do
@@ -109,6 +121,8 @@ check 'a restart: exit status 0' test "$status" -eq 0
 check 'a restart: a damaged frame' grep -q '^glint: out/f.0003.exr: rendered again: it is damaged$' stderr
 check 'a restart: what is no frame' grep -q '^glint: out/f.0004.exr: rendered again: it does not say' stderr
 check 'a restart: a stale frame' grep -q '^glint: out/f.0005.exr: rendered again: made from another' stderr
+check 'a restart: the damaged one comes last' test "$(grep '"outcome": "rendered"' restart.jsonl |
+    sed -n '$s/.*"frame": \([0-9]*\),.*/\1/p')" = 3
 check 'a restart: nothing else is said' test "$(wc -l <stderr)" -eq 3
 tail -n 1 restart.jsonl >stats.json
 check 'a restart: four rendered' test "$("$json_get" stats.json rendered)" -eq 4
@@ -405,6 +419,16 @@ clean
 run render "$scene" --turntable 3 --size 48x32 -o out/f.#.exr --progress plain
 check 'plain: a line a frame' test "$(grep -c '^glint: frame [123] rendered, traced in .* ms, written in .* ms: out/f.[123].exr (. of 3, .*left)$' stderr)" -eq 3
 check 'plain: a summary' grep -q '3 frames: 3 rendered, 0 skipped, 0 failed' stderr
+sequence --frames 1-4 -o out/f.#.exr
+run render "$scene" --turntable 8 --size 48x32 -o out/f.#.exr --skip-existing --frames 5,1-4 \
+    --progress json
+check 'files that are there are no time left' grep -q '"frame": 5, .*"seconds_left": 0.0}' stderr
+run render "$scene" --size 48x32 -o out/f.exr
+check 'the summary: irradiance, and primary rays as in the bar' \
+    grep -q ', irradiance [0-9]*, .* primary Mrays/s' stderr
+clean
+run render "$scene" --turntable 3 --size 48x32 -o out/f.#.exr --progress json --progress-fd 3 3>events
+check 'json on a descriptor: nothing on stderr' test ! -s stderr -a "$(grep -c '"event": "frame"' events)" -eq 3
 run render "$scene" --turntable 3 --size 48x32 -o out/f.#.exr --progress json
 check 'json: an object a line' test "$(grep -vc '^{"event": ".*}$' stderr)" -eq 0
 check 'json: a frame' grep -q '"event": "frame", "frame": 2, "file": "out/f.2.exr", "outcome": "rendered"' stderr

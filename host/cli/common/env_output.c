@@ -2,10 +2,10 @@
 #include "cli/common/env_output.h"
 
 #include "cli/common/file_names.h"
+#include "cli/common/output_folder.h"
 #include "image/image_io.h"
 #include "image/output_file.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,42 +33,6 @@ char *env_output_face_path(const char *output, int k)
         snprintf(path, capacity, "%s/%s.exr", output, names[k]);
     }
     return path;
-}
-
-static glint_status refuse_folder(const char *folder, int cause, glint_error *error)
-{
-    return glint_fail(error, GLINT_OUTPUT_FAILED,
-                      "%s: no folder could be made there: %s (name another)", folder,
-                      strerror(cause));
-}
-
-static glint_status make_folder(const char *folder, glint_error *error)
-{
-    struct stat facts;
-    if (mkdir(folder, 0777) == 0 || (stat(folder, &facts) == 0 && S_ISDIR(facts.st_mode))) {
-        return GLINT_OK;
-    }
-    return refuse_folder(folder, errno, error);
-}
-
-// Whether a folder could be made there: where a file could be put. It is made when there is
-// something to put into it.
-static glint_status check_new_folder(const char *folder, glint_error *error)
-{
-    struct stat facts;
-    if (stat(folder, &facts) == 0) {
-        return refuse_folder(folder, ENOTDIR, error);
-    }
-    char *name = strdup(folder);
-    if (name == NULL) {
-        return glint_fail_memory(error, "a file name");
-    }
-    for (size_t end = strlen(name); end > 1 && name[end - 1] == '/'; end--) {
-        name[end - 1] = '\0';
-    }
-    glint_status status = glint_output_file_check(name, error);
-    free(name);
-    return status;
 }
 
 static glint_status check_face(const char *output, int k, bool is_there,
@@ -104,7 +68,7 @@ static glint_status check_faces(const char *output, const glint_write_options *o
                           output);
     }
     if (!is_there) {
-        TRY(check_new_folder(output, error));
+        TRY(glint_folder_check(output, error));
     }
     for (int k = 0; k < 6; k++) {
         TRY(check_face(output, k, is_there, options, error));
@@ -226,7 +190,7 @@ static glint_status write_faces(const env_output *output, const glint_image *str
                                 const glint_write_options *options, glint_error *error)
 {
     if (strstr(output->path, "%s") == NULL) {
-        TRY(make_folder(output->path, error));
+        TRY(glint_folder_make(output->path, NULL, error));
     }
     for (int k = 0; k < 6; k++) {
         TRY(write_face(output, strip, k, options, error));

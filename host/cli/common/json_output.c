@@ -1,11 +1,14 @@
-// Where a command's --json FILE|- goes. See json_output.h.
+// Where a command's --json FILE|- and --stats FILE|- go. See json_output.h.
 #include "cli/common/json_output.h"
 
 #include "report/json.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 bool glint_is_stdout(const char *path)
 {
@@ -22,4 +25,15 @@ glint_status glint_write_json(const char *path, json_t *root, glint_error *error
     fputs(text, stdout);
     free(text);
     return GLINT_OK;
+}
+
+glint_status glint_open_lines(const char *path, FILE **file, glint_error *error)
+{
+    // A copy of its own: closing it leaves standard output open.
+    *file = glint_is_stdout(path) ? fdopen(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0), "w")
+                                  : fopen(path, "we");
+    return *file != NULL ? GLINT_OK
+                         : glint_fail(error, GLINT_OUTPUT_FAILED,
+                                      "%s: could not be written: %s (write elsewhere)", path,
+                                      strerror(errno));
 }

@@ -5,6 +5,8 @@
 #include "cli/common/say.h"
 #include "report/json.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,6 +40,31 @@ void glint_progress_begin(glint_progress_display *display, glint_progress_mode m
     }
 }
 
+glint_status glint_progress_send_to(glint_progress_display *display, int descriptor,
+                                    glint_error *error)
+{
+    if (display->mode != GLINT_PROGRESS_JSON) {
+        return glint_fail(error, GLINT_USAGE, "--progress-fd: it is for --progress json");
+    }
+    const int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+    display->events = copy >= 0 ? fdopen(copy, "w") : NULL;
+    if (display->events == NULL) {
+        return glint_fail(error, GLINT_USAGE, "--progress-fd %d: %s (open it: %d>events)",
+                          descriptor, strerror(errno), descriptor);
+    }
+    setvbuf(display->events, NULL, _IOLBF, BUFSIZ);
+    return GLINT_OK;
+}
+
+void glint_progress_end(glint_progress_display *display)
+{
+    glint_progress_clear(display);
+    if (display->events != NULL) {
+        fclose(display->events);
+        display->events = NULL;
+    }
+}
+
 double glint_progress_elapsed(const glint_progress_display *display)
 {
     return glint_now_ms() - display->begun;
@@ -60,13 +87,33 @@ static void draw_line(glint_progress_display *display, const char *text)
     display->line_is_drawn = true;
 }
 
+// One line, one write. Takes the reference.
+static void print_event(const glint_progress_display *display, json_t *event)
+{
+    char *text = event != NULL ? json_dumps(event, JSON_REAL_PRECISION(9)) : NULL;
+    if (text != NULL) {
+        fprintf(display->events != NULL ? display->events : stderr, "%s\n", text);
+    }
+    free(text);
+    json_decref(event);
+}
+
+static json_t *make_event(const char *name)
+{
+    json_t *event = json_object();
+    glint_json_put_text(event, "event", name);
+    return event;
+}
+
 void glint_progress_phase(glint_progress_display *display, const char *name, const char *text)
 {
     if (display->mode == GLINT_PROGRESS_BAR) {
         draw_line(display, text);
     } else if (display->mode == GLINT_PROGRESS_JSON) {
-        fprintf(stderr, "{\"event\": \"phase\", \"name\": \"%s\", \"ms\": %.1f}\n", name,
-                glint_progress_elapsed(display));
+        json_t *event = make_event("phase");
+        glint_json_put_text(event, "name", name);
+        glint_json_put_real(event, "ms", glint_progress_elapsed(display));
+        print_event(display, event);
     }
     // Plain lines begin with the frame: an error before that is the only line there is.
 }
@@ -130,11 +177,16 @@ static stand stand_of(const glint_progress_display *display, double frame_share)
     const double frames = display->frames > 0 ? (double)display->frames : 1;
     const double past = (double)display->past + frame_share;
     const double traced = (double)display->traced + frame_share;
+    // Of the files that stand, as large a share may be skipped as of those that were looked at.
+    const double looked_at = (double)(display->skipped + display->again);
+    const double standing = fmax(0, (double)display->standing - looked_at);
+    const double skipping = standing * ((double)display->skipped + 1) / (looked_at + 1);
+    const double left = fmax(0, frames - past - skipping);
     const double elapsed = fmax(1e-3, glint_now_ms() - display->render_begun - display->passing_ms);
     return (stand){
         .share = past < frames ? past / frames : 1,
         .frames_a_ms = traced / elapsed,
-        .seconds_left = 1e-3 * elapsed * (frames - past) / traced,
+        .seconds_left = left > 0 ? 1e-3 * elapsed * left / traced : 0,
     };
 }
 
@@ -145,29 +197,18 @@ static void show_figures(glint_progress_display *display, const stand *now)
     format_seconds(now->seconds_left, left, sizeof left);
     if (display->frames > 0) {
         snprintf(figures, sizeof figures,
-                 "%" PRIu64 "/%" PRIu64 "  %3.0f%%  %.3g frames/s  %.2f Mrays/s  %s left",
+                 "%" PRIu64 "/%" PRIu64 "  %3.0f%%  %.3g frames/s  %.2f primary Mrays/s  %s left",
                  display->through, display->frames, 100 * now->share, 1e3 * now->frames_a_ms,
                  1e-6 * rays, left);
     } else {
-        snprintf(figures, sizeof figures, "%3.0f%%  %.2f Mrays/s  %s left", 100 * now->share,
-                 1e-6 * rays, left);
+        snprintf(figures, sizeof figures, "%3.0f%%  %.2f primary Mrays/s  %s left",
+                 100 * now->share, 1e-6 * rays, left);
     }
     if (display->mode == GLINT_PROGRESS_BAR) {
         draw_bar(display, now->share, figures);
     } else {
         glint_say("%s", figures);
     }
-}
-
-// One line, one write.
-static void print_event(json_t *event)
-{
-    char *text = event != NULL ? json_dumps(event, JSON_REAL_PRECISION(9)) : NULL;
-    if (text != NULL) {
-        fprintf(stderr, "%s\n", text);
-    }
-    free(text);
-    json_decref(event);
 }
 
 static void put_frames(json_t *event, const glint_progress_display *display)
@@ -180,8 +221,7 @@ static void put_frames(json_t *event, const glint_progress_display *display)
 
 static void print_progress(const glint_progress_display *display, const stand *now)
 {
-    json_t *event = json_object();
-    glint_json_put_text(event, "event", "progress");
+    json_t *event = make_event("progress");
     glint_json_put_real(event, "share", now->share);
     put_frames(event, display);
     if (display->frames > 0) {
@@ -189,7 +229,7 @@ static void print_progress(const glint_progress_display *display, const stand *n
     }
     glint_json_put_real(event, "primary_rays_per_second", 1e3 * now->frames_a_ms * display->rays);
     glint_json_put_real(event, "seconds_left", now->seconds_left);
-    print_event(event);
+    print_event(display, event);
 }
 
 void glint_progress_step(glint_progress_display *display, uint64_t done, uint64_t total)
@@ -220,10 +260,26 @@ void glint_progress_traced(glint_progress_display *display)
     display->traced++;
 }
 
-void glint_progress_passed(glint_progress_display *display, double ms)
+void glint_progress_failed(glint_progress_display *display, double ms)
 {
     display->past++;
     display->passing_ms += ms;
+}
+
+void glint_progress_skipped(glint_progress_display *display, double ms)
+{
+    glint_progress_failed(display, ms);
+    display->skipped++;
+}
+
+void glint_progress_standing(glint_progress_display *display, uint64_t frames)
+{
+    display->standing = frames;
+}
+
+void glint_progress_again(glint_progress_display *display)
+{
+    display->again++;
 }
 
 const char *glint_frame_outcome_name(glint_frame_outcome outcome)
@@ -235,8 +291,7 @@ const char *glint_frame_outcome_name(glint_frame_outcome outcome)
 static void print_frame(const glint_progress_display *display, const glint_progress_frame *frame,
                         double seconds_left)
 {
-    json_t *event = json_object();
-    glint_json_put_text(event, "event", "frame");
+    json_t *event = make_event("frame");
     glint_json_put(event, "frame", json_integer(frame->number));
     glint_json_put_text(event, "file", frame->file);
     glint_json_put_text(event, "outcome", glint_frame_outcome_name(frame->outcome));
@@ -246,7 +301,7 @@ static void print_frame(const glint_progress_display *display, const glint_progr
     }
     put_frames(event, display);
     glint_json_put_real(event, "seconds_left", seconds_left);
-    print_event(event);
+    print_event(display, event);
 }
 
 void glint_progress_through(glint_progress_display *display, const glint_progress_frame *frame)
@@ -267,4 +322,20 @@ void glint_progress_through(glint_progress_display *display, const glint_progres
                   display->frames, left);
         display->last_shown = glint_now_ms();
     }
+}
+
+void glint_progress_done(const glint_progress_display *display, uint64_t rendered, uint64_t skipped,
+                         uint64_t failed)
+{
+    if (display->mode != GLINT_PROGRESS_JSON) {
+        return;
+    }
+    json_t *event = make_event("done");
+    glint_json_put_real(event, "ms", glint_progress_elapsed(display));
+    if (display->frames > 0) {
+        glint_json_put_count(event, "rendered", rendered);
+        glint_json_put_count(event, "skipped", skipped);
+        glint_json_put_count(event, "failed", failed);
+    }
+    print_event(display, event);
 }

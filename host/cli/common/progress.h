@@ -1,15 +1,18 @@
-// What is shown of the work while it goes on, on stderr.
+// What is shown of the work while it goes on: on stderr, and to programs on a file descriptor.
 #ifndef GLINT_CLI_COMMON_PROGRESS_H
 #define GLINT_CLI_COMMON_PROGRESS_H
 
+#include "base/status.h"
+
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 typedef enum glint_progress_mode {
     GLINT_PROGRESS_AUTO,  // a bar when stderr is a terminal, plain lines otherwise
     GLINT_PROGRESS_BAR,   // one line that is redrawn, and erased at the end
     GLINT_PROGRESS_PLAIN, // a line when rendering begins, then one every few seconds
-    GLINT_PROGRESS_JSON,  // one JSON object a line
+    GLINT_PROGRESS_JSON,  // one JSON object a line, on stderr or a file descriptor
     GLINT_PROGRESS_NONE,
 } glint_progress_mode;
 
@@ -22,6 +25,7 @@ typedef enum glint_progress_mode {
 // Zero is valid: AUTO before glint_progress_begin.
 typedef struct glint_progress_display {
     glint_progress_mode mode; // no longer AUTO once begun
+    FILE *events;             // where JSON goes; NULL: stderr. Owned
     double begun;             // milliseconds on the monotonic clock
     double render_begun;      // of the frame, or of the sequence
     double last_shown;
@@ -29,11 +33,21 @@ typedef struct glint_progress_display {
     uint64_t frames, past, through; // of a sequence: all, those that need no more tracing, and
                                     // those that are on the disk or failed
     uint64_t traced;                // of `past`, those that were
-    double passing_ms;              // what the others took
+    uint64_t standing;       // frames with a file at the beginning, which may only be skipped
+    uint64_t skipped, again; // of `standing`: those that were, those that were not
+    double passing_ms;       // what frames took that were not traced
     bool line_is_drawn;
 } glint_progress_display;
 
 void glint_progress_begin(glint_progress_display *display, glint_progress_mode mode);
+
+// Sends the objects of GLINT_PROGRESS_JSON to an open file descriptor in the place of stderr.
+// Errors: GLINT_USAGE where it is none, or the mode is another.
+glint_status glint_progress_send_to(glint_progress_display *display, int descriptor,
+                                    glint_error *error);
+
+// Erases the bar, and closes what glint_progress_send_to opened.
+void glint_progress_end(glint_progress_display *display);
 
 // The next phase: a JSON name ("load_scene") and what a reader sees ("loading gallery.gltf").
 void glint_progress_phase(glint_progress_display *display, const char *name, const char *text);
@@ -46,10 +60,18 @@ void glint_progress_render(glint_progress_display *display, uint64_t frames, dou
 // Share of the frame: done of total, in any unit.
 void glint_progress_step(glint_progress_display *display, uint64_t done, uint64_t total);
 
-// A sequence's frame needs no more tracing: it has been traced, or it was found in so many
-// milliseconds that it need not be.
+// Of a sequence, so many frames have a file already. The time left counts those as skipped, and
+// once some have been looked at the same share of them.
+void glint_progress_standing(glint_progress_display *display, uint64_t frames);
+
+// A sequence's frame needs no more tracing: it has been traced; its file stays, or it failed, and
+// so many milliseconds went by.
 void glint_progress_traced(glint_progress_display *display);
-void glint_progress_passed(glint_progress_display *display, double ms);
+void glint_progress_skipped(glint_progress_display *display, double ms);
+void glint_progress_failed(glint_progress_display *display, double ms);
+
+// A frame's file is not the frame: it will be traced.
+void glint_progress_again(glint_progress_display *display);
 
 typedef enum glint_frame_outcome {
     GLINT_FRAME_RENDERED,
@@ -70,6 +92,10 @@ typedef struct glint_progress_frame {
 
 // A sequence's frame is on the disk, or has failed.
 void glint_progress_through(glint_progress_display *display, const glint_progress_frame *frame);
+
+// All is through: the last object of JSON. Frames of a sequence by their outcome.
+void glint_progress_done(const glint_progress_display *display, uint64_t rendered, uint64_t skipped,
+                         uint64_t failed);
 
 // Erases the bar: before any other line on stderr, and at the end.
 void glint_progress_clear(glint_progress_display *display);

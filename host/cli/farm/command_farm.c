@@ -5,6 +5,7 @@
 #include "cli/common/signals.h"
 
 #include "cli/common/json_output.h"
+#include "cli/common/output_folder.h"
 #include "cli/farm/farm_slurm.h"
 #include "cli/render/light.h"
 #include "cli/render/request.h"
@@ -15,7 +16,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct farm_request {
@@ -358,16 +358,6 @@ static glint_status describe_job(const farm_request *request, const farm_subject
     return GLINT_OK;
 }
 
-static glint_status make_folder(const char *folder, glint_error *error)
-{
-    if (mkdir(folder, 0777) == 0 || errno == EEXIST) {
-        return GLINT_OK;
-    }
-    return glint_fail(error, GLINT_OUTPUT_FAILED,
-                      "%s: could not be made: %s (name another: --folder)", folder,
-                      strerror(errno));
-}
-
 // Writes a script into the job's folder.
 static glint_status put_script(const farm_job *job, const char *name, const char *script,
                                char **path, glint_error *error)
@@ -379,17 +369,18 @@ static glint_status put_script(const farm_job *job, const char *name, const char
     return glint_output_file_write(*path, script, strlen(script), error);
 }
 
-static glint_status submit_parts(const farm_job *job, const char *script, char id[FARM_ID_CAPACITY],
-                                 glint_error *error)
+// The folder of the frames first: the job's may lie in it.
+static glint_status submit_parts(const farm_job *job, const char *frames_folder, const char *script,
+                                 char id[FARM_ID_CAPACITY], glint_error *error)
 {
     char *path = NULL;
-    glint_status status = make_folder(job->folder, error);
-    if (status == GLINT_OK) {
-        status = put_script(job, "job.sh", script, &path, error);
-    }
-    if (status == GLINT_OK) {
-        status = farm_slurm_submit(&job->slurm, path, NULL, false, id, error);
-    }
+    glint_status status;
+    TRY(glint_folder_make(frames_folder, NULL, error));
+    TRY(glint_folder_make(job->folder, NULL, error));
+    TRY_OR(cleanup, status, put_script(job, "job.sh", script, &path, error));
+    status = farm_slurm_submit(&job->slurm, path, NULL, false, id, error);
+
+cleanup:
     free(path);
     return status;
 }
@@ -398,13 +389,12 @@ static glint_status submit_report(const farm_job *job, const char *after, bool w
                                   glint_error *error)
 {
     char *script = NULL, *path = NULL, id[FARM_ID_CAPACITY];
-    glint_status status = farm_slurm_report_script(&job->slurm, after, &script, error);
-    if (status == GLINT_OK) {
-        status = put_script(job, "report.sh", script, &path, error);
-    }
-    if (status == GLINT_OK) {
-        status = farm_slurm_submit(&job->slurm, path, after, wait, id, error);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, farm_slurm_report_script(&job->slurm, after, &script, error));
+    TRY_OR(cleanup, status, put_script(job, "report.sh", script, &path, error));
+    status = farm_slurm_submit(&job->slurm, path, after, wait, id, error);
+
+cleanup:
     free(script);
     free(path);
     return status;
@@ -418,7 +408,7 @@ static glint_status submit(const farm_request *request, const farm_subject *subj
     glint_farm_job facts = {.output = (char *)subject->request.output,
                             .frames = subject->request.frames.count,
                             .parts = job->slurm.parts};
-    glint_status status = submit_parts(job, script, facts.id, error);
+    glint_status status = submit_parts(job, subject->request.folder, script, facts.id, error);
     if (status != GLINT_OK) {
         return status;
     }

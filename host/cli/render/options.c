@@ -36,17 +36,22 @@ static const glint_option output_options[] = {
      .help = "Write a PNG beside each EXR, of the same name, with --exposure and the sRGB curve.",
      .offset = offsetof(render_request, preview)},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_LAYERS, offsetof(render_request, inputs.settings)),
-    {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE.json",
+    {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE|-",
      .help = "Write what the frame took and counted: phases in milliseconds, rays by kind, "
              "truncated light, the plan and the device. Of a sequence, an object a line: the run, "
-             "each frame as soon as it is through, the total.",
+             "each frame as soon as it is through, the total. - is stdout.",
      .offset = offsetof(render_request, stats)},
     {GLINT_OPTION_CHOICE, .name = "progress", .argument = "MODE",
-     .help = "On stderr: bar (redrawn), plain (lines), json (an object a line; warnings and errors "
-             "stay text) or none; auto is bar "
-             "on a terminal and plain elsewhere.",
+     .help =
+         "On stderr: bar (redrawn), plain (lines), json (an object a line) or none; auto is bar "
+         "on a terminal and plain elsewhere. Warnings and errors stay text.",
      .fallback = "auto", .offset = offsetof(render_request, progress),
      .choices = GLINT_PROGRESS_CHOICES},
+    {GLINT_OPTION_INT, .name = "progress-fd", .argument = "N",
+     .help = "Write the objects of --progress json to the open file descriptor N, which then holds "
+             "nothing else: --progress json --progress-fd 3 3>events.",
+     .fallback = "stderr", .offset = offsetof(render_request, progress_fd), .minimum = 1,
+     .maximum = 1e6},
     GLINT_OPTION_END,
 };
 

@@ -2,7 +2,8 @@
 #include "cli/render/request.h"
 
 #include "cli/common/file_names.h"
-#include "cli/common/progress.h"
+#include "cli/common/json_output.h"
+#include "cli/common/output_folder.h"
 #include "image/output_file.h"
 
 #include <float.h>
@@ -129,21 +130,18 @@ static glint_status check_input_of_frames(const render_request *request,
 // An output that would replace an input, or another output.
 static glint_status check_distinct(const render_request *request, glint_error *error)
 {
-    glint_status status = check_input(request, request->inputs.scene, error);
-    if (status == GLINT_OK) {
-        status = check_input(request, request->inputs.env, error);
+    TRY(check_input(request, request->inputs.scene, error));
+    TRY(check_input(request, request->inputs.env, error));
+    if (request->env_name.length > 0) {
+        TRY(check_input_of_frames(request, &request->env_name, error));
     }
-    if (status == GLINT_OK && request->env_name.length > 0) {
-        status = check_input_of_frames(request, &request->env_name, error);
+    if (request->plate != NULL) {
+        TRY(check_input_of_frames(request, &request->plate_name, error));
     }
-    if (status == GLINT_OK && request->plate != NULL) {
-        status = check_input_of_frames(request, &request->plate_name, error);
-    }
-    if (status == GLINT_OK && is_output(request, request->stats)) {
-        return glint_fail(error, GLINT_USAGE, "--stats %s: this is the image (name another file)",
-                          request->stats);
-    }
-    return status;
+    return !is_output(request, request->stats)
+               ? GLINT_OK
+               : glint_fail(error, GLINT_USAGE, "--stats %s: this is the image (name another file)",
+                            request->stats);
 }
 
 static glint_status check_format(const render_request *request, glint_error *error)
@@ -151,34 +149,34 @@ static glint_status check_format(const render_request *request, glint_error *err
     const char *output = request->output;
     const glint_write_options options = render_write_options(request);
     const bool is_exr = glint_has_extension(output, ".exr");
-    glint_status status = glint_image_check_output(output, &options, error);
-    if (status == GLINT_OK && request->exr_type != 0 && !is_exr) {
+    TRY(glint_image_check_output(output, &options, error));
+    if (request->exr_type != 0 && !is_exr) {
         return glint_fail(error, GLINT_USAGE, "--exr-type: %s is no EXR", output);
     }
-    if (status == GLINT_OK && request->inputs.settings.aovs != 0 && !is_exr) {
+    if (request->inputs.settings.aovs != 0 && !is_exr) {
         return glint_fail(error, GLINT_USAGE, "--aov: %s is no EXR, which alone holds layers",
                           output);
     }
-    if (status == GLINT_OK && request->inputs.settings.terms > 0 && !is_exr) {
+    if (request->inputs.settings.terms > 0 && !is_exr) {
         return glint_fail(error, GLINT_USAGE, "--directions: %s is no EXR, which alone holds them",
                           output);
     }
-    if (status == GLINT_OK && request->preview && !is_exr) {
+    if (request->preview && !is_exr) {
         return glint_fail(error, GLINT_USAGE,
                           "--preview: %s is no EXR, beside which it would stand", output);
     }
-    if (status == GLINT_OK && request->skip_existing && glint_has_extension(output, ".hdr")) {
+    if (request->skip_existing && glint_has_extension(output, ".hdr")) {
         return glint_fail(error, GLINT_USAGE,
                           "--skip-existing: %s: an HDR does not say how it was made (write .exr)",
                           output);
     }
-    if (status == GLINT_OK && request->skip_existing && request->inputs.kernel_dir != NULL) {
+    if (request->skip_existing && request->inputs.kernel_dir != NULL) {
         return glint_fail(
             error, GLINT_USAGE,
             "--skip-existing: the kernels of --kernel-dir may have changed (leave out "
             "one of the two)");
     }
-    return status;
+    return GLINT_OK;
 }
 
 // What lights the frames: a file, one for each, or what is around a node.
@@ -263,42 +261,52 @@ static glint_status find_plate(render_request *request, glint_error *error)
 // Which frames there are, and what their files are called.
 static glint_status find_frames(render_request *request, glint_error *error)
 {
-    glint_status status = glint_frame_name_parse(request->output, &request->name, error);
+    TRY(glint_frame_name_parse(request->output, &request->name, error));
     request->is_sequence =
         request->frames_text != NULL || request->turntable > 0 || request->name.length > 0;
-    if (status == GLINT_OK && !request->is_sequence && request->shard.count > 1) {
+    if (!request->is_sequence && request->shard.count > 1) {
         return glint_fail(error, GLINT_USAGE,
                           "--shard: there is one frame alone (name several with --frames)");
     }
-    const bool is_known =
-        !request->is_sequence || request->frames_text != NULL || request->turntable > 0;
-    if (status == GLINT_OK && is_known) {
-        status = request->frames_text != NULL
-                     ? glint_frame_list_parse(request->frames_text, &request->frames, error)
-                     : glint_frame_list_span(1, request->turntable > 0 ? request->turntable : 1,
-                                             &request->frames, error);
+    if (request->frames_text != NULL) {
+        TRY(glint_frame_list_parse(request->frames_text, &request->frames, error));
+    } else if (!request->is_sequence || request->turntable > 0) {
+        const int last = request->turntable > 0 ? request->turntable : 1;
+        TRY(glint_frame_list_span(1, last, &request->frames, error));
     }
-    if (status == GLINT_OK && request->frames.count > 1 && request->name.length == 0) {
+    if (request->frames.count > 1 && request->name.length == 0) {
         return glint_fail(error, GLINT_USAGE,
                           "%s: %llu frames need a place for their number (as in frame.####.exr)",
                           request->output, (unsigned long long)request->frames.count);
     }
-    return status;
+    return GLINT_OK;
 }
 
-// A sequence's file that cannot be replaced is one bad frame; its folder is everybody's.
-static glint_status check_place(const render_request *request, glint_error *error)
+// The folder of a sequence may have to be made. A frame that cannot be replaced is one bad frame.
+static glint_status check_place(render_request *request, glint_error *error)
 {
-    glint_status status = request->is_sequence
-                              ? glint_output_file_check_folder(request->output, error)
-                              : glint_output_file_check(request->output, error);
-    if (status == GLINT_OK && request->preview && !request->is_sequence) {
-        status = glint_output_file_check(request->preview_path, error);
+    request->folder = glint_folder_of(request->output);
+    if (request->folder == NULL) {
+        return glint_fail_memory(error, "a file name");
     }
-    if (status == GLINT_OK && request->stats != NULL) {
-        status = glint_output_file_check(request->stats, error);
+    const bool has_stats = request->stats != NULL && !glint_is_stdout(request->stats);
+    if (!request->is_sequence) {
+        TRY(glint_output_file_check(request->output, error));
+        if (request->preview) {
+            TRY(glint_output_file_check(request->preview_path, error));
+        }
+    } else if (!glint_is_folder(request->folder)) {
+        TRY(glint_folder_check(request->folder, error));
+        char *folder = has_stats ? glint_folder_of(request->stats) : NULL;
+        const bool is_beside = folder != NULL && strcmp(folder, request->folder) == 0;
+        free(folder);
+        if (is_beside) {
+            return GLINT_OK;
+        }
+    } else {
+        TRY(glint_output_file_check_folder(request->output, error));
     }
-    return status;
+    return has_stats ? glint_output_file_check(request->stats, error) : GLINT_OK;
 }
 
 glint_status render_request_finish(render_request *request, glint_error *error)
@@ -306,36 +314,17 @@ glint_status render_request_finish(render_request *request, glint_error *error)
     if (request->output == NULL) {
         return glint_fail(error, GLINT_USAGE, "no output (name one: -o frame.exr)");
     }
-    glint_status status = check_format(request, error);
-    if (status == GLINT_OK) {
-        status = find_light(request, error);
-    }
-    if (status == GLINT_OK) {
-        status = find_proxy(request, error);
-    }
-    if (status == GLINT_OK) {
-        request->inputs.is_for_render = true;
-        status = glint_input_request_finish(&request->inputs, error);
-    }
-    if (status == GLINT_OK) {
-        status = check_max_error(request, error);
-    }
-    if (status == GLINT_OK) {
-        status = find_plate(request, error);
-    }
-    if (status == GLINT_OK) {
-        status = name_preview(request, error);
-    }
-    if (status == GLINT_OK) {
-        status = find_frames(request, error);
-    }
-    if (status == GLINT_OK) {
-        status = check_distinct(request, error);
-    }
-    if (status == GLINT_OK) {
-        status = check_place(request, error);
-    }
-    return status;
+    TRY(check_format(request, error));
+    TRY(find_light(request, error));
+    TRY(find_proxy(request, error));
+    request->inputs.is_for_render = true;
+    TRY(glint_input_request_finish(&request->inputs, error));
+    TRY(check_max_error(request, error));
+    TRY(find_plate(request, error));
+    TRY(name_preview(request, error));
+    TRY(find_frames(request, error));
+    TRY(check_distinct(request, error));
+    return check_place(request, error);
 }
 
 double render_request_time(const render_request *request, int frame)
@@ -360,8 +349,8 @@ static glint_status take_clip(render_request *request, double duration, glint_er
                           "--frames)",
                           request->inputs.scene, frames, request->fps);
     }
-    glint_status status = glint_frame_list_span(1, (int)frames, &request->frames, error);
-    return status == GLINT_OK ? check_distinct(request, error) : status;
+    TRY(glint_frame_list_span(1, (int)frames, &request->frames, error));
+    return check_distinct(request, error);
 }
 
 glint_status render_request_settle(render_request *request, const glint_motion *motion,
@@ -390,6 +379,7 @@ void render_request_free(render_request *request)
 {
     glint_frame_list_free(&request->frames);
     free(request->preview_path);
+    free(request->folder);
 }
 
 // What the chosen format cannot keep.

@@ -25,6 +25,7 @@ typedef struct render_request {
     proxy_request proxy;      // of the environment
     place_request env_at;     // where a file's was seen from
     int progress;             // a glint_progress_mode
+    int progress_fd;          // where its JSON goes; 0: stderr
     const char *frames_text;
     int turntable; // frames of a whole turn; 0: the camera stays
     double fps;
@@ -39,6 +40,7 @@ typedef struct render_request {
     glint_frame_list frames;
     glint_shard shard;
     glint_frame_name name;
+    char *folder;                  // of the output; owned
     char *preview_path;            // NULL without previews; owned
     glint_frame_name preview_name; // of preview_path
 } render_request;

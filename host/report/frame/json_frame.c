@@ -1,8 +1,6 @@
 // What a frame counted, as JSON. See json.h.
 #include "report/json.h"
 
-#include "report/frame/stats.h"
-
 json_t *glint_json_rays(const glint_ray_counts *rays)
 {
     json_t *object = json_object();

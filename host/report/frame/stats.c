@@ -96,7 +96,7 @@ static void put_memory(json_t *root)
     glint_json_put(root, "memory", memory);
 }
 
-glint_status glint_stats_write(const char *path, const glint_stats *stats, glint_error *error)
+json_t *glint_stats_json(const glint_stats *stats)
 {
     json_t *root = json_object();
     put_run(root, stats);
@@ -111,7 +111,7 @@ glint_status glint_stats_write(const char *path, const glint_stats *stats, glint
     put_subject(root, stats->subject);
     put_memory(root);
     glint_json_put(root, "warnings", glint_json_warnings(stats->subject->warnings));
-    return glint_json_write(path, root, error);
+    return root;
 }
 
 // ---- Of a sequence -----------------------------------------------------------------------------
@@ -162,27 +162,25 @@ static glint_status add_run(glint_stats_log *log, const glint_stats *run, uint64
     return add_line(log, root, error);
 }
 
-glint_status glint_stats_log_open(const char *path, const glint_stats *run, uint64_t frames,
-                                  glint_stats_log **log, glint_error *error)
+glint_status glint_stats_log_open(FILE *file, const char *path, const glint_stats *run,
+                                  uint64_t frames, glint_stats_log **log, glint_error *error)
 {
-    *log = NULL;
-    glint_stats_log *made = calloc(1, sizeof *made);
-    if (made == NULL || (made->path = strdup(path)) == NULL) {
-        free(made);
+    *log = calloc(1, sizeof **log);
+    char *copy = strdup(path);
+    if (*log == NULL || copy == NULL) {
+        free(*log);
+        *log = NULL;
+        free(copy);
+        fclose(file);
         return glint_fail_memory(error, "the statistics");
     }
-    made->file = fopen(path, "we");
-    glint_status status =
-        made->file != NULL
-            ? add_run(made, run, frames, error)
-            : glint_fail(error, GLINT_OUTPUT_FAILED,
-                         "%s: could not be written: %s (write elsewhere)", path, strerror(errno));
+    **log = (glint_stats_log){.file = file, .path = copy};
+    glint_status status = add_run(*log, run, frames, error);
     if (status != GLINT_OK) {
-        glint_stats_log_close(made);
-        return status;
+        glint_stats_log_close(*log);
+        *log = NULL;
     }
-    *log = made;
-    return GLINT_OK;
+    return status;
 }
 
 glint_status glint_stats_log_frame(glint_stats_log *log, const glint_stats_frame *frame,
@@ -238,9 +236,7 @@ void glint_stats_log_close(glint_stats_log *log)
     if (log == NULL) {
         return;
     }
-    if (log->file != NULL) {
-        fclose(log->file);
-    }
+    fclose(log->file);
     free(log->path);
     free(log);
 }

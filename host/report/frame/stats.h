@@ -7,7 +7,9 @@
 #include "render/frame.h"
 #include "report/frame/subject.h"
 
+#include <jansson.h>
 #include <stdbool.h>
+#include <stdio.h>
 
 // All borrowed. Milliseconds are wall-clock.
 typedef struct glint_stats {
@@ -21,8 +23,8 @@ typedef struct glint_stats {
     const glint_error_choice *choice; // where an error was to be kept, else NULL
 } glint_stats;
 
-// Writes the file, whole or not at all. Errors: GLINT_OUTPUT_FAILED.
-glint_status glint_stats_write(const char *path, const glint_stats *stats, glint_error *error);
+// A new reference; NULL without memory.
+json_t *glint_stats_json(const glint_stats *stats);
 
 // ---- Of a sequence -----------------------------------------------------------------------------
 
@@ -48,13 +50,13 @@ typedef struct glint_stats_total {
 } glint_stats_total;
 
 // A file of lines that grows as frames come through: an object each, complete whatever happens to
-// the run. What stood there is replaced. Opaque.
+// the run. Opaque.
 typedef struct glint_stats_log glint_stats_log;
 
-// Begins with a line of the run; of `run`, frame and encode_ms are not used. Errors:
-// GLINT_OUTPUT_FAILED.
-glint_status glint_stats_log_open(const char *path, const glint_stats *run, uint64_t frames,
-                                  glint_stats_log **log, glint_error *error);
+// Begins with a line of the run; of `run`, frame and encode_ms are not used. Takes the file, whose
+// name `path` messages give. Errors: GLINT_OUTPUT_FAILED.
+glint_status glint_stats_log_open(FILE *file, const char *path, const glint_stats *run,
+                                  uint64_t frames, glint_stats_log **log, glint_error *error);
 glint_status glint_stats_log_frame(glint_stats_log *log, const glint_stats_frame *frame,
                                    glint_error *error);
 // The last line.
