@@ -1,4 +1,4 @@
-// The glTF loader, from the file to the scene: read, check, let tinygltf load, walk, flatten.
+// The glTF loader, from the file to the scene: read, check, walk, flatten.
 // Whatever is thrown on the way ends here as a status.
 //
 // Limits: files of 4 GiB, buffers of 8 GiB, 2^27 triangles; textures, skins and morph targets are
@@ -96,10 +96,13 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
 {
     Load &load = source.load;
     read_document(path, load.document);
-    check_document(load.document, load.checked);
-    read_buffers(load.document);
-    load_model(load.document, load.model);
-    load.primitives = prepare_primitives(load.document, load.model, load.tally);
+    check_document(load.document, load.model);
+    const std::size_t buffers = objects_of(load.document.root, "buffers").size();
+    load.model.buffers.reserve(buffers);
+    for (std::size_t i = 0; i < buffers; i++) {
+        load.model.buffers.emplace_back().data = read_buffer(load.document, i);
+    }
+    load.primitives = prepare_primitives(load.model, load.tally);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);
     choose_nodes(load, options.scene);
     if (load.moves_triangles) {

@@ -8,13 +8,13 @@ namespace glint
 
 const unsigned char Reader::zeros_[64] = {};
 
-static const unsigned char *view_data(const tinygltf::Model &model, std::size_t index)
+static const unsigned char *view_data(const Model &model, std::size_t index)
 {
     const tinygltf::BufferView &view = model.bufferViews[index];
     return model.buffers[static_cast<std::size_t>(view.buffer)].data.data() + view.byteOffset;
 }
 
-Reader::Reader(const tinygltf::Model &model, std::size_t accessor_index, std::size_t view_count)
+Reader::Reader(const Model &model, std::size_t accessor_index)
 {
     const tinygltf::Accessor &accessor = model.accessors[accessor_index];
     component_ = accessor.componentType;
@@ -24,8 +24,8 @@ Reader::Reader(const tinygltf::Model &model, std::size_t accessor_index, std::si
                         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_))) *
                     static_cast<std::size_t>(tinygltf::GetNumComponentsInType(
                         static_cast<std::uint32_t>(accessor.type)));
-    auto view = static_cast<std::size_t>(accessor.bufferView);
-    if (view < view_count) {
+    if (accessor.bufferView >= 0) {
+        auto view = static_cast<std::size_t>(accessor.bufferView);
         std::size_t stride = model.bufferViews[view].byteStride;
         stride_ = stride == 0 ? element_size_ : stride;
         base_ = view_data(model, view) + accessor.byteOffset;

@@ -2,6 +2,7 @@
 #ifndef GLINT_SCENE_GLTF_ACCESSOR_HPP
 #define GLINT_SCENE_GLTF_ACCESSOR_HPP
 
+#include "scene/gltf_json.hpp"
 #include "scene/gltf_model.hpp"
 
 #include <cstring>
@@ -16,7 +17,7 @@ class Reader
   public:
     Reader() = default;
     // Refuses sparse indices that do not ascend, or lie outside.
-    Reader(const tinygltf::Model &model, std::size_t accessor, std::size_t view_count);
+    Reader(const Model &model, std::size_t accessor);
 
     std::size_t count() const
     {

@@ -37,16 +37,16 @@ glint_interpolation interpolation_of(const json &sampler, const Place &place)
            in_quotes(name) + " is none (LINEAR, STEP or CUBICSPLINE is expected)");
 }
 
-void check_sampler(const json &root, const json &sampler, const Place &place)
+void check_sampler(const json &sampler, const Place &place, const Model &model)
 {
-    const json &accessors = objects_of(root, "accessors");
+    const auto &accessors = model.accessors;
     for (const char *key : {"input", "output"}) {
         if (optional_index(sampler, place, key, accessors.size(), "accessor") < 0) {
             refuse(place / key, "missing (glTF 2.0 requires it)");
         }
     }
-    const json &times = accessors[sampler["input"].get<std::size_t>()];
-    check_format(times, place / "input", {"SCALAR", true, false, false});
+    const tinygltf::Accessor &times = accessors[sampler["input"].get<std::size_t>()];
+    check_format(times, place / "input", {TINYGLTF_TYPE_SCALAR, true, false, false});
     interpolation_of(sampler, place);
 }
 
@@ -57,17 +57,16 @@ std::size_t values_a_key(const json &sampler, const Place &place)
 }
 
 // A sampler as the channel that uses it needs it.
-void check_output(const json &root, const json &sampler, const Place &place,
-                  const std::string &path)
+void check_output(const json &sampler, const Place &place, const std::string &path,
+                  const Model &model)
 {
-    const json &accessors = objects_of(root, "accessors");
-    const json &output = accessors[sampler["output"].get<std::size_t>()];
-    const json &input = accessors[sampler["input"].get<std::size_t>()];
+    const tinygltf::Accessor &output = model.accessors[sampler["output"].get<std::size_t>()];
+    const std::uint64_t keys = model.accessors[sampler["input"].get<std::size_t>()].count;
+    const std::uint64_t values = output.count;
     bool is_rotation = path == "rotation";
     check_format(output, place / "output",
-                 {is_rotation ? "VEC4" : "VEC3", true, is_rotation, false, is_rotation});
-    auto keys = input["count"].get<std::uint64_t>();
-    auto values = output["count"].get<std::uint64_t>();
+                 {is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, true, is_rotation, false,
+                  is_rotation});
     std::uint64_t each = values_a_key(sampler, place);
     if (values != each * keys) {
         refuse(place / "output", counted(values, "value") + " for " + counted(keys, "key") +
@@ -76,28 +75,28 @@ void check_output(const json &root, const json &sampler, const Place &place,
     }
 }
 
-void check_channel(const json &root, const json &channel, const Place &place, const json &samplers,
-                   const Place &samplers_place)
+void check_channel(const json &channel, const Place &place, const json &samplers,
+                   const Place &samplers_place, const Model &model)
 {
     std::ptrdiff_t sampler = optional_index(channel, place, "sampler", samplers.size(), "sampler");
     if (sampler < 0) {
         refuse(place / "sampler", "missing (glTF 2.0 requires it)");
     }
     const json &target = object_at(channel, place, "target");
-    optional_index(target, place / "target", "node", objects_of(root, "nodes").size(), "node");
+    optional_index(target, place / "target", "node", model.nodes.size(), "node");
     std::string path = optional_text(target, place / "target", "path");
     if (path.empty()) {
         refuse(place / "target" / "path", "missing (glTF 2.0 requires it)");
     }
     if (is_modelled(path)) {
         auto index = static_cast<std::size_t>(sampler);
-        check_output(root, samplers[index], samplers_place[index], path);
+        check_output(samplers[index], samplers_place[index], path, model);
     }
 }
 
 } // namespace
 
-void check_animations(const json &root)
+void check_animations(const json &root, const Model &model)
 {
     const json &animations = objects_of(root, "animations");
     for (std::size_t i = 0; i < animations.size(); i++) {
@@ -107,11 +106,12 @@ void check_animations(const json &root)
         const json &channels = array_at(animations[i], place, "channels");
         for (std::size_t k = 0; k < samplers.size(); k++) {
             expect_object(samplers[k], (place / "samplers")[k]);
-            check_sampler(root, samplers[k], (place / "samplers")[k]);
+            check_sampler(samplers[k], (place / "samplers")[k], model);
         }
         for (std::size_t k = 0; k < channels.size(); k++) {
             expect_object(channels[k], (place / "channels")[k]);
-            check_channel(root, channels[k], (place / "channels")[k], samplers, place / "samplers");
+            check_channel(channels[k], (place / "channels")[k], samplers, place / "samplers",
+                          model);
         }
     }
 }
@@ -156,15 +156,13 @@ std::vector<double> read_values(const Reader &reader, std::size_t components, st
     return values;
 }
 
-Curve read_curve(const Document &document, const tinygltf::Model &model, const json &sampler,
-                 const Place &place, bool is_rotation)
+Curve read_curve(const Model &model, const json &sampler, const Place &place, bool is_rotation)
 {
-    const std::size_t views = objects_of(document.root, "bufferViews").size();
     Curve curve;
     curve.is_rotation = is_rotation;
     curve.interpolation = interpolation_of(sampler, place);
-    curve.times = read_times(Reader(model, sampler["input"].get<std::size_t>(), views), place);
-    curve.values = read_values(Reader(model, sampler["output"].get<std::size_t>(), views),
+    curve.times = read_times(Reader(model, sampler["input"].get<std::size_t>()), place);
+    curve.values = read_values(Reader(model, sampler["output"].get<std::size_t>()),
                                is_rotation ? 4 : 3, values_a_key(sampler, place), place);
     return curve;
 }
@@ -172,7 +170,7 @@ Curve read_curve(const Document &document, const tinygltf::Model &model, const j
 // What clips are read from and into.
 struct Reading {
     const Document &document;
-    const tinygltf::Model &model;
+    const Model &model;
     Clips &clips;
     Tally &tally;
 };
@@ -200,7 +198,7 @@ void read_channel(Reading &reading, const json &animation, const Place &place, s
     }
     auto sampler = channel["sampler"].get<std::size_t>();
     Property property = path == "translation" ? translation : path == "rotation" ? rotation : scale;
-    Curve curve = read_curve(reading.document, reading.model, animation["samplers"][sampler],
+    Curve curve = read_curve(reading.model, animation["samplers"][sampler],
                              (place / "samplers")[sampler], property == rotation);
     reading.clips.duration = std::max(reading.clips.duration, curve.times.back());
     reading.clips.nodes[node].of[property] = std::move(curve);
@@ -230,8 +228,7 @@ std::vector<std::string> names_of(const json &animations)
 
 } // namespace
 
-Clips read_clips(const Document &document, const tinygltf::Model &model, const char *name,
-                 Tally &tally)
+Clips read_clips(const Document &document, const Model &model, const char *name, Tally &tally)
 {
     const json &animations = objects_of(document.root, "animations");
     Clips clips;

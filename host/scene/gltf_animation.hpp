@@ -17,7 +17,7 @@ namespace glint
 
 // Refuses what refers to nothing, and accessors of the wrong kind or length. What is not modelled
 // (morph weights, pointers) passes.
-void check_animations(const json &root);
+void check_animations(const json &root, const Model &model);
 
 enum Property : std::size_t { translation, rotation, scale };
 
@@ -46,8 +46,7 @@ struct Clips {
 
 // The clip of that name or index; "all", "none"; NULL: the first, if there is one. Curves that a
 // node cannot follow, or that are not modelled, are tallied and left out.
-Clips read_clips(const Document &document, const tinygltf::Model &model, const char *name,
-                 Tally &tally);
+Clips read_clips(const Document &document, const Model &model, const char *name, Tally &tally);
 
 } // namespace glint
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <climits>
-#include <cstring>
 
 namespace glint
 {
@@ -53,7 +52,7 @@ void check_asset(const json &root)
     check_version(object, place, "minVersion");
 }
 
-void check_extensions(const json &root, Checked &checked)
+void check_extensions(const json &root, Model &model)
 {
     Place required = Place() / "extensionsRequired";
     const json &array = optional_array(root, Place(), "extensionsRequired");
@@ -66,12 +65,12 @@ void check_extensions(const json &root, Checked &checked)
                                     " is required by the file and not supported (export "
                                     "the file without it)");
         }
-        checked.quantized = checked.quantized || name == "KHR_mesh_quantization";
+        model.quantized = model.quantized || name == "KHR_mesh_quantization";
     }
     const json &used = optional_array(root, Place(), "extensionsUsed");
     for (std::size_t i = 0; i < used.size(); i++) {
         std::string name = text_of(used[i], (Place() / "extensionsUsed")[i]);
-        checked.quantized = checked.quantized || name == "KHR_mesh_quantization";
+        model.quantized = model.quantized || name == "KHR_mesh_quantization";
     }
 }
 
@@ -98,7 +97,7 @@ void check_buffers(const Document &document)
     }
 }
 
-void check_views(const json &root)
+void check_views(const json &root, Model &model)
 {
     const json &buffers = objects_of(root, "buffers");
     const json &views = objects_of(root, "bufferViews");
@@ -119,39 +118,59 @@ void check_views(const json &root)
                        " run past the end of buffers[" + std::to_string(buffer) + "], which has " +
                        counted(there, "byte") + " (the file is damaged)");
         }
-        const json *stride = member(view, "byteStride");
-        if (stride != nullptr && whole_number(*stride, place / "byteStride", 4, 252) % 4 != 0) {
+        const json *stride_value = member(view, "byteStride");
+        std::uint64_t stride =
+            stride_value == nullptr ? 0 : whole_number(*stride_value, place / "byteStride", 4, 252);
+        if (stride % 4 != 0) {
             refuse(place / "byteStride", "not a multiple of 4 (glTF 2.0 requires it)");
         }
+        tinygltf::BufferView &made = model.bufferViews.emplace_back();
+        made.buffer = static_cast<int>(buffer);
+        made.byteOffset = offset;
+        made.byteLength = length;
+        made.byteStride = stride;
     }
 }
 
-std::uint64_t component_count(const std::string &type)
+struct Type {
+    const char *name;
+    int code; // tinygltf's
+    std::uint64_t components;
+};
+
+constexpr std::array<Type, 7> types = {{{"SCALAR", TINYGLTF_TYPE_SCALAR, 1},
+                                        {"VEC2", TINYGLTF_TYPE_VEC2, 2},
+                                        {"VEC3", TINYGLTF_TYPE_VEC3, 3},
+                                        {"VEC4", TINYGLTF_TYPE_VEC4, 4},
+                                        {"MAT2", TINYGLTF_TYPE_MAT2, 4},
+                                        {"MAT3", TINYGLTF_TYPE_MAT3, 9},
+                                        {"MAT4", TINYGLTF_TYPE_MAT4, 16}}};
+
+const Type &check_type(const json &accessor, const Place &place)
 {
-    static const std::array<std::pair<const char *, std::uint64_t>, 7> types = {{{"SCALAR", 1},
-                                                                                 {"VEC2", 2},
-                                                                                 {"VEC3", 3},
-                                                                                 {"VEC4", 4},
-                                                                                 {"MAT2", 4},
-                                                                                 {"MAT3", 9},
-                                                                                 {"MAT4", 16}}};
-    for (const auto &known : types) {
-        if (type == known.first) {
-            return known.second;
+    const json *value = member(accessor, "type");
+    if (value == nullptr) {
+        refuse(place / "type", "missing (glTF 2.0 requires it)");
+    }
+    std::string name = text_of(*value, place / "type");
+    for (const Type &type : types) {
+        if (name == type.name) {
+            return type;
         }
     }
-    return 0;
+    refuse(place / "type",
+           in_quotes(name) + " is none (SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4)");
 }
 
 // Columns of small matrices begin at multiples of four bytes.
-std::uint64_t element_size(const std::string &type, std::uint64_t component)
+std::uint64_t element_size(const Type &type, std::uint64_t component)
 {
     std::uint64_t size = component_size(component);
-    if (type == "MAT2" || type == "MAT3") {
-        std::uint64_t rows = type == "MAT2" ? 2 : 3;
+    if (type.code == TINYGLTF_TYPE_MAT2 || type.code == TINYGLTF_TYPE_MAT3) {
+        std::uint64_t rows = type.code == TINYGLTF_TYPE_MAT2 ? 2 : 3;
         return rows * ((rows * size + 3) / 4 * 4);
     }
-    return component_count(type) * size;
+    return type.components * size;
 }
 
 std::uint64_t check_component_type(const json &object, const Place &place)
@@ -171,9 +190,9 @@ struct Range {
     std::uint64_t offset, count, size, stride;
 };
 
-void check_range(const json &views, std::size_t view, const Place &place, const Range &range)
+void check_range(const Model &model, std::size_t view, const Place &place, const Range &range)
 {
-    std::uint64_t there = views[view]["byteLength"].get<std::uint64_t>();
+    std::uint64_t there = model.bufferViews[view].byteLength;
     // Numbers of the file are below 2^53 and strides below 256: neither side can overflow.
     bool fits = range.offset + (range.count - 1) * range.stride + range.size <= there;
     if (!fits) {
@@ -185,85 +204,92 @@ void check_range(const json &views, std::size_t view, const Place &place, const 
     }
 }
 
-// The sparse part's view: its index, and the offset within it.
-std::size_t check_sparse_view(const json &part, const Place &place, const json &views,
-                              std::uint64_t &offset)
+// The sparse part's view and the offset within it.
+template <typename Part>
+std::size_t check_sparse_view(const json &part, const Place &place, const Model &model,
+                              Part &result)
 {
     const json *index = member(part, "bufferView");
     if (index == nullptr) {
         refuse(place / "bufferView", "missing (glTF 2.0 requires it)");
     }
-    std::size_t view = index_of(*index, place / "bufferView", views.size(), "bufferView");
-    if (member(views[view], "byteStride") != nullptr) {
+    std::size_t view =
+        index_of(*index, place / "bufferView", model.bufferViews.size(), "bufferView");
+    if (model.bufferViews[view].byteStride != 0) {
         refuse(place / "bufferView", "bufferViews[" + std::to_string(view) +
                                          "] has a byteStride (sparse data is packed tightly)");
     }
+    result.bufferView = static_cast<int>(view);
     // tinygltf keeps this offset in an int.
-    offset = optional_whole(part, place, "byteOffset", 0, INT_MAX);
+    result.byteOffset = static_cast<int>(optional_whole(part, place, "byteOffset", 0, INT_MAX));
     return view;
 }
 
-void check_sparse(const json &accessor, const Place &accessor_place, const json &views,
-                  std::uint64_t size)
+void check_sparse(const json &source, const Place &accessor_place, const Model &model,
+                  std::uint64_t size, tinygltf::Accessor &accessor)
 {
-    const json *sparse = optional_object(accessor, accessor_place, "sparse");
+    const json *sparse = optional_object(source, accessor_place, "sparse");
     if (sparse == nullptr) {
         return;
     }
     Place place = accessor_place / "sparse";
-    std::uint64_t all = accessor["count"].get<std::uint64_t>();
     std::uint64_t count = whole_at(*sparse, place, "count", 1, INT_MAX);
-    if (count > all) {
+    if (count > accessor.count) {
         refuse(place / "count", std::to_string(count) + " is more than the accessor's " +
-                                    std::to_string(all) + " (the file is damaged)");
+                                    std::to_string(accessor.count) + " (the file is damaged)");
     }
-    std::uint64_t offset = 0;
+    accessor.sparse.isSparse = true;
+    accessor.sparse.count = static_cast<int>(count);
+    auto &to_indices = accessor.sparse.indices;
+    auto &to_values = accessor.sparse.values;
     const json &indices = object_at(*sparse, place, "indices");
-    std::size_t view = check_sparse_view(indices, place / "indices", views, offset);
+    std::size_t view = check_sparse_view(indices, place / "indices", model, to_indices);
     std::uint64_t component = check_component_type(indices, place / "indices");
     if (component != 5121 && component != 5123 && component != 5125) {
         refuse(place / "indices" / "componentType", "not an unsigned integer (5121, 5123 or 5125)");
     }
+    to_indices.componentType = static_cast<int>(component);
     std::uint64_t width = component_size(component);
-    check_range(views, view, place / "indices", {offset, count, width, width});
+    auto offset = static_cast<std::uint64_t>(to_indices.byteOffset);
+    check_range(model, view, place / "indices", {offset, count, width, width});
     const json &values = object_at(*sparse, place, "values");
-    view = check_sparse_view(values, place / "values", views, offset);
-    check_range(views, view, place / "values", {offset, count, size, size});
+    view = check_sparse_view(values, place / "values", model, to_values);
+    offset = static_cast<std::uint64_t>(to_values.byteOffset);
+    check_range(model, view, place / "values", {offset, count, size, size});
 }
 
-void check_accessor(const json &accessor, const Place &place, const json &views)
+void check_accessor(const json &source, const Place &place, Model &model)
 {
-    std::uint64_t component = check_component_type(accessor, place);
-    const json *type_value = member(accessor, "type");
-    if (type_value == nullptr) {
-        refuse(place / "type", "missing (glTF 2.0 requires it)");
-    }
-    std::string type = text_of(*type_value, place / "type");
-    if (component_count(type) == 0) {
-        refuse(place / "type",
-               in_quotes(type) + " is none (SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4)");
-    }
-    std::uint64_t count = whole_at(accessor, place, "count", 1, largest_whole);
-    std::uint64_t offset = optional_whole(accessor, place, "byteOffset", 0, largest_whole);
-    optional_boolean(accessor, place, "normalized", false);
+    tinygltf::Accessor accessor;
+    std::uint64_t component = check_component_type(source, place);
+    accessor.componentType = static_cast<int>(component);
+    const Type &type = check_type(source, place);
+    accessor.type = type.code;
+    accessor.count = whole_at(source, place, "count", 1, largest_whole);
+    accessor.byteOffset = optional_whole(source, place, "byteOffset", 0, largest_whole);
+    accessor.normalized = optional_boolean(source, place, "normalized", false);
     std::uint64_t size = element_size(type, component);
-    std::ptrdiff_t view = optional_index(accessor, place, "bufferView", views.size(), "bufferView");
+    std::ptrdiff_t view =
+        optional_index(source, place, "bufferView", model.bufferViews.size(), "bufferView");
+    accessor.bufferView = static_cast<int>(view);
     if (view >= 0) {
-        const json *stride_value = member(views[static_cast<std::size_t>(view)], "byteStride");
-        std::uint64_t stride = stride_value == nullptr ? size : stride_value->get<std::uint64_t>();
+        auto at = static_cast<std::size_t>(view);
+        std::uint64_t stride = model.bufferViews[at].byteStride;
+        stride = stride == 0 ? size : stride;
         if (stride < size) {
             refuse(place / "bufferView", "elements of " + counted(size, "byte") +
                                              " overlap: bufferViews[" + std::to_string(view) +
                                              "].byteStride is " + std::to_string(stride));
         }
-        check_range(views, static_cast<std::size_t>(view), place / "count",
-                    {offset, count, size, stride});
-    } else if (count > most_zeros) {
-        refuse(place / "count", std::to_string(count) +
+        check_range(model, at, place / "count",
+                    {accessor.byteOffset, accessor.count, size, stride});
+    } else if (accessor.count > most_zeros) {
+        refuse(place / "count", std::to_string(accessor.count) +
                                     " zeros: an accessor without a bufferView holds nothing else "
                                     "(give it a bufferView)");
     }
-    check_sparse(accessor, place, views, size);
+    check_sparse(source, place, model, size, accessor);
+    model.accessors.push_back(std::move(accessor));
 }
 
 void check_images(const Document &document)
@@ -309,18 +335,27 @@ std::uint64_t component_size(std::uint64_t component_type)
     }
 }
 
-void check_storage(const Document &document)
+const char *type_name(int code)
+{
+    for (const Type &type : types) {
+        if (type.code == code) {
+            return type.name;
+        }
+    }
+    return "nothing";
+}
+
+void check_storage(const Document &document, Model &model)
 {
     check_buffers(document);
-    check_views(document.root);
-    const json &views = objects_of(document.root, "bufferViews");
+    check_views(document.root, model);
     const json &accessors = objects_of(document.root, "accessors");
     for (std::size_t i = 0; i < accessors.size(); i++) {
-        check_accessor(accessors[i], (Place() / "accessors")[i], views);
+        check_accessor(accessors[i], (Place() / "accessors")[i], model);
     }
 }
 
-void check_document(const Document &document, Checked &checked)
+void check_document(const Document &document, Model &model)
 {
     check_asset(document.root);
     // Before anything else, so that everybody can rely on it.
@@ -329,13 +364,13 @@ void check_document(const Document &document, Checked &checked)
           "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
         check_objects(document.root, key);
     }
-    check_extensions(document.root, checked);
-    check_storage(document);
+    check_extensions(document.root, model);
+    check_storage(document, model);
     check_images(document);
     check_materials(document.root);
-    check_meshes(document.root, checked);
-    check_graph(document.root, checked);
-    check_animations(document.root);
+    check_meshes(document.root, model);
+    check_graph(document.root, model);
+    check_animations(document.root, model);
 }
 
 } // namespace glint

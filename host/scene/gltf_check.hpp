@@ -1,43 +1,38 @@
-// Validation of the raw JSON, before tinygltf sees any of it. tinygltf is no validator: it drops
-// what it cannot read, hides negative offsets and follows what is out of range. Everything that the
-// loader uses is checked here, and everything that refers to something.
+// Validation of the raw JSON. Everything that the loader uses is checked here, and everything that
+// refers to something. What is in order goes into the model, in the same pass.
 #ifndef GLINT_SCENE_GLTF_CHECK_HPP
 #define GLINT_SCENE_GLTF_CHECK_HPP
 
 #include "scene/gltf_file.hpp"
-
-#include <vector>
+#include "scene/gltf_model.hpp"
 
 namespace glint
 {
 
-// What was checked, and is wanted again.
-struct Checked {
-    bool quantized = false;   // KHR_mesh_quantization is declared
-    std::vector<int> parents; // of each node; −1: a root
-};
-
 // The whole document: calls the others, and check_animations, in turn. Reads no buffer.
-void check_document(const Document &document, Checked &checked);
+void check_document(const Document &document, Model &model);
 
 // Buffers, views and accessors.
-void check_storage(const Document &document);
+void check_storage(const Document &document, Model &model);
 
 // Meshes, and the primitives' attributes and indices.
-void check_meshes(const json &root, const Checked &checked);
+void check_meshes(const json &root, Model &model);
 
 // Nodes, scenes, cameras and skins.
-void check_graph(const json &root, Checked &checked);
+void check_graph(const json &root, Model &model);
 
 // A vertex attribute, index or instance attribute must be of one of these.
 struct Format {
-    const char *type;           // "VEC3"
+    int type;                   // TINYGLTF_TYPE_VEC3
     bool plain_float;           // 5126
     bool normalized_ints;       // normalised signed byte or short
     bool quantized;             // whatever KHR_mesh_quantization lets positions be
     bool unsigned_ints = false; // normalised unsigned byte or short
 };
-void check_format(const json &accessor, const Place &place, const Format &format);
+void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format);
+
+// "VEC3"
+const char *type_name(int code);
 
 std::uint64_t component_size(std::uint64_t component_type);
 

@@ -18,35 +18,35 @@ std::string node_name(std::size_t i)
     return "nodes[" + std::to_string(i) + "]";
 }
 
-void check_numbers(const json &node, const Place &node_place, const char *key, std::size_t count)
+// The numbers; none where the member is missing.
+std::vector<double> check_numbers(const json &node, const Place &node_place, const char *key,
+                                  std::size_t count)
 {
+    std::vector<double> numbers;
     const json *found = member(node, key);
     if (found == nullptr) {
-        return;
+        return numbers;
     }
     Place place = node_place / key;
     if (!found->is_array() || found->size() != count) {
         std::string got = found->is_array() ? counted(found->size(), "element") : "no array";
         refuse(place, got + " (it must be an array of " + std::to_string(count) + " numbers)");
     }
+    numbers.reserve(count);
     for (std::size_t i = 0; i < count; i++) {
-        number_of((*found)[i], place[i]);
+        numbers.push_back(number_of((*found)[i], place[i]));
     }
+    return numbers;
 }
 
 // A matrix must be one that translation, rotation and scale could make: affine and not singular.
-void check_matrix(const json &node, const Place &node_place)
+std::vector<double> check_matrix(const json &node, const Place &node_place)
 {
-    check_numbers(node, node_place, "matrix", 16);
-    const json *found = member(node, "matrix");
-    if (found == nullptr) {
-        return;
+    std::vector<double> m = check_numbers(node, node_place, "matrix", 16);
+    if (m.empty()) {
+        return m;
     }
     Place place = node_place / "matrix";
-    std::array<double, 16> m{};
-    for (std::size_t i = 0; i < m.size(); i++) {
-        m[i] = (*found)[i].get<double>();
-    }
     // Some exporters round; nobody writes a projection by a part in 100,000.
     constexpr double tolerance = 1e-5;
     if (std::fabs(m[3]) > tolerance || std::fabs(m[7]) > tolerance ||
@@ -62,27 +62,28 @@ void check_matrix(const json &node, const Place &node_place)
     if (!(std::fabs(determinant) > 1e-12 * volume)) {
         refuse(place, "singular: its axes lie in a plane (a scale of [0, 0, 0] hides a node)");
     }
+    return m;
 }
 
-void check_rotation(const json &node, const Place &place)
+std::vector<double> check_rotation(const json &node, const Place &place)
 {
-    check_numbers(node, place, "rotation", 4);
-    const json *found = member(node, "rotation");
-    if (found == nullptr) {
-        return;
+    std::vector<double> rotation = check_numbers(node, place, "rotation", 4);
+    if (rotation.empty()) {
+        return rotation;
     }
     double squares = 0;
-    for (const json &value : *found) {
-        squares += value.get<double>() * value.get<double>();
+    for (double value : rotation) {
+        squares += value * value;
     }
     if (!(squares > 1e-12 && squares < 1e12)) {
         refuse(place / "rotation", "not a rotation: the quaternion's length is " +
                                        shown(std::sqrt(squares)) +
                                        " (it must be 1; [0, 0, 0, 1] turns nothing)");
     }
+    return rotation;
 }
 
-void check_instancing(const json &root, const json &node, const Place &node_place)
+void check_instancing(const json &node, const Place &node_place, const Model &model)
 {
     const json *extensions = optional_object(node, node_place, "extensions");
     const json *instancing =
@@ -94,45 +95,51 @@ void check_instancing(const json &root, const json &node, const Place &node_plac
     }
     Place place = node_place / "extensions" / "EXT_mesh_gpu_instancing";
     const json &attributes = object_at(*instancing, place, "attributes");
-    const json &accessors = objects_of(root, "accessors");
     std::uint64_t instances = 0;
     for (auto it = attributes.begin(); it != attributes.end(); ++it) {
         Place attribute = place / "attributes" / it.key().c_str();
-        const json &accessor =
-            accessors[index_of(it.value(), attribute, accessors.size(), "accessor")];
-        auto count = accessor["count"].get<std::uint64_t>();
+        const tinygltf::Accessor &accessor =
+            model.accessors[index_of(it.value(), attribute, model.accessors.size(), "accessor")];
+        const std::uint64_t count = accessor.count;
         if (instances != 0 && count != instances) {
             refuse(attribute, "as many elements as the other attributes are needed, there are " +
                                   std::to_string(count) + " and " + std::to_string(instances));
         }
         instances = count;
         if (it.key() == "TRANSLATION" || it.key() == "SCALE") {
-            check_format(accessor, attribute, {"VEC3", true, false, false});
+            check_format(accessor, attribute, {TINYGLTF_TYPE_VEC3, true, false, false});
         } else if (it.key() == "ROTATION") {
-            check_format(accessor, attribute, {"VEC4", true, true, false});
+            check_format(accessor, attribute, {TINYGLTF_TYPE_VEC4, true, true, false});
         }
     }
 }
 
-void check_node(const json &root, const json &node, const Place &place)
+tinygltf::Node check_node(const json &root, const json &source, const Place &place,
+                          const Model &model)
 {
-    optional_text(node, place, "name");
-    optional_index(node, place, "mesh", objects_of(root, "meshes").size(), "mesh");
-    optional_index(node, place, "camera", objects_of(root, "cameras").size(), "camera");
-    optional_index(node, place, "skin", objects_of(root, "skins").size(), "skin");
-    bool has_matrix = member(node, "matrix") != nullptr;
+    auto index = [&](const char *key, const char *all) {
+        return static_cast<int>(
+            optional_index(source, place, key, objects_of(root, all).size(), key));
+    };
+    tinygltf::Node node;
+    node.name = optional_text(source, place, "name");
+    node.mesh = index("mesh", "meshes");
+    node.camera = index("camera", "cameras");
+    node.skin = index("skin", "skins");
+    bool has_matrix = member(source, "matrix") != nullptr;
     for (const char *key : {"translation", "rotation", "scale"}) {
-        if (has_matrix && member(node, key) != nullptr) {
+        if (has_matrix && member(source, key) != nullptr) {
             refuse(place, std::string("has a matrix and a ") + key +
                               " (only one of the two can "
                               "be meant)");
         }
     }
-    check_matrix(node, place);
-    check_numbers(node, place, "translation", 3);
-    check_numbers(node, place, "scale", 3);
-    check_rotation(node, place);
-    check_instancing(root, node, place);
+    node.matrix = check_matrix(source, place);
+    node.translation = check_numbers(source, place, "translation", 3);
+    node.scale = check_numbers(source, place, "scale", 3);
+    node.rotation = check_rotation(source, place);
+    check_instancing(source, place, model);
+    return node;
 }
 
 // Refuses the second parent that a node would get; as a loop where it is one.
@@ -186,13 +193,13 @@ void check_loops(const std::vector<int> &parents)
     }
 }
 
-void check_nodes(const json &root, Checked &checked)
+void check_nodes(const json &root, Model &model)
 {
     const json &nodes = objects_of(root, "nodes");
-    checked.parents.assign(nodes.size(), -1);
+    model.parents.assign(nodes.size(), -1);
     for (std::size_t i = 0; i < nodes.size(); i++) {
         Place place = (Place() / "nodes")[i];
-        check_node(root, nodes[i], place);
+        tinygltf::Node &node = model.nodes.emplace_back(check_node(root, nodes[i], place, model));
         const json &children = optional_array(nodes[i], place, "children");
         for (std::size_t c = 0; c < children.size(); c++) {
             Place child = (place / "children")[c];
@@ -200,24 +207,26 @@ void check_nodes(const json &root, Checked &checked)
             if (index == i) {
                 refuse(child, "node loop: a node cannot be its own child");
             }
-            adopt(i, index, checked.parents, child);
+            adopt(i, index, model.parents, child);
+            node.children.push_back(static_cast<int>(index));
         }
     }
-    check_loops(checked.parents);
+    check_loops(model.parents);
 }
 
-void check_scenes(const json &root, const Checked &checked)
+void check_scenes(const json &root, Model &model)
 {
     const json &scenes = objects_of(root, "scenes");
-    std::vector<std::size_t> listed_by(checked.parents.size(), scenes.size());
+    std::vector<std::size_t> listed_by(model.parents.size(), scenes.size());
     for (std::size_t s = 0; s < scenes.size(); s++) {
         Place place = (Place() / "scenes")[s];
-        optional_text(scenes[s], place, "name");
+        tinygltf::Scene &scene = model.scenes.emplace_back();
+        scene.name = optional_text(scenes[s], place, "name");
         const json &nodes = optional_array(scenes[s], place, "nodes");
         for (std::size_t i = 0; i < nodes.size(); i++) {
             Place entry = (place / "nodes")[i];
-            std::size_t node = index_of(nodes[i], entry, checked.parents.size(), "node");
-            int parent = checked.parents[node];
+            std::size_t node = index_of(nodes[i], entry, model.parents.size(), "node");
+            int parent = model.parents[node];
             if (parent >= 0) {
                 refuse(entry, node_name(node) + " is a child of " +
                                   node_name(static_cast<std::size_t>(parent)) +
@@ -227,12 +236,14 @@ void check_scenes(const json &root, const Checked &checked)
                 refuse(entry, node_name(node) + " stands there twice (list it once)");
             }
             listed_by[node] = s;
+            scene.nodes.push_back(static_cast<int>(node));
         }
     }
-    optional_index(root, Place(), "scene", scenes.size(), "scene");
+    model.defaultScene =
+        static_cast<int>(optional_index(root, Place(), "scene", scenes.size(), "scene"));
 }
 
-void check_perspective(const json &camera, const Place &camera_place)
+double check_perspective(const json &camera, const Place &camera_place)
 {
     Place place = camera_place / "perspective";
     const json &lens = object_at(camera, camera_place, "perspective");
@@ -244,9 +255,10 @@ void check_perspective(const json &camera, const Place &camera_place)
         refuse(place / "yfov", shown(yfov) + " is no vertical angle (radians, more than 0 and "
                                              "less than pi)");
     }
+    return yfov;
 }
 
-void check_orthographic(const json &camera, const Place &camera_place)
+double check_orthographic(const json &camera, const Place &camera_place)
 {
     Place place = camera_place / "orthographic";
     const json &lens = object_at(camera, camera_place, "orthographic");
@@ -257,21 +269,24 @@ void check_orthographic(const json &camera, const Place &camera_place)
     if (ymag == 0) {
         refuse(place / "ymag", "0: the camera sees nothing (give half the height in metres)");
     }
+    return ymag;
 }
 
-void check_cameras(const json &root)
+void check_cameras(const json &root, Model &model)
 {
     const json &cameras = objects_of(root, "cameras");
     for (std::size_t i = 0; i < cameras.size(); i++) {
         Place place = (Place() / "cameras")[i];
-        optional_text(cameras[i], place, "name");
-        std::string type = optional_text(cameras[i], place, "type");
-        if (type == "perspective") {
-            check_perspective(cameras[i], place);
-        } else if (type == "orthographic") {
-            check_orthographic(cameras[i], place);
+        tinygltf::Camera &camera = model.cameras.emplace_back();
+        camera.name = optional_text(cameras[i], place, "name");
+        camera.type = optional_text(cameras[i], place, "type");
+        if (camera.type == "perspective") {
+            camera.perspective.yfov = check_perspective(cameras[i], place);
+        } else if (camera.type == "orthographic") {
+            camera.orthographic.ymag = check_orthographic(cameras[i], place);
         } else {
-            refuse(place / "type", in_quotes(type) + " is none (perspective or orthographic)");
+            refuse(place / "type",
+                   in_quotes(camera.type) + " is none (perspective or orthographic)");
         }
     }
 }
@@ -295,12 +310,12 @@ void check_skins(const json &root)
 
 } // namespace
 
-void check_graph(const json &root, Checked &checked)
+void check_graph(const json &root, Model &model)
 {
-    check_cameras(root);
+    check_cameras(root, model);
     check_skins(root);
-    check_nodes(root, checked);
-    check_scenes(root, checked);
+    check_nodes(root, model);
+    check_scenes(root, model);
 }
 
 } // namespace glint

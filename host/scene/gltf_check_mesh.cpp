@@ -8,112 +8,113 @@ namespace glint
 namespace
 {
 
-void check_indices(const json &root, const json &primitive, const Place &primitive_place)
+void check_indices(const json &source, const Place &primitive_place, const Model &model,
+                   tinygltf::Primitive &primitive)
 {
-    const json &accessors = objects_of(root, "accessors");
     std::ptrdiff_t index =
-        optional_index(primitive, primitive_place, "indices", accessors.size(), "accessor");
+        optional_index(source, primitive_place, "indices", model.accessors.size(), "accessor");
+    primitive.indices = static_cast<int>(index);
     if (index < 0) {
         return;
     }
     Place place = primitive_place / "indices";
-    const json &accessor = accessors[static_cast<std::size_t>(index)];
+    const tinygltf::Accessor &accessor = model.accessors[static_cast<std::size_t>(index)];
     std::string name = "accessors[" + std::to_string(index) + "]";
-    auto component = accessor["componentType"].get<std::uint64_t>();
+    const int component = accessor.componentType;
     bool is_unsigned = component == 5121 || component == 5123 || component == 5125;
-    if (accessor["type"].get_ref<const std::string &>() != "SCALAR" || !is_unsigned ||
-        optional_boolean(accessor, place, "normalized", false)) {
+    if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_unsigned || accessor.normalized) {
         refuse(place, name + " does not hold indices (SCALAR of 5121, 5123 or 5125, not "
                              "normalized)");
     }
-    const json *view = member(accessor, "bufferView");
-    if (view != nullptr && member(objects_of(root, "bufferViews")[view->get<std::size_t>()],
-                                  "byteStride") != nullptr) {
+    if (accessor.bufferView >= 0 &&
+        model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride != 0) {
         refuse(place, name + "'s bufferView has a byteStride (indices are packed tightly)");
     }
 }
 
-void check_attributes(const json &root, const json &attributes, const Place &place,
-                      const Checked &checked)
+void check_attributes(const json &attributes, const Place &place, const Model &model,
+                      tinygltf::Primitive &primitive)
 {
-    const json &accessors = objects_of(root, "accessors");
     const json *position = member(attributes, "POSITION");
     std::uint64_t vertices = 0;
     if (position != nullptr) {
-        std::size_t index = index_of(*position, place / "POSITION", accessors.size(), "accessor");
-        vertices = accessors[index]["count"].get<std::uint64_t>();
+        vertices = model
+                       .accessors[index_of(*position, place / "POSITION", model.accessors.size(),
+                                           "accessor")]
+                       .count;
     }
     for (auto it = attributes.begin(); it != attributes.end(); ++it) {
         Place attribute = place / it.key().c_str();
-        std::size_t index = index_of(it.value(), attribute, accessors.size(), "accessor");
-        const json &accessor = accessors[index];
-        auto count = accessor["count"].get<std::uint64_t>();
-        if (position != nullptr && count != vertices) {
+        std::size_t index = index_of(it.value(), attribute, model.accessors.size(), "accessor");
+        const tinygltf::Accessor &accessor = model.accessors[index];
+        if (position != nullptr && accessor.count != vertices) {
             refuse(attribute, "accessors[" + std::to_string(index) + "] has " +
-                                  counted(count, "element") + ", POSITION has " +
+                                  counted(accessor.count, "element") + ", POSITION has " +
                                   std::to_string(vertices) + " (they must agree)");
         }
         if (it.key() == "POSITION") {
-            check_format(accessor, attribute, {"VEC3", true, false, checked.quantized});
+            check_format(accessor, attribute, {TINYGLTF_TYPE_VEC3, true, false, model.quantized});
         } else if (it.key() == "NORMAL") {
-            check_format(accessor, attribute, {"VEC3", true, checked.quantized, false});
+            check_format(accessor, attribute, {TINYGLTF_TYPE_VEC3, true, model.quantized, false});
         }
+        primitive.attributes[it.key()] = static_cast<int>(index);
     }
 }
 
-void check_primitive(const json &root, const json &primitive, const Place &place,
-                     const Checked &checked)
+tinygltf::Primitive check_primitive(const json &root, const json &source, const Place &place,
+                                    const Model &model)
 {
-    if (!primitive.is_object()) {
+    if (!source.is_object()) {
         refuse(place, "not an object (glTF 2.0 requires one)");
     }
-    std::uint64_t mode = optional_whole(primitive, place, "mode", 4, 6);
-    optional_index(primitive, place, "material", objects_of(root, "materials").size(), "material");
-    const json &attributes = object_at(primitive, place, "attributes");
-    check_attributes(root, attributes, place / "attributes", checked);
-    if (mode >= 4 && member(attributes, "POSITION") == nullptr) {
+    tinygltf::Primitive primitive;
+    primitive.mode = static_cast<int>(optional_whole(source, place, "mode", 4, 6));
+    primitive.material = static_cast<int>(optional_index(
+        source, place, "material", objects_of(root, "materials").size(), "material"));
+    const json &attributes = object_at(source, place, "attributes");
+    check_attributes(attributes, place / "attributes", model, primitive);
+    if (primitive.mode >= 4 && member(attributes, "POSITION") == nullptr) {
         refuse(place / "attributes" / "POSITION",
                "missing (without positions there is nothing to draw)");
     }
-    check_indices(root, primitive, place);
-    const json &targets = optional_array(primitive, place, "targets");
+    check_indices(source, place, model, primitive);
+    const json &targets = optional_array(source, place, "targets");
     for (std::size_t i = 0; i < targets.size(); i++) {
         Place target = (place / "targets")[i];
         if (!targets[i].is_object()) {
             refuse(target, "not an object (glTF 2.0 requires one)");
         }
         for (auto it = targets[i].begin(); it != targets[i].end(); ++it) {
-            index_of(it.value(), target / it.key().c_str(), objects_of(root, "accessors").size(),
-                     "accessor");
+            index_of(it.value(), target / it.key().c_str(), model.accessors.size(), "accessor");
         }
     }
-    optional_object(primitive, place, "extensions");
+    optional_object(source, place, "extensions");
+    return primitive;
 }
 
 } // namespace
 
-void check_format(const json &accessor, const Place &place, const Format &format)
+void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format)
 {
-    auto component = accessor["componentType"].get<std::uint64_t>();
-    const auto &type = accessor["type"].get_ref<const std::string &>();
-    bool normalized = optional_boolean(accessor, place, "normalized", false);
+    const int component = accessor.componentType;
+    const bool normalized = accessor.normalized;
     bool good = format.plain_float && component == 5126;
     good =
         good || (format.normalized_ints && normalized && (component == 5120 || component == 5122));
     good = good || (format.unsigned_ints && normalized && (component == 5121 || component == 5123));
     good = good || (format.quantized && component >= 5120 && component <= 5123);
-    if (!good || type != format.type) {
-        std::string wanted = std::string(format.type) + " of floats (5126)";
+    if (!good || accessor.type != format.type) {
+        std::string wanted = std::string(type_name(format.type)) + " of floats (5126)";
         if (format.normalized_ints || format.quantized) {
             wanted += ", bytes or shorts";
         }
-        refuse(place, "the accessor holds " + type + " of component type " +
-                          std::to_string(component) + (normalized ? ", normalized" : "") +
-                          " (it must be " + wanted + ")");
+        refuse(place, "the accessor holds " + std::string(type_name(accessor.type)) +
+                          " of component type " + std::to_string(component) +
+                          (normalized ? ", normalized" : "") + " (it must be " + wanted + ")");
     }
 }
 
-void check_meshes(const json &root, const Checked &checked)
+void check_meshes(const json &root, Model &model)
 {
     const json &meshes = objects_of(root, "meshes");
     for (std::size_t i = 0; i < meshes.size(); i++) {
@@ -123,8 +124,10 @@ void check_meshes(const json &root, const Checked &checked)
         if (primitives.empty()) {
             refuse(place / "primitives", "empty (a mesh has at least one primitive)");
         }
+        tinygltf::Mesh &mesh = model.meshes.emplace_back();
         for (std::size_t p = 0; p < primitives.size(); p++) {
-            check_primitive(root, primitives[p], (place / "primitives")[p], checked);
+            mesh.primitives.push_back(
+                check_primitive(root, primitives[p], (place / "primitives")[p], model));
         }
     }
 }

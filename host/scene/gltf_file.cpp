@@ -293,37 +293,6 @@ Bytes read_external(const Document &document, const std::string &uri, const Plac
     return bytes;
 }
 
-Bytes read_buffer(Document &document, std::size_t i)
-{
-    Place place = (Place() / "buffers")[i];
-    json &buffer = document.root["buffers"][i];
-    std::uint64_t length = whole_at(buffer, place, "byteLength", 1, largest_whole);
-    auto found = buffer.find("uri");
-    if (found == buffer.end()) {
-        if (document.bin.size() < length) {
-            refuse(place / "byteLength", std::to_string(length) + " is more than the BIN chunk's " +
-                                             counted(document.bin.size(), "byte") +
-                                             " (the file is damaged)");
-        }
-        Bytes bytes;
-        bytes.swap(document.bin);
-        bytes.resize(length);
-        return bytes;
-    }
-    std::string uri = std::move(found->get_ref<std::string &>());
-    if (!is_data_uri(uri)) {
-        return read_external(document, uri, place / "uri", length);
-    }
-    Bytes bytes = decode_data_uri(uri, place / "uri");
-    if (bytes.size() < length) {
-        refuse(place / "uri", "the data URI holds " + counted(bytes.size(), "byte") +
-                                  ", byteLength says " + std::to_string(length) +
-                                  " (the text is cut short, or byteLength is wrong)");
-    }
-    bytes.resize(length);
-    return bytes;
-}
-
 } // namespace
 
 void read_document(const char *path, Document &document)
@@ -356,13 +325,35 @@ void read_document(const char *path, Document &document)
     parse(text, 0, document.root);
 }
 
-void read_buffers(Document &document)
+Bytes read_buffer(Document &document, std::size_t i)
 {
-    std::size_t count = objects_of(document.root, "buffers").size();
-    document.buffers.reserve(count);
-    for (std::size_t i = 0; i < count; i++) {
-        document.buffers.push_back(read_buffer(document, i));
+    Place place = (Place() / "buffers")[i];
+    json &buffer = document.root["buffers"][i];
+    std::uint64_t length = whole_at(buffer, place, "byteLength", 1, largest_whole);
+    auto found = buffer.find("uri");
+    if (found == buffer.end()) {
+        if (document.bin.size() < length) {
+            refuse(place / "byteLength", std::to_string(length) + " is more than the BIN chunk's " +
+                                             counted(document.bin.size(), "byte") +
+                                             " (the file is damaged)");
+        }
+        Bytes bytes;
+        bytes.swap(document.bin);
+        bytes.resize(length);
+        return bytes;
     }
+    std::string uri = std::move(found->get_ref<std::string &>());
+    if (!is_data_uri(uri)) {
+        return read_external(document, uri, place / "uri", length);
+    }
+    Bytes bytes = decode_data_uri(uri, place / "uri");
+    if (bytes.size() < length) {
+        refuse(place / "uri", "the data URI holds " + counted(bytes.size(), "byte") +
+                                  ", byteLength says " + std::to_string(length) +
+                                  " (the text is cut short, or byteLength is wrong)");
+    }
+    bytes.resize(length);
+    return bytes;
 }
 
 void check_uri(const Document &document, const std::string &uri, const Place &place)

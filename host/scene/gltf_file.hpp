@@ -5,7 +5,6 @@
 #include "scene/gltf_uri.hpp"
 
 #include <string>
-#include <vector>
 
 namespace glint
 {
@@ -16,16 +15,15 @@ struct Document {
     json root = json::object();
     bool has_bin = false; // a GLB with a BIN chunk
     Bytes bin;
-    std::vector<Bytes> buffers; // cut to byteLength each
 };
 
 // Reads the file into `document.root` and `document.bin`: a regular file of at most 4 GiB, JSON of
 // at most 1 GiB, nested at most 100 deep.
 void read_document(const char *path, Document &document);
 
-// Fills document.buffers after the byteLengths were checked. Takes the data URIs' texts out of the
-// JSON as it goes, so that they are not held twice.
-void read_buffers(Document &document);
+// The bytes of a buffer whose byteLength was checked, cut to that. Takes a data URI's text out of
+// the JSON, so that it is not held twice.
+Bytes read_buffer(Document &document, std::size_t index);
 
 // Refuses a URI that names what must never be opened: what is neither a data URI nor a regular file
 // under the folder. A file that is missing passes.

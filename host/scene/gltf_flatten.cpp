@@ -261,7 +261,7 @@ class Writer
 };
 
 // The file's nodes, and the names of those that are drawn.
-void name_nodes(const tinygltf::Model &model, glint_scene &scene)
+void name_nodes(const Model &model, glint_scene &scene)
 {
     const std::size_t count = model.nodes.size();
     scene.nodes = static_cast<glint_node *>(glint_allocate(count, sizeof(glint_node)));
@@ -270,13 +270,8 @@ void name_nodes(const tinygltf::Model &model, glint_scene &scene)
     }
     scene.node_count = count;
     for (std::size_t i = 0; i < count; i++) {
-        scene.nodes[i].parent = -1;
-    }
-    for (std::size_t i = 0; i < count; i++) {
+        scene.nodes[i].parent = model.parents[i];
         scene.nodes[i].name = copy_text(model.nodes[i].name);
-        for (int child : model.nodes[i].children) {
-            scene.nodes[child].parent = static_cast<int>(i);
-        }
     }
     for (std::size_t i = 0; i < scene.instance_count; i++) {
         glint_instance &instance = scene.instances[i];

@@ -1,25 +1,30 @@
-// A checked document, loaded by tinygltf.
+// What a checked document holds, in tinygltf's types: what is read after the checks.
 #ifndef GLINT_SCENE_GLTF_MODEL_HPP
 #define GLINT_SCENE_GLTF_MODEL_HPP
-
-#include "scene/gltf_file.hpp"
 
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_INCLUDE_JSON
 #define TINYGLTF_NO_FS
+#include <nlohmann/json.hpp>
+
 #include <fstream> // which tinygltf leaves out without its file functions, and uses all the same
 #include <tiny_gltf.h>
+#include <vector>
 
 namespace glint
 {
 
-// Takes document.buffers. tinygltf is given a document of its own, written from the checked one and
-// holding only what the loader uses of it: buffers, views, accessors, meshes with positions and
-// normals, nodes, scenes and cameras. So nothing reaches it that nobody has checked (images,
-// extensions, extras, doubled keys, whole numbers written as 3.0), and it opens no file.
-void load_model(Document &document, tinygltf::Model &model);
+// The checks fill it, each object where it is checked (gltf_check*.cpp), with what the loader reads
+// of it. So no value can be read that nobody has checked. An index of −1 refers to nothing; an
+// accessor whose bufferView is −1 holds zeros. Where the file is in order tinygltf's own loader
+// gives the same, but it is no validator: it drops what it cannot read, hides negative offsets,
+// opens files and follows what is out of range.
+struct Model : tinygltf::Model {
+    bool quantized = false;   // KHR_mesh_quantization is declared
+    std::vector<int> parents; // of each node; −1: a root
+};
 
 } // namespace glint
 

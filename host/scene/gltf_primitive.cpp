@@ -15,16 +15,15 @@ namespace
 class Accessors
 {
   public:
-    Accessors(const tinygltf::Model &model, std::size_t views)
-        : model_(model), views_(views), readers_(model.accessors.size()),
-          largest_(model.accessors.size())
+    explicit Accessors(const Model &model)
+        : model_(model), readers_(model.accessors.size()), largest_(model.accessors.size())
     {
     }
 
     const Reader &reader(std::size_t i)
     {
         if (!readers_[i]) {
-            readers_[i].emplace(model_, i, views_);
+            readers_[i].emplace(model_, i);
         }
         return *readers_[i];
     }
@@ -43,8 +42,7 @@ class Accessors
     }
 
   private:
-    const tinygltf::Model &model_;
-    std::size_t views_;
+    const Model &model_;
     std::vector<std::optional<Reader>> readers_;
     std::vector<std::optional<std::uint32_t>> largest_;
 };
@@ -102,10 +100,10 @@ void count_triangles(Primitive &primitive, Tally &tally)
 
 } // namespace
 
-Primitives prepare_primitives(const Document &document, const tinygltf::Model &model, Tally &tally)
+Primitives prepare_primitives(const Model &model, Tally &tally)
 {
     Primitives result;
-    Accessors accessors(model, objects_of(document.root, "bufferViews").size());
+    Accessors accessors(model);
     for (std::size_t m = 0; m < model.meshes.size(); m++) {
         result.first.push_back(result.all.size());
         for (std::size_t p = 0; p < model.meshes[m].primitives.size(); p++) {

@@ -43,7 +43,7 @@ struct Primitives {
     std::vector<std::size_t> first; // [mesh], and the end
 };
 
-Primitives prepare_primitives(const Document &document, const tinygltf::Model &model, Tally &tally);
+Primitives prepare_primitives(const Model &model, Tally &tally);
 
 } // namespace glint
 

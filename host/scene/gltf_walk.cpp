@@ -143,13 +143,12 @@ void survey_rotation(Load &load, std::size_t index, const std::string &where)
 
 void survey_node(Load &load, std::size_t index)
 {
-    const json &node = objects_of(load.document.root, "nodes")[index];
     std::string where = node_where(load, index);
     survey_rotation(load, index, where);
-    if (member(node, "skin") != nullptr) {
+    if (load.model.nodes[index].skin >= 0) {
         load.tally.add("skins are not applied, the mesh is shown as it was bound", where);
     }
-    const json *extensions = member(node, "extensions");
+    const json *extensions = member(objects_of(load.document.root, "nodes")[index], "extensions");
     if (extensions == nullptr) {
         return;
     }
@@ -286,7 +285,7 @@ std::vector<std::string> names_of(const std::vector<tinygltf::Scene> &scenes)
 
 std::vector<int> find_roots(Load &load, const char *name)
 {
-    const tinygltf::Model &model = load.model;
+    const Model &model = load.model;
     if (name != nullptr || !model.scenes.empty()) {
         std::size_t scene = name != nullptr ? find_named(names_of(model.scenes), name, "scene")
                             : model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene)
@@ -296,7 +295,7 @@ std::vector<int> find_roots(Load &load, const char *name)
     // glTF calls such a file a library. Whoever renders it wants to see what is in it.
     std::vector<int> roots;
     for (std::size_t i = 0; i < model.nodes.size(); i++) {
-        if (load.checked.parents[i] < 0) {
+        if (load.model.parents[i] < 0) {
             roots.push_back(static_cast<int>(i));
         }
     }
@@ -343,11 +342,9 @@ std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::si
     if (attributes == nullptr) {
         return result;
     }
-    const std::size_t views = objects_of(load.document.root, "bufferViews").size();
     auto open = [&](const char *key) {
         const json *accessor = member(*attributes, key);
-        return accessor == nullptr ? Reader()
-                                   : Reader(load.model, accessor->get<std::size_t>(), views);
+        return accessor == nullptr ? Reader() : Reader(load.model, accessor->get<std::size_t>());
     };
     Reader translations = open("TRANSLATION");
     Reader rotations = open("ROTATION");

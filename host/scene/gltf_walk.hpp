@@ -29,8 +29,7 @@ struct Draw {
 // What the loader works on.
 struct Load {
     Document document;
-    Checked checked;
-    tinygltf::Model model;
+    Model model;
     Primitives primitives;
     Clips clips;
     std::vector<Visit> visits; // depth first: parents come before their children
