@@ -5,6 +5,7 @@
 // not applied, which is said in the warnings.
 #include "scene/scene.h"
 
+#include "scene/gltf_check.hpp"
 #include "scene/gltf_flatten.hpp"
 #include "scene/gltf_sweep.hpp"
 

@@ -2,6 +2,7 @@
 #include "scene/gltf_animation.hpp"
 
 #include "scene/gltf_accessor.hpp"
+#include "scene/gltf_check_storage.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #define GLINT_SCENE_GLTF_ANIMATION_HPP
 
 #include "scene/animation.h"
-#include "scene/gltf_check.hpp"
+#include "scene/gltf_file.hpp"
 #include "scene/gltf_model.hpp"
 #include "scene/gltf_tally.hpp"
 

@@ -1,6 +1,7 @@
 // Validation of the raw JSON: nodes, scenes, cameras and skins. Everything takes linear time: a
 // graph of 40 nodes can have 2^40 paths, and a chain can be 50,000 deep. See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
+#include "scene/gltf_check_storage.hpp"
 
 #include <array>
 #include <cmath>

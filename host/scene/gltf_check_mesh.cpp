@@ -1,6 +1,7 @@
 // Validation of the raw JSON: meshes, primitives, their attributes and indices. What the accessors
 // hold is checked when it is read (gltf_primitive.cpp). See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
+#include "scene/gltf_check_storage.hpp"
 
 namespace glint
 {
@@ -93,26 +94,6 @@ tinygltf::Primitive check_primitive(const json &root, const json &source, const 
 }
 
 } // namespace
-
-void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format)
-{
-    const int component = accessor.componentType;
-    const bool normalized = accessor.normalized;
-    bool good = format.plain_float && component == 5126;
-    good =
-        good || (format.normalized_ints && normalized && (component == 5120 || component == 5122));
-    good = good || (format.unsigned_ints && normalized && (component == 5121 || component == 5123));
-    good = good || (format.quantized && component >= 5120 && component <= 5123);
-    if (!good || accessor.type != format.type) {
-        std::string wanted = std::string(type_name(format.type)) + " of floats (5126)";
-        if (format.normalized_ints || format.quantized) {
-            wanted += ", bytes or shorts";
-        }
-        refuse(place, "the accessor holds " + std::string(type_name(accessor.type)) +
-                          " of component type " + std::to_string(component) +
-                          (normalized ? ", normalized" : "") + " (it must be " + wanted + ")");
-    }
-}
 
 void check_meshes(const json &root, Model &model)
 {

@@ -2,7 +2,8 @@
 // pass, so that no value can be read that was not checked. See gltf_material.hpp.
 #include "scene/gltf_material.hpp"
 
-#include <algorithm>
+#include "scene/gltf_extensions.hpp"
+
 #include <array>
 #include <cfloat>
 #include <cmath>
@@ -32,10 +33,6 @@ const std::array<Slot, 8> slots = {{
     {"KHR_materials_volume", "thicknessTexture", "thicknessFactor alone is used"},
     {"KHR_materials_ior", "iorTexture", "ior alone is used"},
 }};
-
-const std::array<const char *, 5> modelled_extensions = {
-    "KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume",
-    "KHR_materials_emissive_strength", "KHR_materials_unlit"};
 
 float factor(const json &object, const Place &place, const char *key, double fallback)
 {
@@ -213,21 +210,6 @@ bool shows_roughness(const glint_material &material)
     return material.roughness > 0 && (lobes.metal || lobes.glass);
 }
 
-void survey_extensions(const json &material, const std::string &where, Tally &tally)
-{
-    const json *extensions = member(material, "extensions");
-    if (extensions == nullptr) {
-        return;
-    }
-    for (auto it = extensions->begin(); it != extensions->end(); ++it) {
-        bool modelled = std::any_of(modelled_extensions.begin(), modelled_extensions.end(),
-                                    [&](const char *one) { return it.key() == one; });
-        if (!modelled) {
-            tally.add(it.key() + " is not modelled, the material is rendered without it", where);
-        }
-    }
-}
-
 void survey_extras(const json &material, const std::string &where, Tally &tally)
 {
     const json *extras = member(material, "extras");
@@ -310,7 +292,7 @@ void survey_material(const json &root, std::ptrdiff_t index, Tally &tally)
     if (alpha == "MASK" || alpha == "BLEND") {
         tally.add("alphaMode " + alpha + " is not modelled, the surface is rendered opaque", where);
     }
-    survey_extensions(material, where, tally);
+    survey_extensions(material, Holder::material, where, tally);
     survey_extras(material, where, tally);
 }
 

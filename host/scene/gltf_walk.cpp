@@ -3,6 +3,7 @@
 #include "scene/gltf_walk.hpp"
 
 #include "base/memory.h"
+#include "scene/gltf_extensions.hpp"
 
 #include <algorithm>
 #include <array>
@@ -148,17 +149,8 @@ void survey_node(Load &load, std::size_t index)
     if (load.model.nodes[index].skin >= 0) {
         load.tally.add("skins are not applied, the mesh is shown as it was bound", where);
     }
-    const json *extensions = member(objects_of(load.document.root, "nodes")[index], "extensions");
-    if (extensions == nullptr) {
-        return;
-    }
-    for (auto it = extensions->begin(); it != extensions->end(); ++it) {
-        if (it.key() == "KHR_lights_punctual") {
-            load.tally.add("lights are not modelled, the environment alone gives light", where);
-        } else if (it.key() != "EXT_mesh_gpu_instancing") {
-            load.tally.add(it.key() + " is not modelled, the node is shown without it", where);
-        }
-    }
+    survey_extensions(objects_of(load.document.root, "nodes")[index], Holder::node, where,
+                      load.tally);
 }
 
 void survey_primitive(Load &load, const Primitive &primitive)
@@ -173,18 +165,7 @@ void survey_primitive(Load &load, const Primitive &primitive)
         load.tally.add("vertex colours (COLOR_0) are not modelled, baseColorFactor alone is used",
                        where);
     }
-    const json *extensions = member(source, "extensions");
-    if (extensions == nullptr) {
-        return;
-    }
-    for (auto it = extensions->begin(); it != extensions->end(); ++it) {
-        if (it.key() == "KHR_materials_variants") {
-            load.tally.add("material variants are not modelled, the default is shown", where);
-        } else if (it.key() != "KHR_draco_mesh_compression") {
-            // Draco's data repeats what the accessors hold, where it is not required.
-            load.tally.add(it.key() + " is not modelled, the mesh is shown without it", where);
-        }
-    }
+    survey_extensions(source, Holder::primitive, where, load.tally);
 }
 
 void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene)

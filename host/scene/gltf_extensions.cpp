@@ -1,0 +1,78 @@
+// What glint makes of each extension. See gltf_extensions.hpp.
+#include "scene/gltf_extensions.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace glint
+{
+
+namespace
+{
+
+struct Extension {
+    const char *name;
+    Holder holder;
+    bool can_be_required;
+    const char *said; // where it stands in a used object; NULL: nothing, as nothing is missing
+};
+
+constexpr std::array<Extension, 11> extensions = {{
+    {"KHR_materials_transmission", Holder::material, true, nullptr},
+    {"KHR_materials_ior", Holder::material, true, nullptr},
+    {"KHR_materials_volume", Holder::material, true, nullptr},
+    {"KHR_materials_emissive_strength", Holder::material, true, nullptr},
+    {"KHR_materials_unlit", Holder::material, true, nullptr},
+    // Textures are not modelled, so neither is this wrong.
+    {"KHR_texture_transform", Holder::texture, true, nullptr},
+    {"KHR_mesh_quantization", Holder::document, true, nullptr},
+    {"EXT_mesh_gpu_instancing", Holder::node, true, nullptr},
+    {"KHR_lights_punctual", Holder::node, false,
+     "lights are not modelled, the environment alone gives light"},
+    {"KHR_materials_variants", Holder::primitive, false,
+     "material variants are not modelled, the default is shown"},
+    // Draco's data repeats what the accessors hold, where it is not required.
+    {"KHR_draco_mesh_compression", Holder::primitive, false, nullptr},
+}};
+
+const char *shown_without(Holder holder)
+{
+    switch (holder) {
+    case Holder::material:
+        return "the material is rendered without it";
+    case Holder::node:
+        return "the node is shown without it";
+    default:
+        return "the mesh is shown without it";
+    }
+}
+
+} // namespace
+
+bool can_be_required(const std::string &name)
+{
+    return std::any_of(extensions.begin(), extensions.end(), [&](const Extension &one) {
+        return name == one.name && one.can_be_required;
+    });
+}
+
+void survey_extensions(const json &object, Holder holder, const std::string &where, Tally &tally)
+{
+    const json *found = member(object, "extensions");
+    if (found == nullptr) {
+        return;
+    }
+    for (auto it = found->begin(); it != found->end(); ++it) {
+        const auto *known =
+            std::find_if(extensions.begin(), extensions.end(), [&](const Extension &one) {
+                return it.key() == one.name && holder == one.holder;
+            });
+        if (known == extensions.end()) {
+            tally.add(it.key() + " is not modelled, " + shown_without(holder), where);
+        } else if (known->said != nullptr) {
+            tally.add(known->said, where);
+        }
+    }
+}
+
+} // namespace glint
