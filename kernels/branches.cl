@@ -37,6 +37,10 @@ typedef struct branch {
     int pixel, met, kind;
 } branch;
 
+// By which the host knows how much room a tile's branches take.
+typedef char branch_is_as_large_as_layout_h_says
+    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), GLINT_MIP_LEVELS) ? 1 : -1];
+
 typedef struct branches {
     int next_count, waiting_count;
     int of_pixel[TILE_PIXELS]; // how many wait

@@ -156,6 +156,13 @@ typedef struct glint_frame_record {
         1, x, y, z, (x) * (y), (y) * (z), (z) * (x), (x) * (x) - (y) * (y), 3 * (z) * (z)-1        \
     }
 
+// ---- Branches ----------------------------------------------------------------------------------
+// What a branch that waits takes (branches.cl, with GLINT_SPLIT), in bytes, where a number of the
+// precision takes `number`: eleven of these, two more with GLINT_MIP_LEVELS, and three ints;
+// rounded up to whole numbers.
+#define GLINT_BRANCH_BYTES(number, mip_levels)                                                     \
+    (((number)*11 + ((mip_levels) ? (number)*2 : 0) + 3 * 4 + (number)-1) / (number) * (number))
+
 // ---- Layers ------------------------------------------------------------------------------------
 // With GLINT_DIAGNOSTICS: what became of a pixel's paths, [height][width]. The first three are of
 // all its samples, the others of the one in the middle: of k × k, that in column and row k/2,

@@ -4,36 +4,17 @@
 // The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
 // GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_HALF_TEXELS, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS,
 // GLINT_MEDIA_CAPACITY, GLINT_TRAVERSAL_STACK and GLINT_TILES.
-#if (GLINT_SOLID || GLINT_THIN_WALL) && !GLINT_GLASS
-#error "SOLID and THIN_WALL need GLASS"
-#endif
-#if (GLINT_ABSORPTION || GLINT_NESTED_MEDIA) && !GLINT_SOLID
-#error "ABSORPTION and NESTED_MEDIA need SOLID"
-#endif
-#if GLINT_TINT && !GLINT_MIRROR
-#error "TINT needs MIRROR"
-#endif
-#if GLINT_GLOSS && !GLINT_PAINT
-#error "GLOSS needs PAINT"
-#endif
-#if GLINT_SPLIT && !GLINT_GLASS
-#error "SPLIT needs GLASS"
-#endif
-#if GLINT_PIXEL_LIST && GLINT_TILES
-#error "PIXEL_LIST needs tiles of one packet"
-#endif
-#if GLINT_HITS && !GLINT_GEOMETRY
-#error "HITS needs GEOMETRY"
-#endif
+#include "features.h"
 
-#if (GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION) && !GLINT_SMOOTH_NORMALS
-#error "VERTEX_COLOR and VERTEX_DIRECTION need SMOOTH_NORMALS"
-#endif
+// What each feature needs and excludes: where that is not so, an array of the feature's name has a
+// negative size.
+#define CHECK(name, meaning, needs, excludes, unneeded)                                            \
+    typedef char name##_lacks_what_it_needs[!GLINT_##name || (needs) ? 1 : -1];                    \
+    typedef char name##_is_beside_what_it_excludes[!GLINT_##name || !(excludes) ? 1 : -1];
+GLINT_FEATURES(CHECK)
+#undef CHECK
 
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
-#if GLINT_IRRADIANCE_HARMONICS && !NEEDS_IRRADIANCE
-#error "IRRADIANCE_HARMONICS needs PAINT or BLEND"
-#endif
 // Paths gather more than what the environment's look-ups bring.
 #define GATHERS                                                                                    \
     (!GLINT_HITS &&                                                                                \

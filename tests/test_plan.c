@@ -48,6 +48,19 @@ static void make_scene(test_scene *s, const glint_material *materials, size_t co
                              .unit = 1};
 }
 
+// What the features of kernels/features.h need and exclude.
+static void check_features(const glint_plan *plan)
+{
+#define DECLARE(name, ...) const bool GLINT_##name = plan->features[GLINT_FEATURE_##name].compiled;
+    GLINT_FEATURES(DECLARE)
+#undef DECLARE
+    const bool GLINT_TILES = plan->tiles;
+#define CHECK(name, meaning, needs, excludes, unneeded)                                            \
+    assert_true(!GLINT_##name || ((needs) && !(excludes)));
+    GLINT_FEATURES(CHECK)
+#undef CHECK
+}
+
 static glint_status plan_under(const glint_cube *environment, const test_scene *s,
                                const glint_capabilities *device, const glint_settings *settings,
                                glint_plan *plan, glint_error *error)
@@ -60,7 +73,9 @@ static glint_status plan_under(const glint_cube *environment, const test_scene *
                                       .environment = environment,
                                       .device = device,
                                       .settings = settings};
-    return glint_plan_make(&inputs, plan, error);
+    TRY(glint_plan_make(&inputs, plan, error));
+    check_features(plan);
+    return GLINT_OK;
 }
 
 static glint_status plan_for(const test_scene *s, const glint_capabilities *device,
@@ -187,8 +202,11 @@ static void the_stack_holds_every_branch_that_the_least_weight_allows(void **sta
     settings.precision = GLINT_PRECISION_DOUBLE;
     settings.kernel_width = 16;
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
-    assert_false(plan.tiles); // 256 pixels × 65 branches × 120 bytes
-    assert_non_null(strstr(plan.tiles_reason, "branches"));
+    assert_false(plan.tiles); // 256 pixels × 65 branches × 104 bytes
+    assert_non_null(strstr(plan.tiles_reason, "branches of a tile would take 1690 KiB"));
+    settings.filter = GLINT_FILTER_MIP; // whose branches take 120
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_non_null(strstr(plan.tiles_reason, "branches of a tile would take 1950 KiB"));
 }
 
 static void the_plan_says_how_secondary_rays_are_traced(void **state)
@@ -342,6 +360,40 @@ static void layers_are_compiled_where_they_are_asked_for(void **state)
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_USAGE);
 }
 
+// Of each kind of material alone and of all of them, and of nothing.
+static void features_have_what_they_need_whatever_is_asked_for(void **state)
+{
+    (void)state;
+    glint_material kinds[4] = {white_paint, white_paint, white_paint, white_paint};
+    kinds[1].metallic = 0.5f;
+    kinds[1].base_color[0] = 0.5f;
+    kinds[2].transmission = 1;
+    kinds[2].thickness = 1;
+    kinds[2].attenuation_distance = 2;
+    kinds[2].attenuation_color[0] = 0.5f;
+    kinds[3].mirror = 0.5f;
+    static const uint32_t list[GLINT_LIST_COLUMNS] = {0};
+    for (int asked = 0; asked < 1 << 8; asked++) {
+        glint_settings settings = glint_settings_default;
+        settings.all_features = asked & 1;
+        settings.shading = asked & 2 ? GLINT_SHADING_VERTEX_COLOR : GLINT_SHADING_PIXEL;
+        settings.output = asked & 4 ? GLINT_OUTPUT_HITS : GLINT_OUTPUT_COLOR;
+        settings.list = asked & 8 ? list : NULL;
+        settings.list_rows = asked & 8 ? 1 : 0;
+        settings.irradiance = asked & 16 ? GLINT_IRRADIANCE_SH : GLINT_IRRADIANCE_EXACT;
+        settings.mend = asked & 32 ? 0.5 : 0;
+        settings.fresnel = asked & 64 ? GLINT_FRESNEL_NONE : GLINT_FRESNEL_EXACT;
+        settings.truncation_squares = asked & 128;
+        for (size_t i = 0; i < 6; i++) {
+            test_scene s;
+            glint_plan plan;
+            make_scene(&s, i < 4 ? &kinds[i] : kinds, i < 4 ? 1 : i == 4 ? 4 : 0);
+            const glint_status status = plan_for(&s, &wide_cpu, &settings, &plan, NULL);
+            assert_true(status == GLINT_OK || status == GLINT_USAGE); // not all go together
+        }
+    }
+}
+
 static void every_feature_is_passed_to_the_compiler_as_0_or_1(void **state)
 {
     (void)state;
@@ -373,6 +425,7 @@ int main(void)
         cmocka_unit_test(texels_are_what_is_asked_for_or_refused),
         cmocka_unit_test(settings_out_of_range_are_usage_errors),
         cmocka_unit_test(layers_are_compiled_where_they_are_asked_for),
+        cmocka_unit_test(features_have_what_they_need_whatever_is_asked_for),
         cmocka_unit_test(every_feature_is_passed_to_the_compiler_as_0_or_1),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,7 +18,7 @@
 #include <stdint.h>
 
 typedef enum glint_feature {
-#define GLINT_FEATURE_NAME(name, meaning) GLINT_FEATURE_##name,
+#define GLINT_FEATURE_NAME(name, ...) GLINT_FEATURE_##name,
     GLINT_FEATURES(GLINT_FEATURE_NAME)
 #undef GLINT_FEATURE_NAME
         GLINT_FEATURE_COUNT

@@ -40,7 +40,7 @@ typedef enum glint_output {
 
 // What the environment's texels are on the device.
 typedef enum glint_texels {
-    GLINT_TEXELS_AUTO, // half where that costs next to nothing, see plan.c
+    GLINT_TEXELS_AUTO, // half where that costs next to nothing, see plan_device.c
     GLINT_TEXELS_HALF,
     GLINT_TEXELS_FLOAT,
 } glint_texels;

@@ -1,0 +1,199 @@
+// How the kernels suit the device: packets, tiles, stacks and texels. See plan_parts.h.
+#include "render/plan_parts.h"
+
+#include "base/half.h"
+#include "environment/mip_levels.h"
+#include "kernels/layout.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// A packet fills the widest vector of the device; where a work-item is one lane of the hardware's
+// own (GPUs), a packet is one ray.
+int glint_plan_native_width(const glint_capabilities *device, glint_precision precision)
+{
+    const int per_lane = precision == GLINT_PRECISION_DOUBLE ? 2 : 1;
+    return !device->is_cpu ? 1 : device->native_float_width / per_lane >= 16 ? 16 : 8;
+}
+
+static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
+{
+    const glint_capabilities *device = in->device;
+    const bool is_double = plan->precision == GLINT_PRECISION_DOUBLE;
+    const int lanes = device->native_float_width / (is_double ? 2 : 1);
+    plan->bvh_width = device->native_float_width >= 16 ? 16 : 8;
+    if (in->settings->kernel_width != 0) {
+        plan->kernel_width = in->settings->kernel_width;
+        snprintf(plan->width_reason, sizeof plan->width_reason, "asked for");
+    } else if (!device->is_cpu) {
+        plan->kernel_width = glint_plan_native_width(device, plan->precision);
+        snprintf(plan->width_reason, sizeof plan->width_reason, "not a CPU: one ray a work-item");
+    } else {
+        plan->kernel_width = glint_plan_native_width(device, plan->precision);
+        snprintf(plan->width_reason, sizeof plan->width_reason,
+                 "%sthe device's vectors hold %d %ss", lanes < 8 ? "the narrowest packet; " : "",
+                 lanes, is_double ? "double" : "float");
+    }
+}
+
+// Neighbouring primary rays meet mostly the same nodes and triangles, so a core does well to trace
+// many at once; a GPU needs its work in many small pieces.
+static void choose_tiles(const glint_settings *settings, glint_plan *plan)
+{
+    plan->tiles = plan->kernel_width > 1 && settings->list == NULL;
+    const char *reason = plan->tiles              ? "primary rays share nodes and triangles"
+                         : settings->list != NULL ? "pixels of a list need not be neighbours"
+                                                  : "one ray a work-item";
+    if (settings->tile_packets != 0 && settings->list == NULL) {
+        plan->tiles = settings->tile_packets > 1;
+        reason = "asked for";
+    }
+    snprintf(plan->tiles_reason, sizeof plan->tiles_reason, "%s", reason);
+}
+
+// What does not fill a stack of waiting branches costs nothing, so that all weights down to 2^−16
+// share a kernel.
+#define STACK_LEAST 18
+
+// The path goes on with the lighter of two branches, which has at most half of the weight, so that
+// at most 1 + log2(1/min_weight) wait; one more slot tells that the stack is nearly full.
+static void choose_stack(const glint_settings *settings, glint_plan *plan)
+{
+    plan->stack_capacity = 0;
+    if (!plan->features[GLINT_FEATURE_SPLIT].compiled) {
+        snprintf(plan->stack_reason, sizeof plan->stack_reason, "no path splits");
+        return;
+    }
+    double by_weight = settings->min_weight > 0 ? floor(-log2(settings->min_weight)) + 1 : INFINITY;
+    double need = fmin(by_weight, plan->depth) + 1;
+    plan->stack_capacity = (int)fmax(STACK_LEAST, fmin(need, GLINT_DEPTH_MAX + 1));
+    if (need > plan->stack_capacity) {
+        snprintf(plan->stack_reason, sizeof plan->stack_reason,
+                 "%d is the most; more would be truncated and reported", plan->stack_capacity);
+    } else {
+        snprintf(plan->stack_reason, sizeof plan->stack_reason,
+                 "enough for every path of depth %d and least weight %g", plan->depth,
+                 settings->min_weight);
+    }
+}
+
+// What the waiting branches of a tile may take of a work-item's own memory, which on CPUs is a
+// thread's stack: the C library's least default is 2 MiB.
+#define BRANCHES_MAX_BYTES ((size_t)5 << 18)
+
+// A tile's pixels each have room for as many branches as one path may need; where that comes to too
+// much a work-item renders one packet.
+static void limit_branches(glint_plan *plan)
+{
+    const size_t branch = GLINT_BRANCH_BYTES(glint_plan_scalar_bytes(plan),
+                                             plan->features[GLINT_FEATURE_MIP_LEVELS].compiled);
+    const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
+    if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
+        plan->tiles = false;
+        snprintf(plan->tiles_reason, sizeof plan->tiles_reason,
+                 "the waiting branches of a tile would take %zu KiB", bytes >> 10);
+    }
+}
+
+void glint_plan_choose_packets(const glint_plan_inputs *in, glint_plan *plan)
+{
+    choose_width(in, plan);
+    choose_tiles(in->settings, plan);
+    choose_stack(in->settings, plan);
+    limit_branches(plan);
+}
+
+// Says what kernels/traverse_together.cl makes of width and tiles.
+void glint_plan_describe_secondary_rays(glint_plan *plan)
+{
+    const bool packets = plan->kernel_width > 1;
+    snprintf(plan->secondary, sizeof plan->secondary, "%s%s%s", packets ? "packets" : "one by one",
+             plan->tiles ? ", together where a tile's run alike" : "",
+             packets ? ", in a stream where they spread" : "");
+    if (!plan->features[GLINT_FEATURE_INTERREFLECTION].compiled) {
+        snprintf(plan->secondary, sizeof plan->secondary, "none");
+    }
+}
+
+// Entries of the fewest bits that can name every medium; without nesting one entry is enough.
+void glint_plan_choose_media(const glint_scene *scene, glint_plan *plan)
+{
+    int media = 0;
+    for (size_t i = 0; i < scene->material_count; i++) {
+        media += glint_material_lobes(&scene->materials[i]).solid;
+    }
+    plan->media_count = media;
+    int bits = 1;
+    while (bits < 30 && (1 << bits) <= media) {
+        bits++;
+    }
+    plan->media_bits = bits;
+    bool nested = plan->features[GLINT_FEATURE_NESTED_MEDIA].compiled;
+    plan->media_capacity = nested ? 30 / bits : 1;
+}
+
+// What rounding may add to what is seen of the environment (visible_rmse). Where all is as bright
+// as the mean it comes to 2.1e-4; more means that texels are too dark for half and lose digits.
+#define TEXEL_TOLERANCE 2.5e-4
+
+// Half, if the environment can be held and, unless half was asked for, is held well.
+static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *plan,
+                                      glint_error *error)
+{
+    const bool asked_for = in->settings->texels == GLINT_TEXELS_HALF;
+    const size_t capacity = sizeof plan->texels_reason;
+    glint_half_rounding half;
+    if (in->half != NULL) {
+        half = *in->half;
+    } else {
+        TRY(glint_half_rounding_measure(in->environment, &half, error));
+    }
+    double largest = (double)half.largest, most = (double)GLINT_HALF_MAX;
+    bool fits = largest <= most; // NaN does not
+    if (!fits && asked_for) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--texels half: the environment's brightest texel is %g, and half holds "
+                          "%g at most (use --texels float)",
+                          largest, most);
+    }
+    if (!fits) {
+        snprintf(plan->texels_reason, capacity, "the brightest, %g, is more than half holds (%g)",
+                 largest, most);
+        return GLINT_OK;
+    }
+    plan->half_texels = asked_for || half.visible_rmse <= TEXEL_TOLERANCE;
+    snprintf(plan->texels_reason, capacity, "%s an error of %.2g of what is seen (%.2g is allowed)",
+             asked_for           ? "asked for; rounding adds"
+             : plan->half_texels ? "rounding adds"
+                                 : "rounding to half would add",
+             half.visible_rmse, TEXEL_TOLERANCE);
+    if (plan->half_texels) {
+        plan->texels_rmse = half.relative_rmse;
+        plan->environment_bytes /= 2;
+    }
+    return GLINT_OK;
+}
+
+// Half texels take half of the memory's time. Double precision, the reference, has them only if
+// they are asked for.
+glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *plan,
+                                      glint_error *error)
+{
+    const glint_texels asked = in->settings->texels;
+    const char *reason = NULL;
+    plan->half_texels = false;
+    plan->texels_rmse = 0;
+    plan->environment_bytes = sizeof(float) * (plan->features[GLINT_FEATURE_MIP_LEVELS].compiled
+                                                   ? glint_mip_levels_size(in->environment->edge)
+                                                   : glint_cube_size(in->environment));
+    if (asked == GLINT_TEXELS_FLOAT) {
+        reason = "asked for";
+    } else if (asked == GLINT_TEXELS_AUTO && plan->precision == GLINT_PRECISION_DOUBLE) {
+        reason = "precision double is the reference";
+    }
+    if (reason == NULL) {
+        return weigh_half_texels(in, plan, error);
+    }
+    snprintf(plan->texels_reason, sizeof plan->texels_reason, "%s", reason);
+    return GLINT_OK;
+}

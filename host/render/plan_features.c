@@ -1,0 +1,232 @@
+// What is compiled into the kernels, and why. See plan_parts.h.
+#include "render/plan_parts.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+// The feature that each lobe of a material needs, and what the reason says of such materials.
+#define LOBES(LOBE)                                                                                \
+    LOBE(MIRROR, metal, "a metallic share")                                                        \
+    LOBE(TINT, tint, "coloured metal")                                                             \
+    LOBE(GLASS, glass, "transmission")                                                             \
+    LOBE(SOLID, solid, "a volume")                                                                 \
+    LOBE(THIN_WALL, thin, "transmission and no volume")                                            \
+    LOBE(ABSORPTION, absorption, "absorption inside")                                              \
+    LOBE(PAINT, paint, "a share of paint")                                                         \
+    LOBE(GLOSS, gloss, "paint of roughness 0")                                                     \
+    LOBE(BLEND, blend, "the lecture's blend")                                                      \
+    LOBE(UNLIT, unlit, "KHR_materials_unlit")                                                      \
+    LOBE(EMISSION, emission, "emission")
+
+typedef struct material_census {
+    size_t used;                         // materials in use
+    size_t needing[GLINT_FEATURE_COUNT]; // of these, for a lobe
+    size_t metal_and_glass;              // both at once
+} material_census;
+
+static void count_material(const glint_material *material, material_census *census)
+{
+    const glint_lobes lobes = glint_material_lobes(material);
+    census->used++;
+    census->metal_and_glass += lobes.metal && lobes.glass;
+#define COUNT(feature, lobe, what) census->needing[GLINT_FEATURE_##feature] += lobes.lobe;
+    LOBES(COUNT)
+#undef COUNT
+}
+
+static glint_status take_census(const glint_scene *scene, material_census *census,
+                                glint_error *error)
+{
+    *census = (material_census){0};
+    bool *used = calloc(scene->material_count + 1, sizeof *used);
+    if (used == NULL) {
+        return glint_fail_memory(error, "the plan");
+    }
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        if (scene->instances[i].triangle_count > 0) {
+            used[scene->instances[i].material] = true;
+        }
+    }
+    for (size_t i = 0; i < scene->material_count; i++) {
+        if (used[i]) {
+            count_material(&scene->materials[i], census);
+        }
+    }
+    free(used);
+    return GLINT_OK;
+}
+
+static void decide(glint_plan *plan, glint_feature feature, bool compiled, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+static void decide(glint_plan *plan, glint_feature feature, bool compiled, const char *format, ...)
+{
+    glint_feature_choice *choice = &plan->features[feature];
+    choice->compiled = compiled;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(choice->reason, sizeof choice->reason, format, arguments);
+    va_end(arguments);
+}
+
+// "2 of 5 materials with transmission"
+static void decide_by_count(glint_plan *plan, glint_feature feature, size_t count, size_t of,
+                            const char *what)
+{
+    decide(plan, feature, count > 0, "%zu of %zu material%s with %s", count, of, of == 1 ? "" : "s",
+           what);
+}
+
+static void decide_materials(const material_census *c, glint_plan *plan)
+{
+    decide(plan, GLINT_FEATURE_MANY_MATERIALS, c->used > 1, "%zu material%s in use", c->used,
+           c->used == 1 ? "" : "s");
+#define DECIDE(feature, lobe, what)                                                                \
+    decide_by_count(plan, GLINT_FEATURE_##feature, c->needing[GLINT_FEATURE_##feature], c->used,   \
+                    what);
+    LOBES(DECIDE)
+#undef DECIDE
+}
+
+// Without Fresnel's equations a path splits only where a material is metal and glass at once.
+static void decide_optics(const material_census *c, glint_fresnel fresnel, glint_plan *plan)
+{
+    const bool exact = fresnel == GLINT_FRESNEL_EXACT;
+    const size_t glass = c->needing[GLINT_FEATURE_GLASS];
+    const bool angular =
+        c->needing[GLINT_FEATURE_TINT] > 0 || glass > 0 || c->needing[GLINT_FEATURE_GLOSS] > 0;
+    decide(plan, GLINT_FEATURE_FRESNEL, exact && angular, "%s",
+           !exact    ? "no Fresnel term was asked for"
+           : angular ? "coloured metal, glass or smooth paint"
+                     : "no coloured metal, glass or smooth paint");
+    if (glass > 0 && exact) {
+        decide_by_count(plan, GLINT_FEATURE_SPLIT, glass, c->used, "transmission and Fresnel");
+    } else {
+        decide_by_count(plan, GLINT_FEATURE_SPLIT, c->metal_and_glass, c->used,
+                        "both metal and transmission");
+    }
+    if (!exact) {
+        decide(plan, GLINT_FEATURE_GLOSS, false, "no Fresnel term was asked for");
+    }
+}
+
+static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
+{
+    const glint_scene *scene = in->scene;
+    decide(plan, GLINT_FEATURE_GEOMETRY, scene->triangle_count > 0, "%zu triangles",
+           scene->triangle_count);
+    const bool by_vertex = glint_plan_shades_vertices(plan);
+    decide(plan, GLINT_FEATURE_SMOOTH_NORMALS, scene->normals != NULL || by_vertex, "%s",
+           scene->normals != NULL ? "some primitive has normals"
+           : by_vertex            ? "vertices are shaded, by their triangle's normal"
+                                  : "no primitive has normals");
+    if (!plan->features[GLINT_FEATURE_SOLID].compiled) {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, false, "no material with a volume");
+    } else if (scene->moves) {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, true, "solids may come to nest: the scene moves");
+    } else if (glint_topology_solids_may_nest(scene, in->topology)) {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, true,
+               "solids may nest: not all are convex and apart from each other");
+    } else {
+        decide(plan, GLINT_FEATURE_NESTED_MEDIA, false,
+               "every solid is convex and their bounds are apart: none nests");
+    }
+}
+
+static void decide_settings(const glint_settings *settings, glint_plan *plan)
+{
+    int samples = settings->samples_per_axis * settings->samples_per_axis;
+    decide(plan, GLINT_FEATURE_SUPERSAMPLING, samples > 1, "%d sample%s a pixel", samples,
+           samples == 1 ? "" : "s");
+    decide(plan, GLINT_FEATURE_TRANSPARENT, settings->transparent, "background %s",
+           settings->transparent ? "transparent" : "env");
+    const char *shading = glint_shading_name(plan->shading);
+    decide(plan, GLINT_FEATURE_VERTEX_COLOR, plan->shading == GLINT_SHADING_VERTEX_COLOR,
+           "shading %s", shading);
+    decide(plan, GLINT_FEATURE_VERTEX_DIRECTION, plan->shading == GLINT_SHADING_VERTEX_DIRECTION,
+           "shading %s", shading);
+    bool hits =
+        settings->output == GLINT_OUTPUT_HITS && plan->features[GLINT_FEATURE_GEOMETRY].compiled;
+    decide(plan, GLINT_FEATURE_HITS, hits, "%s", hits ? "hits were asked for" : "colour is wanted");
+    bool mip = settings->filter == GLINT_FILTER_MIP && !hits;
+    decide(plan, GLINT_FEATURE_MIP_LEVELS, mip, "filter %s", mip ? "mip" : "bilinear");
+    bool is_lit = plan->features[GLINT_FEATURE_PAINT].compiled ||
+                  plan->features[GLINT_FEATURE_BLEND].compiled;
+    bool harmonics = settings->irradiance == GLINT_IRRADIANCE_SH && is_lit;
+    decide(plan, GLINT_FEATURE_IRRADIANCE_HARMONICS, harmonics, "irradiance %s",
+           harmonics ? "sh"
+           : is_lit  ? "exact"
+                     : "is not needed");
+    decide(plan, GLINT_FEATURE_PROXY, settings->proxy && !hits, "%s",
+           settings->proxy ? "the environment is as far away as its proxy"
+                           : "the environment is infinitely far away");
+    bool turned = fmod(settings->env_rotate, 360) != 0;
+    decide(plan, GLINT_FEATURE_ENV_ROTATION, turned, "turned by %g degrees", settings->env_rotate);
+}
+
+glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan *plan,
+                                        glint_error *error)
+{
+    material_census census = {.used = 1};
+    if (in->settings->output != GLINT_OUTPUT_HITS) { // of which no material is looked at
+        TRY(take_census(in->scene, &census, error));
+    }
+    decide_materials(&census, plan);
+    decide_optics(&census, in->settings->fresnel, plan);
+    decide_scene(in, plan);
+    decide_settings(in->settings, plan);
+    return GLINT_OK;
+}
+
+// From the depth, and from what is proved of the scene.
+void glint_plan_decide_paths(glint_plan *plan)
+{
+    const bool escapes = plan->sight.exits_escape;
+    decide(plan, GLINT_FEATURE_CONVEX_SOLID, escapes, "%s",
+           escapes ? "all that there is is one closed, convex solid"
+                   : "not proved of this scene, with these settings");
+
+    decide(plan, GLINT_FEATURE_INTERREFLECTION,
+           plan->features[GLINT_FEATURE_GEOMETRY].compiled && plan->depth > 1,
+           plan->depth_is_exact  ? "depth %d is exact here"
+           : plan->depth_is_auto ? "depth auto, %d at most"
+                                 : "depth %d",
+           plan->depth);
+}
+
+// What is told of a frame beside its colours.
+void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
+{
+    if (settings->terms > 0) {
+        decide(plan, GLINT_FEATURE_TERMS, true, "%d directions of a pixel are kept",
+               settings->terms);
+    } else {
+        decide(plan, GLINT_FEATURE_TERMS, false, "no directions were asked for");
+    }
+    decide(plan, GLINT_FEATURE_PIXEL_LIST, settings->list != NULL, "%s",
+           settings->list != NULL ? "a list was given" : "all pixels, or a grid of them");
+    decide(plan, GLINT_FEATURE_TRUNCATION_SQUARES, settings->truncation_squares, "%s",
+           settings->truncation_squares ? "errors are to be bounded" : "no error is to be bounded");
+    decide(plan, GLINT_FEATURE_DIAGNOSTICS, settings->aovs != 0, "%s",
+           settings->aovs != 0 ? "layers were asked for" : "no layers were asked for");
+}
+
+void glint_plan_compile_idle_features(glint_plan *plan)
+{
+    enum { IDLE, ACTIVE };
+    static const bool is_idle[] = {
+#define IS_IDLE(name, meaning, needs, excludes, unneeded) (unneeded) == IDLE,
+        GLINT_FEATURES(IS_IDLE)
+#undef IS_IDLE
+    };
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        if (is_idle[i] && !plan->features[i].compiled &&
+            plan->features[GLINT_FEATURE_GEOMETRY].compiled) {
+            decide(plan, (glint_feature)i, true, "not needed, but all features were asked for");
+        }
+    }
+}
