@@ -60,36 +60,28 @@ static inline scattering scatter_from_corners(const scene_buffers *scene,
     scattering result;
     result.emitted = vectors[GLINT_VERTEX_EMITTED];
     result.media_reflected = ray->media;
-#if GLINT_GLASS
     result.media_transmitted = ray->media;
     result.total_reflection = mask_none();
-#if GLINT_MIP_LEVELS
     result.eta = real_of(1);
     result.bend = real_of(0);
-#endif
-#endif
 #if GLINT_VERTEX_COLOR
     const real3 nothing = real3_of(real_of(0), real_of(0), real_of(0));
     result.reflected = s->normal;
     result.reflected_weight = nothing;
-#if GLINT_GLASS
     result.transmitted = s->normal;
     result.transmitted_weight = nothing;
-#endif
 #else
-#if NEEDS_IRRADIANCE
-    mask valid;
-    const real3 n = normalized(vectors[GLINT_VERTEX_NORMAL], &valid);
-    const real3 irradiance =
-        find_irradiance(scene, turn_into_environment(frame, select3(valid, n, s->normal)), met);
-    result.emitted = add(result.emitted, multiply(vectors[GLINT_VERTEX_LIT], irradiance));
-#endif
+    if (NEEDS_IRRADIANCE) {
+        mask valid;
+        const real3 n = normalized(vectors[GLINT_VERTEX_NORMAL], &valid);
+        const real3 irradiance =
+            find_irradiance(scene, turn_into_environment(frame, select3(valid, n, s->normal)), met);
+        result.emitted = add(result.emitted, multiply(vectors[GLINT_VERTEX_LIT], irradiance));
+    }
     result.reflected = some_direction(vectors[GLINT_VERTEX_REFLECTED], s->normal);
     result.reflected_weight = vectors[GLINT_VERTEX_REFLECTED_WEIGHT];
-#if GLINT_GLASS
     result.transmitted = some_direction(vectors[GLINT_VERTEX_TRANSMITTED], ray->direction);
     result.transmitted_weight = vectors[GLINT_VERTEX_TRANSMITTED_WEIGHT];
-#endif
 #endif
     return result;
 }

@@ -1,7 +1,6 @@
 // The stack of solids that each path is inside, packed into one whole number: GLINT_MEDIA_BITS bits
 // an entry, the innermost lowest, GLINT_MEDIA_CAPACITY entries, 30 bits at most, so that the number
 // is never negative. Entry 0 is empty space.
-#if GLINT_SOLID
 
 #define MEDIUM_MASK ((lane_int)((1 << GLINT_MEDIA_BITS) - 1))
 #define MEDIA_MASK ((lane_int)((1 << (GLINT_MEDIA_BITS * GLINT_MEDIA_CAPACITY)) - 1))
@@ -12,20 +11,21 @@ static inline lanes_int medium_on_top(lanes_int media) { return media & MEDIUM_M
 // set.
 static inline lanes_int enter_medium(lanes_int media, lanes_int medium, mask *lost)
 {
-#if GLINT_NESTED_MEDIA
+    if (!GLINT_NESTED_MEDIA) {
+        *lost = mask_none();
+        return medium;
+    }
     *lost = (media >> (lane_int)(GLINT_MEDIA_BITS * (GLINT_MEDIA_CAPACITY - 1))) != (lane_int)0;
     return ((media << (lane_int)GLINT_MEDIA_BITS) & MEDIA_MASK) | medium;
-#else
-    *lost = mask_none();
-    return medium;
-#endif
 }
 
 // The stack without the innermost entry that is `medium`; unchanged where there is none. Nearly
 // always that is the first one.
 static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
 {
-#if GLINT_NESTED_MEDIA
+    if (!GLINT_NESTED_MEDIA) {
+        return SELECT(media == medium, int_of(0), media);
+    }
     lanes_int left = media;
     mask searched = media != (lane_int)0;
     for (int k = 0; k < GLINT_MEDIA_CAPACITY && any_lane(searched); k++) {
@@ -36,9 +36,6 @@ static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
         searched = searched & !here & ((media >> above) != (lane_int)0);
     }
     return left;
-#else
-    return SELECT(media == medium, int_of(0), media);
-#endif
 }
 
 static inline real medium_ior(global const glint_medium_record *media, lanes_int medium)
@@ -53,7 +50,6 @@ static inline real medium_ior(global const glint_medium_record *media, lanes_int
     return ior;
 }
 
-#if GLINT_ABSORPTION
 // What is left of light after the distance s in a medium: exp(−σs), Beer and Lambert.
 static inline real3 medium_transmittance(global const glint_medium_record *media, lanes_int medium,
                                          real s)
@@ -72,6 +68,3 @@ static inline real3 medium_transmittance(global const glint_medium_record *media
     return real3_of(exp_of_negative(-sigma.x * s), exp_of_negative(-sigma.y * s),
                     exp_of_negative(-sigma.z * s));
 }
-#endif
-
-#endif

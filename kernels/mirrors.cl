@@ -16,7 +16,6 @@ typedef struct sights {
 #endif
 } sights;
 
-#if GLINT_GEOMETRY
 // Normals along which the surfaces reflect: the interpolated ones, or the triangles' own.
 static inline real3 mirror_normals(const image_space *image, const triangle *t, real3 geometric,
                                    const primary *first, mask met)
@@ -70,17 +69,16 @@ static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame
 {
     const real one = real_of(1);
     real3 weights = real3_of(one, one, one);
-#if GLINT_TINT
-    surface s;
-    load_materials(scene, t, &s);
-    weights = select3(met, metal_reflectance(s.base_color, SMALLER(cosine, one)), weights);
-#endif
+    if (GLINT_TINT) {
+        surface s;
+        load_materials(scene, t, &s);
+        weights = select3(met, metal_reflectance(s.base_color, SMALLER(cosine, one)), weights);
+    }
     mask reflects = met & (largest3(weights) > R(0.0));
     ended(frame, largest3(weights), int_of(1), reflects, pixels, tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
     return weights;
 }
-#endif
 
 // Finds where the samples of a group see the environment.
 static inline void find_sights(const scene_buffers *scene, const glint_frame_record *frame,
@@ -88,12 +86,10 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
                                sights *all, tally *tally)
 {
     real3 d = primary_directions(frame, first->x, first->y);
-    bool shows_mirrors = false;
     real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
     const pixels pixels = pixels_of_group(group);
-#if GLINT_GEOMETRY
     mask met = first->places >= (lane_int)0; // pixels outside the image meet nothing: clear_tile
-    shows_mirrors = any_lane(met);
+    const bool shows_mirrors = GLINT_GEOMETRY && any_lane(met);
     if (shows_mirrors) {
         const triangle t = load_triangles(scene, first->places, met);
         real cosine;
@@ -107,7 +103,6 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
     }
 #if GLINT_TINT
     to_pixels(weights.x, weights.y, weights.z, real_of(0), all->weights + group * PIXEL_VALUES);
-#endif
 #endif
     const cube_map *map = &scene->environment;
     cube_point *point = &all->points[group];

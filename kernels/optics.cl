@@ -50,15 +50,14 @@ static inline real surface_reflectance(real cosine, real ior)
 // Schlick's approximation for metal, glTF 2.0: F0 + (1 − F0)(1 − cos θ)⁵; without Fresnel F0.
 static inline real3 metal_reflectance(real3 f0, real cosine)
 {
-#if GLINT_FRESNEL
+    if (!GLINT_FRESNEL) {
+        return f0;
+    }
     real m = R(1.0) - cosine;
     real m2 = m * m;
     real m5 = m2 * m2 * m;
     return real3_of(fused(R(1.0) - f0.x, m5, f0.x), fused(R(1.0) - f0.y, m5, f0.y),
                     fused(R(1.0) - f0.z, m5, f0.z));
-#else
-    return f0;
-#endif
 }
 
 // A direction that ends on the wrong side of the surface is folded back across its plane:

@@ -95,14 +95,14 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     path branch = *ray;
     branch.direction = direction;
     branch.met = ray->met + (lane_int)1;
-#if GLINT_CONVEX_SOLID
-    const mask leaves = sign > R(0.0) ? s->outside : !s->outside;
-    branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
-#endif
-#if HAS_PLACES
-    branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
-    branch.from = hit->place;
-#endif
+    if (GLINT_CONVEX_SOLID) {
+        const mask leaves = sign > R(0.0) ? s->outside : !s->outside;
+        branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
+    }
+    if (HAS_PLACES) {
+        branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
+        branch.from = hit->place;
+    }
 #if GLINT_ABSORPTION
     branch.travelled = real_of(0);
 #endif
@@ -161,7 +161,6 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
     ray->looked_up = SELECT(yes, branch->looked_up, ray->looked_up);
 }
 
-#if GLINT_GLASS
 static inline void count_transmissions(const surface *s, mask transmits, tally *tally)
 {
     mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
@@ -169,7 +168,6 @@ static inline void count_transmissions(const surface *s, mask transmits, tally *
     tally->counts[GLINT_COUNT_REFRACTED_OUT] += (ulong)count_lanes(transmits & solid & !s->outside);
     tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
 }
-#endif
 
 // The paths of some of a tile's pixels on their way.
 typedef struct paths {
@@ -246,12 +244,13 @@ static inline void note_emission(terms *terms, const scene_buffers *scene, const
     const real3 emitted =
         scatter(scene, s, v, &media, real3_of(zero, zero, zero), &media_lost).emitted;
     note_constant(terms, pixels, met, multiply(ray->weight, emitted));
-#if NEEDS_IRRADIANCE
-    media = ray->media;
-    const real3 lit = scatter(scene, s, v, &media, real3_of(one, one, one), &media_lost).emitted;
-    note_terms(terms, pixels, met, s->normal, GLINT_TERM_IRRADIANCE,
-               multiply(ray->weight, subtract(lit, emitted)));
-#endif
+    if (NEEDS_IRRADIANCE) {
+        media = ray->media;
+        const real3 lit =
+            scatter(scene, s, v, &media, real3_of(one, one, one), &media_lost).emitted;
+        note_terms(terms, pixels, met, s->normal, GLINT_TERM_IRRADIANCE,
+                   multiply(ray->weight, subtract(lit, emitted)));
+    }
 }
 #endif
 
@@ -262,9 +261,9 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
                                          const closest *hit, mask met, path *ray, tally *tally)
 {
     real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
-#if NEEDS_IRRADIANCE
-    irradiance = find_irradiance(scene, turn_into_environment(frame, s->normal), met);
-#endif
+    if (NEEDS_IRRADIANCE) {
+        irradiance = find_irradiance(scene, turn_into_environment(frame, s->normal), met);
+    }
     mask media_lost;
     lanes_int media = ray->media;
     const scattering out =
@@ -311,7 +310,10 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, &all->pixels[slot], tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
-#if GLINT_GLASS
+    if (!GLINT_GLASS) {
+        assign_path(ray, &reflected, reflects);
+        return reflects;
+    }
     path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
     transmitted.weight = multiply(ray->weight, out.transmitted_weight);
     transmitted.media = out.media_transmitted;
@@ -333,10 +335,6 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     assign_path(ray, &transmitted, transmits);
     assign_path(ray, &reflected, reflects);
     return reflects | transmits;
-#endif
-#else
-    assign_path(ray, &reflected, reflects);
-    return reflects;
 #endif
 }
 
@@ -368,13 +366,12 @@ static inline void note_look_ups(const cube_map *map, real3 direction, const pat
 static inline real3 environment_seen(const glint_frame_record *frame, const path *ray,
                                      const primary *first)
 {
-#if GLINT_PROXY
+    if (!GLINT_PROXY) {
+        return ray->direction;
+    }
     const real behind =
         first != 0 ? first->length * JOIN(frame->start[0], frame->start[1]) : real_of(0);
     return toward_proxy(frame, ray->origin, ray->direction, behind);
-#else
-    return ray->direction;
-#endif
 }
 
 // Takes the paths in a slot on from what they have met: those that escaped are looked up, the
@@ -400,8 +397,7 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
 #endif
     }
     active = mask_none();
-#if GLINT_GEOMETRY
-    if (any_lane(met)) {
+    if (GLINT_GEOMETRY && any_lane(met)) {
         triangle triangles = load_triangles(scene, hit->place, met);
         if (first != 0) {
             measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, hit);
@@ -413,7 +409,6 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
 #endif
         active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);
     }
-#endif
     all->active[slot] = active;
 }
 

@@ -132,14 +132,14 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, co
     probe_store3(out, packet, values, 16, reflected.origin);
     probe_store(out, packet, values, 19, to_real(hit->place));
     probe_store(out, packet, values, 20, to_real(light.media_reflected));
-#if GLINT_GLASS
-    const path transmitted = make_branch(ray, &s, hit, light.transmitted, R(-1.0));
-    probe_store3(out, packet, values, 21, transmitted.direction);
-    probe_store(out, packet, values, 24, largest3(light.transmitted_weight));
-    probe_store3(out, packet, values, 25, transmitted.origin);
-    probe_store(out, packet, values, 28, to_real(light.media_transmitted));
-    probe_store(out, packet, values, 29, probe_flag(light.total_reflection));
-#endif
+    if (GLINT_GLASS) {
+        const path transmitted = make_branch(ray, &s, hit, light.transmitted, R(-1.0));
+        probe_store3(out, packet, values, 21, transmitted.direction);
+        probe_store(out, packet, values, 24, largest3(light.transmitted_weight));
+        probe_store3(out, packet, values, 25, transmitted.origin);
+        probe_store(out, packet, values, 28, to_real(light.media_transmitted));
+        probe_store(out, packet, values, 29, probe_flag(light.total_reflection));
+    }
 }
 
 kernel void probe_bounce(PROBE_ARGUMENTS)

@@ -49,11 +49,7 @@ GLINT_FEATURES(CHECK)
 #include "vertices.cl"
 #include "mirrors.cl"
 
-#if GLINT_SUPERSAMPLING
-#define SAMPLES_PER_AXIS(frame) ((frame)->samples_per_axis)
-#else
-#define SAMPLES_PER_AXIS(frame) 1
-#endif
+#define SAMPLES_PER_AXIS(frame) (GLINT_SUPERSAMPLING ? (frame)->samples_per_axis : 1)
 
 // Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
 static inline void add_to_counter(global uint *counter, ulong amount)
@@ -197,7 +193,6 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
 // Adds what a group's pixels have gathered to what look-ups brought.
 static inline void add_gathered(const gathered *sum, int group, scalar *sums)
 {
-#if GATHERS
     const real3 color = sum->color[group];
     scalar values[PIXEL_VALUES];
     to_pixels(color.x, color.y, color.z, sum->alpha[group], values);
@@ -205,7 +200,6 @@ static inline void add_gathered(const gathered *sum, int group, scalar *sums)
         pixel_row light = without_alpha(load_pixel_row(j, sums));
         store_pixel_row(load_pixel_row(j, values) + light, j, sums);
     }
-#endif
 }
 
 // Writes a group's pixels that lie inside the image: the sums of samples of which each has `share`.
@@ -241,11 +235,11 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #if FOLLOWS_PATHS
     mask inside[TILE_GROUPS];
     for (int g = 0; g < TILE_GROUPS; g++) {
-#if GATHERS
-        const real zero = real_of(0);
-        sum->color[g] = real3_of(zero, zero, zero);
-        sum->alpha[g] = zero;
-#endif
+        if (GATHERS) {
+            const real zero = real_of(0);
+            sum->color[g] = real3_of(zero, zero, zero);
+            sum->alpha[g] = zero;
+        }
         inside[g] = group_in_image(frame, column, row, g);
     }
     lookups later;
@@ -257,9 +251,9 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
         const scalar right = ((scalar)(sample % k) + R(0.5)) / (scalar)k;
         const scalar down = ((scalar)(sample / k) + R(0.5)) / (scalar)k;
         begin_tile(&image, frame, scene->pixels, column, row, right, down, &t);
-#if GLINT_GEOMETRY
-        trace_tile(&image, &t, scene);
-#endif
+        if (GLINT_GEOMETRY) {
+            trace_tile(&image, &t, scene);
+        }
 #if GLINT_DIAGNOSTICS
         tally->layers->is_middle = sample == k / 2 * (k + 1);
         note_triangles(tally->layers, scene, &t);
@@ -310,7 +304,9 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     const int k = SAMPLES_PER_AXIS(frame);
     scalar share = R(1.0) / (scalar)(k * k);
     for (int g = 0; g < TILE_GROUPS; g++) {
-        add_gathered(&sum, g, sums + PIXEL_VALUES * g);
+        if (GATHERS) {
+            add_gathered(&sum, g, sums + PIXEL_VALUES * g);
+        }
         store_group(out->pixels, frame, column + g % TILE_COLUMNS * PACKET_WIDTH,
                     row + g / TILE_COLUMNS * PACKET_HEIGHT, sums + PIXEL_VALUES * g, share);
     }

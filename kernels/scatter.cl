@@ -4,18 +4,14 @@
 typedef struct scattering {
     real3 emitted; // radiance that the path gathers here: emission, paint, unlit colour
     real3 reflected, reflected_weight; // unit direction; factors of R, G, B
-#if GLINT_GLASS
+    lanes_int media_reflected;
+    // Of glass:
     real3 transmitted, transmitted_weight;
     lanes_int media_transmitted; // the stack of media beyond the surface
     mask total_reflection;
-#if GLINT_MIP_LEVELS
     real eta, bend; // of the transmitted ray, see leave_surface
-#endif
-#endif
-    lanes_int media_reflected;
 } scattering;
 
-#if GLINT_GLASS
 // Rule 4, glass: reflectance and transmitted direction. A thin wall is one interface from empty
 // space, whatever the side, and lets light pass straight on.
 static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 *transmitted,
@@ -24,11 +20,8 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
     real squared = transmitted_cosine_squared(s->cosine, eta);
     *total_reflection = !(squared >= R(0.0));
     real cosine_t = sqrt(SELECT(*total_reflection, real_of(0), squared));
-#if GLINT_FRESNEL
-    real reflectance = dielectric_reflectance(s->cosine, cosine_t, eta);
-#else
-    real reflectance = real_of(0);
-#endif
+    real reflectance =
+        GLINT_FRESNEL ? dielectric_reflectance(s->cosine, cosine_t, eta) : real_of(0);
     reflectance = SELECT(*total_reflection, real_of(1), reflectance);
     *bend = fused(eta, s->cosine, -cosine_t);
     *transmitted = fold_to_side(refract_direction(v, s->normal, s->cosine, eta, cosine_t),
@@ -36,9 +29,7 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
     *transmitted = renormalized(*transmitted);
     return reflectance;
 }
-#endif
 
-#if GLINT_SOLID
 // Rule 5: the media on both sides of a solid's surface. A back face met with an empty stack means
 // that the path began inside that solid. Sets the stacks of both branches and returns η = n_i/n_t.
 static inline real cross_solid(const scene_buffers *scene, const surface *s, mask solid,
@@ -54,22 +45,60 @@ static inline real cross_solid(const scene_buffers *scene, const surface *s, mas
     real n_t = medium_ior(scene->media, medium_on_top(*beyond));
     return n_i / n_t;
 }
-#endif
 
-#if GLINT_PAINT
-// Rule 6: what paint sends back of the environment's irradiance (the map holds E(n)/π).
-static inline real3 paint_radiance(const scene_buffers *scene, const surface *s, real3 irradiance,
-                                   real share, real reflectance)
+// Rule 4, glass: adds what a share of it reflects and transmits.
+static inline void scatter_glass(const scene_buffers *scene, const surface *s, real3 v, real share,
+                                 lanes_int *media, scattering *out, mask *media_lost)
 {
-    real3 lit = multiply(s->base_color, irradiance);
-#if GLINT_GLOSS
-    real kept = SELECT(HAS_FLAG(*s, GLINT_MATERIAL_GLOSS), R(1.0) - reflectance, real_of(1));
-#else
-    real kept = real_of(1);
-#endif
-    return scale(lit, share * kept);
+    real eta = R(1.0) / s->ior;
+    out->media_transmitted = *media;
+    if (GLINT_SOLID) {
+        const mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
+        const real solid_eta =
+            cross_solid(scene, s, solid, media, &out->media_transmitted, media_lost);
+        eta = SELECT(solid, solid_eta, eta);
+    }
+    const real reflectance =
+        glass_reflectance(s, v, eta, &out->transmitted, &out->bend, &out->total_reflection);
+    if (GLINT_THIN_WALL) {
+        const mask thin = HAS_FLAG(*s, GLINT_MATERIAL_THIN);
+        out->transmitted = select3(thin, negate(v), out->transmitted);
+        out->bend = SELECT(thin, real_of(0), out->bend);
+        eta = SELECT(thin, real_of(1), eta);
+    }
+    out->eta = eta;
+    const real reflected = share * reflectance;
+    out->reflected_weight = add(out->reflected_weight, real3_of(reflected, reflected, reflected));
+    out->transmitted_weight = scale(s->base_color, share - reflected);
+    out->total_reflection = out->total_reflection & (share > R(0.0));
 }
-#endif
+
+// Rule 6, paint: what a share of it sends back of the environment's irradiance (the map holds
+// E(n)/π) and, where it is smooth, reflects.
+static inline void scatter_paint(const surface *s, real3 irradiance, real share, scattering *out)
+{
+    real kept = real_of(1);
+    if (GLINT_GLOSS) {
+        const mask smooth = HAS_FLAG(*s, GLINT_MATERIAL_GLOSS);
+        const real reflectance = surface_reflectance(s->cosine, s->ior);
+        const real gloss = SELECT(smooth, share * reflectance, real_of(0));
+        out->reflected_weight = add(out->reflected_weight, real3_of(gloss, gloss, gloss));
+        kept = SELECT(smooth, R(1.0) - reflectance, real_of(1));
+    }
+    out->emitted = scale(multiply(s->base_color, irradiance), share * kept);
+}
+
+// Rule 6, the lecture's blend: takes the place of the other models.
+static inline void scatter_blend(const surface *s, real3 irradiance, scattering *out)
+{
+    const mask blended = HAS_FLAG(*s, GLINT_MATERIAL_BLEND);
+    const real3 matte = scale(multiply(s->base_color, irradiance), R(1.0) - s->blend);
+    out->emitted = select3(blended, matte, out->emitted);
+    const real3 mirrored = real3_of(s->blend, s->blend, s->blend);
+    const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
+    out->reflected_weight = select3(blended, mirrored, out->reflected_weight);
+    out->transmitted_weight = select3(blended, zero, out->transmitted_weight);
+}
 
 // `media` is the path's stack; a path that began inside the solid it meets has it put right.
 static inline scattering scatter(const scene_buffers *scene, const surface *s, real3 v,
@@ -78,81 +107,38 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
     scattering result;
     result.emitted = zero;
-    result.reflected_weight = zero;
+    result.reflected_weight = result.transmitted_weight = zero;
     *media_lost = mask_none();
 
     // Shares of the three models, metallic first: metal, then glass, the rest is paint.
-#if GLINT_GLASS || GLINT_PAINT
-    real dielectric = R(1.0) - s->metallic;
-    real glass = dielectric * s->transmission;
-#endif
+    const real dielectric = R(1.0) - s->metallic;
+    const real glass = dielectric * s->transmission;
 
     real3 r = reflect_direction(v, s->normal, s->cosine);
     result.reflected = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
-#if GLINT_TINT
-    result.reflected_weight = scale(metal_reflectance(s->base_color, s->cosine), s->metallic);
-#elif GLINT_MIRROR
-    result.reflected_weight = real3_of(s->metallic, s->metallic, s->metallic);
-#endif
-#if GLINT_GLASS
-    mask is_glass = glass > R(0.0);
-    real eta = R(1.0) / s->ior;
-    result.media_transmitted = *media;
-#if GLINT_SOLID
-    mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
-    real solid_eta = cross_solid(scene, s, solid, media, &result.media_transmitted, media_lost);
-    eta = SELECT(solid, solid_eta, eta);
-#endif
-    real bend;
-    real reflectance =
-        glass_reflectance(s, v, eta, &result.transmitted, &bend, &result.total_reflection);
-#if GLINT_THIN_WALL
-    mask thin = HAS_FLAG(*s, GLINT_MATERIAL_THIN);
-    result.transmitted = select3(thin, negate(v), result.transmitted);
-    bend = SELECT(thin, real_of(0), bend);
-    eta = SELECT(thin, real_of(1), eta);
-#endif
-#if GLINT_MIP_LEVELS
-    result.eta = eta;
-    result.bend = bend;
-#endif
-    real reflected_glass = glass * reflectance;
-    result.reflected_weight =
-        add(result.reflected_weight, real3_of(reflected_glass, reflected_glass, reflected_glass));
-    result.transmitted_weight = scale(s->base_color, glass - reflected_glass);
-    result.total_reflection = result.total_reflection & is_glass;
-#endif
+    if (GLINT_TINT) {
+        result.reflected_weight = scale(metal_reflectance(s->base_color, s->cosine), s->metallic);
+    } else if (GLINT_MIRROR) {
+        result.reflected_weight = real3_of(s->metallic, s->metallic, s->metallic);
+    }
+    if (GLINT_GLASS) {
+        scatter_glass(scene, s, v, glass, media, &result, media_lost);
+    }
     result.media_reflected = *media;
-#if GLINT_PAINT
-    real paint = dielectric - glass;
-    real paint_reflectance = real_of(0);
-#if GLINT_GLOSS
-    paint_reflectance = surface_reflectance(s->cosine, s->ior);
-    real gloss = SELECT(HAS_FLAG(*s, GLINT_MATERIAL_GLOSS), paint * paint_reflectance, real_of(0));
-    result.reflected_weight = add(result.reflected_weight, real3_of(gloss, gloss, gloss));
-#endif
-    result.emitted = paint_radiance(scene, s, irradiance, paint, paint_reflectance);
-#endif
-#if GLINT_BLEND
-    mask blended = HAS_FLAG(*s, GLINT_MATERIAL_BLEND);
-    real3 matte = scale(multiply(s->base_color, irradiance), R(1.0) - s->blend);
-    result.emitted = select3(blended, matte, result.emitted);
-    real3 mirrored = real3_of(s->blend, s->blend, s->blend);
-    result.reflected_weight = select3(blended, mirrored, result.reflected_weight);
-#if GLINT_GLASS
-    result.transmitted_weight = select3(blended, zero, result.transmitted_weight);
-#endif
-#endif
-#if GLINT_EMISSION
-    result.emitted = add(result.emitted, s->emission);
-#endif
-#if GLINT_UNLIT
-    mask unlit = HAS_FLAG(*s, GLINT_MATERIAL_UNLIT);
-    result.emitted = select3(unlit, s->base_color, result.emitted);
-    result.reflected_weight = select3(unlit, zero, result.reflected_weight);
-#if GLINT_GLASS
-    result.transmitted_weight = select3(unlit, zero, result.transmitted_weight);
-#endif
-#endif
+    if (GLINT_PAINT) {
+        scatter_paint(s, irradiance, dielectric - glass, &result);
+    }
+    if (GLINT_BLEND) {
+        scatter_blend(s, irradiance, &result);
+    }
+    if (GLINT_EMISSION) {
+        result.emitted = add(result.emitted, s->emission);
+    }
+    if (GLINT_UNLIT) {
+        const mask unlit = HAS_FLAG(*s, GLINT_MATERIAL_UNLIT);
+        result.emitted = select3(unlit, s->base_color, result.emitted);
+        result.reflected_weight = select3(unlit, zero, result.reflected_weight);
+        result.transmitted_weight = select3(unlit, zero, result.transmitted_weight);
+    }
     return result;
 }

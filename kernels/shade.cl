@@ -219,11 +219,11 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->base_color.x = SELECT(yes, real_of(m->base_color[0]), s->base_color.x);
     s->base_color.y = SELECT(yes, real_of(m->base_color[1]), s->base_color.y);
     s->base_color.z = SELECT(yes, real_of(m->base_color[2]), s->base_color.z);
-#if GLINT_EMISSION
-    s->emission.x = SELECT(yes, real_of(m->emission[0]), s->emission.x);
-    s->emission.y = SELECT(yes, real_of(m->emission[1]), s->emission.y);
-    s->emission.z = SELECT(yes, real_of(m->emission[2]), s->emission.z);
-#endif
+    if (GLINT_EMISSION) {
+        s->emission.x = SELECT(yes, real_of(m->emission[0]), s->emission.x);
+        s->emission.y = SELECT(yes, real_of(m->emission[1]), s->emission.y);
+        s->emission.z = SELECT(yes, real_of(m->emission[2]), s->emission.z);
+    }
     s->metallic = SELECT(yes, real_of(m->metallic), s->metallic);
     s->transmission = SELECT(yes, real_of(m->transmission), s->transmission);
     s->ior = SELECT(yes, real_of(m->ior), s->ior);
@@ -254,9 +254,9 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     s.geometric_normal = normalized(normal_of(vertices), &valid);
     // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
     s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
-#if HAS_PLACES
-    place_on_triangle(vertices, hit, &s);
-#endif
+    if (HAS_PLACES) {
+        place_on_triangle(vertices, hit, &s);
+    }
     orient_normals(t, ray, hit, &s);
     load_materials(scene, t, &s);
     return s;

@@ -54,9 +54,9 @@ static inline void prefetch_child(const scene_buffers *scene, int child)
     }
     const size_t index = (size_t)~child;
     prefetch_values(scene->clusters + index * GLINT_CLUSTER_VALUES, GLINT_CLUSTER_VALUES);
-#if GLINT_SMOOTH_NORMALS
-    prefetch_values(scene->normals + index * GLINT_CLUSTER_NORMALS, GLINT_CLUSTER_NORMALS);
-#endif
+    if (GLINT_SMOOTH_NORMALS) {
+        prefetch_values(scene->normals + index * GLINT_CLUSTER_NORMALS, GLINT_CLUSTER_NORMALS);
+    }
 }
 
 // Puts a child of a node on the stack, in order of falling distance down to `base`, where the

@@ -118,7 +118,6 @@ static inline scattering scatter_at_vertices(const scene_buffers *scene, const s
     return out;
 }
 
-#if GLINT_VERTEX_COLOR
 // The radiance of the environment along d, by its weight.
 static inline real3 weighted_radiance(const scene_buffers *scene, const glint_frame_record *frame,
                                       real3 d, real3 weight)
@@ -127,7 +126,6 @@ static inline real3 weighted_radiance(const scene_buffers *scene, const glint_fr
     const real3 light = sample_cube(&scene->environment, turn_into_environment(frame, d), wanted);
     return multiply(weight, light);
 }
-#endif
 
 // Shades a packet of a cluster's vertices: `first` is the first one's lane.
 static inline void shade_packet(const scene_buffers *scene, const glint_frame_record *frame,
@@ -156,19 +154,17 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
     const real3 emitted = multiply(left, out.emitted);
     lit = multiply(left, lit);
     const real3 reflected_weight = multiply(left, out.reflected_weight);
-#if GLINT_GLASS
     const real3 transmitted_weight = multiply(left, out.transmitted_weight);
-#endif
 #if GLINT_VERTEX_COLOR
     real3 color = add(emitted, weighted_radiance(scene, frame, out.reflected, reflected_weight));
-#if GLINT_GLASS
-    color = add(color, weighted_radiance(scene, frame, out.transmitted, transmitted_weight));
-#endif
-#if NEEDS_IRRADIANCE
-    const real3 irradiance =
-        find_irradiance(scene, turn_into_environment(frame, lit_side), mask_all());
-    color = add(color, multiply(lit, irradiance));
-#endif
+    if (GLINT_GLASS) {
+        color = add(color, weighted_radiance(scene, frame, out.transmitted, transmitted_weight));
+    }
+    if (NEEDS_IRRADIANCE) {
+        const real3 irradiance =
+            find_irradiance(scene, turn_into_environment(frame, lit_side), mask_all());
+        color = add(color, multiply(lit, irradiance));
+    }
     store_vertices(values, GLINT_VERTEX_EMITTED, first, color);
 #else
     store_vertices(values, GLINT_VERTEX_EMITTED, first, emitted);
@@ -176,10 +172,10 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
     store_vertices(values, GLINT_VERTEX_NORMAL, first, lit_side);
     store_vertices(values, GLINT_VERTEX_REFLECTED, first, out.reflected);
     store_vertices(values, GLINT_VERTEX_REFLECTED_WEIGHT, first, reflected_weight);
-#if GLINT_GLASS
-    store_vertices(values, GLINT_VERTEX_TRANSMITTED, first, out.transmitted);
-    store_vertices(values, GLINT_VERTEX_TRANSMITTED_WEIGHT, first, transmitted_weight);
-#endif
+    if (GLINT_GLASS) {
+        store_vertices(values, GLINT_VERTEX_TRANSMITTED, first, out.transmitted);
+        store_vertices(values, GLINT_VERTEX_TRANSMITTED_WEIGHT, first, transmitted_weight);
+    }
 #endif
 }
 

@@ -25,9 +25,9 @@ static glint_status find_normals(const glint_plan *plan, const glint_scene *scen
     if (!glint_plan_shades_vertices(plan)) {
         return GLINT_OK;
     }
-    glint_status status = glint_scene_complete_normals(scene, own, error);
+    TRY(glint_scene_complete_normals(scene, own, error));
     *normals = *own;
-    return status;
+    return GLINT_OK;
 }
 
 glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *scene, glint_bvh *bvh,
@@ -35,11 +35,9 @@ glint_status glint_plan_build_tree(const glint_plan *plan, const glint_scene *sc
 {
     float *own;
     const float *normals;
-    glint_status status = find_normals(plan, scene, &own, &normals, error);
-    if (status == GLINT_OK) {
-        const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
-        status = glint_bvh_build(&inputs, bvh, error);
-    }
+    TRY(find_normals(plan, scene, &own, &normals, error));
+    const glint_bvh_inputs inputs = tree_inputs(plan, scene, normals);
+    const glint_status status = glint_bvh_build(&inputs, bvh, error);
     free(own);
     return status;
 }

@@ -181,12 +181,12 @@ static glint_status part(glint_scene *scene, const char *nodes, bool keeps, glin
         return glint_fail_memory(error, "the scene's materials");
     }
     bool *is_marked;
-    glint_status status = mark_nodes(scene, nodes, &is_marked, error);
-    if (status == GLINT_OK) {
-        find_bounds(scene, is_marked, keeps, &scene->low, &scene->high);
-        drop(scene, is_marked, !keeps);
-        drop_materials(scene, place);
-    }
+    glint_status status;
+    TRY_OR(cleanup, status, mark_nodes(scene, nodes, &is_marked, error));
+    find_bounds(scene, is_marked, keeps, &scene->low, &scene->high);
+    drop(scene, is_marked, !keeps);
+    drop_materials(scene, place);
+cleanup:
     free(place);
     free(is_marked);
     return status;
@@ -207,17 +207,17 @@ glint_status glint_scene_middle_of_nodes(const glint_scene *scene, const char *n
 {
     bool *is_marked;
     glint_vec3 low, high;
-    glint_status status = mark_nodes(scene, nodes, &is_marked, error);
-    if (status == GLINT_OK) {
-        find_bounds(scene, is_marked, true, &low, &high);
-        if (low.x <= high.x) {
-            *middle = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
-        } else {
-            status = glint_fail(error, GLINT_BAD_INPUT,
-                                "%s: node \"%s\" has no triangles at this time, and so no middle",
-                                scene->path != NULL ? scene->path : "the scene", nodes);
-        }
+    glint_status status;
+    TRY_OR(cleanup, status, mark_nodes(scene, nodes, &is_marked, error));
+    find_bounds(scene, is_marked, true, &low, &high);
+    if (low.x <= high.x) {
+        *middle = glint_vec3_scale(glint_vec3_add(low, high), 0.5);
+    } else {
+        status = glint_fail(error, GLINT_BAD_INPUT,
+                            "%s: node \"%s\" has no triangles at this time, and so no middle",
+                            scene->path != NULL ? scene->path : "the scene", nodes);
     }
+cleanup:
     free(is_marked);
     return status;
 }
