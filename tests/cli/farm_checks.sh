@@ -120,6 +120,7 @@ run farm report 'out/a job'
 check 'before its parts ran: exit status 6' test "$status" -eq 6
 check 'before its parts ran: all are missing' grep -q '^0 of 8 frames are there, 0 failed, 8 are missing' stdout
 mkdir elsewhere
+touch elsewhere/out # where a folder would be made
 here=$PWD
 cd elsewhere || exit 1
 part 1 0 "$job"
