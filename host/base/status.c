@@ -31,11 +31,6 @@ glint_status glint_fail(glint_error *error, glint_status code, const char *forma
     return code;
 }
 
-glint_status glint_fail_memory(glint_error *error, const char *what)
-{
-    return glint_fail(error, GLINT_OUT_OF_MEMORY, "not enough memory for %s", what);
-}
-
 void glint_error_free(glint_error *error)
 {
     free(error->details);

@@ -68,7 +68,11 @@ glint_status glint_fail(glint_error *error, glint_status code, const char *forma
     } while (0)
 
 // Fails with GLINT_OUT_OF_MEMORY: an allocation of `what` did not succeed.
-glint_status glint_fail_memory(glint_error *error, const char *what);
+static inline glint_status glint_fail_memory(glint_error *error, const char *what)
+{
+    (void)glint_fail(error, GLINT_OUT_OF_MEMORY, "not enough memory for %s", what);
+    return GLINT_OUT_OF_MEMORY; // a constant: static analysis sees that it is no success
+}
 
 void glint_error_free(glint_error *error);
 

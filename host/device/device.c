@@ -269,8 +269,11 @@ glint_status glint_device_open(const char *selector, glint_device **device, glin
     *device = NULL;
     found_device *devices;
     size_t count, chosen;
-    TRY(find_devices(&devices, &count, error));
-    glint_status status = choose(devices, count, selector, &chosen, error);
+    glint_status status = find_devices(&devices, &count, error);
+    if (devices == NULL) { // what a failure is to static analysis
+        return status;
+    }
+    status = choose(devices, count, selector, &chosen, error);
     if (status == GLINT_OK) {
         status = open_device(&devices[chosen], device, error);
     }

@@ -170,7 +170,7 @@ glint_status glint_launches_run(const glint_launcher *launcher, glint_frame_reco
     launches l = {
         .launcher = launcher,
         .record = record,
-        .bands = divide_up((size_t)record->height, (size_t)(height * record->band)),
+        .bands = divide_up((size_t)record->height, (size_t)height * (size_t)record->band),
         .step = round_up((size_t)fmax(1, first_step), local_side(plan)),
     };
     const double begun = glint_now_ms();

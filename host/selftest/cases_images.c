@@ -160,7 +160,8 @@ static glint_status measure_sky(trial *t, const glint_camera *camera, const int 
     TRY(trial_frame(t, &inputs, camera, &picture));
     for (int p = 0; p < picture.width * picture.height; p++) {
         double d[3];
-        direction_of(camera, size, p % picture.width, p / picture.width, d);
+        const int column = p % picture.width, row = p / picture.width;
+        direction_of(camera, size, column, row, d);
         for (int k = 0; k < 3; k++) {
             measure_value(pixels, picture.values[4 * p + k], 0.5 + 0.5 * d[k],
                           2.0 / 256 + 16 * t->u, "%d×%d, pixel %d", size[0], size[1], p);
