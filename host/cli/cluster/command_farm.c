@@ -4,9 +4,9 @@
 #include "cli/common/say.h"
 #include "cli/common/signals.h"
 
+#include "cli/cluster/farm_slurm.h"
 #include "cli/common/json_output.h"
 #include "cli/common/output_folder.h"
-#include "cli/farm/farm_slurm.h"
 #include "cli/render/light.h"
 #include "cli/render/request.h"
 #include "image/output_file.h"

@@ -1,6 +1,6 @@
 // A sequence as an array job of Slurm: the scripts, and handing them in.
-#ifndef GLINT_CLI_FARM_FARM_SLURM_H
-#define GLINT_CLI_FARM_FARM_SLURM_H
+#ifndef GLINT_CLI_CLUSTER_FARM_SLURM_H
+#define GLINT_CLI_CLUSTER_FARM_SLURM_H
 
 #include "base/status.h"
 

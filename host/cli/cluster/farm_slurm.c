@@ -1,5 +1,5 @@
 // Array jobs of Slurm. See farm_slurm.h.
-#include "cli/farm/farm_slurm.h"
+#include "cli/cluster/farm_slurm.h"
 
 #include "cli/common/shell_word.h"
 
