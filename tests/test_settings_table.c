@@ -202,6 +202,17 @@ static void reports_hold_what_the_options_take(void **state)
     }
 }
 
+static void zeros_of_both_signs_are_one_value(void **state)
+{
+    (void)state;
+    glint_settings settings = glint_settings_default;
+    settings.mend = settings.env_rotate = -0.0;
+    assert_null(glint_settings_find_changed(&settings, ~0u));
+    assert_true(glint_settings_are_variation(&settings, &glint_settings_default));
+    settings.mend = NAN; // no value's equal, its own neither
+    assert_non_null(glint_settings_find_changed(&settings, ~0u));
+}
+
 static void what_weighs_errors_is_found_when_it_is_changed(void **state)
 {
     (void)state;
@@ -225,6 +236,7 @@ int main(void)
         cmocka_unit_test(only_some_are_variations_of_a_renderers),
         cmocka_unit_test(what_decides_pixels_decides_the_fingerprint),
         cmocka_unit_test(reports_hold_what_the_options_take),
+        cmocka_unit_test(zeros_of_both_signs_are_one_value),
         cmocka_unit_test(what_weighs_errors_is_found_when_it_is_changed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

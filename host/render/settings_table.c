@@ -334,8 +334,11 @@ double glint_setting_number(const glint_setting *setting, const glint_settings *
 bool glint_setting_differs(const glint_setting *setting, const glint_settings *a,
                            const glint_settings *b)
 {
-    return memcmp((const char *)a + setting->offset, (const char *)b + setting->offset,
-                  setting->size) != 0;
+    bool differs = false; // as numbers: 0 is −0, and NaN is no value's equal
+    for (size_t i = 0; i < glint_setting_number_count(setting); i++) {
+        differs |= glint_setting_number(setting, a, i) != glint_setting_number(setting, b, i);
+    }
+    return differs;
 }
 
 const glint_setting *glint_settings_find_changed(const glint_settings *settings, unsigned roles)
