@@ -150,11 +150,11 @@ static void labels_are_numbers_or_names(void **state)
         assert_string_equal(label, labels[i][1]);
     }
     // Every letter of a name is seen.
-    for (char letter = 'A'; letter <= 'z'; letter++) {
-        bool is_drawn = !isalpha((unsigned char)letter);
+    for (int letter = 'A'; letter <= 'z'; letter++) {
+        bool is_drawn = isalpha(letter) == 0;
         for (int i = 0; i < GLINT_FONT_WIDTH * GLINT_FONT_HEIGHT; i++) {
-            is_drawn =
-                is_drawn || glint_font_dot(letter, i % GLINT_FONT_WIDTH, i / GLINT_FONT_WIDTH);
+            is_drawn = is_drawn ||
+                       glint_font_dot((char)letter, i % GLINT_FONT_WIDTH, i / GLINT_FONT_WIDTH);
         }
         assert_true(is_drawn);
     }

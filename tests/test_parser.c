@@ -81,7 +81,8 @@ static void options_stand_anywhere_until_two_dashes(void **state)
         assert_true(p.request.flag && !p.request.other && p.request.number == 3);
         assert_int_equal(p.arguments.positional_count, cases[i].positionals);
         for (int k = 1; k < p.count; k++) {
-            strcat(strcat(sorted, " "), p.words[k]);
+            const size_t length = strlen(sorted);
+            snprintf(sorted + length, sizeof sorted - length, " %s", p.words[k]);
         }
         assert_string_equal(sorted, cases[i].sorted);
         assert_ptr_equal(p.arguments.positionals + p.arguments.positional_count, p.words + p.count);

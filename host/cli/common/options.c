@@ -140,7 +140,7 @@ static glint_status take_letters(parsing *p, const char *letters, glint_error *e
 {
     for (; *letters != '\0' && !p->help; letters++) {
         glint_option option;
-        if (!find(p->command, *letters, NULL, 0, &option)) {
+        if (!find(p->command, *letters, "", 0, &option)) {
             return glint_fail(error, GLINT_USAGE, "unknown option -%c (glint %s --help lists them)",
                               *letters, p->command->name);
         }
