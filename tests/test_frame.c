@@ -1,6 +1,7 @@
 // Properties of a rendered frame that hold whatever the scene: the same bits at every packet width
 // and with every feature compiled, exact environments, alpha, samples, counters, interruption.
 #include "device/opencl.h"
+#include "render/settings_table.h"
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -282,6 +283,44 @@ static void a_transparent_background_is_left_out_and_surfaces_stay_whole(void **
     test_frame_free(&transparent);
 }
 
+static void a_colour_behind_the_scene_fills_what_is_left_open(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"0.25,0,3e2", "0,0,0"};
+    const glint_setting *background = glint_setting_at(offsetof(glint_settings, transparent));
+    glint_settings settings = test_small_frame(0);
+    settings.samples_per_axis = 2; // so that edges are open in part
+    settings.transparent = true;
+    test_frame open_frame, filled;
+    test_render_named("glass_sphere", &settings, &open_frame);
+    for (size_t k = 0; k < 2; k++) {
+        assert_int_equal(glint_option_parse(&background->option, texts[k], &settings, NULL),
+                         GLINT_OK);
+        test_render_named("glass_sphere", &settings, &filled);
+        size_t partly = 0;
+        for (size_t i = 0; i < 61 * 43; i++) {
+            const float *a = open_frame.image.pixels + 4 * i, *b = filled.image.pixels + 4 * i;
+            partly += a[3] > 0 && a[3] < 1;
+            assert_true(b[3] == 1);
+            for (int c = 0; c < 3; c++) {
+                const double whole = (double)a[c] + (1 - (double)a[3]) * settings.backdrop[c];
+                assert_true(fabs((double)b[c] - whole) <= 0x1p-24 * whole); // rounded once
+            }
+        }
+        assert_true(partly > 30);
+        test_frame_free(&filled);
+    }
+    test_frame_free(&open_frame);
+    assert_true(settings.backdrop[3] == 1); // black is a colour, too
+    static const char *const wrong[] = {"-1,0,0", "1,2", "1,2,3,4", "nan,0,0", "1, 2,3"};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        assert_int_equal(glint_option_parse(&background->option, wrong[k], &settings, NULL),
+                         GLINT_USAGE);
+    }
+    assert_int_equal(glint_option_parse(&background->option, "env", &settings, NULL), GLINT_OK);
+    assert_true(!settings.transparent && settings.backdrop[3] == 0);
+}
+
 static void light_that_is_cut_off_is_reported_and_never_black(void **state)
 {
     (void)state;
@@ -468,6 +507,7 @@ int main(void)
         cmocka_unit_test(the_environment_turns_counter_clockwise_seen_from_above),
         cmocka_unit_test(a_sample_grid_is_the_mean_of_its_samples),
         cmocka_unit_test(a_transparent_background_is_left_out_and_surfaces_stay_whole),
+        cmocka_unit_test(a_colour_behind_the_scene_fills_what_is_left_open),
         cmocka_unit_test(light_that_is_cut_off_is_reported_and_never_black),
         cmocka_unit_test(rays_are_counted_by_class),
         cmocka_unit_test(a_device_with_memory_of_its_own_makes_the_same_frame),

@@ -8,6 +8,18 @@
 
 #include <stdlib.h>
 
+static void put_behind(const double backdrop[4], glint_image *image)
+{
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < pixels; i++) {
+        float *pixel = image->pixels + 4 * i;
+        const double nothing = 1 - (double)pixel[3]; // the share of the pixel that shows nothing
+        for (int c = 0; c < 4; c++) {
+            pixel[c] = (float)((double)pixel[c] + nothing * backdrop[c]);
+        }
+    }
+}
+
 static glint_status render(const glint_frame_request *request, glint_error *error)
 {
     glint_renderer *r = request->renderer;
@@ -18,6 +30,9 @@ static glint_status render(const glint_frame_request *request, glint_error *erro
     const bool is_whole = r->settings.list == NULL && r->settings.grid_step == 0;
     if (r->settings.mend > 0 && is_whole) {
         TRY(glint_mend(request, error));
+    }
+    if (r->settings.backdrop[3] > 0) {
+        put_behind(r->settings.backdrop, request->image);
     }
     request->report->nonfinite_pixels = glint_image_count_nonfinite(request->image);
     r->phases.kernel = request->report->kernel_ms;

@@ -80,6 +80,8 @@ typedef struct glint_settings {
     bool transparent;     // background transparent, else the environment
     const char *plate;    // a picture that whoever writes the frame puts behind it; NULL: none.
                           // Borrowed, and not read here; the background is transparent then
+    double backdrop[4];   // R, G, B (radiance, ≥ 0) and alpha, 1, of what is behind a transparent
+                          // scene; zeros: nothing
     double env_rotate;    // degrees about +Y, counter-clockwise seen from above
     glint_precision precision;
     // Above 0, in single precision: pixels that differ from a neighbour by more than `mend` times

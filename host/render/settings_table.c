@@ -33,17 +33,40 @@ static void print_samples(const glint_settings *settings, char text[GLINT_SETTIN
     snprintf(text, GLINT_SETTING_TEXT, "%lld", root > 0 ? root * root : root);
 }
 
-// "env", "transparent", or the file of a plate, which has a point or a slash.
+// With as few digits as give the same number again.
+static void print_real(double number, char text[GLINT_SETTING_TEXT])
+{
+    int digits = 6;
+    do {
+        snprintf(text, GLINT_SETTING_TEXT, "%.*g", digits, number);
+    } while (digits++ < 17 && strtod(text, NULL) != number);
+}
+
+// "0.2,0.2,0.25": radiance R, G, B. False where the text is anything else.
+static bool parse_backdrop(const char *text, double backdrop[4])
+{
+    double color[3];
+    if (!glint_parse_reals(text, color, 3) || color[0] < 0 || color[1] < 0 || color[2] < 0) {
+        return false;
+    }
+    memcpy(backdrop, color, sizeof color);
+    backdrop[3] = 1;
+    return true;
+}
+
+// "env", "transparent", a colour, or the file of a plate, which has a point or a slash.
 static glint_status parse_background(const glint_option *option, const char *text,
                                      void *destination, glint_error *error)
 {
     static const char *const words[] = {"env", "transparent", NULL};
     glint_settings *settings = destination;
     const bool is_env = strcmp(text, words[0]) == 0;
-    const bool is_word = is_env || strcmp(text, words[1]) == 0;
-    if (is_word || strpbrk(text, "./") != NULL) {
+    double backdrop[4] = {0};
+    const bool is_plate = !is_env && strcmp(text, words[1]) != 0 && !parse_backdrop(text, backdrop);
+    if (!is_plate || strpbrk(text, "./") != NULL) {
         settings->transparent = !is_env;
-        settings->plate = is_word ? NULL : text;
+        settings->plate = is_plate ? text : NULL;
+        memcpy(settings->backdrop, backdrop, sizeof backdrop);
         return GLINT_OK;
     }
     const char *nearest = glint_nearest_word(text, words);
@@ -51,13 +74,22 @@ static glint_status parse_background(const glint_option *option, const char *tex
                ? glint_fail(error, GLINT_USAGE, "--%s %s: did you mean %s?", option->name, text,
                             nearest)
                : glint_fail(error, GLINT_USAGE,
-                            "--%s %s: env or transparent, or an image's file, is expected",
+                            "--%s %s: env or transparent, or an image's file, or a colour "
+                            "R,G,B is expected",
                             option->name, text);
 }
 
 static void print_background(const glint_settings *settings, char text[GLINT_SETTING_TEXT])
 {
-    snprintf(text, GLINT_SETTING_TEXT, "%s", settings->transparent ? "transparent" : "env");
+    char color[3][GLINT_SETTING_TEXT];
+    if (settings->backdrop[3] == 0) {
+        snprintf(text, GLINT_SETTING_TEXT, "%s", settings->transparent ? "transparent" : "env");
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        print_real(settings->backdrop[c], color[c]);
+    }
+    snprintf(text, GLINT_SETTING_TEXT, "%.30s,%.30s,%.30s", color[0], color[1], color[2]);
 }
 
 static glint_status parse_aovs(const glint_option *option, const char *text, void *destination,
@@ -93,6 +125,7 @@ static const char *const shadings[] = {[GLINT_SHADING_PIXEL] = "pixel",
              : GLINT_SETTING_BOOL, int                                                             \
              : GLINT_SETTING_INT, unsigned                                                         \
              : GLINT_SETTING_UNSIGNED, double                                                      \
+             : GLINT_SETTING_REAL, const double *                                                  \
              : GLINT_SETTING_REAL)
 #define MEMBER(member)                                                                             \
     .offset = OF(member), .size = sizeof((const glint_settings *)0)->member, .type = TYPE_OF(member)
@@ -128,10 +161,11 @@ const glint_setting glint_setting_table[] = {
                 .fallback = "1/1024", .minimum = 0, .maximum = 1}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(transparent), .fingerprint = 6, .key = "background",
      .no_capture = "an environment has no holes", .print = print_background,
-     .option = {GLINT_OPTION_CUSTOM, .name = "background", .argument = "KIND|PLATE",
+     .option = {GLINT_OPTION_CUSTOM, .name = "background", .argument = "KIND|R,G,B|PLATE",
                 .help = "What is behind the scene: env, the environment; transparent, nothing, and "
-                        "alpha says so; for render also a picture of the frame's size, plate.exr, "
-                        "or one for each frame, plate.####.exr.",
+                        "alpha says so; a colour, as linear radiance: 0.18,0.18,0.18; for render "
+                        "also a picture of the frame's size, plate.exr, or one for each frame, "
+                        "plate.####.exr.",
                 .parse = parse_background}},
     {GLINT_SETTINGS_OF_ENVIRONMENT, MEMBER(env_rotate), .fingerprint = 7,
      .key = "env_rotate_degrees",
@@ -219,6 +253,8 @@ const glint_setting glint_setting_table[] = {
                 .minimum = 1, .maximum = GLINT_TERMS_MAX}},
     {GLINT_SETTINGS_INTERNAL, MEMBER(output), .fingerprint = 10,
      .option = {GLINT_OPTION_CHOICE, .choices = GLINT_CHOICES("colours", "hits")}},
+    {GLINT_SETTINGS_INTERNAL, MEMBER(backdrop), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
+     .print = print_background, .option = {GLINT_OPTION_CUSTOM, .name = "background"}},
     {GLINT_SETTINGS_INTERNAL, MEMBER(proxy), .fingerprint = 16,
      .option = {GLINT_OPTION_FLAG, .name = "proxy"}},
     {GLINT_SETTINGS_INTERNAL, MEMBER(grid_step), .fingerprint = 17, .roles = GLINT_SETTING_VARIES,
@@ -239,6 +275,7 @@ const glint_exclusion glint_exclusion_table[] = {
     {OF(filter), OF(shading), "shades vertices, which see no part of the environment"},
     {OF(aovs), OF(shading), "shades vertices, and layers tell of pixels"},
     {OF(terms), OF(shading), "shades vertices, and directions are kept of pixels"},
+    {OF(terms), OF(backdrop), "keeps directions, and a colour comes from none"},
     {OF(proxy), OF(filter), "takes more than points, for which alone rays find a proxy"},
     {OF(proxy), OF(terms), "keeps directions, and places are what a proxy needs"},
     {OF(proxy), OF(shading), "shades vertices, and pixels are what a proxy is found for"},
@@ -351,15 +388,6 @@ const glint_setting *glint_settings_find_changed(const glint_settings *settings,
         }
     }
     return NULL;
-}
-
-// With as few digits as give the same number again.
-static void print_real(double number, char text[GLINT_SETTING_TEXT])
-{
-    int digits = 6;
-    do {
-        snprintf(text, GLINT_SETTING_TEXT, "%.*g", digits, number);
-    } while (digits++ < 17 && strtod(text, NULL) != number);
 }
 
 void glint_setting_print(const glint_setting *setting, const glint_settings *settings,
