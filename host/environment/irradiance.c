@@ -26,14 +26,23 @@
 #include "base/parallel.h"
 #include "kernels/layout.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 
-#define GRID_MIN 128 // blocks along a face's edge, at least; less than twice as many
+enum {
+    GRID_MIN = 128, // blocks along a face's edge, at least
+    BLOCKS_MAX = 2 * GRID_MIN - 1,
+};
 
-// Σ L m in the face's axes: value[axis][channel], the axes being s, t and the face's own. The
-// fourth channel is padding, so that a vector register holds a row.
+// R and G, or B and padding: what a vector register of every x86-64 holds. Each lane is computed as
+// a scalar would be.
+typedef double pair __attribute__((vector_size(2 * sizeof(double))));
+typedef int64_t pair_mask __attribute__((vector_size(2 * sizeof(int64_t))));
+enum { PAIRS = 2 };
+
+// Σ L m in the face's axes: s, t and the face's own.
 typedef struct moment_sum {
-    double value[3][4];
+    pair along[3][PAIRS];
 } moment_sum;
 
 // Blocks are the same along both axes of a face. A line is a row (ALONG_S) or a column (ALONG_T).
@@ -60,11 +69,11 @@ static moment_sum *line_of(const block_grid *grid, int direction, int face, int 
     return grid->before[direction] + ((size_t)face * blocks + (size_t)line) * (blocks + 1);
 }
 
-static void add_sum(const moment_sum *a, double factor, moment_sum *to)
+static void add_sum(const moment_sum *a, moment_sum *to)
 {
     for (int axis = 0; axis < 3; axis++) {
-        for (int c = 0; c < 4; c++) {
-            to->value[axis][c] += factor * a->value[axis][c];
+        for (int p = 0; p < PAIRS; p++) {
+            to->along[axis][p] += a->along[axis][p];
         }
     }
 }
@@ -110,9 +119,10 @@ static void add_texel(const float *texel, const double s[2], const double t[2], 
 {
     double moment[3] = {0.0, 0.0, 0.0};
     add_moment(s, t, moment);
+    const pair radiance[PAIRS] = {{(double)texel[0], (double)texel[1]}, {(double)texel[2]}};
     for (int axis = 0; axis < 3; axis++) {
-        for (int c = 0; c < 3; c++) {
-            sum->value[axis][c] += (double)texel[c] * moment[axis];
+        for (int p = 0; p < PAIRS; p++) {
+            sum->along[axis][p] += radiance[p] * moment[axis];
         }
     }
 }
@@ -154,7 +164,7 @@ static void sum_row(size_t index, void *context)
         moment_sum *block = line_of(grid, ALONG_T, face, column) + row + 1;
         sum_block(shared, face, row, column, block);
         sums[column + 1] = sums[column];
-        add_sum(block, 1.0, &sums[column + 1]);
+        add_sum(block, &sums[column + 1]);
     }
 }
 
@@ -165,7 +175,7 @@ static void sum_column(size_t index, void *context)
     int face = (int)index / grid->blocks, column = (int)index % grid->blocks;
     moment_sum *sums = line_of(grid, ALONG_T, face, column);
     for (int row = 0; row < grid->blocks; row++) {
-        add_sum(&sums[row], 1.0, &sums[row + 1]);
+        add_sum(&sums[row], &sums[row + 1]);
     }
 }
 
@@ -201,71 +211,100 @@ static glint_status grid_create(int texels, block_grid *grid, glint_error *error
 
 // ---- Gathering ----------------------------------------------------------------------------------
 
-static int clamp_to(double value, int most)
+// The whole number at or below, and the one at or above, in 0 … most; NaN: 0.
+static int whole_below(double value, int most)
 {
     return value > 0.0 ? (value < most ? (int)value : most) : 0;
 }
 
-// What the horizon cuts of one line of blocks: those from `first` to before `end` are crossed,
-// those from `front` to before `front_end` are wholly in front.
+static int whole_above(double value, int most)
+{
+    const int below = whole_below(value, most);
+    return below < most && below < value ? below + 1 : below;
+}
+
+// What the block between two running sums brings, of reach a. Taking a block for crossed that is
+// not does no harm: P is then outside ±aW.
+static pair light_of_crossed(const moment_sum sums[2], const double n[3], double a, int p)
+{
+    const pair weight = sums[1].along[2][p] - sums[0].along[2][p];
+    const pair part = n[0] * (sums[1].along[0][p] - sums[0].along[0][p]) +
+                      n[1] * (sums[1].along[1][p] - sums[0].along[1][p]) + n[2] * weight;
+    const pair reach = a * weight;
+    const pair_mask in_front = part >= reach;
+    const pair risen = (pair)((part > -reach) & (pair_mask)(part + reach)); // 0 behind
+    const pair crossed = risen * risen / (4.0 * reach); // NaN where there is no light
+    return (pair)((in_front & (pair_mask)part) | (~in_front & (pair_mask)crossed));
+}
+
+// What a normal's horizon, in a face's axes, cuts of a line of blocks.
+typedef struct horizon {
+    double fast, slow, height; // of n: along the line, along the next line, along the face's axis
+    double scale, step;        // blocks per half unit, and the width of a line
+    int blocks;
+} horizon;
+
+// Where n·ω is 0 at one side of a line, in blocks; a face that n looks straight at, or away from,
+// has it at ±∞.
+static double crossing(const horizon *h, double side)
+{
+    return (1.0 - (h->height + h->slow * side) / h->fast) * 0.5 * h->scale;
+}
+
+// The blocks of a line that lie wholly in front end or begin with those that are crossed.
 typedef struct cut {
-    int first, end, front, front_end;
-    double reach; // a, see above
+    const moment_sum *crossed, *crossed_end, *front, *front_end;
 } cut;
 
-// Adds what one line of blocks brings: those wholly in front to `front`, the others one by one.
-// Taking a block for crossed that is not does no harm: P is then outside ±aW.
-static void gather_line(const moment_sum *sums, const cut *line, const double n[3],
-                        moment_sum *front, double rgb[3])
+static cut cut_line(const moment_sum *sums, const horizon *h, int line)
 {
-    add_sum(&sums[line->front_end], 1.0, front);
-    add_sum(&sums[line->front], -1.0, front);
-    for (int k = line->first; k < line->end; k++) {
-        for (int c = 0; c < 3; c++) {
-            double weight = sums[k + 1].value[2][c] - sums[k].value[2][c];
-            double part = n[0] * (sums[k + 1].value[0][c] - sums[k].value[0][c]) +
-                          n[1] * (sums[k + 1].value[1][c] - sums[k].value[1][c]) + n[2] * weight;
-            double reach = line->reach * weight;
-            if (part >= reach) {
-                rgb[c] += part;
-            } else if (part > -reach) {
-                rgb[c] += (part + reach) * (part + reach) / (4.0 * reach);
-            }
+    const double side = 2.0 * line / h->scale - 1.0;
+    const double start = crossing(h, side), stop = crossing(h, side + h->step);
+    const moment_sum *first = &sums[whole_below(start < stop ? start : stop, h->blocks)];
+    const moment_sum *end = &sums[whole_above(start < stop ? stop : start, h->blocks)];
+    return h->fast > 0.0 ? (cut){first, end, end, &sums[h->blocks]}
+                         : (cut){first, end, sums, first};
+}
+
+// Two channels of what the lines of a face bring.
+static pair gather_pair(const cut *cuts, int count, const double n[3], double reach, int p,
+                        pair light)
+{
+    pair x = {0}, y = {0}, z = {0}; // of what lies wholly in front
+    for (int line = 0; line < count; line++) {
+        const cut *c = &cuts[line];
+        x = x + c->front_end->along[0][p] - c->front->along[0][p];
+        y = y + c->front_end->along[1][p] - c->front->along[1][p];
+        z = z + c->front_end->along[2][p] - c->front->along[2][p];
+        for (const moment_sum *k = c->crossed; k < c->crossed_end; k++) {
+            light += light_of_crossed(k, n, reach, p);
         }
     }
+    return light + (n[0] * x + n[1] * y + n[2] * z);
 }
 
 // One face, n in its axes.
-static void gather_face(const block_grid *grid, int face, const double n[3], double rgb[3])
+static void gather_face(const block_grid *grid, int face, const double n[3], pair light[PAIRS])
 {
     // Along the axis that n·ω changes faster with, the horizon crosses two blocks a line at most.
-    int direction = fabs(n[0]) >= fabs(n[1]) ? ALONG_S : ALONG_T;
-    double fast = n[direction == ALONG_S ? 0 : 1], slow = n[direction == ALONG_S ? 1 : 0];
+    const int direction = fabs(n[0]) >= fabs(n[1]) ? ALONG_S : ALONG_T;
+    const double fast = n[direction == ALONG_S ? 0 : 1], slow = n[direction == ALONG_S ? 1 : 0];
     if (fabs(fast) + fabs(slow) + n[2] <= 0.0) {
         return; // wholly behind
     }
-    int blocks = grid->blocks;
-    double reach = sqrt(fast * fast + slow * slow) / grid->scale;
-    moment_sum front = {0};
-    for (int line = 0; line < blocks; line++) {
-        // Where n·ω is 0 at the two sides of this line, in blocks; a face that n looks straight at,
-        // or away from, has it at ±∞.
-        double side = 2.0 * line / grid->scale - 1.0, step = 2.0 / grid->scale;
-        double start = (1.0 - (n[2] + slow * side) / fast) * 0.5 * grid->scale;
-        double stop = (1.0 - (n[2] + slow * (side + step)) / fast) * 0.5 * grid->scale;
-        int first = clamp_to(floor(start < stop ? start : stop), blocks);
-        int end = clamp_to(ceil(start < stop ? stop : start), blocks);
-        cut here = {first, end, fast > 0.0 ? end : 0, fast > 0.0 ? blocks : first, reach};
-        gather_line(line_of(grid, direction, face, line), &here, n, &front, rgb);
+    const horizon h = {fast, slow, n[2], grid->scale, 2.0 / grid->scale, grid->blocks};
+    const double reach = sqrt(fast * fast + slow * slow) / grid->scale;
+    cut cuts[BLOCKS_MAX];
+    for (int line = 0; line < h.blocks; line++) {
+        cuts[line] = cut_line(line_of(grid, direction, face, line), &h, line);
     }
-    for (int c = 0; c < 3; c++) {
-        rgb[c] += n[0] * front.value[0][c] + n[1] * front.value[1][c] + n[2] * front.value[2][c];
+    for (int p = 0; p < PAIRS; p++) {
+        light[p] = gather_pair(cuts, h.blocks, n, reach, p, light[p]);
     }
 }
 
-static void irradiance_along(const block_grid *grid, glint_vec3 n, double rgb[3])
+static void irradiance_along(const block_grid *grid, glint_vec3 n, pair light[PAIRS])
 {
-    rgb[0] = rgb[1] = rgb[2] = 0.0;
     for (int face = 0; face < GLINT_CUBE_FACES; face++) {
         glint_vec3 axis = glint_cube_direction(face, 0.0, 0.0);
         glint_vec3 along_s = glint_vec3_subtract(glint_cube_direction(face, 1.0, 0.0), axis);
@@ -277,10 +316,10 @@ static void irradiance_along(const block_grid *grid, glint_vec3 n, double rgb[3]
         if (fabs(in_face[0]) < least && fabs(in_face[1]) < least) {
             in_face[0] = least;
         }
-        gather_face(grid, face, in_face, rgb);
+        gather_face(grid, face, in_face, light);
     }
-    for (int c = 0; c < 3; c++) {
-        rgb[c] /= GLINT_PI;
+    for (int p = 0; p < PAIRS; p++) {
+        light[p] /= GLINT_PI;
     }
 }
 
@@ -294,12 +333,12 @@ static void gather_row(size_t index, void *context)
     int face = (int)index / pitch, j = (int)index % pitch - GLINT_CUBE_BORDER;
     for (int i = -GLINT_CUBE_BORDER; i < edge + GLINT_CUBE_BORDER; i++) {
         double s = (2.0 * i + 1.0) / edge - 1.0, t = (2.0 * j + 1.0) / edge - 1.0;
-        double rgb[3];
-        irradiance_along(&shared->grid, glint_vec3_normalize(glint_cube_direction(face, s, t)),
-                         rgb);
+        const glint_vec3 normal = glint_vec3_normalize(glint_cube_direction(face, s, t));
+        pair light[PAIRS] = {0};
+        irradiance_along(&shared->grid, normal, light);
         float *texel = glint_cube_texel(shared->irradiance, face, i, j);
         for (int c = 0; c < 3; c++) {
-            texel[c] = (float)rgb[c];
+            texel[c] = (float)light[c / 2][c % 2];
         }
         texel[3] = 1.0f;
     }
