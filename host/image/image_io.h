@@ -1,4 +1,4 @@
-// Image files, through OpenImageIO. Plain C; every function catches everything.
+// Image files, through OpenImageIO (codec.h), which is loaded when first needed.
 #ifndef GLINT_IMAGE_IMAGE_IO_H
 #define GLINT_IMAGE_IMAGE_IO_H
 
@@ -112,6 +112,12 @@ typedef struct glint_encoded {
 glint_status glint_image_encode(const char *path, const glint_image *image,
                                 const glint_write_options *options, glint_encoded *encoded,
                                 glint_error *error);
+
+// Begins to load OpenImageIO beside the caller, who will read or write an image later, and waits
+// until that is done. Without the second the process must not end: libraries would go while they
+// come. Both are for one thread.
+void glint_image_load_ahead(void);
+void glint_image_end_loading(void);
 
 // How many threads each read or write may use: 0 is one for each core, as it begins; 1 the caller's
 // alone, for those who encode several images side by side.

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "cli/render/plate.h"
+#include "image/image_io.h"
 
 glint_status render_shot_load(render_shot *shot, const render_request *request,
                               glint_progress_display *display, glint_error *error)
@@ -10,6 +11,7 @@ glint_status render_shot_load(render_shot *shot, const render_request *request,
     shot->request = request;
     shot->display = display;
     TRY(render_stage_load(&shot->stage, request, display, error));
+    glint_image_load_ahead(); // a good scene will be written
     return render_light_load(&shot->light, &shot->stage, display, error);
 }
 
@@ -35,5 +37,6 @@ void render_shot_free(render_shot *shot)
 {
     render_light_free(&shot->light);
     render_stage_free(&shot->stage);
+    glint_image_end_loading();
     *shot = (render_shot){0};
 }

@@ -1,6 +1,6 @@
-// Writing image files through OpenImageIO. See image_io.h.
+// Encoding image files through OpenImageIO. See image/image_io.h.
 //
-// The file is encoded in memory and put on the disk by output_file.c, which checks every write:
+// A file is encoded in memory and put on the disk by image/output_file.c, which checks every write:
 // several of OpenImageIO's writers do not tell when the disk is full.
 //
 // What becomes of values that a format cannot hold:
@@ -11,11 +11,9 @@
 //   8 bits     NaN and negative values become 0; above 1 is 1.
 // Grey stays grey where the format has it (EXR, PNG, TIFF, JPEG). TIFF is written with 8 bits,
 // sRGB.
-#include "image/image_io.h"
+#include "codec/decode.hpp"
 
 #include "image/color.h"
-#include "image/image_decode.hpp"
-#include "image/output_file.h"
 
 #include <Imath/half.h>
 #include <OpenImageIO/filesystem.h>
@@ -26,7 +24,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <strings.h>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -38,86 +35,7 @@ using OIIO::TypeDesc;
 namespace
 {
 
-enum class Format { None, Exr, Hdr, Png, Jpeg, Tiff };
-
-struct Extension {
-    const char *text;
-    Format format;
-    const char *plugin; // OpenImageIO's name of the format
-};
-
-const Extension extensions[] = {
-    {"exr", Format::Exr, "openexr"}, {"hdr", Format::Hdr, "hdr"},    {"png", Format::Png, "png"},
-    {"jpg", Format::Jpeg, "jpeg"},   {"jpeg", Format::Jpeg, "jpeg"}, {"tif", Format::Tiff, "tiff"},
-    {"tiff", Format::Tiff, "tiff"},
-};
-
-const Extension *extension_of(const char *path)
-{
-    const char *slash = std::strrchr(path, '/');
-    const char *name = slash != nullptr ? slash + 1 : path;
-    const char *dot = std::strrchr(name, '.');
-    // ".exr" alone is a hidden file's name without an extension.
-    if (dot != nullptr && dot != name) {
-        for (const Extension &known : extensions) {
-            if (strcasecmp(dot + 1, known.text) == 0) {
-                return &known;
-            }
-        }
-    }
-    return nullptr;
-}
-
-// What may be given as compression: words, or a whole number in [low, high].
-struct Compressions {
-    Format format;
-    const char *words[12];
-    int low, high;
-    const char *said; // for the message
-};
-
-const Compressions compressions[] = {
-    {Format::Exr,
-     {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"},
-     0,
-     -1,
-     "none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa or dwab"},
-    {Format::Tiff, {"none", "lzw", "zip", "packbits"}, 0, -1, "none, lzw, zip or packbits"},
-    {Format::Png, {}, 0, 9, "a level from 0 to 9"},
-    {Format::Jpeg, {}, 1, 100, "a quality from 1 to 100"},
-};
-
-bool compression_fits(const Compressions &allowed, const char *given)
-{
-    for (const char *word : allowed.words) {
-        if (word != nullptr && std::strcmp(word, given) == 0) {
-            return true;
-        }
-    }
-    char *end = nullptr;
-    long number = std::strtol(given, &end, 10);
-    return given[0] >= '0' && given[0] <= '9' && *end == '\0' && number >= allowed.low &&
-           number <= allowed.high;
-}
-
-glint_status check_compression(const char *path, Format format, const char *given,
-                               glint_error *error)
-{
-    if (given == nullptr) {
-        return GLINT_OK;
-    }
-    for (const Compressions &allowed : compressions) {
-        if (allowed.format == format) {
-            return compression_fits(allowed, given)
-                       ? GLINT_OK
-                       : glint_fail(error, GLINT_USAGE,
-                                    "%s: '%s' is no compression of this format (give %s)", path,
-                                    given, allowed.said);
-        }
-    }
-    return glint_fail(error, GLINT_USAGE,
-                      "%s: this format has one compression only (leave '%s' out)", path, given);
-}
+using Format = glint_written_kind;
 
 // ---- Pixels as the file holds them --------------------------------------------------------------
 
@@ -175,10 +93,10 @@ Channels channels_of(Format format, int in_image)
 {
     bool has_alpha = in_image == 2 || in_image == 4;
     int color = in_image <= 2 ? 1 : 3;
-    if (format == Format::Hdr) {
+    if (format == GLINT_WRITTEN_HDR) {
         return {3, 3};
     }
-    if (format == Format::Jpeg || !has_alpha) {
+    if (format == GLINT_WRITTEN_JPEG || !has_alpha) {
         return {color, color};
     }
     return {color, color + 1};
@@ -267,11 +185,11 @@ std::string as_text(const glint_write_options &options)
 // it must read back what it wrote, and from memory it cannot.
 void add_metadata(ImageSpec &spec, Format format, const glint_write_options &options)
 {
-    if (format == Format::Exr) {
+    if (format == GLINT_WRITTEN_EXR) {
         for (std::size_t i = 0; i < options.metadata_count; i++) {
             add_attribute(spec, options.metadata[i]);
         }
-    } else if (format != Format::Hdr && options.metadata_count > 0) {
+    } else if (format != GLINT_WRITTEN_HDR && options.metadata_count > 0) {
         spec.attribute("ImageDescription", as_text(options));
     }
 }
@@ -299,17 +217,17 @@ void describe_exr(ImageSpec &spec, const glint_write_options &options)
 
 void describe_codes(ImageSpec &spec, Format format, const glint_write_options &options)
 {
-    if (format != Format::Tiff) {
+    if (format != GLINT_WRITTEN_TIFF) {
         spec.attribute("oiio:ColorSpace", "sRGB");
     }
     // What is handed over is unpremultiplied already.
     spec.attribute("oiio:UnassociatedAlpha", 1);
     const char *given = options.compression;
-    if (format == Format::Png) {
+    if (format == GLINT_WRITTEN_PNG) {
         // The time goes into the deflation: level 2 is three times as fast as the default of 6 and
         // its files are some percent larger.
         spec.attribute("png:compressionLevel", given != nullptr ? std::atoi(given) : 2);
-    } else if (format == Format::Jpeg) {
+    } else if (format == GLINT_WRITTEN_JPEG) {
         spec.attribute("CompressionQuality", given != nullptr ? std::atoi(given) : 95);
         spec.attribute("jpeg:subsampling", "4:4:4");
     } else {
@@ -353,16 +271,16 @@ Encoded prepare(const glint_image &image, Format format, const glint_write_optio
 {
     Channels wanted = channels_of(format, image.channels);
     TypeDesc type = TypeDesc::UINT8;
-    if (format == Format::Hdr || (format == Format::Exr && options.exr_float)) {
+    if (format == GLINT_WRITTEN_HDR || (format == GLINT_WRITTEN_EXR && options.exr_float)) {
         type = TypeDesc::FLOAT;
-    } else if (format == Format::Exr) {
+    } else if (format == GLINT_WRITTEN_EXR) {
         type = TypeDesc::HALF;
     }
     Encoded made{ImageSpec(image.width, image.height, wanted.total, type), {}};
     name_channels(made.spec, wanted);
     std::size_t values =
         std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
-    if (format == Format::Exr) {
+    if (format == GLINT_WRITTEN_EXR) {
         describe_exr(made.spec, options);
         made.bytes.resize(values * type.size());
         if (options.exr_float) {
@@ -373,7 +291,7 @@ Encoded prepare(const glint_image &image, Format format, const glint_write_optio
         if (options.channel_count > 0) {
             add_channels(options, made);
         }
-    } else if (format == Format::Hdr) {
+    } else if (format == GLINT_WRITTEN_HDR) {
         fill_rgbe(image, made.bytes);
     } else {
         describe_codes(made.spec, format, options);
@@ -391,8 +309,10 @@ std::string cause_of(const ImageOutput &output)
     return text.empty() ? "the encoder failed without saying why" : text;
 }
 
-glint_status encode(const char *path, const char *plugin, const Encoded &made,
-                    OIIO::Filesystem::IOVecOutput &file, glint_error *error)
+using File = OIIO::Filesystem::IOVecOutput;
+
+glint_status encode_prepared(const char *path, const char *plugin, const Encoded &made, File &file,
+                             glint_error *error)
 {
     std::unique_ptr<ImageOutput> output = ImageOutput::create(plugin);
     if (output == nullptr) {
@@ -410,32 +330,32 @@ glint_status encode(const char *path, const char *plugin, const Encoded &made,
     return GLINT_OK;
 }
 
-using File = OIIO::Filesystem::IOVecOutput;
-
-glint_status encode_image(const char *path, const glint_image &image,
-                          const glint_write_options &options, File &file, glint_error *error)
+glint_status copy(const std::vector<unsigned char> &file, glint_encoded *encoded,
+                  glint_error *error)
 {
-    const Extension *extension = extension_of(path);
-    std::shared_lock<std::shared_mutex> inside(glint::gate());
-    Encoded made = prepare(image, extension->format, options);
-    return encode(path, extension->plugin, made, file, error);
+    encoded->bytes = static_cast<unsigned char *>(std::malloc(file.size()));
+    if (encoded->bytes == nullptr) {
+        return glint_fail_memory(error, "an encoded image");
+    }
+    std::memcpy(encoded->bytes, file.data(), file.size());
+    encoded->size = file.size();
+    return GLINT_OK;
 }
 
-// Encodes an image and hands the file to `take`, outside of OpenImageIO.
-template <typename Take>
-glint_status encode_for(const char *path, const glint_image *image,
-                        const glint_write_options *options, Take take, glint_error *error)
+} // namespace
+
+glint_status glint::encode_image(const char *path, const glint_written_format *format,
+                                 const glint_image *image, const glint_write_options *options,
+                                 glint_encoded *encoded, glint_error *error)
 {
-    const glint_write_options defaults = {};
-    const glint_write_options &given = options != nullptr ? *options : defaults;
-    TRY(glint_image_check_output(path, &given, error));
-    if (image->pixels == nullptr) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
-    }
     try {
         File file;
-        TRY(encode_image(path, *image, given, file, error));
-        return take(file.buffer());
+        {
+            std::shared_lock<std::shared_mutex> inside(gate());
+            const Encoded made = prepare(*image, format->kind, *options);
+            TRY(encode_prepared(path, format->plugin, made, file, error));
+        }
+        return copy(file.buffer(), encoded, error);
     } catch (const std::bad_alloc &) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: not enough memory to encode it", path);
     } catch (const std::exception &fault) {
@@ -446,54 +366,7 @@ glint_status encode_for(const char *path, const glint_image *image,
     }
 }
 
-} // namespace
-
-bool glint_image_can_write(const char *path)
-{
-    return extension_of(path) != nullptr;
-}
-
-glint_status glint_image_check_output(const char *path, const glint_write_options *options,
-                                      glint_error *error)
-{
-    const Extension *extension = extension_of(path);
-    if (extension == nullptr) {
-        return glint_fail(error, GLINT_USAGE,
-                          "%s: the extension names no format that can be written (use .exr, .hdr, "
-                          ".png, .jpg, .jpeg, .tif or .tiff)",
-                          path);
-    }
-    return check_compression(path, extension->format,
-                             options != nullptr ? options->compression : nullptr, error);
-}
-
-glint_status glint_image_write(const char *path, const glint_image *image,
-                               const glint_write_options *options, glint_error *error)
-{
-    const auto write = [&](const std::vector<unsigned char> &file) {
-        return glint_output_file_write(path, file.data(), file.size(), error);
-    };
-    return encode_for(path, image, options, write, error);
-}
-
-glint_status glint_image_encode(const char *path, const glint_image *image,
-                                const glint_write_options *options, glint_encoded *encoded,
-                                glint_error *error)
-{
-    *encoded = {};
-    const auto keep = [&](const std::vector<unsigned char> &file) {
-        encoded->bytes = static_cast<unsigned char *>(std::malloc(file.size()));
-        if (encoded->bytes == nullptr) {
-            return glint_fail_memory(error, "an encoded image");
-        }
-        std::memcpy(encoded->bytes, file.data(), file.size());
-        encoded->size = file.size();
-        return GLINT_OK;
-    };
-    return encode_for(path, image, options, keep, error);
-}
-
-void glint_image_use_threads(int count)
+void glint::use_threads(int count)
 {
     OIIO::attribute("threads", count);
     // There 0 is one for each core as well, and −1 none beside the caller's.

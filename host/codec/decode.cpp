@@ -1,10 +1,10 @@
-// One image file through OpenImageIO, values as stored. See image_decode.hpp.
+// One image file through OpenImageIO, values as stored. See decode.hpp.
 //
 // Of a file with several parts the first is read that has colour (R, G, B) or grey (Y); of a
 // mipmapped one, level 0. Deep pixels are refused. An EXR's pixels are put into its display window,
 // zero where it has none; one with the envmap attribute is its data window. ICC profiles are not
 // applied.
-#include "image/image_decode.hpp"
+#include "codec/decode.hpp"
 
 #include <OpenImageIO/imageio.h>
 

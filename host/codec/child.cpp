@@ -6,7 +6,7 @@
 // OpenImageIO's pool, whose threads the child has not. Should the child wait all the same (the
 // allocator of GCC's AddressSanitizer is not unlocked), an alarm ends it, and another one is made,
 // which may take longer.
-#include "image/image_decode.hpp"
+#include "codec/decode.hpp"
 
 #include <cerrno>
 #include <csignal>

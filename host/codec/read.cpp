@@ -1,23 +1,19 @@
-// Reading image files. See image_io.h.
+// Reading image files. See image/image_io.h.
 //
-// The content decides what a file is, not its extension: an .hdr that holds an EXR is read as one.
-// Only formats whose decoders were found to stand corrupt files are let through to OpenImageIO,
-// JPEG in a child process, and PNG too, whose library prints its complaints. Orientation (EXIF,
-// TIFF, Radiance) is applied.
-#include "image/image_io.h"
+// Only formats whose decoders were found to stand corrupt files come here (image/formats.c); JPEG
+// is decoded in a child process, and PNG too, whose library prints its complaints. Orientation
+// (EXIF, TIFF, Radiance) is applied.
+#include "codec/decode.hpp"
 
 #include "image/color.h"
-#include "image/image_decode.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <mutex>
 #include <new>
 #include <string>
-#include <sys/stat.h>
 
 namespace
 {
@@ -25,88 +21,6 @@ namespace
 using glint::Decoded;
 using glint::Facts;
 using glint::Transfer;
-
-// ---- What the file is ---------------------------------------------------------------------------
-
-struct Magic {
-    const char *bytes;
-    std::size_t offset, length;
-    const char *name;
-    const char *plugin; // NULL: known and not read
-};
-
-const Magic magics[] = {
-    {"\x76\x2f\x31\x01", 0, 4, "OpenEXR", "openexr"},
-    {"#?", 0, 2, "Radiance HDR", "hdr"},
-    {"\x89PNG\r\n\x1a\n", 0, 8, "PNG", "png"},
-    {"II\x2a\x00", 0, 4, "TIFF", "tiff"},
-    {"MM\x00\x2a", 0, 4, "TIFF", "tiff"},
-    {"II\x2b\x00", 0, 4, "BigTIFF", "tiff"},
-    {"MM\x00\x2b", 0, 4, "BigTIFF", "tiff"},
-    {"DDS ", 0, 4, "DDS", "dds"},
-    {"\xff\xd8\xff", 0, 3, "JPEG", "jpeg"},
-    {"GIF8", 0, 4, "GIF", nullptr},
-    {"8BPS", 0, 4, "PSD", nullptr},
-    {"BM", 0, 2, "BMP", nullptr},
-    {"SDPX", 0, 4, "DPX", nullptr},
-    {"XPDS", 0, 4, "DPX", nullptr},
-    {"SIMPLE", 0, 6, "FITS", nullptr},
-    {"WEBP", 8, 4, "WebP", nullptr},
-    {"\xabKTX ", 0, 5, "KTX", nullptr},
-    {"ftypavif", 4, 8, "AVIF", nullptr},
-    {"ftypheic", 4, 8, "HEIC", nullptr},
-    {"\x00\x00\x00\x0cjP  ", 0, 8, "JPEG 2000", nullptr},
-    {"PF\n", 0, 3, "PFM", nullptr},
-    {"Pf\n", 0, 3, "PFM", nullptr},
-};
-
-const char *const formats_read = "exr, hdr, png, tiff, dds or jpeg";
-
-glint_status find_format(const char *path, const char **plugin, glint_error *error)
-{
-    std::FILE *file = std::fopen(path, "rbe");
-    if (file == nullptr) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name and its permissions)",
-                          path, std::strerror(errno));
-    }
-    char start[16] = {};
-    std::size_t length = std::fread(start, 1, sizeof start, file);
-    std::fclose(file);
-    for (const Magic &known : magics) {
-        if (length >= known.offset + known.length &&
-            std::memcmp(start + known.offset, known.bytes, known.length) == 0) {
-            if (known.plugin != nullptr) {
-                *plugin = known.plugin;
-                return GLINT_OK;
-            }
-            return glint_fail(error, GLINT_BAD_INPUT,
-                              "%s: is %s, which is not read (convert it to %s)", path, known.name,
-                              formats_read);
-        }
-    }
-    return glint_fail(error, GLINT_BAD_INPUT, "%s: is no image of a kind that is read (give %s)",
-                      path, formats_read);
-}
-
-glint_status find_size(const char *path, std::uint64_t *size, glint_error *error)
-{
-    struct stat facts = {};
-    if (stat(path, &facts) != 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name)", path,
-                          std::strerror(errno));
-    }
-    if (S_ISDIR(facts.st_mode)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is a folder (name a file)", path);
-    }
-    if (!S_ISREG(facts.st_mode)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is no regular file (name a file)", path);
-    }
-    if (facts.st_size == 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is empty (make the file anew)", path);
-    }
-    *size = std::uint64_t(facts.st_size);
-    return GLINT_OK;
-}
 
 // A JPEG that is cut short decodes without a complaint, grey where it ends: whether its end is
 // there must be looked for. Segments tell their length; after the start of scan (DA) the end (FF
@@ -279,33 +193,19 @@ glint_status finish(const Decoded &decoded, glint_image *image, glint_error *err
     return set_upright(facts.orientation, image, error);
 }
 
-glint_status read(const char *path, glint_image *image, glint_image_facts *facts,
-                  glint_error *error)
+glint_status read_file(const glint::Source &source, glint_image *image, glint_image_facts *facts,
+                       glint_error *error)
 {
-    std::uint64_t size = 0;
-    const char *plugin = "";
-    glint_status status = find_size(path, &size, error);
-    if (status == GLINT_OK) {
-        status = find_format(path, &plugin, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
-    }
-    if (std::strcmp(plugin, "jpeg") == 0) {
-        status = check_jpeg(path, size, error);
-        if (status != GLINT_OK) {
-            return status;
-        }
+    const bool is_jpeg = std::strcmp(source.plugin, "jpeg") == 0;
+    if (is_jpeg) {
+        TRY(check_jpeg(source.path, source.size, error));
     }
     Decoded decoded;
-    if (std::strcmp(plugin, "jpeg") == 0 || std::strcmp(plugin, "png") == 0) {
-        status = glint::decode_in_child({path, plugin, size}, decoded, error);
+    if (is_jpeg || std::strcmp(source.plugin, "png") == 0) {
+        TRY(glint::decode_in_child(source, decoded, error));
     } else {
         std::shared_lock<std::shared_mutex> inside(glint::gate());
-        status = glint::decode({path, plugin, size}, decoded, error);
-    }
-    if (status != GLINT_OK) {
-        return status;
+        TRY(glint::decode(source, decoded, error));
     }
     if (facts != nullptr) {
         facts->envmap = glint_envmap(decoded.facts.envmap);
@@ -317,24 +217,18 @@ glint_status read(const char *path, glint_image *image, glint_image_facts *facts
 
 } // namespace
 
-glint_status glint_image_read(const char *path, glint_image *image, glint_image_facts *facts,
-                              glint_error *error)
+glint_status glint::read_image(const Source *source, glint_image *image, glint_image_facts *facts,
+                               glint_error *error)
 {
-    *image = glint_image{};
-    glint_status status = GLINT_OK;
+    const char *path = source->path;
     try {
-        status = read(path, image, facts, error);
+        return read_file(*source, image, facts, error);
     } catch (const std::bad_alloc &) {
-        status = glint_fail_memory(error, "an image");
+        return glint_fail_memory(error, "an image");
     } catch (const std::exception &fault) {
-        status =
-            glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path, fault.what());
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
+                          fault.what());
     } catch (...) {
-        status =
-            glint_fail(error, GLINT_BAD_INPUT, "%s: cannot be read (make the file anew)", path);
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: cannot be read (make the file anew)", path);
     }
-    if (status != GLINT_OK) {
-        glint_image_free(image);
-    }
-    return status;
 }

@@ -1,8 +1,8 @@
-// What the parts of the image reader share. C++, for image_*.cpp alone.
-#ifndef GLINT_IMAGE_IMAGE_DECODE_HPP
-#define GLINT_IMAGE_IMAGE_DECODE_HPP
+// What the parts of the codec share.
+#ifndef GLINT_CODEC_DECODE_HPP
+#define GLINT_CODEC_DECODE_HPP
 
-#include "image/image_io.h"
+#include "image/codec.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,12 +36,7 @@ struct Decoded {
     std::vector<float> values;
 };
 
-// A file to decode.
-struct Source {
-    const char *path;
-    const char *plugin; // OpenImageIO's name of the format
-    std::uint64_t size; // of the file, bytes
-};
+using Source = glint_image_source;
 
 // Decodes a file. Throws nothing but std::bad_alloc. The caller holds the
 // gate.
@@ -53,6 +48,15 @@ glint_status decode_in_child(const Source &source, Decoded &decoded, glint_error
 // Shared by all who are inside OpenImageIO, exclusive around fork: a child must not inherit a lock
 // of the library's that another thread holds, for in the child nobody would release it.
 std::shared_mutex &gate();
+
+// glint_codec's (image/codec.h).
+glint_status read_image(const Source *source, glint_image *image, glint_image_facts *facts,
+                        glint_error *error);
+glint_status read_channels(const char *path, glint_channels *channels, glint_error *error);
+glint_status encode_image(const char *path, const glint_written_format *format,
+                          const glint_image *image, const glint_write_options *options,
+                          glint_encoded *encoded, glint_error *error);
+void use_threads(int count);
 
 } // namespace glint
 

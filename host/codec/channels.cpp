@@ -1,11 +1,10 @@
-// All channels of an EXR. See image_io.h.
-#include "image/image_decode.hpp"
+// All channels of an EXR. See image/image_io.h.
+#include "codec/decode.hpp"
 
 #include "base/memory.h"
 
 #include <OpenImageIO/imageio.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <mutex>
@@ -52,7 +51,7 @@ glint_status take(const char *path, ImageInput &input, const ImageSpec &spec,
     return GLINT_OK;
 }
 
-glint_status read(const char *path, glint_channels *channels, glint_error *error)
+glint_status read_all(const char *path, glint_channels *channels, glint_error *error)
 {
     std::shared_lock<std::shared_mutex> inside(glint::gate());
     std::unique_ptr<ImageInput> input = ImageInput::create("openexr");
@@ -72,32 +71,15 @@ glint_status read(const char *path, glint_channels *channels, glint_error *error
 
 } // namespace
 
-glint_status glint_image_read_channels(const char *path, glint_channels *channels,
-                                       glint_error *error)
+glint_status glint::read_channels(const char *path, glint_channels *channels, glint_error *error)
 {
-    *channels = glint_channels{};
-    glint_status status = GLINT_OK;
     try {
-        status = read(path, channels, error);
+        return read_all(path, channels, error);
     } catch (const std::bad_alloc &) {
-        status = glint_fail_memory(error, "a file's channels");
+        return glint_fail_memory(error, "a file's channels");
     } catch (const std::exception &fault) {
-        status = refuse(path, fault.what(), error);
+        return refuse(path, fault.what(), error);
     } catch (...) {
-        status = refuse(path, "cannot be read (render it anew)", error);
+        return refuse(path, "cannot be read (render it anew)", error);
     }
-    if (status != GLINT_OK) {
-        glint_channels_free(channels);
-    }
-    return status;
-}
-
-void glint_channels_free(glint_channels *channels)
-{
-    for (int i = 0; i < channels->count; i++) {
-        std::free(channels->names[i]);
-    }
-    std::free(channels->names);
-    std::free(channels->values);
-    *channels = glint_channels{};
 }

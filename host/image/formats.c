@@ -1,0 +1,182 @@
+// Image formats. See formats.h.
+#include "image/formats.h"
+
+#include <errno.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+// ---- What is read -------------------------------------------------------------------------------
+
+// How files of a format begin.
+typedef struct magic {
+    const char *bytes;
+    size_t offset, length;
+    const char *name;
+    const char *plugin; // NULL: known and not read
+} magic;
+
+static const magic magics[] = {
+    {"\x76\x2f\x31\x01", 0, 4, "OpenEXR", "openexr"},
+    {"#?", 0, 2, "Radiance HDR", "hdr"},
+    {"\x89PNG\r\n\x1a\n", 0, 8, "PNG", "png"},
+    {"II\x2a\x00", 0, 4, "TIFF", "tiff"},
+    {"MM\x00\x2a", 0, 4, "TIFF", "tiff"},
+    {"II\x2b\x00", 0, 4, "BigTIFF", "tiff"},
+    {"MM\x00\x2b", 0, 4, "BigTIFF", "tiff"},
+    {"DDS ", 0, 4, "DDS", "dds"},
+    {"\xff\xd8\xff", 0, 3, "JPEG", "jpeg"},
+    {"GIF8", 0, 4, "GIF", NULL},
+    {"8BPS", 0, 4, "PSD", NULL},
+    {"BM", 0, 2, "BMP", NULL},
+    {"SDPX", 0, 4, "DPX", NULL},
+    {"XPDS", 0, 4, "DPX", NULL},
+    {"SIMPLE", 0, 6, "FITS", NULL},
+    {"WEBP", 8, 4, "WebP", NULL},
+    {"\xabKTX ", 0, 5, "KTX", NULL},
+    {"ftypavif", 4, 8, "AVIF", NULL},
+    {"ftypheic", 4, 8, "HEIC", NULL},
+    {"\x00\x00\x00\x0cjP  ", 0, 8, "JPEG 2000", NULL},
+    {"PF\n", 0, 3, "PFM", NULL},
+    {"Pf\n", 0, 3, "PFM", NULL},
+};
+
+#define FORMATS_READ "exr, hdr, png, tiff, dds or jpeg"
+
+static glint_status find_size(const char *path, uint64_t *size, glint_error *error)
+{
+    struct stat facts;
+    if (stat(path, &facts) != 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name)", path, strerror(errno));
+    }
+    if (S_ISDIR(facts.st_mode)) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: is a folder (name a file)", path);
+    }
+    if (!S_ISREG(facts.st_mode)) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: is no regular file (name a file)", path);
+    }
+    if (facts.st_size == 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: is empty (make the file anew)", path);
+    }
+    *size = (uint64_t)facts.st_size;
+    return GLINT_OK;
+}
+
+static const magic *magic_of(const char *start, size_t length)
+{
+    for (size_t i = 0; i < COUNT(magics); i++) {
+        const magic *known = &magics[i];
+        if (length >= known->offset + known->length &&
+            memcmp(start + known->offset, known->bytes, known->length) == 0) {
+            return known;
+        }
+    }
+    return NULL;
+}
+
+glint_status glint_image_find_source(const char *path, glint_image_source *source,
+                                     glint_error *error)
+{
+    *source = (glint_image_source){.path = path};
+    TRY(find_size(path, &source->size, error));
+    FILE *file = fopen(path, "rbe");
+    if (file == NULL) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name and its permissions)",
+                          path, strerror(errno));
+    }
+    char start[16] = {0};
+    const magic *known = magic_of(start, fread(start, 1, sizeof start, file));
+    fclose(file);
+    if (known == NULL) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: is no image of a kind that is read (give " FORMATS_READ ")", path);
+    }
+    if (known->plugin == NULL) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: is %s, which is not read (convert it to " FORMATS_READ ")", path,
+                          known->name);
+    }
+    source->plugin = known->plugin;
+    return GLINT_OK;
+}
+
+// ---- What is written ----------------------------------------------------------------------------
+
+static const glint_written_format formats[] = {
+    {"exr", GLINT_WRITTEN_EXR, "openexr"}, {"hdr", GLINT_WRITTEN_HDR, "hdr"},
+    {"png", GLINT_WRITTEN_PNG, "png"},     {"jpg", GLINT_WRITTEN_JPEG, "jpeg"},
+    {"jpeg", GLINT_WRITTEN_JPEG, "jpeg"},  {"tif", GLINT_WRITTEN_TIFF, "tiff"},
+    {"tiff", GLINT_WRITTEN_TIFF, "tiff"},
+};
+
+const glint_written_format *glint_image_written_format(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    // ".exr" alone is a hidden file's name without an extension.
+    if (dot != NULL && dot != name) {
+        for (size_t i = 0; i < COUNT(formats); i++) {
+            if (strcasecmp(dot + 1, formats[i].extension) == 0) {
+                return &formats[i];
+            }
+        }
+    }
+    return NULL;
+}
+
+// What may be given as compression: words, or a whole number in [low, high].
+typedef struct compressions {
+    const char *words[11]; // NULL at the end
+    int low, high;
+    const char *said; // for the message; NULL: nothing may be given
+} compressions;
+
+static const compressions compressions_of[] = {
+    [GLINT_WRITTEN_EXR] = {{"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa",
+                            "dwab"},
+                           0,
+                           -1,
+                           "none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa or dwab"},
+    [GLINT_WRITTEN_HDR] = {{NULL}, 0, -1, NULL},
+    [GLINT_WRITTEN_PNG] = {{NULL}, 0, 9, "a level from 0 to 9"},
+    [GLINT_WRITTEN_JPEG] = {{NULL}, 1, 100, "a quality from 1 to 100"},
+    [GLINT_WRITTEN_TIFF] = {{"none", "lzw", "zip", "packbits"},
+                            0,
+                            -1,
+                            "none, lzw, zip or packbits"},
+};
+
+static bool compression_fits(const compressions *allowed, const char *given)
+{
+    for (const char *const *word = allowed->words; *word != NULL; word++) {
+        if (strcmp(*word, given) == 0) {
+            return true;
+        }
+    }
+    char *end;
+    const long number = strtol(given, &end, 10);
+    return given[0] >= '0' && given[0] <= '9' && *end == '\0' && number >= allowed->low &&
+           number <= allowed->high;
+}
+
+glint_status glint_image_check_compression(const char *path, const glint_written_format *format,
+                                           const char *compression, glint_error *error)
+{
+    const compressions *allowed = &compressions_of[format->kind];
+    if (compression == NULL || compression_fits(allowed, compression)) {
+        return GLINT_OK;
+    }
+    if (allowed->said == NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: this format has one compression only (leave '%s' out)", path,
+                          compression);
+    }
+    return glint_fail(error, GLINT_USAGE, "%s: '%s' is no compression of this format (give %s)",
+                      path, compression, allowed->said);
+}

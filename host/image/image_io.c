@@ -1,0 +1,182 @@
+// Image files: what needs no codec, and the codec's loading. See image_io.h and codec.h.
+#include "image/image_io.h"
+
+#include "image/codec.h"
+#include "image/formats.h"
+#include "image/output_file.h"
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CODEC_FILE "libglint_codec.so"
+
+// ---- The codec ----------------------------------------------------------------------------------
+
+static struct {
+    pthread_mutex_t lock;
+    const glint_codec *codec; // NULL: not loaded, or not to be loaded
+    bool is_tried;
+    char fault[GLINT_MESSAGE_CAPACITY];
+    int threads;
+} loaded = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+// It lies beside the program, or where that was installed to: the program's run path. What it
+// brings along is nobody else's, and stays until the process ends.
+static const glint_codec *open_codec(char fault[static GLINT_MESSAGE_CAPACITY])
+{
+    void *library = dlopen(CODEC_FILE, RTLD_NOW | RTLD_LOCAL);
+    const glint_codec *codec = library != NULL ? dlsym(library, "glint_codec_functions") : NULL;
+    if (codec == NULL) {
+        snprintf(fault, GLINT_MESSAGE_CAPACITY, "%s", dlerror());
+    } else if (strcmp(codec->version, GLINT_VERSION) != 0) {
+        snprintf(fault, GLINT_MESSAGE_CAPACITY, "is of glint %s", codec->version);
+        codec = NULL;
+    }
+    return codec;
+}
+
+// `status` tells reading from writing, should it not be there.
+static glint_status load_codec(glint_status status, const glint_codec **codec, glint_error *error)
+{
+    pthread_mutex_lock(&loaded.lock);
+    if (!loaded.is_tried) {
+        loaded.is_tried = true;
+        loaded.codec = open_codec(loaded.fault);
+        if (loaded.codec != NULL && loaded.threads != 0) {
+            loaded.codec->use_threads(loaded.threads);
+        }
+    }
+    *codec = loaded.codec;
+    pthread_mutex_unlock(&loaded.lock);
+    if (*codec == NULL) {
+        return glint_fail(error, status,
+                          CODEC_FILE ": what reads and writes images cannot be loaded: %s "
+                                     "(install glint anew)",
+                          loaded.fault);
+    }
+    return GLINT_OK;
+}
+
+static pthread_t loader;
+static bool is_loading;
+
+static void *load_beside(void *unused)
+{
+    (void)unused;
+    const glint_codec *codec;
+    (void)load_codec(GLINT_OK, &codec, NULL); // who needs it finds out
+    return NULL;
+}
+
+void glint_image_load_ahead(void)
+{
+    is_loading = is_loading || pthread_create(&loader, NULL, load_beside, NULL) == 0;
+}
+
+void glint_image_end_loading(void)
+{
+    if (is_loading) {
+        pthread_join(loader, NULL);
+        is_loading = false;
+    }
+}
+
+void glint_image_use_threads(int count)
+{
+    pthread_mutex_lock(&loaded.lock);
+    loaded.threads = count;
+    if (loaded.codec != NULL) {
+        loaded.codec->use_threads(count);
+    }
+    pthread_mutex_unlock(&loaded.lock);
+}
+
+// ---- Reading ------------------------------------------------------------------------------------
+
+glint_status glint_image_read(const char *path, glint_image *image, glint_image_facts *facts,
+                              glint_error *error)
+{
+    *image = (glint_image){0};
+    const glint_codec *codec;
+    glint_image_source source;
+    TRY(glint_image_find_source(path, &source, error));
+    TRY(load_codec(GLINT_BAD_INPUT, &codec, error));
+    const glint_status status = codec->read(&source, image, facts, error);
+    if (status != GLINT_OK) {
+        glint_image_free(image);
+    }
+    return status;
+}
+
+glint_status glint_image_read_channels(const char *path, glint_channels *channels,
+                                       glint_error *error)
+{
+    *channels = (glint_channels){0};
+    const glint_codec *codec;
+    TRY(load_codec(GLINT_BAD_INPUT, &codec, error));
+    const glint_status status = codec->read_channels(path, channels, error);
+    if (status != GLINT_OK) {
+        glint_channels_free(channels);
+    }
+    return status;
+}
+
+void glint_channels_free(glint_channels *channels)
+{
+    for (int i = 0; i < channels->count; i++) {
+        free(channels->names[i]);
+    }
+    free(channels->names);
+    free(channels->values);
+    *channels = (glint_channels){0};
+}
+
+// ---- Writing ------------------------------------------------------------------------------------
+
+bool glint_image_can_write(const char *path)
+{
+    return glint_image_written_format(path) != NULL;
+}
+
+glint_status glint_image_check_output(const char *path, const glint_write_options *options,
+                                      glint_error *error)
+{
+    const glint_written_format *format = glint_image_written_format(path);
+    if (format == NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s: the extension names no format that can be written (use .exr, .hdr, "
+                          ".png, .jpg, .jpeg, .tif or .tiff)",
+                          path);
+    }
+    return glint_image_check_compression(path, format,
+                                         options != NULL ? options->compression : NULL, error);
+}
+
+glint_status glint_image_encode(const char *path, const glint_image *image,
+                                const glint_write_options *options, glint_encoded *encoded,
+                                glint_error *error)
+{
+    *encoded = (glint_encoded){0};
+    const glint_write_options defaults = {0};
+    const glint_codec *codec;
+    TRY(glint_image_check_output(path, options, error));
+    if (image->pixels == NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
+    }
+    TRY(load_codec(GLINT_OUTPUT_FAILED, &codec, error));
+    return codec->encode(path, glint_image_written_format(path), image,
+                         options != NULL ? options : &defaults, encoded, error);
+}
+
+glint_status glint_image_write(const char *path, const glint_image *image,
+                               const glint_write_options *options, glint_error *error)
+{
+    glint_encoded encoded;
+    TRY(glint_image_encode(path, image, options, &encoded, error));
+    const glint_status status = glint_output_file_write(path, encoded.bytes, encoded.size, error);
+    free(encoded.bytes);
+    return status;
+}
