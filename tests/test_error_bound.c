@@ -40,7 +40,7 @@ static void render_within(stage *s, double bound, glint_image *image, glint_erro
     glint_error_bound asked;
     glint_frame_report report;
     glint_error_bound_begin(&asked, bound, &s->at.settings);
-    glint_error_bound_set_environment(&asked, &s->at.environment.radiance);
+    glint_error_bound_set_environment(&asked, &s->at.environment->radiance);
     const glint_frame_request request = {s->at.renderer, &s->at.camera, NULL, image, &report};
     assert_int_equal(glint_error_bound_frame(&asked, &request, choice, NULL), GLINT_OK);
     assert_int_equal(image->width, s->at.settings.width);
@@ -106,13 +106,15 @@ static void contrast_may_be_the_scenes_own(void **state)
 {
     (void)state;
     stage s;
+    glint_environment even;
     open_stage("materials", 480, 270, &s);
-    glint_cube *cube = &s.at.environment.radiance;
+    assert_int_equal(glint_environment_studio(&even, NULL), GLINT_OK);
+    const glint_cube *cube = &even.radiance;
     for (size_t i = 0; i < glint_cube_size(cube); i++) {
         cube->texels[i] = 0.25f;
     }
-    assert_int_equal(glint_renderer_set_environment(s.at.renderer, &s.at.environment, NULL),
-                     GLINT_OK);
+    s.at.environment = &even;
+    assert_int_equal(glint_renderer_set_environment(s.at.renderer, &even, NULL), GLINT_OK);
     for (int i = 1; i <= 3; i++) {
         glint_image image = {0};
         glint_error_choice choice;
@@ -122,6 +124,7 @@ static void contrast_may_be_the_scenes_own(void **state)
         glint_image_free(&image);
     }
     close_stage(&s);
+    glint_environment_free(&even);
 }
 
 // In the gallery single precision is off by 0.07 or so, in a few pixels that a grid may miss: here
@@ -193,14 +196,16 @@ static void odd_light_gets_the_reference(void **state)
     (void)state;
     static const float odd[] = {0, INFINITY};
     stage s;
+    glint_environment light;
     open_stage("glass_sphere", 480, 270, &s);
-    glint_cube *cube = &s.at.environment.radiance;
+    assert_int_equal(glint_environment_studio(&light, NULL), GLINT_OK);
+    const glint_cube *cube = &light.radiance;
+    s.at.environment = &light;
     for (int i = 0; i < 2; i++) {
         for (size_t k = 0; k < glint_cube_size(cube); k++) {
             cube->texels[k] = i == 0 || k % 997 == 0 ? odd[i] : cube->texels[k] + 1;
         }
-        assert_int_equal(glint_renderer_set_environment(s.at.renderer, &s.at.environment, NULL),
-                         GLINT_OK);
+        assert_int_equal(glint_renderer_set_environment(s.at.renderer, &light, NULL), GLINT_OK);
         glint_image image = {0};
         glint_error_choice choice;
         render_within(&s, 0.01, &image, &choice);
@@ -210,6 +215,7 @@ static void odd_light_gets_the_reference(void **state)
         glint_image_free(&image);
     }
     close_stage(&s);
+    glint_environment_free(&light);
 }
 
 // Thin pictures, and one of which a grid's step is a part.
@@ -247,7 +253,7 @@ static void layers_are_those_of_the_frame(void **state)
         glint_layers layers;
         assert_int_equal(glint_renderer_layers(s.at.renderer, &layers, NULL), GLINT_OK);
         test_frame own;
-        test_render(&s.at.scene, &s.at.environment, NULL, &same.rung.settings, &own);
+        test_render(&s.at.scene, s.at.environment, NULL, &same.rung.settings, &own);
         assert_int_equal(test_count_different(&with_layers, &own.image), 0);
         assert_int_equal(layers.count, own.layers.count);
         for (size_t k = 0; k < layers.count; k++) {
@@ -328,7 +334,7 @@ static void it_can_be_stopped_while_it_chooses(void **state)
     open_stage("prism", 480, 270, &s);
     glint_error_bound asked;
     glint_error_bound_begin(&asked, 0.01, &s.at.settings);
-    glint_error_bound_set_environment(&asked, &s.at.environment.radiance);
+    glint_error_bound_set_environment(&asked, &s.at.environment->radiance);
     for (int steps = 0; steps < 3; steps++) {
         int left = steps;
         const glint_progress progress = {stop_after, &left};
@@ -348,9 +354,7 @@ static void it_can_be_stopped_while_it_chooses(void **state)
 static void the_contrast_is_the_environments(void **state)
 {
     (void)state;
-    glint_environment studio;
-    assert_int_equal(glint_environment_studio(&studio, NULL), GLINT_OK);
-    const glint_cube *cube = &studio.radiance;
+    const glint_cube *cube = &test_studio()->radiance;
     double weight = 0, sum[3] = {0}, squares = 0;
     for (int face = 0; face < 6; face++) {
         for (int j = 0; j < cube->edge; j++) {
@@ -375,7 +379,6 @@ static void the_contrast_is_the_environments(void **state)
     glint_error_bound_set_environment(&bound, cube);
     const double expected = sqrt(squares / weight - means);
     assert_true(fabs(bound.contrast - expected) < 1e-9 * expected);
-    glint_environment_free(&studio);
 }
 
 int main(void)

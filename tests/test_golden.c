@@ -59,14 +59,11 @@ static void render_scene(const char *name, test_frame *frame)
 {
     glint_scene scene = {0};
     test_scene_load(name, &scene);
-    glint_environment environment;
-    assert_int_equal(glint_environment_studio(&environment, NULL), GLINT_OK);
     glint_settings settings = glint_settings_default;
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.samples_per_axis = 2;
-    test_render(&scene, &environment, NULL, &settings, frame);
-    glint_environment_free(&environment);
+    test_render(&scene, test_studio(), NULL, &settings, frame);
     glint_scene_free(&scene);
 }
 

@@ -63,9 +63,7 @@ static void check_list(const glint_scene *scene, const glint_environment *enviro
 static void check_case(const grid_case *c, int depth)
 {
     glint_scene scene = {0};
-    glint_environment environment;
     test_scene_load(c->scene, &scene);
-    assert_int_equal(glint_environment_studio(&environment, NULL), GLINT_OK);
     glint_settings settings = glint_settings_default;
     settings.width = c->width;
     settings.height = c->height;
@@ -75,9 +73,9 @@ static void check_case(const grid_case *c, int depth)
     settings.filter = c->filter;
     settings.depth = depth;
     test_frame whole, grid;
-    test_render(&scene, &environment, NULL, &settings, &whole);
+    test_render(&scene, test_studio(), NULL, &settings, &whole);
     settings.grid_step = c->step;
-    test_render(&scene, &environment, NULL, &settings, &grid);
+    test_render(&scene, test_studio(), NULL, &settings, &grid);
     int size[2];
     glint_settings_pixels(&settings, size);
     assert_int_equal(grid.image.width, size[0]);
@@ -98,9 +96,8 @@ static void check_case(const grid_case *c, int depth)
     }
     test_frame_free(&grid);
     settings.grid_step = 0;
-    check_list(&scene, &environment, &settings, &whole.image);
+    check_list(&scene, test_studio(), &settings, &whole.image);
     test_frame_free(&whole);
-    glint_environment_free(&environment);
     glint_scene_free(&scene);
 }
 

@@ -74,7 +74,7 @@ static void check_frame(test_stage *s, const glint_settings *settings)
     glint_image image = {0};
     glint_frame_report report;
     glint_layers layers = {0};
-    test_render(&s->scene, &s->environment, NULL, settings, &own);
+    test_render(&s->scene, test_studio(), NULL, settings, &own);
     assert_int_equal(glint_renderer_frame(s->renderer, &s->camera, NULL, &image, &report, NULL),
                      GLINT_OK);
     check_plan(glint_renderer_plan(s->renderer), &own.plan);
@@ -153,7 +153,7 @@ static void another_scene_or_environment_brings_the_first_settings_back(void **s
     assert_int_equal(glint_renderer_set_scene(s.renderer, &s.scene, NULL), GLINT_OK);
     check_frame(&s, &first);
     assert_int_equal(glint_renderer_set_settings(s.renderer, &other, NULL), GLINT_OK);
-    assert_int_equal(glint_renderer_set_environment(s.renderer, &s.environment, NULL), GLINT_OK);
+    assert_int_equal(glint_renderer_set_environment(s.renderer, test_studio(), NULL), GLINT_OK);
     check_frame(&s, &first);
     test_stage_close(&s);
 }
@@ -285,8 +285,6 @@ static void truncated_weight_is_counted_pixel_by_pixel(void **state)
 {
     (void)state;
     static const int widths[] = {1, 8, 16};
-    glint_environment studio;
-    assert_int_equal(glint_environment_studio(&studio, NULL), GLINT_OK);
     for (size_t i = 0; i < sizeof truncations / sizeof *truncations; i++) {
         const truncation_case *c = &truncations[i];
         glint_scene scene = {0};
@@ -299,14 +297,14 @@ static void truncated_weight_is_counted_pixel_by_pixel(void **state)
         for (int w = 0; w < 3; w++) {
             test_frame frame;
             settings.kernel_width = widths[w];
-            test_render(&scene, &studio, NULL, &settings, &frame);
+            test_render(&scene, test_studio(), NULL, &settings, &frame);
             rms[w] = frame.report.truncation.rms;
             test_frame_free(&frame);
         }
         assert_true(rms[0] == rms[1] && rms[1] == rms[2]);
         settings.aovs = GLINT_AOV_BIT(GLINT_AOV_TRUNCATED);
         test_frame with_layer;
-        test_render(&scene, &studio, NULL, &settings, &with_layer);
+        test_render(&scene, test_studio(), NULL, &settings, &with_layer);
         const double expected = c->is_zero ? 0 : rms_of_layer(&with_layer, &settings);
         assert_true(c->is_zero || expected > 1e-3);
         // Float sums of at most some hundred weights, and 2^−37 of each square.
@@ -314,7 +312,6 @@ static void truncated_weight_is_counted_pixel_by_pixel(void **state)
         test_frame_free(&with_layer);
         glint_scene_free(&scene);
     }
-    glint_environment_free(&studio);
 }
 
 int main(void)

@@ -194,12 +194,9 @@ static void render(const glint_scene *scene, const glint_camera *camera, int dep
     glint_camera own = *camera;
     seen.cameras = &own;
     seen.camera_count = 1;
-    glint_environment environment;
-    assert_int_equal(glint_environment_studio(&environment, NULL), GLINT_OK);
     glint_settings settings = test_small_frame(depth);
     settings.texels = GLINT_TEXELS_FLOAT;
-    test_render(&seen, &environment, NULL, &settings, frame);
-    glint_environment_free(&environment);
+    test_render(&seen, test_studio(), NULL, &settings, frame);
 }
 
 // Whose exits are proved to meet nothing: glass alone, and convex.
@@ -383,13 +380,11 @@ static void an_eye_inside_is_noticed(void **state)
 {
     (void)state;
     glint_scene scene;
-    glint_environment environment;
     build(&cases[2], &scene);
-    assert_int_equal(glint_environment_studio(&environment, NULL), GLINT_OK);
     const glint_settings settings = test_small_frame(0);
     const glint_renderer_inputs inputs = {.device = test_device(),
                                           .scene = &scene,
-                                          .environment = &environment,
+                                          .environment = test_studio(),
                                           .settings = &settings};
     glint_renderer *renderer;
     assert_int_equal(glint_renderer_create(&inputs, &renderer, NULL), GLINT_OK);
@@ -421,7 +416,6 @@ static void an_eye_inside_is_noticed(void **state)
     glint_image_free(&first);
     glint_image_free(&image);
     glint_renderer_free(renderer);
-    glint_environment_free(&environment);
     glint_scene_free(&scene);
 }
 

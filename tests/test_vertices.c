@@ -509,8 +509,6 @@ static double mean_difference(const glint_image *a, const glint_image *b)
 static void finer_meshes_come_to_what_pixels_show(void **state)
 {
     (void)state;
-    glint_environment environment;
-    assert_int_equal(glint_environment_studio(&environment, NULL), GLINT_OK);
     double errors[3][2];
     for (int level = 0; level < 3; level++) {
         glint_scene sphere;
@@ -518,11 +516,11 @@ static void finer_meshes_come_to_what_pixels_show(void **state)
         glint_settings settings = test_small_frame(1);
         settings.width = settings.height = 120;
         test_frame pixel, other;
-        test_render(&sphere, &environment, NULL, &settings, &pixel);
+        test_render(&sphere, test_studio(), NULL, &settings, &pixel);
         for (int by_color = 0; by_color < 2; by_color++) {
             settings.shading =
                 by_color ? GLINT_SHADING_VERTEX_COLOR : GLINT_SHADING_VERTEX_DIRECTION;
-            test_render(&sphere, &environment, NULL, &settings, &other);
+            test_render(&sphere, test_studio(), NULL, &settings, &other);
             errors[level][by_color] = mean_difference(&pixel.image, &other.image);
             test_frame_free(&other);
         }
@@ -538,7 +536,6 @@ static void finer_meshes_come_to_what_pixels_show(void **state)
             assert_true(errors[level][1] < errors[level - 1][1] / 1.7);
         }
     }
-    glint_environment_free(&environment);
 }
 
 static void refuse(const glint_scene *scene, const glint_environment *environment,

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 static glint_device *shared_device;
+static glint_environment shared_studio;
 
 // cmocka leaves the test at fail(), so what went wrong is said first.
 static void require(glint_status status, const glint_error *error)
@@ -33,9 +34,19 @@ glint_device *test_device(void)
     return shared_device;
 }
 
+const glint_environment *test_studio(void)
+{
+    if (shared_studio.radiance.edge == 0) {
+        glint_error error = {0};
+        require(glint_environment_studio(&shared_studio, &error), &error);
+    }
+    return &shared_studio;
+}
+
 int test_close_device(void **state)
 {
     (void)state;
+    glint_environment_free(&shared_studio);
     glint_device_close(shared_device);
     shared_device = NULL;
     return 0;
@@ -133,13 +144,12 @@ size_t test_count_different(const glint_image *a, const glint_image *b)
 
 void test_stage_open(const char *scene, const glint_settings *settings, test_stage *stage)
 {
-    *stage = (test_stage){.settings = *settings};
+    *stage = (test_stage){.environment = test_studio(), .settings = *settings};
     test_scene_load(scene, &stage->scene);
-    assert_int_equal(glint_environment_studio(&stage->environment, NULL), GLINT_OK);
     assert_int_equal(glint_scene_camera(&stage->scene, NULL, &stage->camera, NULL), GLINT_OK);
     const glint_renderer_inputs inputs = {.device = test_device(),
                                           .scene = &stage->scene,
-                                          .environment = &stage->environment,
+                                          .environment = stage->environment,
                                           .settings = &stage->settings};
     assert_int_equal(glint_renderer_create(&inputs, &stage->renderer, NULL), GLINT_OK);
 }
@@ -147,7 +157,6 @@ void test_stage_open(const char *scene, const glint_settings *settings, test_sta
 void test_stage_close(test_stage *stage)
 {
     glint_renderer_free(stage->renderer);
-    glint_environment_free(&stage->environment);
     glint_scene_free(&stage->scene);
     *stage = (test_stage){0};
 }

@@ -7,9 +7,10 @@
 #include "render/frame.h"
 #include "scene/scene.h"
 
-// The device that all tests of a program share; opened at the first call, closed by the group's
-// teardown, test_close_device.
+// The device and the studio that all tests of a program share; opened at the first call, closed by
+// the group's teardown, test_close_device.
 glint_device *test_device(void);
+const glint_environment *test_studio(void);
 int test_close_device(void **state);
 
 // Loads scenes/NAME.gltf; fails the running test, with the error, if it cannot.
@@ -18,7 +19,7 @@ void test_scene_load(const char *name, glint_scene *scene);
 // A scene, its first camera, the studio around it, and a renderer. Fails the test on any error.
 typedef struct test_stage {
     glint_scene scene;
-    glint_environment environment;
+    const glint_environment *environment;
     glint_camera camera;
     glint_settings settings;
     glint_renderer *renderer;
