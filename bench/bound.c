@@ -60,7 +60,8 @@ static glint_status render(contest *c, const glint_settings *settings, glint_ima
 {
     glint_frame_report report;
     TRY(glint_renderer_set_settings(c->renderer, settings, error));
-    TRY(glint_renderer_frame(c->renderer, &c->camera, NULL, image, &report, error));
+    TRY(glint_renderer_frame(&(glint_frame_request){c->renderer, &c->camera, NULL, image, &report},
+                             error));
     *ms = report.kernel_ms;
     return GLINT_OK;
 }

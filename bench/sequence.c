@@ -90,7 +90,8 @@ static glint_status trace_alone(bench *b, int round, glint_error *error)
     const double begun = glint_now_ms();
     for (int i = 0; i < b->frames; i++) {
         const glint_camera camera = camera_of(b, i);
-        TRY(glint_renderer_frame(b->renderer, &camera, NULL, &b->sample, NULL, error));
+        TRY(glint_renderer_frame(
+            &(glint_frame_request){b->renderer, &camera, NULL, &b->sample, NULL}, error));
     }
     b->trace_ms[round] = (glint_now_ms() - begun) / b->frames;
     return GLINT_OK;

@@ -37,8 +37,8 @@ glint_status bench_stage_frame(const bench_stage *stage, glint_renderer *rendere
                                glint_image *image, glint_error *error)
 {
     glint_frame_report report = {0};
-    glint_status status =
-        glint_renderer_frame(renderer, &stage->scene->camera, NULL, image, &report, error);
+    glint_status status = glint_renderer_frame(
+        &(glint_frame_request){renderer, &stage->scene->camera, NULL, image, &report}, error);
     *ms = report.kernel_ms;
     return status;
 }

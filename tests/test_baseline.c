@@ -64,8 +64,8 @@ static glint_status compare(const crafted *before, const crafted *now, glint_com
 {
     json_t *baseline = baseline_of(before);
     json_t *scene = scene_of(now);
-    glint_status status =
-        glint_baseline_compare(baseline, "old.json", scene, 0.1, comparison, error);
+    glint_status status = glint_baseline_compare(&(glint_baseline){baseline, "old.json", 0.1},
+                                                 scene, comparison, error);
     json_decref(scene);
     json_decref(baseline);
     return status;
@@ -107,8 +107,9 @@ static void a_shift_within_the_noise_is_none_whatever_the_margin(void **state)
         now.median = step == 1 ? 10.8 : 10.9;
         json_t *scene = scene_of(&now);
         glint_comparison comparison;
-        assert_int_equal(
-            glint_baseline_compare(baseline, "old.json", scene, 0.01, &comparison, NULL), GLINT_OK);
+        assert_int_equal(glint_baseline_compare(&(glint_baseline){baseline, "old.json", 0.01},
+                                                scene, &comparison, NULL),
+                         GLINT_OK);
         assert_int_equal(comparison.verdict, step == 1 ? GLINT_VERDICT_SAME : GLINT_VERDICT_SLOWER);
         json_decref(scene);
     }
@@ -171,9 +172,9 @@ static void entries_without_times_are_refused(void **state)
         json_object_set_new(entry, "frames", json_loads(frames[i], JSON_DECODE_ANY, NULL));
         glint_comparison comparison;
         glint_error error = {0};
-        assert_int_equal(
-            glint_baseline_compare(baseline, "old.json", scene, 0.1, &comparison, &error),
-            GLINT_BAD_INPUT);
+        assert_int_equal(glint_baseline_compare(&(glint_baseline){baseline, "old.json", 0.1}, scene,
+                                                &comparison, &error),
+                         GLINT_BAD_INPUT);
         assert_non_null(strstr(error.message, "frames.kernel"));
         json_decref(scene);
         json_decref(baseline);
@@ -239,8 +240,9 @@ static void a_report_that_was_written_is_read(void **state)
     format_scene(&plain, scene, sizeof scene);
     json_t *baseline = written_and_read(scene), *now = scene_of(&plain);
     glint_comparison comparison;
-    assert_int_equal(glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL),
-                     GLINT_OK);
+    assert_int_equal(
+        glint_baseline_compare(&(glint_baseline){baseline, "old.json", 0}, now, &comparison, NULL),
+        GLINT_OK);
     assert_int_equal(comparison.verdict, GLINT_VERDICT_SAME);
     json_decref(now);
     json_decref(baseline);
@@ -252,7 +254,7 @@ static glint_status compare_with(const json_t *baseline, const json_t *settings)
     json_object_set(now, "settings", (json_t *)settings);
     glint_comparison comparison;
     const glint_status status =
-        glint_baseline_compare(baseline, "old.json", now, 0, &comparison, NULL);
+        glint_baseline_compare(&(glint_baseline){baseline, "old.json", 0}, now, &comparison, NULL);
     json_decref(now);
     return status;
 }

@@ -42,7 +42,8 @@ static void an_empty_scene_is_its_environment(void **state)
     settings = glint_capture_settings(&settings, 32);
     glint_renderer *renderer = make(&scene, &environment, &settings);
     const glint_vec3 at = {3, -1, 2};
-    assert_int_equal(glint_capture(renderer, at, NULL, &cube, NULL, &error), GLINT_OK);
+    assert_int_equal(
+        glint_capture(&(glint_capture_request){renderer, at, NULL, NULL}, &cube, &error), GLINT_OK);
     assert_int_equal(cube.edge, 32);
     double worst = 0;
     for (size_t i = 0; i < glint_cube_size(&cube); i++) {
@@ -74,7 +75,9 @@ static void a_face_is_a_frame(void **state)
     glint_renderer *renderer = make(&scene, &environment, &settings);
     glint_frame_report report, of_frame;
     const glint_vec3 at = {0, 0, 2.5};
-    assert_int_equal(glint_capture(renderer, at, NULL, &cube, &report, &error), GLINT_OK);
+    assert_int_equal(
+        glint_capture(&(glint_capture_request){renderer, at, NULL, &report}, &cube, &error),
+        GLINT_OK);
     for (int face = 0; face < 6; face++) {
         const glint_vec3 ahead = glint_cube_direction(face, 0, 0);
         const glint_vec3 right = glint_vec3_subtract(glint_cube_direction(face, 1, 0), ahead);
@@ -83,8 +86,10 @@ static void a_face_is_a_frame(void **state)
                                      .right = right,
                                      .up = glint_vec3_cross(glint_vec3_scale(ahead, -1), right),
                                      .back = glint_vec3_scale(ahead, -1)};
-        assert_int_equal(glint_renderer_frame(renderer, &camera, NULL, &image, &of_frame, &error),
-                         GLINT_OK);
+        assert_int_equal(
+            glint_renderer_frame(&(glint_frame_request){renderer, &camera, NULL, &image, &of_frame},
+                                 &error),
+            GLINT_OK);
         for (int k = 0; k < 24 * 24; k++) {
             assert_memory_equal(glint_image_pixel(&image, k % 24, k / 24),
                                 glint_cube_texel(&cube, face, k % 24, k / 24), 3 * sizeof(float));
@@ -121,7 +126,9 @@ static void a_capture_can_be_stopped_and_is_square(void **state)
     glint_settings settings = test_small_frame(1);
     const glint_vec3 at = {0, 0, 0};
     glint_renderer *renderer = make(&scene, &environment, &settings);
-    assert_int_equal(glint_capture(renderer, at, NULL, &cube, NULL, &error), GLINT_USAGE);
+    assert_int_equal(
+        glint_capture(&(glint_capture_request){renderer, at, NULL, NULL}, &cube, &error),
+        GLINT_USAGE);
     assert_null(cube.texels);
     glint_renderer_free(renderer);
     settings.aovs = GLINT_AOV_ALL;
@@ -130,10 +137,12 @@ static void a_capture_can_be_stopped_and_is_square(void **state)
     assert_true(settings.aovs == 0 && !settings.transparent);
     renderer = make(&scene, &environment, &settings);
     const glint_progress progress = {stop_within_the_third_view, &most};
-    assert_int_equal(glint_capture(renderer, at, &progress, &cube, NULL, &error),
-                     GLINT_INTERRUPTED);
+    assert_int_equal(
+        glint_capture(&(glint_capture_request){renderer, at, &progress, NULL}, &cube, &error),
+        GLINT_INTERRUPTED);
     assert_null(cube.texels);
-    assert_int_equal(glint_capture(renderer, at, NULL, &cube, NULL, &error), GLINT_OK);
+    assert_int_equal(
+        glint_capture(&(glint_capture_request){renderer, at, NULL, NULL}, &cube, &error), GLINT_OK);
     glint_cube_free(&cube);
     glint_renderer_free(renderer);
     glint_environment_free(&environment);
@@ -162,11 +171,14 @@ static void environments_take_each_others_place(void **state)
         glint_renderer *own = make(&scene, &environments[i], &settings);
         glint_image wanted = {0}, found = {0};
         assert_int_equal(glint_renderer_plan(own)->half_texels, i != 1);
-        assert_int_equal(glint_renderer_frame(own, camera, NULL, &wanted, NULL, &error), GLINT_OK);
+        assert_int_equal(
+            glint_renderer_frame(&(glint_frame_request){own, camera, NULL, &wanted, NULL}, &error),
+            GLINT_OK);
         assert_int_equal(glint_renderer_set_environment(renderer, &environments[i], &error),
                          GLINT_OK);
         assert_int_equal(glint_renderer_plan(renderer)->half_texels, i != 1);
-        assert_int_equal(glint_renderer_frame(renderer, camera, NULL, &found, NULL, &error),
+        assert_int_equal(glint_renderer_frame(
+                             &(glint_frame_request){renderer, camera, NULL, &found, NULL}, &error),
                          GLINT_OK);
         assert_int_equal(test_count_different(&wanted, &found), 0);
         glint_image_free(&wanted);
@@ -198,10 +210,13 @@ static void a_refused_environment_is_followed_by_another(void **state)
     glint_renderer *renderer = make(&scene, &good, &settings);
     const glint_camera *camera = &scene.cameras[0];
     assert_int_equal(glint_renderer_set_environment(renderer, &bad, &error), GLINT_USAGE);
-    assert_int_equal(glint_renderer_frame(renderer, camera, NULL, &image, NULL, &error),
-                     GLINT_USAGE);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){renderer, camera, NULL, &image, NULL}, &error),
+        GLINT_USAGE);
     assert_int_equal(glint_renderer_set_environment(renderer, &good, &error), GLINT_OK);
-    assert_int_equal(glint_renderer_frame(renderer, camera, NULL, &image, NULL, &error), GLINT_OK);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){renderer, camera, NULL, &image, NULL}, &error),
+        GLINT_OK);
     glint_image_free(&image);
     glint_renderer_free(renderer);
     glint_environment_free(&good);

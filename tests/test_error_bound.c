@@ -56,9 +56,10 @@ static double error_of(stage *s, const glint_image *image)
         glint_rung_reference(&s->at.settings, &rung);
         assert_int_equal(glint_renderer_set_settings(s->at.renderer, &rung.settings, NULL),
                          GLINT_OK);
-        assert_int_equal(
-            glint_renderer_frame(s->at.renderer, &s->at.camera, NULL, &s->reference, NULL, NULL),
-            GLINT_OK);
+        assert_int_equal(glint_renderer_frame(&(glint_frame_request){s->at.renderer, &s->at.camera,
+                                                                     NULL, &s->reference, NULL},
+                                              NULL),
+                         GLINT_OK);
     }
     assert_int_equal(glint_metrics_find(image, &s->reference, NULL, &metrics, NULL), GLINT_OK);
     return metrics.relative_rmse;
@@ -142,8 +143,10 @@ static void what_a_grid_cannot_see_is_reckoned_with(void **state)
     glint_settings in_float = choice.rung.settings;
     in_float.precision = GLINT_PRECISION_FLOAT;
     assert_int_equal(glint_renderer_set_settings(s.at.renderer, &in_float, NULL), GLINT_OK);
-    assert_int_equal(glint_renderer_frame(s.at.renderer, &s.at.camera, NULL, &image, NULL, NULL),
-                     GLINT_OK);
+    assert_int_equal(
+        glint_renderer_frame(
+            &(glint_frame_request){s.at.renderer, &s.at.camera, NULL, &image, NULL}, NULL),
+        GLINT_OK);
     assert_true(error_of(&s, &image) > 0.02);
     glint_image_free(&image);
     close_stage(&s);

@@ -108,13 +108,15 @@ static glint_edge_errors find_edges(test_stage *s, const glint_camera *camera)
 
 static void render(test_stage *s, const glint_camera *camera, glint_image *image)
 {
-    assert_int_equal(glint_renderer_frame(s->renderer, camera, NULL, image, NULL, NULL), GLINT_OK);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){s->renderer, camera, NULL, image, NULL}, NULL),
+        GLINT_OK);
 }
 
 static difference differ(test_stage *s, const glint_camera *camera, const glint_image *image,
-                         double right, double up, double mend)
+                         const double by[2], double mend)
 {
-    const glint_camera other = look_beside(camera, right, up);
+    const glint_camera other = look_beside(camera, by[0], by[1]);
     glint_image beside = {0};
     render(s, &other, &beside);
     const difference result = find_difference(&beside, image, mend);
@@ -129,14 +131,15 @@ static void count_view(test_stage *s, const glint_camera *camera, tally *t)
     render(s, camera, &image);
     for (int i = 0; i < DIRECTIONS; i++) {
         const double angle = 2 * GLINT_PI * (i + 0.3) / DIRECTIONS;
-        const double right = OFF * cos(angle), up = OFF * sin(angle);
-        const difference near = differ(s, camera, &image, right, up, found.mend);
+        const double by[2] = {OFF * cos(angle), OFF * sin(angle)};
+        const difference near = differ(s, camera, &image, by, found.mend);
         t->frames++;
         t->beyond += near.all > found.at_most;
         t->mended += found.mend > 0;
         t->mended_beyond += found.mend > 0 && near.mended > found.mended;
         if (i % 2 == 1) {
-            const difference far = differ(s, camera, &image, FAR * right, FAR * up, found.mend);
+            const double by_more[2] = {FAR * by[0], FAR * by[1]};
+            const difference far = differ(s, camera, &image, by_more, found.mend);
             t->far_frames++;
             t->far_beyond += far.all > found.at_most;
         }

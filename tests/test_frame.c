@@ -409,8 +409,10 @@ static void a_frame_that_is_stopped_leaves_no_image(void **state)
     const glint_progress progress = {stop_at_once, &calls};
     glint_image image = {0};
     glint_error error = {0};
-    assert_int_equal(glint_renderer_frame(renderer, &camera, &progress, &image, NULL, &error),
-                     GLINT_INTERRUPTED);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){renderer, &camera, &progress, &image, NULL},
+                             &error),
+        GLINT_INTERRUPTED);
     assert_int_equal(calls, 1);
     assert_null(image.pixels);
     glint_renderer_free(renderer);

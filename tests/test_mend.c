@@ -89,7 +89,8 @@ static void check_scene(const char *name, int width, int height, int samples_per
     for (int i = 0; i < 5; i++) {
         assert_int_equal(glint_renderer_set_settings(s.renderer, all[i], NULL), GLINT_OK);
         assert_int_equal(
-            glint_renderer_frame(s.renderer, &s.camera, NULL, &images[i], &reports[i], NULL),
+            glint_renderer_frame(
+                &(glint_frame_request){s.renderer, &s.camera, NULL, &images[i], &reports[i]}, NULL),
             GLINT_OK);
         assert_int_equal(reports[i].mended_pixels > 0, all[i]->mend > 0);
     }
@@ -129,18 +130,23 @@ static void renderers_may_be_made_with_it(void **state)
     glint_image first = {0}, none = {0}, in_float = {0};
     glint_frame_report report;
     test_stage_open("prism", &settings, &s);
-    assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &first, &report, NULL),
-                     GLINT_OK);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){s.renderer, &s.camera, NULL, &first, &report},
+                             NULL),
+        GLINT_OK);
     assert_true(report.mended_pixels > 0);
     settings.mend = 1e6;
     assert_int_equal(glint_renderer_set_settings(s.renderer, &settings, NULL), GLINT_OK);
-    assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &none, &report, NULL),
+    assert_int_equal(glint_renderer_frame(
+                         &(glint_frame_request){s.renderer, &s.camera, NULL, &none, &report}, NULL),
                      GLINT_OK);
     assert_int_equal(report.mended_pixels, 0);
     settings.mend = 0;
     assert_int_equal(glint_renderer_set_settings(s.renderer, &settings, NULL), GLINT_OK);
-    assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &in_float, NULL, NULL),
-                     GLINT_OK);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){s.renderer, &s.camera, NULL, &in_float, NULL},
+                             NULL),
+        GLINT_OK);
     assert_int_equal(test_count_different(&none, &in_float), 0);
     glint_image_free(&first);
     glint_image_free(&none);
@@ -188,12 +194,15 @@ static void it_can_be_stopped(void **state)
     test_stage_open("prism", &settings, &s);
     int ends = 0;
     const glint_progress progress = {stop_in_the_end, &ends};
-    assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, &progress, &image, NULL, NULL),
-                     GLINT_INTERRUPTED);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){s.renderer, &s.camera, &progress, &image, NULL},
+                             NULL),
+        GLINT_INTERRUPTED);
     assert_int_equal(ends, 2);
     assert_null(image.pixels);
     // And goes on as if nothing had been.
-    assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &image, NULL, NULL),
+    assert_int_equal(glint_renderer_frame(
+                         &(glint_frame_request){s.renderer, &s.camera, NULL, &image, NULL}, NULL),
                      GLINT_OK);
     glint_image_free(&image);
     test_stage_close(&s);

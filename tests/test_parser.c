@@ -58,7 +58,8 @@ static glint_status parse(const char *line, parsed *p)
     while ((word = strsep(&rest, "|")) != NULL) {
         p->words[p->count++] = word;
     }
-    return glint_options_parse(&own, p->count, p->words, &p->request, &p->arguments, &p->error);
+    p->arguments = (glint_arguments){.words = p->words, .word_count = p->count};
+    return glint_options_parse(&own, &p->request, &p->arguments, &p->error);
 }
 
 static void options_stand_anywhere_until_two_dashes(void **state)
@@ -175,11 +176,10 @@ static void no_option_is_one_too_many(void **state)
     }
     for (size_t i = 0; i < MANY; i++) {
         char word[20];
-        glint_arguments arguments;
         snprintf(word, sizeof word, "--option-%zu", i);
         char *words[] = {"many", word, NULL};
-        assert_int_equal(glint_options_parse(&command, 2, words, flags, &arguments, NULL),
-                         GLINT_OK);
+        glint_arguments arguments = {.words = words, .word_count = 2};
+        assert_int_equal(glint_options_parse(&command, flags, &arguments, NULL), GLINT_OK);
         assert_true(flags[i]);
     }
 }

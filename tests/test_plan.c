@@ -61,18 +61,13 @@ static void check_features(const glint_plan *plan)
 #undef CHECK
 }
 
-static glint_status plan_under(const glint_cube *environment, const test_scene *s,
-                               const glint_capabilities *device, const glint_settings *settings,
-                               glint_plan *plan, glint_error *error)
+// `inputs` but for the topology.
+static glint_status plan_of(glint_plan_inputs inputs, glint_plan *plan, glint_error *error)
 {
     // No component is proved convex, so solids may nest.
     static glint_component solid = {.instance = 0, .triangle_count = 1};
     const glint_topology topology = {.component_count = 1, .components = &solid};
-    const glint_plan_inputs inputs = {.scene = &s->scene,
-                                      .topology = &topology,
-                                      .environment = environment,
-                                      .device = device,
-                                      .settings = settings};
+    inputs.topology = &topology;
     TRY(glint_plan_make(&inputs, plan, error));
     check_features(plan);
     return GLINT_OK;
@@ -82,7 +77,10 @@ static glint_status plan_for(const test_scene *s, const glint_capabilities *devi
                              const glint_settings *settings, glint_plan *plan, glint_error *error)
 {
     const glint_cube none = {0};
-    return plan_under(&none, s, device, settings, plan, error);
+    return plan_of(
+        (glint_plan_inputs){
+            .scene = &s->scene, .environment = &none, .device = device, .settings = settings},
+        plan, error);
 }
 
 static bool compiles(const glint_plan *plan, glint_feature feature)
@@ -266,7 +264,10 @@ static glint_status plan_texels(float brightest, float scale, const glint_settin
         cube.texels[i] = 0.3f * scale;
     }
     glint_cube_texel(&cube, 2, 3, 4)[1] = brightest * scale;
-    glint_status status = plan_under(&cube, &s, &wide_cpu, settings, plan, error);
+    glint_status status = plan_of(
+        (glint_plan_inputs){
+            .scene = &s.scene, .environment = &cube, .device = &wide_cpu, .settings = settings},
+        plan, error);
     size_t bytes = glint_cube_size(&cube) * sizeof(float);
     if (status == GLINT_OK) {
         assert_true(plan->texels_reason[0] != '\0');

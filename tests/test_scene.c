@@ -442,7 +442,7 @@ static void a_scale_of_zero_hides_what_is_below(void **state)
                               "{\"mesh\":0,\"translation\":[1,2,3]}]," ONE_SCENE);
     glint_scene scene;
     glint_warnings warnings = {0};
-    assert_int_equal(load_text(*state, text, NULL, &scene, &warnings, NULL), GLINT_OK);
+    assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
     assert_int_equal(scene.triangle_count, 0);
     assert_int_equal(scene.degenerate_triangles, 0);
     assert_true(any_warning_has(&warnings, "nodes[0] and 1 more: a scale of 0 hides the mesh"));

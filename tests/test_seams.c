@@ -97,7 +97,9 @@ static measured look_up(glint_probe *probe, const glint_vec3 *directions, size_t
     }
     glint_probe_view(probe, NULL, NULL, &view);
     assert_int_equal(
-        glint_probe_call(probe, GLINT_PROBE_ENVIRONMENT, &view, in, out, count, &error), GLINT_OK);
+        glint_probe_call(probe, &(glint_probe_work){GLINT_PROBE_ENVIRONMENT, &view, in, out, count},
+                         &error),
+        GLINT_OK);
     for (size_t i = 0; i < count; i++) {
         m.error = fmax(m.error, fabs(out[4 * i] - radiance(directions[i])));
         if (i % 2 == 1) {

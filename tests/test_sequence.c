@@ -59,7 +59,9 @@ static int open_shot(void **state)
     for (int i = 0; i < FRAMES; i++) {
         const glint_camera camera = camera_of(s, i);
         assert_int_equal(
-            glint_renderer_frame(s->renderer, &camera, NULL, &s->alone[i], NULL, &error), GLINT_OK);
+            glint_renderer_frame(
+                &(glint_frame_request){s->renderer, &camera, NULL, &s->alone[i], NULL}, &error),
+            GLINT_OK);
     }
     assert_true(test_count_different(&s->alone[0], &s->alone[1]) > 0);
     *state = s;
@@ -265,8 +267,12 @@ static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
         assert_int_equal(glint_renderer_set_scene(moved, &scene, &error), GLINT_OK);
         refitted += glint_renderer_bvh(moved)->is_refitted;
         const glint_camera *camera = &scene.cameras[0];
-        assert_int_equal(glint_renderer_frame(moved, camera, NULL, &here, NULL, &error), GLINT_OK);
-        assert_int_equal(glint_renderer_frame(fresh, camera, NULL, &there, NULL, &error), GLINT_OK);
+        assert_int_equal(
+            glint_renderer_frame(&(glint_frame_request){moved, camera, NULL, &here, NULL}, &error),
+            GLINT_OK);
+        assert_int_equal(
+            glint_renderer_frame(&(glint_frame_request){fresh, camera, NULL, &there, NULL}, &error),
+            GLINT_OK);
         assert_int_equal(test_count_different(&here, &there), 0);
         glint_renderer_free(fresh);
         glint_image_free(&here);
@@ -300,7 +306,9 @@ static void render_into(glint_renderer *renderer, const glint_scene *scene, glin
 {
     glint_error error = {0};
     const glint_camera *camera = &scene->cameras[0];
-    assert_int_equal(glint_renderer_frame(renderer, camera, NULL, image, NULL, &error), GLINT_OK);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){renderer, camera, NULL, image, NULL}, &error),
+        GLINT_OK);
 }
 
 enum { TIMES = 6 };
@@ -386,16 +394,19 @@ static void a_renderer_outlives_a_scene_that_it_cannot_show(void **state)
     glint_error_free(&error);
     assert_int_equal(glint_renderer_set_prepared(s->renderer, &bad, &error), GLINT_USAGE);
     glint_error_free(&error);
-    assert_int_equal(glint_renderer_frame(s->renderer, &camera, NULL, &image, NULL, &error),
+    assert_int_equal(glint_renderer_frame(
+                         &(glint_frame_request){s->renderer, &camera, NULL, &image, NULL}, &error),
                      GLINT_OK);
     assert_int_equal(test_count_different(&image, &s->alone[0]), 0);
     assert_int_equal(glint_renderer_set_scene(s->renderer, &bad, &error), GLINT_DEVICE_FAILED);
     glint_error_free(&error);
-    assert_int_equal(glint_renderer_frame(s->renderer, &camera, NULL, &image, NULL, &error),
+    assert_int_equal(glint_renderer_frame(
+                         &(glint_frame_request){s->renderer, &camera, NULL, &image, NULL}, &error),
                      GLINT_USAGE);
     glint_error_free(&error);
     assert_int_equal(glint_renderer_set_scene(s->renderer, &s->scene, &error), GLINT_OK);
-    assert_int_equal(glint_renderer_frame(s->renderer, &camera, NULL, &image, NULL, &error),
+    assert_int_equal(glint_renderer_frame(
+                         &(glint_frame_request){s->renderer, &camera, NULL, &image, NULL}, &error),
                      GLINT_OK);
     assert_int_equal(test_count_different(&image, &s->alone[0]), 0);
     glint_image_free(&image);

@@ -75,8 +75,10 @@ static void check_frame(test_stage *s, const glint_settings *settings)
     glint_frame_report report;
     glint_layers layers = {0};
     test_render(&s->scene, test_studio(), NULL, settings, &own);
-    assert_int_equal(glint_renderer_frame(s->renderer, &s->camera, NULL, &image, &report, NULL),
-                     GLINT_OK);
+    assert_int_equal(
+        glint_renderer_frame(&(glint_frame_request){s->renderer, &s->camera, NULL, &image, &report},
+                             NULL),
+        GLINT_OK);
     check_plan(glint_renderer_plan(s->renderer), &own.plan);
     assert_int_equal(test_count_different(&image, &own.image), 0);
     assert_memory_equal(&report.rays, &own.report.rays, sizeof report.rays);
@@ -198,7 +200,8 @@ static void bad_ones_are_refused_until_there_are_good_ones(void **state)
     assert_int_equal(glint_renderer_set_settings(s.renderer, &bad, &error), GLINT_USAGE);
     assert_non_null(strstr(error.message, "--min-weight"));
     glint_error_free(&error);
-    assert_int_equal(glint_renderer_frame(s.renderer, &s.camera, NULL, &image, NULL, NULL),
+    assert_int_equal(glint_renderer_frame(
+                         &(glint_frame_request){s.renderer, &s.camera, NULL, &image, NULL}, NULL),
                      GLINT_USAGE);
     bad = first;
     bad.fresnel = GLINT_FRESNEL_NONE;

@@ -26,10 +26,16 @@ static double dented(const double d[3])
     return d[1] > 0.995 ? 0.99 : 1;
 }
 
-static void add_quad(shape *s, double y, double x0, double x1, double tilt, shape_material material)
+// From x0 at height y to x1, where it is higher by `tilt`.
+typedef struct quad {
+    double y, x0, x1, tilt;
+} quad;
+
+static void add_quad(shape *s, quad q, shape_material material)
 {
+    const double top = q.y + q.tilt;
     const double corners[4][3] = {
-        {x0, y, 0.4}, {x1, y + tilt, 0.4}, {x1, y + tilt, -0.4}, {x0, y, -0.4}};
+        {q.x0, q.y, 0.4}, {q.x1, top, 0.4}, {q.x1, top, -0.4}, {q.x0, q.y, -0.4}};
     shape_add_quad(s, corners, material);
 }
 
@@ -75,13 +81,13 @@ static void two_balls(shape *s)
 static void on_paint(shape *s) // MATERIAL_TINTED is paint here
 {
     shape_add_ball(s, &(shape_ball){middle, 0.4, 3, MATERIAL_MIRROR, true, NULL});
-    add_quad(s, -0.45, -0.6, 0.6, 0, MATERIAL_TINTED);
+    add_quad(s, (quad){-0.45, -0.6, 0.6, 0}, MATERIAL_TINTED);
 }
 
 static void beside_a_mirror(shape *s)
 {
     shape_add_ball(s, &(shape_ball){middle, 0.4, 3, MATERIAL_MIRROR, true, NULL});
-    add_quad(s, -0.45, -0.6, 0.6, 0, MATERIAL_MIRROR);
+    add_quad(s, (quad){-0.45, -0.6, 0.6, 0}, MATERIAL_MIRROR);
 }
 
 static void paint_alone(shape *s)
@@ -91,30 +97,30 @@ static void paint_alone(shape *s)
 
 static void flat_mirrors(shape *s)
 {
-    add_quad(s, 0.1, -0.6, -0.1, 0, MATERIAL_MIRROR);
-    add_quad(s, 0.1, 0.1, 0.6, 0, MATERIAL_MIRROR);
+    add_quad(s, (quad){0.1, -0.6, -0.1, 0}, MATERIAL_MIRROR);
+    add_quad(s, (quad){0.1, 0.1, 0.6, 0}, MATERIAL_MIRROR);
 }
 
 static void a_tilted_mirror(shape *s)
 {
-    add_quad(s, 0.1, -0.6, 0.6, 0.3, MATERIAL_MIRROR);
+    add_quad(s, (quad){0.1, -0.6, 0.6, 0.3}, MATERIAL_MIRROR);
 }
 
 static void mirrors_at_an_angle(shape *s)
 {
-    add_quad(s, -0.1, -0.6, 0, -0.2, MATERIAL_MIRROR);
-    add_quad(s, -0.3, 0, 0.6, 0.2, MATERIAL_MIRROR);
+    add_quad(s, (quad){-0.1, -0.6, 0, -0.2}, MATERIAL_MIRROR);
+    add_quad(s, (quad){-0.3, 0, 0.6, 0.2}, MATERIAL_MIRROR);
 }
 
 static void a_mirror_over_paint(shape *s)
 {
-    add_quad(s, 0.1, -0.6, 0.6, 0.2, MATERIAL_MIRROR);
+    add_quad(s, (quad){0.1, -0.6, 0.6, 0.2}, MATERIAL_MIRROR);
     shape_add_ball(s, &(shape_ball){middle, 0.3, 3, MATERIAL_TINTED, true, bumpy});
 }
 
 static void a_pane(shape *s) // MATERIAL_CORE is a thin wall here
 {
-    add_quad(s, 0.1, -0.6, 0.6, 0.3, MATERIAL_CORE);
+    add_quad(s, (quad){0.1, -0.6, 0.6, 0.3}, MATERIAL_CORE);
 }
 
 static void a_bubble(shape *s)
@@ -129,14 +135,14 @@ static void a_glass_ball(shape *s)
 
 static void a_pane_before_a_mirror(shape *s) // so near that they might be taken for one plane
 {
-    add_quad(s, 0.3, -0.6, 0.6, 0, MATERIAL_MIRROR);
-    add_quad(s, 0.3 + 1e-6, -0.6, 0.6, 0, MATERIAL_CORE);
+    add_quad(s, (quad){0.3, -0.6, 0.6, 0}, MATERIAL_MIRROR);
+    add_quad(s, (quad){0.3 + 1e-6, -0.6, 0.6, 0}, MATERIAL_CORE);
 }
 
 static void a_pane_beside_a_mirror(shape *s)
 {
-    add_quad(s, 0.3, -0.6, 0, 0, MATERIAL_MIRROR);
-    add_quad(s, 0.3, 0, 0.6, 0, MATERIAL_CORE);
+    add_quad(s, (quad){0.3, -0.6, 0, 0}, MATERIAL_MIRROR);
+    add_quad(s, (quad){0.3, 0, 0.6, 0}, MATERIAL_CORE);
 }
 
 typedef struct sight_case {
@@ -203,7 +209,7 @@ static void render(const glint_scene *scene, const glint_camera *camera, int dep
 static void glass_on_paint(shape *s)
 {
     a_glass_ball(s);
-    add_quad(s, -0.7, -2, 2, 0, MATERIAL_TINTED);
+    add_quad(s, (quad){-0.7, -2, 2, 0}, MATERIAL_TINTED);
 }
 
 static void two_glass_balls(shape *s)
@@ -404,9 +410,11 @@ static void an_eye_inside_is_noticed(void **state)
     glint_image first = {0}, image = {0};
     for (int i = 0; i < 5; i++) {
         glint_frame_report report;
-        assert_int_equal(glint_renderer_frame(renderer, frames[i].camera, NULL,
-                                              i == 0 ? &first : &image, &report, NULL),
-                         GLINT_OK);
+        assert_int_equal(
+            glint_renderer_frame(&(glint_frame_request){renderer, frames[i].camera, NULL,
+                                                        i == 0 ? &first : &image, &report},
+                                 NULL),
+            GLINT_OK);
         assert_int_equal(glint_renderer_plan(renderer)->depth_is_exact, !frames[i].goes_on);
         assert_true((report.deepest > 1) == frames[i].goes_on);
         if (i == 2) {

@@ -188,8 +188,9 @@ static vertex_light light_at(const oracle_scene *all, const oracle_view *view,
 // Adds what the corners' look-ups of one kind come to. False where some corners make it and others
 // do not, so that it is nobody's business where those would look.
 static bool add_look_up(const oracle_scene *scene, const vertex_light lights[3],
-                        const double weights[3], bool is_irradiance, bool is_ahead, double rgb[3])
+                        const double weights[3], int kind, double rgb[3])
 {
+    const bool is_ahead = kind == 1, is_irradiance = kind == 2;
     double direction[3] = {0}, weight[3] = {0}, light[3] = {0};
     int corners = 0;
     for (int v = 0; v < 3; v++) {
@@ -263,8 +264,7 @@ static expected expect(const setting *s, const oracle_view *view, glint_shading 
         }
     }
     for (int kind = 0; shading == GLINT_SHADING_VERTEX_DIRECTION && kind < 3; kind++) {
-        e.is_certain = add_look_up(scene, lights, hit.barycentric, kind == 2, kind == 1, e.rgb) &&
-                       e.is_certain;
+        e.is_certain = add_look_up(scene, lights, hit.barycentric, kind, e.rgb) && e.is_certain;
     }
     e.tie = bridge_take_tie(b);
     return e;

@@ -80,6 +80,25 @@ static seen look(double height, const double d[3])
     return s;
 }
 
+// The unit direction of the middle of pixel (i, j).
+static void direction_of(const glint_camera *camera, const glint_settings *settings, int i, int j,
+                         double d[3])
+{
+    const double half = tan(camera->yfov / 2);
+    const double axes[3][3] = {{camera->right.x, camera->right.y, camera->right.z},
+                               {camera->up.x, camera->up.y, camera->up.z},
+                               {-camera->back.x, -camera->back.y, -camera->back.z}};
+    const double x = half * (2 * (i + 0.5) - settings->width) / settings->height;
+    const double y = half * (settings->height - 2 * (j + 0.5)) / settings->height;
+    for (int k = 0; k < 3; k++) {
+        d[k] = x * axes[0][k] + y * axes[1][k] + axes[2][k];
+    }
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++) {
+        d[k] /= length;
+    }
+}
+
 static void check_camera(const char *name, bool expect_total)
 {
     glint_scene scene;
@@ -96,24 +115,12 @@ static void check_camera(const char *name, bool expect_total)
     settings.texels = GLINT_TEXELS_FLOAT;
     test_frame frame;
     test_render(&scene, &environment, name, &settings, &frame);
-    const double half = tan(camera.yfov / 2);
-    const double axes[3][3] = {{camera.right.x, camera.right.y, camera.right.z},
-                               {camera.up.x, camera.up.y, camera.up.z},
-                               {-camera.back.x, -camera.back.y, -camera.back.z}};
     int total = 0, through = 0;
     double worst = 0;
     for (int j = 0; j < settings.height; j++) {
         for (int i = 0; i < settings.width; i++) {
-            const double x = half * (2 * (i + 0.5) - settings.width) / settings.height;
-            const double y = half * (settings.height - 2 * (j + 0.5)) / settings.height;
             double d[3];
-            for (int k = 0; k < 3; k++) {
-                d[k] = x * axes[0][k] + y * axes[1][k] + axes[2][k];
-            }
-            const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-            for (int k = 0; k < 3; k++) {
-                d[k] /= length;
-            }
+            direction_of(&camera, &settings, i, j, d);
             // Beyond the sheet's 40 m there is no surface; near its end either may be seen.
             const double away = fabs(camera.eye.y / d[1]) * hypot(d[0], d[2]);
             if (d[1] * camera.eye.y < 0 && away > 35) {

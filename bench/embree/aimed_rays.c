@@ -78,7 +78,9 @@ static glint_status trace_item(glint_probe *probe, const bench_scene *scene, uin
         }
         distances[i] = aimed.distance;
     }
-    TRY(glint_probe_call(probe, GLINT_PROBE_TRACE, NULL, in->origin, &out->distance, count, error));
+    TRY(glint_probe_call(
+        probe, &(glint_probe_work){GLINT_PROBE_TRACE, NULL, in->origin, &out->distance, count},
+        error));
     for (uint64_t i = 0; i < count; i++) {
         // NaN is a leak too.
         const bool leaks_here = !(out[i].distance <= AIMED_BEHIND * (double)distances[i]);

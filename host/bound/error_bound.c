@@ -52,7 +52,7 @@ static glint_status render(judged_frame *f, glint_error *error)
     glint_settings settings = f->trial.rung.settings;
     settings.truncation_squares = true;
     TRY(glint_renderer_set_settings(in->renderer, &settings, error));
-    TRY(glint_renderer_frame(in->renderer, in->camera, in->progress, in->image, in->report, error));
+    TRY(glint_renderer_frame(in, error));
     f->estimate = glint_error_search_estimate(&f->search, &f->trial, in->image, in->report);
     return GLINT_OK;
 }

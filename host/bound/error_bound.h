@@ -47,9 +47,9 @@ void glint_error_bound_begin(glint_error_bound *bound, double max_error,
 void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cube *environment);
 
 // As glint_renderer_frame, but with the settings that keep the bound, which the renderer has
-// afterwards; its layers are those of the frame, and so is the report. Errors: as
-// glint_renderer_set_settings and glint_renderer_frame; GLINT_DEVICE_FAILED where the device has
-// no double precision.
+// afterwards; its layers are those of the frame, and so is the report, which must not be NULL.
+// Errors: as glint_renderer_set_settings and glint_renderer_frame; GLINT_DEVICE_FAILED where the
+// device has no double precision.
 glint_status glint_error_bound_frame(const glint_error_bound *bound,
                                      const glint_frame_request *request, glint_error_choice *choice,
                                      glint_error *error);

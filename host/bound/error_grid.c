@@ -59,7 +59,8 @@ static glint_status render(glint_error_grid *grid, const glint_settings *setting
     const glint_progress progress = {go_on, (void *)grid->progress};
     const bool asks = grid->progress != NULL;
     TRY(glint_renderer_set_settings(grid->renderer, &of_grid, error));
-    TRY(glint_renderer_frame(grid->renderer, camera, asks ? &progress : NULL, image, &grid->report,
+    TRY(glint_renderer_frame(&(glint_frame_request){grid->renderer, camera, asks ? &progress : NULL,
+                                                    image, &grid->report},
                              error));
     grid->rays += glint_ray_counts_all(&grid->report.rays);
     grid->pictures++;

@@ -86,7 +86,7 @@ static glint_status run_help(int argc, char **argv, glint_error *error)
 static glint_status run_command(const glint_command *command, int argc, char **argv,
                                 glint_error *error)
 {
-    glint_arguments arguments;
+    glint_arguments arguments = {.words = argv, .word_count = argc};
     void *request = calloc(1, command->request_size);
     if (request == NULL) {
         return glint_fail_memory(error, "the options");
@@ -94,7 +94,7 @@ static glint_status run_command(const glint_command *command, int argc, char **a
     if (command->set_defaults != NULL) {
         command->set_defaults(request);
     }
-    glint_status status = glint_options_parse(command, argc, argv, request, &arguments, error);
+    glint_status status = glint_options_parse(command, request, &arguments, error);
     if (status == GLINT_OK && arguments.help) {
         glint_options_help(command, text_columns(), stdout);
     } else if (status == GLINT_OK) {

@@ -344,10 +344,11 @@ glint_status copy(const std::vector<unsigned char> &file, glint_encoded *encoded
 
 } // namespace
 
-glint_status glint::encode_image(const char *path, const glint_written_format *format,
-                                 const glint_image *image, const glint_write_options *options,
-                                 glint_encoded *encoded, glint_error *error)
+glint_status glint::encode_image(const char *path, const glint_image *image,
+                                 const glint_write_options *options, glint_encoded *encoded,
+                                 glint_error *error)
 {
+    const glint_written_format *format = glint_image_written_format(path);
     try {
         File file;
         {

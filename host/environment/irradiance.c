@@ -239,8 +239,10 @@ static pair light_of_crossed(const moment_sum sums[2], const double n[3], double
 
 // What a normal's horizon, in a face's axes, cuts of a line of blocks.
 typedef struct horizon {
+    const double *n;
     double fast, slow, height; // of n: along the line, along the next line, along the face's axis
     double scale, step;        // blocks per half unit, and the width of a line
+    double reach;              // a, see above
     int blocks;
 } horizon;
 
@@ -267,17 +269,17 @@ static cut cut_line(const moment_sum *sums, const horizon *h, int line)
 }
 
 // Two channels of what the lines of a face bring.
-static pair gather_pair(const cut *cuts, int count, const double n[3], double reach, int p,
-                        pair light)
+static pair gather_pair(const cut *cuts, const horizon *h, int p, pair light)
 {
+    const double *n = h->n;
     pair x = {0}, y = {0}, z = {0}; // of what lies wholly in front
-    for (int line = 0; line < count; line++) {
+    for (int line = 0; line < h->blocks; line++) {
         const cut *c = &cuts[line];
         x = x + c->front_end->along[0][p] - c->front->along[0][p];
         y = y + c->front_end->along[1][p] - c->front->along[1][p];
         z = z + c->front_end->along[2][p] - c->front->along[2][p];
         for (const moment_sum *k = c->crossed; k < c->crossed_end; k++) {
-            light += light_of_crossed(k, n, reach, p);
+            light += light_of_crossed(k, n, h->reach, p);
         }
     }
     return light + (n[0] * x + n[1] * y + n[2] * z);
@@ -292,14 +294,14 @@ static void gather_face(const block_grid *grid, int face, const double n[3], pai
     if (fabs(fast) + fabs(slow) + n[2] <= 0.0) {
         return; // wholly behind
     }
-    const horizon h = {fast, slow, n[2], grid->scale, 2.0 / grid->scale, grid->blocks};
     const double reach = sqrt(fast * fast + slow * slow) / grid->scale;
+    const horizon h = {n, fast, slow, n[2], grid->scale, 2.0 / grid->scale, reach, grid->blocks};
     cut cuts[BLOCKS_MAX];
     for (int line = 0; line < h.blocks; line++) {
         cuts[line] = cut_line(line_of(grid, direction, face, line), &h, line);
     }
     for (int p = 0; p < PAIRS; p++) {
-        light[p] = gather_pair(cuts, h.blocks, n, reach, p, light[p]);
+        light[p] = gather_pair(cuts, &h, p, light[p]);
     }
 }
 

@@ -18,9 +18,9 @@ typedef struct glint_codec {
     glint_status (*read)(const glint_image_source *source, glint_image *image,
                          glint_image_facts *facts, glint_error *error);
     glint_status (*read_channels)(const char *path, glint_channels *channels, glint_error *error);
-    glint_status (*encode)(const char *path, const glint_written_format *format,
-                           const glint_image *image, const glint_write_options *options,
-                           glint_encoded *encoded, glint_error *error);
+    glint_status (*encode)(const char *path, const glint_image *image,
+                           const glint_write_options *options, glint_encoded *encoded,
+                           glint_error *error);
     void (*use_threads)(int count);
 } glint_codec;
 

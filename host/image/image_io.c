@@ -167,8 +167,7 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
     }
     TRY(load_codec(GLINT_OUTPUT_FAILED, &codec, error));
-    return codec->encode(path, glint_image_written_format(path), image,
-                         options != NULL ? options : &defaults, encoded, error);
+    return codec->encode(path, image, options != NULL ? options : &defaults, encoded, error);
 }
 
 glint_status glint_image_write(const char *path, const glint_image *image,

@@ -69,10 +69,10 @@ static void store_face(const glint_image *image, int face, glint_cube *cube)
     }
 }
 
-glint_status glint_capture(glint_renderer *renderer, glint_vec3 at, const glint_progress *progress,
-                           glint_cube *cube, glint_frame_report *report, glint_error *error)
+glint_status glint_capture(const glint_capture_request *request, glint_cube *cube,
+                           glint_error *error)
 {
-    const glint_settings *settings = &renderer->settings;
+    const glint_settings *settings = &request->renderer->settings;
     glint_frame_report sum = {0};
     glint_image image = {0};
     *cube = (glint_cube){0};
@@ -83,12 +83,14 @@ glint_status glint_capture(glint_renderer *renderer, glint_vec3 at, const glint_
     glint_status status;
     TRY_OR(cleanup, status, glint_cube_create(settings->width, cube, error));
     for (int face = 0; face < 6; face++) {
-        const glint_camera camera = face_camera(face, at);
-        view_steps steps = {progress, face};
+        const glint_camera camera = face_camera(face, request->at);
+        view_steps steps = {request->progress, face};
         const glint_progress of_view = {step, &steps};
         glint_frame_report view;
         TRY_OR(cleanup, status,
-               glint_renderer_frame(renderer, &camera, &of_view, &image, &view, error));
+               glint_renderer_frame(
+                   &(glint_frame_request){request->renderer, &camera, &of_view, &image, &view},
+                   error));
         add_report(&view, &sum);
         store_face(&image, face, cube);
     }
@@ -99,8 +101,8 @@ cleanup:
     } else {
         glint_cube_free(cube);
     }
-    if (report != NULL) {
-        *report = sum;
+    if (request->report != NULL) {
+        *request->report = sum;
     }
     return status;
 }

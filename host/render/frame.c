@@ -40,17 +40,15 @@ static glint_status render(const glint_frame_request *request, glint_error *erro
     return GLINT_OK;
 }
 
-glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,
-                                  const glint_progress *progress, glint_image *image,
-                                  glint_frame_report *report, glint_error *error)
+glint_status glint_renderer_frame(const glint_frame_request *request, glint_error *error)
 {
-    glint_frame_report unused;
-    const glint_frame_request request = {renderer, camera, progress, image,
-                                         report != NULL ? report : &unused};
-    *request.report = (glint_frame_report){0};
-    const glint_status status = render(&request, error);
+    glint_frame_report unused = {0};
+    glint_frame_request full = *request;
+    full.report = request->report != NULL ? request->report : &unused;
+    *full.report = (glint_frame_report){0};
+    const glint_status status = render(&full, error);
     if (status != GLINT_OK) {
-        glint_image_free(image);
+        glint_image_free(request->image);
     }
     return status;
 }

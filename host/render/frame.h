@@ -112,21 +112,18 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
 // Bytes of the compiled kernels as the driver would hand them out; 0 where it does not.
 size_t glint_renderer_program_bytes(const glint_renderer *renderer);
 
-// Renders with `camera` into an RGBA image (premultiplied, linear). *image is zero, or an image
-// whose memory is used again where it has the frame's size: on a CPU that saves what fresh memory
-// costs. `progress` and `report` may be NULL. On failure `image` is left empty.
-glint_status glint_renderer_frame(glint_renderer *renderer, const glint_camera *camera,
-                                  const glint_progress *progress, glint_image *image,
-                                  glint_frame_report *report, glint_error *error);
-
-// What glint_renderer_frame takes, where it is handed on. Pointers are borrowed.
+// A frame to render. Pointers are borrowed.
 typedef struct glint_frame_request {
     glint_renderer *renderer;
     const glint_camera *camera;
     const glint_progress *progress; // may be NULL
-    glint_image *image;
-    glint_frame_report *report; // not NULL
+    glint_image *image; // zero, or one whose memory is used again where it has the frame's size:
+                        // on a CPU that saves what fresh memory costs
+    glint_frame_report *report; // may be NULL
 } glint_frame_request;
+
+// Renders into an RGBA image (premultiplied, linear). On failure the image is left empty.
+glint_status glint_renderer_frame(const glint_frame_request *request, glint_error *error);
 
 // The pixels of the last frame in double precision as the device computed them
 // ([height][width][4], malloc'd), before they are rounded to float: for tests. GLINT_USAGE in other

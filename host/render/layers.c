@@ -1,6 +1,8 @@
 // Diagnostic layers of a frame. See layers.h.
 #include "render/layers.h"
 
+#include "render/settings.h"
+
 #include "base/memory.h"
 #include "base/option.h"
 #include "kernels/layout.h"
@@ -122,9 +124,11 @@ static float value_of(const glint_layers_record *record, glint_aov aov, int samp
     return 0;
 }
 
-glint_status glint_layers_make(const glint_layers_record *records, size_t pixel_count, int samples,
-                               uint32_t aovs, glint_layers *layers, glint_error *error)
+glint_status glint_layers_make(const glint_layers_record *records, size_t pixel_count,
+                               const glint_settings *settings, glint_layers *layers,
+                               glint_error *error)
 {
+    const int samples = settings->samples_per_axis * settings->samples_per_axis;
     *layers = (glint_layers){0};
     float *values = glint_allocate_unset(pixel_count, GLINT_AOV_COUNT * sizeof *values);
     if (values == NULL) {
@@ -132,7 +136,7 @@ glint_status glint_layers_make(const glint_layers_record *records, size_t pixel_
     }
     layers->values = values;
     for (int i = 0; i < GLINT_AOV_COUNT; i++) {
-        if ((aovs & GLINT_AOV_BIT(i)) == 0) {
+        if ((settings->aovs & GLINT_AOV_BIT(i)) == 0) {
             continue;
         }
         for (size_t p = 0; p < pixel_count; p++) {

@@ -57,12 +57,12 @@ typedef struct glint_layers {
 void glint_layers_free(glint_layers *layers);
 
 struct glint_layers_record; // kernels/layout.h
+struct glint_settings;      // render/settings.h
 
-// Makes the layers of the set `aovs` from what the kernels noted of each of `pixel_count` pixels of
-// `samples` samples. The caller frees them. Errors: GLINT_OUT_OF_MEMORY;
-// *layers is then empty.
+// Makes the layers that the settings ask for from what the kernels noted of each of `pixel_count`
+// pixels. The caller frees them. Errors: GLINT_OUT_OF_MEMORY; *layers is then empty.
 glint_status glint_layers_make(const struct glint_layers_record *records, size_t pixel_count,
-                               int samples, uint32_t aovs, glint_layers *layers,
+                               const struct glint_settings *settings, glint_layers *layers,
                                glint_error *error);
 
 #endif

@@ -204,36 +204,37 @@ static cl_int read_elements(const glint_probe *probe, glint_probe_part part, dou
     return code;
 }
 
-static cl_int call_chunk(const glint_probe *probe, glint_probe_part part, const double *in,
-                         double *out, size_t count)
+// The elements of `work` from `first` on, as many as a chunk holds.
+static cl_int call_chunk(const glint_probe *probe, const glint_probe_work *work, size_t first)
 {
     const glint_renderer *r = probe->renderer;
+    const glint_probe_part part = work->part;
+    const size_t left = work->count - first, count = left < CHUNK_ELEMENTS ? left : CHUNK_ELEMENTS;
     const size_t per_item = elements_per_item(&r->plan), local = 1;
     const size_t items = (count + per_item - 1) / per_item;
+    const double *in = work->in + first * parts[part].in;
     cl_int code = write_elements(probe, part, in, count, items * per_item);
     if (code == CL_SUCCESS) {
         code = clEnqueueNDRangeKernel(r->device->queue, probe->kernels[part], 1, NULL, &items,
                                       &local, 0, NULL, NULL);
     }
-    return code == CL_SUCCESS ? read_elements(probe, part, out, count) : code;
+    return code == CL_SUCCESS
+               ? read_elements(probe, part, work->out + first * parts[part].out, count)
+               : code;
 }
 
-glint_status glint_probe_call(glint_probe *probe, glint_probe_part part,
-                              const glint_frame_record *frame, const double *in, double *out,
-                              size_t count, glint_error *error)
+glint_status glint_probe_call(glint_probe *probe, const glint_probe_work *work, glint_error *error)
 {
     const glint_device *device = probe->renderer->device;
     glint_frame_record no_view;
     glint_probe_view(probe, NULL, NULL, &no_view);
-    cl_kernel *kernel = &probe->kernels[part];
+    cl_kernel *kernel = &probe->kernels[work->part];
     if (*kernel == NULL) {
-        TRY(glint_program_kernel(device, probe->program, parts[part].kernel, kernel, error));
+        TRY(glint_program_kernel(device, probe->program, parts[work->part].kernel, kernel, error));
     }
-    TRY(set_arguments(probe, *kernel, frame != NULL ? frame : &no_view, error));
-    for (size_t first = 0; first < count; first += CHUNK_ELEMENTS) {
-        const size_t left = count - first, chunk = left < CHUNK_ELEMENTS ? left : CHUNK_ELEMENTS;
-        const cl_int code = call_chunk(probe, part, in + first * parts[part].in,
-                                       out + first * parts[part].out, chunk);
+    TRY(set_arguments(probe, *kernel, work->frame != NULL ? work->frame : &no_view, error));
+    for (size_t first = 0; first < work->count; first += CHUNK_ELEMENTS) {
+        const cl_int code = call_chunk(probe, work, first);
         TRY(glint_check_opencl(error, device, "running a self-test's kernel", code));
     }
     return GLINT_OK;

@@ -69,12 +69,18 @@ const glint_plan *glint_probe_plan(const glint_probe *probe);
 void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
                       const glint_settings *settings, glint_frame_record *frame);
 
-// Calls a part on `count` elements; `in` and `out` hold numbers of double whatever the precision,
-// rounded to float in single precision. `frame`: as from glint_probe_view; NULL: no view.
-// Errors: GLINT_DEVICE_FAILED; a kernel that does not compile leaves the build log in
-// error->details.
-glint_status glint_probe_call(glint_probe *probe, glint_probe_part part,
-                              const glint_frame_record *frame, const double *in, double *out,
-                              size_t count, glint_error *error);
+// Elements for a part. `in` and `out` hold numbers of double whatever the precision, rounded to
+// float in single precision.
+typedef struct glint_probe_work {
+    glint_probe_part part;
+    const glint_frame_record *frame; // as from glint_probe_view; NULL: no view
+    const double *in;
+    double *out;
+    size_t count;
+} glint_probe_work;
+
+// Calls a part on the elements. Errors: GLINT_DEVICE_FAILED; a kernel that does not compile leaves
+// the build log in error->details.
+glint_status glint_probe_call(glint_probe *probe, const glint_probe_work *work, glint_error *error);
 
 #endif

@@ -173,10 +173,12 @@ static glint_status trace(pipeline *p, slot *s, glint_error *error)
     const glint_progress progress = {step, p};
     const double begun = glint_now_ms();
     const glint_sequence *sequence = p->sequence;
-    glint_status status = sequence->render != NULL
-                              ? sequence->render(sequence->context, &s->frame, &progress, error)
-                              : glint_renderer_frame(renderer, &s->frame.camera, &progress,
-                                                     &s->frame.image, &s->frame.report, error);
+    glint_status status =
+        sequence->render != NULL
+            ? sequence->render(sequence->context, &s->frame, &progress, error)
+            : glint_renderer_frame(&(glint_frame_request){renderer, &s->frame.camera, &progress,
+                                                          &s->frame.image, &s->frame.report},
+                                   error);
     if (status == GLINT_OK && p->sequence->with_layers) {
         status = glint_renderer_layers(renderer, &s->frame.layers, error);
     }

@@ -124,14 +124,12 @@ glint_status glint_target_layers(const glint_target *target, const glint_setting
                                  glint_layers *layers, glint_error *error)
 {
     const size_t pixels = pixel_count(settings);
-    const int samples = settings->samples_per_axis * settings->samples_per_axis;
     void *records = NULL, *terms = NULL;
     *layers = (glint_layers){0};
     glint_status status = GLINT_OK;
     if (settings->aovs != 0) {
         TRY_OR(cleanup, status, read_part(target, GLINT_TARGET_LAYERS, settings, &records, error));
-        TRY_OR(cleanup, status,
-               glint_layers_make(records, pixels, samples, settings->aovs, layers, error));
+        TRY_OR(cleanup, status, glint_layers_make(records, pixels, settings, layers, error));
     }
     if (settings->terms > 0) {
         TRY_OR(cleanup, status, read_part(target, GLINT_TARGET_TERMS, settings, &terms, error));

@@ -224,7 +224,8 @@ static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthogr
         const glint_camera camera = shape_camera(eye, target, orthographic ? 0 : SHEET_YFOV * nudge,
                                                  2 * nudge * tan(SHEET_YFOV / 2));
         TRY_OR(cleanup, status,
-               glint_renderer_frame(renderer, &camera, NULL, &image, NULL, t->error));
+               glint_renderer_frame(&(glint_frame_request){renderer, &camera, NULL, &image, NULL},
+                                    t->error));
         for (int i = 0; i < SHEET * SHEET; i++) {
             measure_event(leaks, !(image.pixels[4 * i + 3] >= 0),
                           "pixel (%d, %d) looks through the sheet", i % SHEET, i / SHEET);

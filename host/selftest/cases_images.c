@@ -110,10 +110,14 @@ static glint_status measure_rays(trial *t, const glint_camera *camera, const int
         in[i][1] = i < 9 ? rows[which] : floor(trial_random(t, 0, size[1]));
     }
     TRY_OR(cleanup, status,
-           glint_probe_call(probe, GLINT_PROBE_PRIMARY, &frame, in[0], out[0], COUNT, t->error));
-    TRY_OR(cleanup, status,
-           glint_probe_call(probe, GLINT_PROBE_PRIMARY_ORIGIN, &frame, in[0], from[0], COUNT,
+           glint_probe_call(probe,
+                            &(glint_probe_work){GLINT_PROBE_PRIMARY, &frame, in[0], out[0], COUNT},
                             t->error));
+    TRY_OR(cleanup, status,
+           glint_probe_call(
+               probe,
+               &(glint_probe_work){GLINT_PROBE_PRIMARY_ORIGIN, &frame, in[0], from[0], COUNT},
+               t->error));
     for (int i = 0; i < COUNT; i++) {
         double expected[3];
         direction_of(camera, size, in[i][0], in[i][1], expected);
@@ -223,7 +227,9 @@ static glint_status measure_places(trial *t, int edge, glint_measure *wrong)
     }
     glint_status status;
     TRY_OR(cleanup, status,
-           glint_probe_call(probe, GLINT_PROBE_TILE_PLACE, &frame, in[0], out[0], TILES, t->error));
+           glint_probe_call(
+               probe, &(glint_probe_work){GLINT_PROBE_TILE_PLACE, &frame, in[0], out[0], TILES},
+               t->error));
     for (int p = 0; p < TILES; p++) {
         const int64_t across = (int64_t)in[p][0], down = (int64_t)in[p][1];
         const int64_t column = across / frame.band * width;

@@ -260,22 +260,26 @@ cleanup:
 glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part,
                         const trial_numbers *numbers)
 {
-    return glint_probe_call(probe, part, NULL, numbers->in[0], numbers->out[0], numbers->count,
-                            t->error);
+    return glint_probe_call(
+        probe, &(glint_probe_work){part, NULL, numbers->in[0], numbers->out[0], numbers->count},
+        t->error);
 }
 
 glint_status trial_trace(trial *t, glint_probe *probe, const glint_probe_ray *rays,
                          glint_probe_hit *hits, size_t count)
 {
-    return glint_probe_call(probe, GLINT_PROBE_TRACE, NULL, rays->origin, &hits->distance, count,
-                            t->error);
+    return glint_probe_call(
+        probe, &(glint_probe_work){GLINT_PROBE_TRACE, NULL, rays->origin, &hits->distance, count},
+        t->error);
 }
 
 glint_status trial_bounce(trial *t, glint_probe *probe, const glint_probe_ray *rays,
                           glint_probe_bounce *bounces, size_t count)
 {
-    return glint_probe_call(probe, GLINT_PROBE_BOUNCE_RAYS, NULL, rays->origin,
-                            &bounces->hit.distance, count, t->error);
+    return glint_probe_call(probe,
+                            &(glint_probe_work){GLINT_PROBE_BOUNCE_RAYS, NULL, rays->origin,
+                                                &bounces->hit.distance, count},
+                            t->error);
 }
 
 // ---- Frames ------------------------------------------------------------------------------------
@@ -334,7 +338,8 @@ glint_status trial_frame(trial *t, const glint_renderer_inputs *inputs, const gl
     glint_status status;
     TRY_OR(cleanup, status, glint_renderer_create(inputs, &renderer, t->error));
     TRY_OR(cleanup, status,
-           glint_renderer_frame(renderer, camera, NULL, &image, &picture->report, t->error));
+           glint_renderer_frame(
+               &(glint_frame_request){renderer, camera, NULL, &image, &picture->report}, t->error));
     TRY_OR(cleanup, status, read_picture(renderer, &image, picture, t->error));
 cleanup:
     glint_image_free(&image);

@@ -106,12 +106,11 @@ unsigned char *glb_bytes(const void *bytes, size_t size, const char *rest, size_
     return glb;
 }
 
-glint_status load_text(const char *folder, const char *text, const char *scene_name,
-                       glint_scene *scene, glint_warnings *warnings, glint_error *error)
+glint_status load_text(const char *folder, const char *text, glint_scene *scene,
+                       glint_warnings *warnings, glint_error *error)
 {
     const char *path = write_bytes(folder, "test.gltf", text, strlen(text));
-    glint_scene_options options = {.scene = scene_name};
-    return glint_scene_load(path, &options, scene, warnings, error);
+    return glint_scene_load(path, NULL, scene, warnings, error);
 }
 
 glint_scene load_rest(const char *folder, const void *bytes, size_t size, const char *rest)
@@ -119,7 +118,7 @@ glint_scene load_rest(const char *folder, const void *bytes, size_t size, const 
     char *text = gltf_text(bytes, size, rest);
     glint_scene scene;
     glint_error error = {0};
-    if (load_text(folder, text, NULL, &scene, NULL, &error) != GLINT_OK) {
+    if (load_text(folder, text, &scene, NULL, &error) != GLINT_OK) {
         fail_msg("%s", error.message);
     }
     free(text);

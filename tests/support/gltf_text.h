@@ -23,8 +23,8 @@ char *gltf_text(const void *bytes, size_t size, const char *rest);
 unsigned char *glb_bytes(const void *bytes, size_t size, const char *rest, size_t *glb_size);
 
 // Loads folder/test.gltf made of the text. The lists are the caller's to free.
-glint_status load_text(const char *folder, const char *text, const char *scene_name,
-                       glint_scene *scene, glint_warnings *warnings, glint_error *error);
+glint_status load_text(const char *folder, const char *text, glint_scene *scene,
+                       glint_warnings *warnings, glint_error *error);
 
 // gltf_text and load_text, with success asserted.
 glint_scene load_rest(const char *folder, const void *bytes, size_t size, const char *rest);

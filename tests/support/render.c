@@ -87,8 +87,10 @@ void test_render(const glint_scene *scene, const glint_environment *environment,
     glint_renderer *renderer;
     require(glint_renderer_create(&inputs, &renderer, &error), &error);
     frame->plan = *glint_renderer_plan(renderer);
-    require(glint_renderer_frame(renderer, &camera, NULL, &frame->image, &frame->report, &error),
-            &error);
+    require(
+        glint_renderer_frame(
+            &(glint_frame_request){renderer, &camera, NULL, &frame->image, &frame->report}, &error),
+        &error);
     if (frame->plan.precision == GLINT_PRECISION_DOUBLE) {
         require(glint_renderer_exact_pixels(renderer, &frame->exact, &error), &error);
     } else {

@@ -200,22 +200,29 @@ double test_half_area(const float low[3], const float high[3])
     return x * y + y * z + z * x;
 }
 
-// `low` and `high` are the box of the node; `waiting` what a traversal may have on its stack.
-static void visit(test_walk *w, size_t node, const float low[3], const float high[3], int depth,
-                  int waiting)
+// A node, its box, and what a traversal may have on its stack there.
+typedef struct visited {
+    size_t node;
+    const float *low, *high; // [3]
+    int depth, waiting;
+} visited;
+
+static void visit(test_walk *w, const visited *at)
 {
+    const float *low = at->low, *high = at->high;
+    const int waiting = at->waiting;
     int width = w->bvh->width, used = 0;
-    const float *base = w->bvh->nodes + node * GLINT_NODE_VALUES * (size_t)width;
+    const float *base = w->bvh->nodes + at->node * GLINT_NODE_VALUES * (size_t)width;
     w->nodes++;
-    w->depth = depth + 1 > w->depth ? depth + 1 : w->depth;
+    w->depth = at->depth + 1 > w->depth ? at->depth + 1 : w->depth;
     while (used < width && base[used] < GLINT_FAR) {
         used++;
     }
-    assert_true(used >= 2 || node == 0);
+    assert_true(used >= 2 || at->node == 0);
     w->stack_need = waiting + used > w->stack_need ? waiting + used : w->stack_need;
     for (int c = 0; c < width; c++) {
         float child_low[3], child_high[3];
-        int32_t child = test_tree_child(w->bvh, node, c);
+        int32_t child = test_tree_child(w->bvh, at->node, c);
         for (int k = 0; k < 3; k++) {
             child_low[k] = base[k * width + c];
             child_high[k] = base[(3 + k) * width + c];
@@ -233,7 +240,8 @@ static void visit(test_walk *w, size_t node, const float low[3], const float hig
         w->area += test_half_area(child_low, child_high);
         if (child >= 0) {
             assert_in_range(child, 1, w->bvh->node_count - 1);
-            visit(w, (size_t)child, child_low, child_high, depth + 1, waiting + used - 1);
+            visit(w, &(visited){(size_t)child, child_low, child_high, at->depth + 1,
+                                waiting + used - 1});
             continue;
         }
         int32_t cluster = ~child;
@@ -267,7 +275,7 @@ test_walk test_tree_check(const test_soup *s, const glint_bvh *bvh)
     assert_non_null(w.seen);
     const float low[3] = {-INFINITY, -INFINITY, -INFINITY};
     const float high[3] = {INFINITY, INFINITY, INFINITY};
-    visit(&w, 0, low, high, 0, 0);
+    visit(&w, &(visited){0, low, high, 0, 0});
     for (size_t i = 0; i < s->count; i++) {
         assert_int_equal(w.seen[i], s->flat == NULL || !s->flat[i]);
     }

@@ -259,13 +259,10 @@ static glint_status compare_scene(bench_work *work, const json_t *entry, glint_e
 {
     const bench_request *request = work->request;
     const char *name = glint_json_text_at(entry, "name");
-    double margin = request->margin >= 0 ? request->margin : DEFAULT_MARGIN;
+    const double margin = request->margin >= 0 ? request->margin : DEFAULT_MARGIN;
+    const glint_baseline baseline = {work->baseline, request->baseline, margin / 100};
     glint_comparison comparison;
-    glint_status status = glint_baseline_compare(work->baseline, request->baseline, entry,
-                                                 margin / 100, &comparison, error);
-    if (status != GLINT_OK) {
-        return status;
-    }
+    TRY(glint_baseline_compare(&baseline, entry, &comparison, error));
     work->compared += comparison.verdict != GLINT_VERDICT_MISSING;
     work->slower += comparison.verdict == GLINT_VERDICT_SLOWER;
     (void)json_array_append_new(work->comparisons, glint_comparison_json(name, &comparison));

@@ -198,9 +198,8 @@ static glint_status read_subject(char *const *arguments, int count, farm_subject
     render_request *request = &subject->request;
     glint_command_render.set_defaults(request);
     request->shard = (glint_shard){0}; // to see whether one is given
-    glint_arguments found;
-    glint_status status = glint_options_parse(&glint_command_render, subject->count, subject->words,
-                                              request, &found, error);
+    glint_arguments found = {.words = subject->words, .word_count = subject->count};
+    glint_status status = glint_options_parse(&glint_command_render, request, &found, error);
     if (status == GLINT_OK && found.help) {
         return glint_fail(error, GLINT_USAGE, "--help is no sequence (glint help render)");
     }
@@ -378,7 +377,7 @@ static glint_status submit_parts(const farm_job *job, const char *frames_folder,
     TRY(glint_folder_make(frames_folder, NULL, error));
     TRY(glint_folder_make(job->folder, NULL, error));
     TRY_OR(cleanup, status, put_script(job, "job.sh", script, &path, error));
-    status = farm_slurm_submit(&job->slurm, path, NULL, false, id, error);
+    status = farm_slurm_submit(&job->slurm, &(farm_submission){.path = path}, id, error);
 
 cleanup:
     free(path);
@@ -392,7 +391,7 @@ static glint_status submit_report(const farm_job *job, const char *after, bool w
     glint_status status;
     TRY_OR(cleanup, status, farm_slurm_report_script(&job->slurm, after, &script, error));
     TRY_OR(cleanup, status, put_script(job, "report.sh", script, &path, error));
-    status = farm_slurm_submit(&job->slurm, path, after, wait, id, error);
+    status = farm_slurm_submit(&job->slurm, &(farm_submission){path, after, wait}, id, error);
 
 cleanup:
     free(script);

@@ -279,9 +279,10 @@ static int run_program(char *const *words, char *output, size_t capacity, int *c
     return *cause == 0 && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
 }
 
-glint_status farm_slurm_submit(const farm_slurm *slurm, const char *path, const char *after,
-                               bool wait, char id[FARM_ID_CAPACITY], glint_error *error)
+glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *submission,
+                               char id[FARM_ID_CAPACITY], glint_error *error)
 {
+    const char *path = submission->path, *after = submission->after;
     char dependency[96];
     snprintf(dependency, sizeof dependency, "--dependency=afterany:%s", after != NULL ? after : "");
     char *words[6] = {"sbatch", "--parsable"};
@@ -289,7 +290,7 @@ glint_status farm_slurm_submit(const farm_slurm *slurm, const char *path, const 
     if (after != NULL) {
         words[count++] = dependency;
     }
-    if (wait) {
+    if (submission->wait) {
         words[count++] = "--wait";
     }
     words[count] = (char *)path;
@@ -306,7 +307,8 @@ glint_status farm_slurm_submit(const farm_slurm *slurm, const char *path, const 
         return glint_fail(error, GLINT_DEVICE_FAILED,
                           "%s: sbatch did not take it (its own words stand above)", path);
     }
-    return status == 0 ? GLINT_OK
-                       : glint_fail(error, wait ? GLINT_FRAMES_FAILED : GLINT_DEVICE_FAILED,
-                                    "%s: sbatch ended with status %d", path, status);
+    return status == 0
+               ? GLINT_OK
+               : glint_fail(error, submission->wait ? GLINT_FRAMES_FAILED : GLINT_DEVICE_FAILED,
+                            "%s: sbatch ended with status %d", path, status);
 }

@@ -30,12 +30,17 @@ glint_status farm_slurm_script(const farm_slurm *slurm, char **script, glint_err
 glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, char **script,
                                       glint_error *error);
 
-// Hands the script in that stands at `path`, as job `id`; with `after`, once that job's parts have
-// ended, however they did; with `wait`, returns once it has ended. sbatch's own messages go to
-// stderr; variables of the environment that would beat the script's options are unset. Errors:
-// GLINT_DEVICE_FAILED where there is no sbatch or it refuses; GLINT_FRAMES_FAILED if it was waited
-// for and failed.
-glint_status farm_slurm_submit(const farm_slurm *slurm, const char *path, const char *after,
-                               bool wait, char id[FARM_ID_CAPACITY], glint_error *error);
+// A script to hand in.
+typedef struct farm_submission {
+    const char *path;
+    const char *after; // a job: once its parts have ended, however they did; NULL: at once
+    bool wait;         // until it has ended
+} farm_submission;
+
+// Hands the script in, as job `id`. sbatch's own messages go to stderr; variables of the
+// environment that would beat the script's options are unset. Errors: GLINT_DEVICE_FAILED where
+// there is no sbatch or it refuses; GLINT_FRAMES_FAILED if it was waited for and failed.
+glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *submission,
+                               char id[FARM_ID_CAPACITY], glint_error *error);
 
 #endif

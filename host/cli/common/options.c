@@ -193,12 +193,12 @@ static glint_status check_positionals(const glint_command *command,
     return GLINT_OK;
 }
 
-glint_status glint_options_parse(const glint_command *command, int argc, char **argv, void *request,
+glint_status glint_options_parse(const glint_command *command, void *request,
                                  glint_arguments *arguments, glint_error *error)
 {
-    *arguments = (glint_arguments){.words = argv, .word_count = argc};
-    parsing p = {.command = command, .request = request, .end = argv + argc};
-    char **word = argv + 1;
+    char **const end = arguments->words + arguments->word_count;
+    parsing p = {.command = command, .request = request, .end = end};
+    char **word = arguments->words + 1;
     size_t waiting = 0; // positional arguments, which stand before `word`
     bool are_options = true;
     while (word < p.end && are_options && !p.help) {
@@ -217,6 +217,6 @@ glint_status glint_options_parse(const glint_command *command, int argc, char **
     }
     arguments->help = p.help;
     arguments->positionals = word - waiting;
-    arguments->positional_count = (int)(argv + argc - arguments->positionals);
+    arguments->positional_count = (int)(end - arguments->positionals);
     return p.help ? GLINT_OK : check_positionals(command, arguments, error);
 }

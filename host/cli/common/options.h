@@ -15,8 +15,8 @@ typedef struct glint_arguments {
     bool help;                // --help was given: nothing else was looked at
     char *const *positionals; // borrowed from argv, in the order of the command line
     int positional_count;
-    char *const *words; // all of the command line, from the command's name on; borrowed likewise.
-    int word_count;     // Options stand before the positional arguments
+    char **words;   // all of the command line, from the command's name on; borrowed. Options stand
+    int word_count; // before the positional arguments
 } glint_arguments;
 
 typedef struct glint_command {
@@ -53,11 +53,11 @@ typedef struct glint_option_cursor {
 // The next row, which is good until the next call; NULL at the end.
 const glint_option *glint_option_next(glint_option_cursor *cursor);
 
-// Parses argv[1 … argc − 1] (argv[0] is the command's name) into `request`, which holds the
-// defaults already. Options may stand before and after the positional arguments; "--" ends them.
-// argv is sorted: options first. Names are not abbreviated: what is short today is ambiguous with
-// tomorrow's options. Errors: GLINT_USAGE.
-glint_status glint_options_parse(const glint_command *command, int argc, char **argv, void *request,
+// Parses arguments->words (word_count of them, the command's name first) into `request`, which
+// holds the defaults already, and fills the rest of *arguments. Options may stand before and after
+// the positional arguments; "--" ends them. The words are sorted: options first. Names are not
+// abbreviated: what is short today is ambiguous with tomorrow's options. Errors: GLINT_USAGE.
+glint_status glint_options_parse(const glint_command *command, void *request,
                                  glint_arguments *arguments, glint_error *error);
 
 // Prints the command's help, at most `columns` wide.

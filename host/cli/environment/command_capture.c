@@ -137,7 +137,8 @@ static glint_status render(capture *work, const char *path, glint_cube *cube, gl
     const glint_progress progress = {step, &work->display};
     glint_frame_report report = {0};
     glint_signals_cooperate(true);
-    glint_status status = glint_capture(work->renderer, work->at, &progress, cube, &report, error);
+    glint_status status = glint_capture(
+        &(glint_capture_request){work->renderer, work->at, &progress, &report}, cube, error);
     glint_signals_cooperate(false);
     glint_progress_clear(&work->display);
     if (report.nonfinite_pixels > 0) {

@@ -115,7 +115,8 @@ glint_status render_capture_take(render_capture *capture, const render_request *
     const double begun = glint_now_ms();
     glint_cube cube = {0};
     TRY(prepare_renderer(capture, request, device, error));
-    TRY(glint_capture(capture->renderer, capture->at, &progress, &cube, NULL, error));
+    TRY(glint_capture(&(glint_capture_request){capture->renderer, capture->at, &progress, NULL},
+                      &cube, error));
     char *name = name_of(capture, request);
     if (name == NULL) {
         glint_cube_free(&cube);

@@ -22,6 +22,7 @@ static glint_stats stats_of(const render_run *run, const glint_subject *subject)
         .output = run->request->output,
         .phases = glint_renderer_phases(run->tracer.renderer),
         .frame = &frames->last,
+        .frames = frames->count,
         .load_scene_ms = inputs->scene_ms,
         .load_environment_ms = inputs->environment_ms,
         .encode_ms = frames->totals.write.sum,
@@ -42,7 +43,7 @@ static glint_status open_stats(render_run *run, glint_error *error)
     const glint_stats stats = stats_of(run, &subject);
     FILE *file;
     TRY(glint_open_lines(path, &file, error));
-    return glint_stats_log_open(file, path, &stats, run->frames.count, &run->frames.log, error);
+    return glint_stats_log_open(file, path, &stats, &run->frames.log, error);
 }
 
 static glint_status finish_stats(render_run *run, glint_error *error)

@@ -94,21 +94,26 @@ static void format_value(const json_t *value, char *text, size_t capacity)
     free(dump);
 }
 
-static glint_status fail_different(const char *path, const char *scene, const char *what,
-                                   const json_t *now, const json_t *before, glint_error *error)
+// An entry of a baseline.
+typedef struct place {
+    const char *path, *scene;
+} place;
+
+static glint_status fail_different(const place *at, const char *what, const json_t *now,
+                                   const json_t *before, glint_error *error)
 {
     char here[128], there[128];
     format_value(now, here, sizeof here);
     format_value(before, there, sizeof there);
     return glint_fail(error, GLINT_BAD_INPUT,
                       "%s: scene %s: %s is %s there and %s here (only like is compared with like)",
-                      path, scene, what, there, here);
+                      at->path, at->scene, what, there, here);
 }
 
 // `what` is the member's name; where it is an object, the first of its members that differs is
 // named.
-static glint_status check_member(const char *path, const char *scene, const char *what, json_t *now,
-                                 json_t *before, glint_error *error)
+static glint_status check_member(const place *at, const char *what, json_t *now, json_t *before,
+                                 glint_error *error)
 {
     if (json_equal(now, before)) {
         return GLINT_OK;
@@ -121,17 +126,17 @@ static glint_status check_member(const char *path, const char *scene, const char
         if (!json_equal(value, other)) {
             char name[128];
             snprintf(name, sizeof name, "%s.%s", what, key);
-            return fail_different(path, scene, name, value, other, error);
+            return fail_different(at, name, value, other, error);
         }
     }
-    return fail_different(path, scene, what, now, before, error);
+    return fail_different(at, what, now, before, error);
 }
 
-static glint_status check_identity(const char *path, const char *name, const json_t *now,
-                                   const json_t *before, glint_error *error)
+static glint_status check_identity(const place *at, const json_t *now, const json_t *before,
+                                   glint_error *error)
 {
     for (size_t i = 0; i < sizeof identity / sizeof *identity; i++) {
-        TRY(check_member(path, name, identity[i], glint_json_at(now, identity[i]),
+        TRY(check_member(at, identity[i], glint_json_at(now, identity[i]),
                          glint_json_at(before, identity[i]), error));
     }
     return GLINT_OK;
@@ -142,8 +147,8 @@ typedef struct times {
     double median, lower, upper;
 } times;
 
-static glint_status read_times(const char *path, const char *name, const json_t *scene,
-                               times *result, glint_error *error)
+static glint_status read_times(const place *at, const json_t *scene, times *result,
+                               glint_error *error)
 {
     const json_t *kernel = glint_json_at(scene, "frames.kernel");
     *result =
@@ -155,7 +160,7 @@ static glint_status read_times(const char *path, const char *name, const json_t 
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: scene %s: frames.kernel holds no median and quartiles (it was not "
                           "measured, or its picture was wrong)",
-                          path, name);
+                          at->path, at->scene);
     }
     return GLINT_OK;
 }
@@ -171,20 +176,22 @@ static glint_verdict judge(const times *before, const times *now, double margin)
     return GLINT_VERDICT_SAME;
 }
 
-glint_status glint_baseline_compare(const json_t *baseline, const char *path, const json_t *scene,
-                                    double margin, glint_comparison *comparison, glint_error *error)
+glint_status glint_baseline_compare(const glint_baseline *baseline, const json_t *scene,
+                                    glint_comparison *comparison, glint_error *error)
 {
     *comparison = (glint_comparison){GLINT_VERDICT_MISSING, NAN, NAN};
     const char *name = glint_json_text_at(scene, "name");
-    const json_t *earlier = find_scene(baseline, name);
+    const json_t *earlier = find_scene(baseline->document, name);
     if (earlier == NULL) {
         return GLINT_OK;
     }
+    const place there = {baseline->path, name}, here = {"this run", name};
     times before = {0}, now = {0};
-    TRY(check_identity(path, name, scene, earlier, error));
-    TRY(read_times(path, name, earlier, &before, error));
-    TRY(read_times("this run", name, scene, &now, error));
-    *comparison = (glint_comparison){judge(&before, &now, margin), before.median, now.median};
+    TRY(check_identity(&there, scene, earlier, error));
+    TRY(read_times(&there, earlier, &before, error));
+    TRY(read_times(&here, scene, &now, error));
+    *comparison =
+        (glint_comparison){judge(&before, &now, baseline->margin), before.median, now.median};
     return GLINT_OK;
 }
 

@@ -20,14 +20,20 @@ typedef struct glint_comparison {
 // Reads the file and checks its form. `*baseline` is a new reference. Errors: GLINT_BAD_INPUT.
 glint_status glint_baseline_load(const char *path, json_t **baseline, glint_error *error);
 
-// Compares `scene`, an entry of this run that was measured, with the entry of that name. Slower is
-// a median more than `margin` (0.1 is 10%) above the earlier one, with the middle halves of both
-// rows of times apart: a shift that the noise of either could explain is none. Faster is the same
-// the other way round. Refuses, with GLINT_BAD_INPUT and what differs, an entry of another device,
+// What a run is compared with. Borrowed.
+typedef struct glint_baseline {
+    const json_t *document; // as loaded
+    const char *path;       // for messages
+    double margin;          // 0.1 is 10%
+} glint_baseline;
+
+// Compares `scene`, an entry of this run that was measured, with the entry of that name. Slower
+// is a median more than the margin above the earlier one, with the middle halves of both rows of
+// times apart: a shift that the noise of either could explain is none. Faster is the same the
+// other way round. Refuses, with GLINT_BAD_INPUT and what differs, an entry of another device,
 // of other settings, or of another scene, environment or camera under the same name.
-glint_status glint_baseline_compare(const json_t *baseline, const char *path, const json_t *scene,
-                                    double margin, glint_comparison *comparison,
-                                    glint_error *error);
+glint_status glint_baseline_compare(const glint_baseline *baseline, const json_t *scene,
+                                    glint_comparison *comparison, glint_error *error);
 
 // The comparison as JSON: "verdict", "milliseconds_before", "milliseconds_now", "change" (0.1: this
 // run takes 10% longer); the numbers are null where the scene is missing.

@@ -89,8 +89,10 @@ static glint_status render_first(bench_run *run, glint_error *error)
 {
     glint_bench_result *result = run->result;
     const glint_progress progress = glint_bench_progress(&run->watcher);
-    glint_status status = glint_renderer_frame(run->renderer, run->inputs->camera, &progress,
-                                               &run->first, &result->report, error);
+    glint_status status =
+        glint_renderer_frame(&(glint_frame_request){run->renderer, run->inputs->camera, &progress,
+                                                    &run->first, &result->report},
+                             error);
     result->plan = *glint_renderer_plan(run->renderer); // as it suits the camera
     result->phases = *glint_renderer_phases(run->renderer);
     result->first_frame_ms = result->report.kernel_ms + result->report.readback_ms;
@@ -126,7 +128,9 @@ static glint_status repeat(bench_run *run, glint_frame_report *report, glint_err
 {
     glint_image *image = &run->again;
     const glint_progress progress = glint_bench_progress(&run->watcher);
-    TRY(glint_renderer_frame(run->renderer, run->inputs->camera, &progress, image, report, error));
+    TRY(glint_renderer_frame(
+        &(glint_frame_request){run->renderer, run->inputs->camera, &progress, image, report},
+        error));
     size_t bytes = (size_t)image->width * (size_t)image->height * (size_t)image->channels *
                    sizeof *image->pixels;
     run->result->check.unsteady_frames +=

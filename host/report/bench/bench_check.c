@@ -93,7 +93,8 @@ static glint_status render_references(const glint_bench_judge *judge, glint_imag
     TRY_OR(cleanup, status, glint_renderer_create(&exact, &renderer, error));
     for (int i = 0; i < 2; i++) {
         TRY_OR(cleanup, status,
-               glint_renderer_frame(renderer, &cameras[i], judge->progress, &references[i], NULL,
+               glint_renderer_frame(&(glint_frame_request){renderer, &cameras[i], judge->progress,
+                                                           &references[i], NULL},
                                     error));
     }
 cleanup:

@@ -146,8 +146,7 @@ static json_t *event_object(const char *name)
     return object;
 }
 
-static glint_status add_run(glint_stats_log *log, const glint_stats *run, uint64_t frames,
-                            glint_error *error)
+static glint_status add_run(glint_stats_log *log, const glint_stats *run, glint_error *error)
 {
     json_t *root = event_object("run");
     put_run(root, run);
@@ -155,7 +154,7 @@ static glint_status add_run(glint_stats_log *log, const glint_stats *run, uint64
     glint_machine_describe(&machine);
     glint_json_put_text(root, "host", machine.host);
     glint_json_put_text(root, "date", machine.date);
-    glint_json_put_count(root, "frames", frames);
+    glint_json_put_count(root, "frames", run->frames);
     glint_json_put(root, "milliseconds", preparation_object(run));
     put_subject(root, run->subject);
     glint_json_put(root, "warnings", glint_json_warnings(run->subject->warnings));
@@ -163,7 +162,7 @@ static glint_status add_run(glint_stats_log *log, const glint_stats *run, uint64
 }
 
 glint_status glint_stats_log_open(FILE *file, const char *path, const glint_stats *run,
-                                  uint64_t frames, glint_stats_log **log, glint_error *error)
+                                  glint_stats_log **log, glint_error *error)
 {
     *log = calloc(1, sizeof **log);
     char *copy = strdup(path);
@@ -175,7 +174,7 @@ glint_status glint_stats_log_open(FILE *file, const char *path, const glint_stat
         return glint_fail_memory(error, "the statistics");
     }
     **log = (glint_stats_log){.file = file, .path = copy};
-    glint_status status = add_run(*log, run, frames, error);
+    glint_status status = add_run(*log, run, error);
     if (status != GLINT_OK) {
         glint_stats_log_close(*log);
         *log = NULL;

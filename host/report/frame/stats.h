@@ -17,6 +17,7 @@ typedef struct glint_stats {
     const char *output; // the image's file name
     const glint_phases *phases;
     const glint_frame_report *frame;
+    uint64_t frames; // of a sequence
     double load_scene_ms, load_environment_ms, encode_ms, total_ms;
     double exposure;                  // stops
     const char *plate;                // the background's file as it was given, NULL without one
@@ -56,7 +57,7 @@ typedef struct glint_stats_log glint_stats_log;
 // Begins with a line of the run; of `run`, frame and encode_ms are not used. Takes the file, whose
 // name `path` messages give. Errors: GLINT_OUTPUT_FAILED.
 glint_status glint_stats_log_open(FILE *file, const char *path, const glint_stats *run,
-                                  uint64_t frames, glint_stats_log **log, glint_error *error);
+                                  glint_stats_log **log, glint_error *error);
 glint_status glint_stats_log_frame(glint_stats_log *log, const glint_stats_frame *frame,
                                    glint_error *error);
 // The last line.

@@ -65,7 +65,8 @@ static glint_status render(run *r, glint_renderer *renderer, glint_image *image,
                            glint_frame_report *report, glint_error *error)
 {
     const glint_progress progress = glint_bench_progress(&r->watcher);
-    return glint_renderer_frame(renderer, r->inputs->camera, &progress, image, report, error);
+    return glint_renderer_frame(
+        &(glint_frame_request){renderer, r->inputs->camera, &progress, image, report}, error);
 }
 
 // The one that renders with these settings: the shared one, or one of their own, which is then made
