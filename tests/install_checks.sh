@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is installed works by itself, and says what it misses. install_checks.sh BUILD
+# Installs glint, renders with it, and takes the codec away. install_checks.sh BUILD
 set -eu
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
@@ -15,7 +15,7 @@ render
 [ -s "$prefix/x.png" ]
 rm "$prefix/x.png"
 
-# Without the codec nothing but images is missing.
+# Without the codec glint only lacks images, and says so.
 rm -f "$prefix"/lib*/glint/libglint_codec.so "$prefix"/lib*/*/glint/libglint_codec.so
 "$prefix/bin/glint" info scenes/mirror_sphere.gltf >/dev/null
 status=0

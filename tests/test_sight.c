@@ -26,7 +26,7 @@ static double dented(const double d[3])
     return d[1] > 0.995 ? 0.99 : 1;
 }
 
-// From x0 at height y to x1, where it is higher by `tilt`.
+// From z = −0.4 to 0.4 and from x0, at height y, to x1, at height y + tilt.
 typedef struct quad {
     double y, x0, x1, tilt;
 } quad;

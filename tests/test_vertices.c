@@ -185,8 +185,9 @@ static vertex_light light_at(const oracle_scene *all, const oracle_view *view,
 
 // ---- What a pixel shows ------------------------------------------------------------------------
 
-// Adds what the corners' look-ups of one kind come to. False where some corners make it and others
-// do not, so that it is nobody's business where those would look.
+// Adds the light of the corners' look-ups of one kind: radiance on the viewer's side of the surface
+// (0), radiance on the other side (1), irradiance (2). Returns false where only some corners make
+// that look-up: the interpolated direction is then undefined.
 static bool add_look_up(const oracle_scene *scene, const vertex_light lights[3],
                         const double weights[3], int kind, double rgb[3])
 {

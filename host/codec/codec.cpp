@@ -1,4 +1,4 @@
-// The codec's functions, for who loads it. See image/codec.h.
+// The table of the codec's functions. See image/codec.h.
 #include "codec/decode.hpp"
 
 extern "C" __attribute__((visibility("default")))

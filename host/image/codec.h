@@ -1,6 +1,6 @@
-// What image_io.c has the codec do: a library of its own (host/codec/, libglint_codec.so), which is
-// loaded where the first image is read or written. OpenImageIO brings 260 libraries along, and to
-// link them takes 0.4 s, more than most commands need.
+// The codec: a shared library of its own (host/codec/, libglint_codec.so) that holds all calls of
+// OpenImageIO. image_io.c loads it when glint first reads or writes an image. OpenImageIO depends
+// on 260 libraries. Linking them takes 0.4 s, more than most commands need.
 #ifndef GLINT_IMAGE_CODEC_H
 #define GLINT_IMAGE_CODEC_H
 
@@ -12,9 +12,9 @@ extern "C" {
 #endif
 
 typedef struct glint_codec {
-    const char *version; // GLINT_VERSION: of the same build as the program
-    // As the functions of image_io.h that are called like them, but for what they have made when
-    // they fail: the caller frees that. Zero is what they begin with.
+    const char *version; // GLINT_VERSION: must be that of the program
+    // These work like the functions of the same name in image_io.h, with two differences. The
+    // results are zero when the caller passes them. On failure the caller frees what is in them.
     glint_status (*read)(const glint_image_source *source, glint_image *image,
                          glint_image_facts *facts, glint_error *error);
     glint_status (*read_channels)(const char *path, glint_channels *channels, glint_error *error);

@@ -1,4 +1,4 @@
-// Image files: what needs no codec, and the codec's loading. See image_io.h and codec.h.
+// Image files, by way of the codec. See image_io.h and codec.h.
 #include "image/image_io.h"
 
 #include "image/codec.h"
@@ -15,16 +15,17 @@
 
 // ---- The codec ----------------------------------------------------------------------------------
 
+// `lock` guards the other members.
 static struct {
     pthread_mutex_t lock;
-    const glint_codec *codec; // NULL: not loaded, or not to be loaded
+    const glint_codec *codec; // NULL: not tried yet, or not to be had
     bool is_tried;
-    char fault[GLINT_MESSAGE_CAPACITY];
-    int threads;
+    char fault[GLINT_MESSAGE_CAPACITY]; // why it is not to be had
+    int threads;                        // as asked for; 0: one for each core
 } loaded = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-// It lies beside the program, or where that was installed to: the program's run path. What it
-// brings along is nobody else's, and stays until the process ends.
+// The program's run path says where the library is. RTLD_LOCAL hides the symbols of OpenImageIO's
+// libraries from OpenCL drivers. The library stays until the process ends.
 static const glint_codec *open_codec(char fault[static GLINT_MESSAGE_CAPACITY])
 {
     void *library = dlopen(CODEC_FILE, RTLD_NOW | RTLD_LOCAL);
@@ -32,14 +33,14 @@ static const glint_codec *open_codec(char fault[static GLINT_MESSAGE_CAPACITY])
     if (codec == NULL) {
         snprintf(fault, GLINT_MESSAGE_CAPACITY, "%s", dlerror());
     } else if (strcmp(codec->version, GLINT_VERSION) != 0) {
-        snprintf(fault, GLINT_MESSAGE_CAPACITY, "is of glint %s", codec->version);
+        snprintf(fault, GLINT_MESSAGE_CAPACITY, "it belongs to glint %s", codec->version);
         codec = NULL;
     }
     return codec;
 }
 
-// `status` tells reading from writing, should it not be there.
-static glint_status load_codec(glint_status status, const glint_codec **codec, glint_error *error)
+// Loads the codec at the first call. NULL: it cannot be loaded.
+static const glint_codec *get_codec(void)
 {
     pthread_mutex_lock(&loaded.lock);
     if (!loaded.is_tried) {
@@ -49,11 +50,19 @@ static glint_status load_codec(glint_status status, const glint_codec **codec, g
             loaded.codec->use_threads(loaded.threads);
         }
     }
-    *codec = loaded.codec;
+    const glint_codec *codec = loaded.codec;
     pthread_mutex_unlock(&loaded.lock);
+    return codec;
+}
+
+// `status`: what a reader or a writer fails with.
+static glint_status require_codec(glint_status status, const glint_codec **codec,
+                                  glint_error *error)
+{
+    *codec = get_codec();
     if (*codec == NULL) {
         return glint_fail(error, status,
-                          CODEC_FILE ": what reads and writes images cannot be loaded: %s "
+                          CODEC_FILE ": the image library cannot be loaded: %s "
                                      "(install glint anew)",
                           loaded.fault);
     }
@@ -66,8 +75,7 @@ static bool is_loading;
 static void *load_beside(void *unused)
 {
     (void)unused;
-    const glint_codec *codec;
-    (void)load_codec(GLINT_OK, &codec, NULL); // who needs it finds out
+    (void)get_codec(); // readers and writers report a failure
     return NULL;
 }
 
@@ -103,7 +111,7 @@ glint_status glint_image_read(const char *path, glint_image *image, glint_image_
     const glint_codec *codec;
     glint_image_source source;
     TRY(glint_image_find_source(path, &source, error));
-    TRY(load_codec(GLINT_BAD_INPUT, &codec, error));
+    TRY(require_codec(GLINT_BAD_INPUT, &codec, error));
     const glint_status status = codec->read(&source, image, facts, error);
     if (status != GLINT_OK) {
         glint_image_free(image);
@@ -116,7 +124,7 @@ glint_status glint_image_read_channels(const char *path, glint_channels *channel
 {
     *channels = (glint_channels){0};
     const glint_codec *codec;
-    TRY(load_codec(GLINT_BAD_INPUT, &codec, error));
+    TRY(require_codec(GLINT_BAD_INPUT, &codec, error));
     const glint_status status = codec->read_channels(path, channels, error);
     if (status != GLINT_OK) {
         glint_channels_free(channels);
@@ -166,7 +174,7 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
     if (image->pixels == NULL) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
     }
-    TRY(load_codec(GLINT_OUTPUT_FAILED, &codec, error));
+    TRY(require_codec(GLINT_OUTPUT_FAILED, &codec, error));
     return codec->encode(path, image, options != NULL ? options : &defaults, encoded, error);
 }
 

@@ -113,9 +113,10 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
                                 const glint_write_options *options, glint_encoded *encoded,
                                 glint_error *error);
 
-// Begins to load OpenImageIO beside the caller, who will read or write an image later, and waits
-// until that is done. Without the second the process must not end: libraries would go while they
-// come. Both are for one thread.
+// glint_image_load_ahead starts a thread that loads OpenImageIO, for a caller who reads or writes
+// an image later. The caller must call glint_image_end_loading, which joins the thread, before the
+// process exits: exit handlers unload libraries, and must not while the thread loads them. Both
+// functions belong to the main thread.
 void glint_image_load_ahead(void);
 void glint_image_end_loading(void);
 

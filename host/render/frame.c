@@ -44,7 +44,9 @@ glint_status glint_renderer_frame(const glint_frame_request *request, glint_erro
 {
     glint_frame_report unused = {0};
     glint_frame_request full = *request;
-    full.report = request->report != NULL ? request->report : &unused;
+    if (full.report == NULL) {
+        full.report = &unused;
+    }
     *full.report = (glint_frame_report){0};
     const glint_status status = render(&full, error);
     if (status != GLINT_OK) {

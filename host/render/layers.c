@@ -1,11 +1,10 @@
 // Diagnostic layers of a frame. See layers.h.
 #include "render/layers.h"
 
-#include "render/settings.h"
-
 #include "base/memory.h"
 #include "base/option.h"
 #include "kernels/layout.h"
+#include "render/settings.h"
 
 #include <stdio.h>
 #include <stdlib.h>
