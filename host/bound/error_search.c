@@ -35,7 +35,7 @@
 // The grid's own reference may end branches of the bound over this: what that leaves out is some
 // hundredths of the bound.
 #define REFERENCE_SHARE 256
-// Half texels err by up to some 10⁻⁴ (render/plan.c).
+// Half texels err by up to some 10⁻⁴ (render/plan_device.c).
 #define HALF_TEXELS_FROM 1e-3
 // Least weights are 2^(−step/2).
 #define CHAOS_STEP 12 // 1/64: what single precision errs by is looked for with no finer weights

@@ -1,4 +1,4 @@
-// Scenes loaded ahead. See render_ahead.h.
+// Scenes loaded ahead. See ahead.h.
 #include "cli/render/ahead.h"
 
 #include "base/clock.h"

@@ -1,4 +1,4 @@
-// What is checked of glint render's options. See render_request.h.
+// What is checked of glint render's options. See request.h.
 #include "cli/render/request.h"
 
 #include "cli/common/file_names.h"
