@@ -8,7 +8,7 @@ packages_to_build='
     cmake/cmake ninja-build/ninja gcc/gcc g++/g++ pkg-config/pkg-config
     pocl-opencl-icd ocl-icd-opencl-dev opencl-c-headers
     libopenimageio-dev libtinygltf-dev nlohmann-json3-dev libjansson-dev
-    libxxhash-dev'
+    libxxhash-dev libseccomp-dev'
 
 packages_to_test='
     libcmocka-dev oclgrind/oclgrind clang/clang clang-tidy/clang-tidy
@@ -28,7 +28,8 @@ packages_to_test_fully='
     slurmctld slurmd slurm-client munge procps/pkill'
 
 needs_in_words="CMake 3.25, a C11 and C++17 compiler, pkg-config, an OpenCL ICD loader with its \
-headers, PoCL or another OpenCL 1.2 driver, OpenImageIO, tinygltf, nlohmann-json, jansson and xxHash"
+headers, PoCL or another OpenCL 1.2 driver, OpenImageIO, tinygltf, nlohmann-json, jansson, xxHash and \
+libseccomp"
 
 say() {
     printf 'glint: %s\n' "$*" >&2

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs glint, renders with it, and takes the codec away. install_checks.sh BUILD
+# Installs glint, renders with it, and takes the decoder and the codec away. install_checks.sh BUILD
 set -eu
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
@@ -11,16 +11,29 @@ render() {
 cd "$(dirname "$0")/.."
 # ./glint builds the program's target alone.
 [ ! -f "$1/build.ninja" ] || ninja -C "$1" -t inputs glint | grep -q libglint_codec.so
+"$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr >/dev/null
 render
 [ -s "$prefix/x.png" ]
 rm "$prefix/x.png"
 
-# Without the codec glint only lacks images, and says so.
+# Without the decoder glint reads no images, and says so.
+# refused STATUS FILE: the last command line's message names the file that is missing.
+refused() {
+    [ "$status" = "$1" ]
+    [ "$(wc -l <<<"$message")" = 1 ]
+    grep -q "^glint: $2: .*(install glint anew)$" <<<"$message"
+    [ ! -e "$prefix/x.png" ]
+}
+rm -f "$prefix"/lib*/glint/glint-decoder "$prefix"/lib*/*/glint/glint-decoder
+render
+rm "$prefix/x.png"
+status=0
+message=$("$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr 2>&1) || status=$?
+refused 3 glint-decoder
+
+# Without the codec it writes none.
 rm -f "$prefix"/lib*/glint/libglint_codec.so "$prefix"/lib*/*/glint/libglint_codec.so
 "$prefix/bin/glint" info scenes/mirror_sphere.gltf >/dev/null
 status=0
 message=$(render 2>&1) || status=$?
-[ "$status" = 5 ]
-[ "$(wc -l <<<"$message")" = 1 ]
-grep -q '^glint: libglint_codec.so: .*(install glint anew)$' <<<"$message"
-[ ! -e "$prefix/x.png" ]
+refused 5 libglint_codec.so

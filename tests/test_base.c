@@ -1,6 +1,8 @@
 // Properties of the lowest floor: errors, warnings, allocation, vectors.
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/plain_text.h"
+#include "base/regular_file.h"
 #include "base/status.h"
 #include "base/vector.h"
 
@@ -8,8 +10,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -137,11 +142,60 @@ static void normals_stay_perpendicular_and_outside_under_any_matrix(void **state
     assert_true(glint_vec3_dot(tn, glint_vec3_cross(tb, ta)) > 0);
 }
 
+static void text_becomes_plain(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *plain;
+    } cases[] = {
+        {"", ""},
+        {"gallery é 漢 \U0001f48e ~", "gallery é 漢 \U0001f48e ~"},
+        {"a\x1b[31mb\a\b\t\n\r\x7f", "a?[31mb??????"},
+        {"\xc2\x9b"
+         "1m \xc2\x80 \xc2\x9f \u00a0",
+         "?1m ? ? \u00a0"},
+        {"\u202etxt.exe\u2066 \u200f \u2028 \u061c", "?txt.exe? ? ? ?"},
+        {"\xc2", "?"},                                      // cut short
+        {"\xe2\x80", "??"},                                 // likewise
+        {"\xc0\x9b \xe0\x80\x9b", "?? ???"},                // ESC in more bytes than it needs
+        {"\xed\xa0\x80 \xf4\x90\x80\x80 \xff", "? ???? ?"}, // a surrogate; beyond the last one
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "%s", cases[i].text);
+        assert_int_equal(glint_is_plain(text), strcmp(cases[i].text, cases[i].plain) == 0);
+        glint_make_plain(text);
+        assert_string_equal(text, cases[i].plain);
+        assert_true(glint_is_plain(text));
+    }
+    assert_true(glint_is_plain("two\nlines"));
+}
+
+static void pipes_are_not_waited_for(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/glint-base-XXXXXX", pipe[64];
+    FILE *file;
+    glint_error error = {0};
+    assert_non_null(mkdtemp(folder));
+    snprintf(pipe, sizeof pipe, "%s/pipe", folder);
+    assert_int_equal(mkfifo(pipe, 0600), 0);
+    assert_int_equal(glint_regular_file_open(pipe, &file, NULL, &error), GLINT_BAD_INPUT);
+    assert_null(file);
+    assert_non_null(strstr(error.message, "no regular file"));
+    assert_int_equal(glint_regular_file_open(folder, &file, NULL, &error), GLINT_BAD_INPUT);
+    assert_non_null(strstr(error.message, "is a folder"));
+    unlink(pipe);
+    rmdir(folder);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_error_is_one_line_whatever_it_quotes),
         cmocka_unit_test(a_long_message_is_cut_not_overrun),
+        cmocka_unit_test(text_becomes_plain),
+        cmocka_unit_test(pipes_are_not_waited_for),
         cmocka_unit_test(a_warning_is_said_once),
         cmocka_unit_test(allocation_is_zeroed_aligned_and_safe_from_overflow),
         cmocka_unit_test(large_memory_is_aligned_and_safe_from_overflow),

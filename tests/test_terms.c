@@ -214,6 +214,9 @@ static void files_without_terms_are_refused(void **state)
     }
     scratch_write("text.exr", "no picture", -1);
     assert_int_equal(glint_terms_read(scratch_path("text.exr"), &terms, &error), GLINT_BAD_INPUT);
+    assert_non_null(strstr(error.message, "is no image"));
+    assert_int_equal(glint_image_write(scratch_path("a.png"), &image, NULL, NULL), GLINT_OK);
+    assert_int_equal(glint_terms_read(scratch_path("a.png"), &terms, &error), GLINT_BAD_INPUT);
     assert_non_null(strstr(error.message, "is no EXR"));
     assert_int_equal(glint_terms_read(scratch_path("missing.exr"), &terms, &error),
                      GLINT_BAD_INPUT);

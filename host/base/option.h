@@ -19,14 +19,14 @@ typedef enum glint_option_kind {
     GLINT_OPTION_LAST,     // no option: the end of a table
     GLINT_OPTION_HEADING,  // no option: the title of the rows that follow
     GLINT_OPTION_SETTINGS, // no option: stands for a group of the table of settings
-    GLINT_OPTION_FLAG,     // no argument; sets a bool
-    GLINT_OPTION_TEXT,     // const char *, borrowed from argv; an empty text is refused
-    GLINT_OPTION_INT,      // int within [minimum, maximum]
-    GLINT_OPTION_REAL,     // double within [minimum, maximum], finite
-    GLINT_OPTION_SIZE,     // int[2], "1920x1080", each within [minimum, maximum]
-    GLINT_OPTION_CHOICE,   // int or an enum, the index of the word within `choices`
-    GLINT_OPTION_ONE_OF,   // int, one of the numbers in `choices`
-    GLINT_OPTION_CUSTOM,   // whatever `parse` makes of it
+    GLINT_OPTION_FLAG,   // no argument; sets a bool, or calls `parse` with NULL where there is one
+    GLINT_OPTION_TEXT,   // const char *, borrowed from argv; an empty text is refused
+    GLINT_OPTION_INT,    // int within [minimum, maximum]
+    GLINT_OPTION_REAL,   // double within [minimum, maximum], finite
+    GLINT_OPTION_SIZE,   // int[2], "1920x1080", each within [minimum, maximum]
+    GLINT_OPTION_CHOICE, // int or an enum, the index of the word within `choices`
+    GLINT_OPTION_ONE_OF, // int, one of the numbers in `choices`
+    GLINT_OPTION_CUSTOM, // whatever `parse` makes of it
 } glint_option_kind;
 
 // One row of a command's table. An option that is given twice takes its last value, so that a

@@ -1,21 +1,12 @@
 // The error idiom and the list of warnings. See status.h.
 #include "base/status.h"
 
+#include "base/plain_text.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-// A message is one line: nothing in a file name or a file may break it or drive the terminal.
-static void replace_control_characters(char *text)
-{
-    for (; *text != '\0'; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c < 0x20 || c == 0x7f) {
-            *text = '?';
-        }
-    }
-}
 
 glint_status glint_fail(glint_error *error, glint_status code, const char *format, ...)
 {
@@ -27,7 +18,7 @@ glint_status glint_fail(glint_error *error, glint_status code, const char *forma
     va_start(arguments, format);
     vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
-    replace_control_characters(error->message);
+    glint_make_plain(error->message);
     return code;
 }
 
@@ -57,7 +48,7 @@ void glint_warn(glint_warnings *warnings, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    replace_control_characters(text);
+    glint_make_plain(text);
     if (already_said(warnings, text)) {
         return;
     }

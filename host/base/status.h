@@ -43,8 +43,8 @@ typedef struct glint_error {
 } glint_error;
 
 // Records the failure and returns `code`, so that a caller can write `return glint_fail(…)`.
-// `error` may be NULL. Control characters in the formatted text become '?', so that the message
-// stays one line whatever a file name or a file's content holds.
+// `error` may be NULL. What is not plain in the formatted text becomes '?' (plain_text.h),
+// so that the message stays one line whatever a file name or a file's content holds.
 glint_status glint_fail(glint_error *error, glint_status code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

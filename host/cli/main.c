@@ -2,6 +2,7 @@
 // Nothing else prints an error or exits.
 #include "cli/commands.h"
 #include "cli/common/options.h"
+#include "cli/common/plain_stdout.h"
 #include "cli/common/say.h"
 #include "cli/common/signals.h"
 
@@ -128,37 +129,31 @@ static glint_status dispatch(int argc, char **argv, glint_error *error)
 }
 
 // A file opened while one of the three standard streams is closed would take its number, and get
-// its messages.
+// its messages. Where standard output is closed, writing to it stays an error.
 static void open_standard_streams(void)
 {
     int descriptor;
     do {
         descriptor = open("/dev/null", O_RDWR);
+        if (descriptor == STDOUT_FILENO) {
+            close(descriptor);
+            descriptor = open("/dev/null", O_RDONLY);
+        }
     } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
     if (descriptor > STDERR_FILENO) {
         close(descriptor);
     }
 }
 
-// Results that did not reach stdout are a failure; a reader that has seen enough is none.
-static glint_status finish_stdout(glint_error *error)
-{
-    errno = 0;
-    if ((fflush(stdout) != 0 || ferror(stdout)) && errno != EPIPE) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED, "standard output: %s",
-                          errno != 0 ? strerror(errno) : "it could not be written");
-    }
-    return GLINT_OK;
-}
-
 int main(int argc, char **argv)
 {
     open_standard_streams();
+    glint_plain_stdout_begin();
     glint_signals_install();
     glint_error error = {0};
     glint_status status = dispatch(argc, argv, &error);
     if (status == GLINT_OK) {
-        status = finish_stdout(&error);
+        status = glint_plain_stdout_end(&error);
     }
     if (status == GLINT_INTERRUPTED) {
         glint_error_free(&error);

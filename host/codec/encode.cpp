@@ -11,9 +11,9 @@
 //   8 bits     NaN and negative values become 0; above 1 is 1.
 // Grey stays grey where the format has it (EXR, PNG, TIFF, JPEG). TIFF is written with 8 bits,
 // sRGB.
-#include "codec/decode.hpp"
-
+#include "image/codec.h"
 #include "image/color.h"
+#include "image/formats.h"
 
 #include <Imath/half.h>
 #include <OpenImageIO/filesystem.h>
@@ -342,20 +342,15 @@ glint_status copy(const std::vector<unsigned char> &file, glint_encoded *encoded
     return GLINT_OK;
 }
 
-} // namespace
-
-glint_status glint::encode_image(const char *path, const glint_image *image,
-                                 const glint_write_options *options, glint_encoded *encoded,
-                                 glint_error *error)
+glint_status encode_image(const char *path, const glint_image *image,
+                          const glint_write_options *options, glint_encoded *encoded,
+                          glint_error *error)
 {
     const glint_written_format *format = glint_image_written_format(path);
     try {
         File file;
-        {
-            std::shared_lock<std::shared_mutex> inside(gate());
-            const Encoded made = prepare(*image, format->kind, *options);
-            TRY(encode_prepared(path, format->plugin, made, file, error));
-        }
+        const Encoded made = prepare(*image, format->kind, *options);
+        TRY(encode_prepared(path, format->plugin, made, file, error));
         return copy(file.buffer(), encoded, error);
     } catch (const std::bad_alloc &) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: not enough memory to encode it", path);
@@ -367,9 +362,14 @@ glint_status glint::encode_image(const char *path, const glint_image *image,
     }
 }
 
-void glint::use_threads(int count)
+void use_threads(int count)
 {
     OIIO::attribute("threads", count);
     // There 0 is one for each core as well, and −1 none beside the caller's.
     OIIO::attribute("exr_threads", count == 1 ? -1 : count);
 }
+
+} // namespace
+
+extern "C" __attribute__((visibility("default")))
+const glint_codec glint_codec_functions = {GLINT_VERSION, encode_image, use_threads};

@@ -1,13 +1,13 @@
 // Image formats. See formats.h.
 #include "image/formats.h"
 
-#include <errno.h>
+#include "base/regular_file.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -37,7 +37,7 @@ static const magic magics[] = {
     {"SDPX", 0, 4, "DPX", NULL},
     {"XPDS", 0, 4, "DPX", NULL},
     {"SIMPLE", 0, 6, "FITS", NULL},
-    {"WEBP", 8, 4, "WebP", NULL},
+    {"WEBP", 8, 4, "WebP", "webp"},
     {"\xabKTX ", 0, 5, "KTX", NULL},
     {"ftypavif", 4, 8, "AVIF", NULL},
     {"ftypheic", 4, 8, "HEIC", NULL},
@@ -46,26 +46,7 @@ static const magic magics[] = {
     {"Pf\n", 0, 3, "PFM", NULL},
 };
 
-#define FORMATS_READ "exr, hdr, png, tiff, dds or jpeg"
-
-static glint_status find_size(const char *path, uint64_t *size, glint_error *error)
-{
-    struct stat facts;
-    if (stat(path, &facts) != 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name)", path, strerror(errno));
-    }
-    if (S_ISDIR(facts.st_mode)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is a folder (name a file)", path);
-    }
-    if (!S_ISREG(facts.st_mode)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is no regular file (name a file)", path);
-    }
-    if (facts.st_size == 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: is empty (make the file anew)", path);
-    }
-    *size = (uint64_t)facts.st_size;
-    return GLINT_OK;
-}
+#define FORMATS_READ "exr, hdr, png, tiff, dds, jpeg or webp"
 
 static const magic *magic_of(const char *start, size_t length)
 {
@@ -83,15 +64,14 @@ glint_status glint_image_find_source(const char *path, glint_image_source *sourc
                                      glint_error *error)
 {
     *source = (glint_image_source){.path = path};
-    TRY(find_size(path, &source->size, error));
-    FILE *file = fopen(path, "rbe");
-    if (file == NULL) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (check the name and its permissions)",
-                          path, strerror(errno));
-    }
+    FILE *file;
+    TRY(glint_regular_file_open(path, &file, &source->size, error));
     char start[16] = {0};
     const magic *known = magic_of(start, fread(start, 1, sizeof start, file));
     fclose(file);
+    if (source->size == 0) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: is empty (make the file anew)", path);
+    }
     if (known == NULL) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: is no image of a kind that is read (give " FORMATS_READ ")", path);

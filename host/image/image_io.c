@@ -1,9 +1,12 @@
-// Image files, by way of the codec. See image_io.h and codec.h.
+// Image files. The decoder reads them (decoder.h), the codec writes them (codec.h). See image_io.h.
 #include "image/image_io.h"
 
+#include "base/memory.h"
 #include "image/codec.h"
+#include "image/decoder.h"
 #include "image/formats.h"
 #include "image/output_file.h"
+#include "image/stored.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -55,13 +58,11 @@ static const glint_codec *get_codec(void)
     return codec;
 }
 
-// `status`: what a reader or a writer fails with.
-static glint_status require_codec(glint_status status, const glint_codec **codec,
-                                  glint_error *error)
+static glint_status require_codec(const glint_codec **codec, glint_error *error)
 {
     *codec = get_codec();
     if (*codec == NULL) {
-        return glint_fail(error, status,
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
                           CODEC_FILE ": the image library cannot be loaded: %s "
                                      "(install glint anew)",
                           loaded.fault);
@@ -75,7 +76,7 @@ static bool is_loading;
 static void *load_beside(void *unused)
 {
     (void)unused;
-    (void)get_codec(); // readers and writers report a failure
+    (void)get_codec(); // writers report a failure
     return NULL;
 }
 
@@ -100,6 +101,7 @@ void glint_image_use_threads(int count)
         loaded.codec->use_threads(count);
     }
     pthread_mutex_unlock(&loaded.lock);
+    glint_decoder_use_threads(count);
 }
 
 // ---- Reading ------------------------------------------------------------------------------------
@@ -108,14 +110,59 @@ glint_status glint_image_read(const char *path, glint_image *image, glint_image_
                               glint_error *error)
 {
     *image = (glint_image){0};
-    const glint_codec *codec;
     glint_image_source source;
+    glint_stored stored;
     TRY(glint_image_find_source(path, &source, error));
-    TRY(require_codec(GLINT_BAD_INPUT, &codec, error));
-    const glint_status status = codec->read(&source, image, facts, error);
-    if (status != GLINT_OK) {
-        glint_image_free(image);
+    TRY(glint_decoder_run(&source, false, &stored, error));
+    if (facts != NULL) {
+        facts->envmap = (glint_envmap)stored.facts.envmap;
+        facts->was_encoded = stored.facts.transfer != GLINT_TRANSFER_LINEAR;
+        facts->is_direct3d_cube = stored.facts.is_direct3d_cube != 0;
     }
+    const glint_status status = glint_stored_develop(&stored, image, error);
+    glint_stored_free(&stored);
+    return status;
+}
+
+// The channels' names, from texts that end at `end`, each with a zero of its own.
+static glint_status split_names(const char *texts, const char *end, glint_channels *channels,
+                                glint_error *error)
+{
+    for (int i = 0; i < channels->count; i++) {
+        if (memchr(texts, '\0', (size_t)(end - texts)) == NULL) {
+            return glint_fail(error, GLINT_BAD_INPUT, "an EXR's channels came without names");
+        }
+        channels->names[i] = strdup(texts);
+        if (channels->names[i] == NULL) {
+            return glint_fail_memory(error, "a file's channels");
+        }
+        texts += strlen(texts) + 1;
+    }
+    return GLINT_OK;
+}
+
+static glint_status copy_channels(const glint_stored *stored, glint_channels *channels,
+                                  glint_error *error)
+{
+    const size_t count = (size_t)stored->facts.channels;
+    channels->width = stored->facts.width;
+    channels->height = stored->facts.height;
+    channels->values = glint_allocate_unset(stored->value_bytes, 1);
+    channels->names = glint_allocate(count, sizeof *channels->names);
+    char *texts = glint_allocate(stored->name_bytes + 1, 1);
+    glint_status status = GLINT_OK;
+    if (channels->values == NULL || channels->names == NULL || texts == NULL) {
+        status = glint_fail_memory(error, "a file's channels");
+        goto cleanup;
+    }
+    channels->count = (int)count;
+    TRY_OR(cleanup, status,
+           glint_stored_read(stored, 0, channels->values, stored->value_bytes, error));
+    TRY_OR(cleanup, status,
+           glint_stored_read(stored, stored->value_bytes, texts, stored->name_bytes, error));
+    status = split_names(texts, texts + stored->name_bytes, channels, error);
+cleanup:
+    free(texts);
     return status;
 }
 
@@ -123,9 +170,16 @@ glint_status glint_image_read_channels(const char *path, glint_channels *channel
                                        glint_error *error)
 {
     *channels = (glint_channels){0};
-    const glint_codec *codec;
-    TRY(require_codec(GLINT_BAD_INPUT, &codec, error));
-    const glint_status status = codec->read_channels(path, channels, error);
+    glint_image_source source;
+    glint_stored stored;
+    TRY(glint_image_find_source(path, &source, error));
+    if (strcmp(source.plugin, "openexr") != 0) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: is no EXR (check the name, or render it anew)", path);
+    }
+    TRY(glint_decoder_run(&source, true, &stored, error));
+    const glint_status status = copy_channels(&stored, channels, error);
+    glint_stored_free(&stored);
     if (status != GLINT_OK) {
         glint_channels_free(channels);
     }
@@ -174,7 +228,7 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
     if (image->pixels == NULL) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
     }
-    TRY(require_codec(GLINT_OUTPUT_FAILED, &codec, error));
+    TRY(require_codec(&codec, error));
     return codec->encode(path, image, options != NULL ? options : &defaults, encoded, error);
 }
 

@@ -1,4 +1,5 @@
-// Image files, through OpenImageIO (codec.h), which is loaded when first needed.
+// Image files, through OpenImageIO: another process reads them (decoder.h), a library that is
+// loaded when first needed writes them (codec.h).
 #ifndef GLINT_IMAGE_IMAGE_IO_H
 #define GLINT_IMAGE_IMAGE_IO_H
 
@@ -25,11 +26,10 @@ typedef struct glint_image_facts {
     bool is_direct3d_cube; // DDS: six faces above each other, +X −X +Y −Y +Z −Z of Direct3D
 } glint_image_facts;
 
-// Reads exr, hdr, png, tiff, dds or jpeg (jpeg in a child process: OpenImageIO 2.4 aborts on some
-// corrupt ones) as linear Rec.709 with 1 to 4 channels; R, G, B, A are found by name in files with
-// more. Integer files tagged or assumed sRGB are linearised here, before any filtering; alpha is
-// premultiplied, orientation applied. The content decides what the file is, not its extension. The
-// header's size is held against the file's size before pixels are allocated.
+// Reads exr, hdr, png, tiff, dds, jpeg or webp as linear Rec.709 with 1 to 4 channels. Files with
+// more have R, G, B, A by name. Integer files tagged or assumed sRGB are linearised here, before
+// any filtering; alpha is premultiplied, orientation applied. The content decides what the file is,
+// not its extension. Another process decodes it (decoder.h), within limits on time and memory.
 // Errors: GLINT_BAD_INPUT with the file's name and what is wrong. `facts` may be NULL.
 glint_status glint_image_read(const char *path, glint_image *image, glint_image_facts *facts,
                               glint_error *error);

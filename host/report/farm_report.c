@@ -1,6 +1,7 @@
 // The sum of what a farm's parts did. See farm_report.h.
 #include "report/farm_report.h"
 
+#include "base/regular_file.h"
 #include "report/json.h"
 
 #include <dirent.h>
@@ -9,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FORMAT "glint farm"
 #define FAILURES_MAX 40     // that are named
@@ -103,17 +105,16 @@ static glint_status read_job(const char *folder, glint_farm_job *job, glint_erro
     if (path == NULL) {
         return glint_fail_memory(error, "a file name");
     }
+    json_t *root = NULL;
     glint_status status;
-    json_error_t cause;
-    json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &cause);
-    if (root != NULL) {
-        status = take_job(root, path, job, error);
-    } else if (cause.line > 0) {
-        status =
-            glint_fail(error, GLINT_BAD_INPUT, "%s: line %d: %s", path, cause.line, cause.text);
-    } else {
-        status = glint_fail(error, GLINT_BAD_INPUT, "%s (it is no job of that folder)", cause.text);
+    if (access(path, F_OK) != 0) {
+        status = glint_fail(error, GLINT_BAD_INPUT, "%s: %s (it is no job of that folder)", path,
+                            strerror(errno));
+        goto cleanup;
     }
+    TRY_OR(cleanup, status, glint_json_read(path, &root, error));
+    status = take_job(root, path, job, error);
+cleanup:
     json_decref(root);
     free(path);
     return status;
@@ -217,12 +218,11 @@ static glint_status read_lines(const char *path, glint_farm_part *part, part_lin
                                                     part_lines *lines, glint_error *error),
                                glint_error *error)
 {
-    FILE *file = fopen(path, "re");
-    if (file == NULL) {
-        return errno == ENOENT ? GLINT_OK
-                               : glint_fail(error, GLINT_BAD_INPUT, "%s: could not be read: %s",
-                                            path, strerror(errno));
+    if (access(path, F_OK) != 0 && errno == ENOENT) {
+        return GLINT_OK;
     }
+    FILE *file;
+    TRY(glint_regular_file_open(path, &file, NULL, error));
     char *text = NULL;
     size_t capacity = 0;
     glint_status status = GLINT_OK;

@@ -1,6 +1,9 @@
 // JSON values, and the files and texts they are written to. See json.h.
 #include "report/json.h"
 
+#include "base/plain_text.h"
+#include "base/regular_file.h"
+
 #include "image/output_file.h"
 
 #include <math.h>
@@ -89,10 +92,33 @@ const char *glint_json_text_at(const json_t *root, const char *path)
     return json_string_value(glint_json_at(root, path));
 }
 
+glint_status glint_json_read(const char *path, json_t **root, glint_error *error)
+{
+    *root = NULL;
+    FILE *file;
+    TRY(glint_regular_file_open(path, &file, NULL, error));
+    json_error_t cause;
+    *root = json_loadf(file, JSON_REJECT_DUPLICATES, &cause);
+    fclose(file);
+    return *root != NULL ? GLINT_OK
+                         : glint_fail(error, GLINT_BAD_INPUT, "%s: line %d: %s", path, cause.line,
+                                      cause.text);
+}
+
+char *glint_json_dump(const json_t *value, size_t flags)
+{
+    char *text = json_dumps(value, flags);
+    if (text != NULL && !glint_is_plain(text)) {
+        free(text);
+        text = json_dumps(value, flags | JSON_ENSURE_ASCII);
+    }
+    return text;
+}
+
 glint_status glint_json_print(json_t *root, char **text, glint_error *error)
 {
     *text = NULL;
-    char *body = root != NULL ? json_dumps(root, JSON_FORMAT) : NULL;
+    char *body = root != NULL ? glint_json_dump(root, JSON_FORMAT) : NULL;
     json_decref(root);
     if (body == NULL) {
         return glint_fail_memory(error, "a report");

@@ -51,6 +51,13 @@ const char *glint_json_text_at(const json_t *root, const char *path);
 // GLINT_OUTPUT_FAILED.
 glint_status glint_json_write(const char *path, json_t *root, glint_error *error);
 
+// Reads a file that holds one value, without members of one name. Takes no reference. Errors:
+// GLINT_BAD_INPUT with the file's name, and the line where one is at fault.
+glint_status glint_json_read(const char *path, json_t **root, glint_error *error);
+
+// As json_dumps, with escapes for all that a terminal should not get.
+char *glint_json_dump(const json_t *value, size_t flags);
+
 // The same as a malloc'd text that ends with a newline.
 glint_status glint_json_print(json_t *root, char **text, glint_error *error);
 

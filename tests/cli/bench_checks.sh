@@ -15,7 +15,7 @@ no_temporaries() {
 # ---- help and mistakes --------------------------------------------------------------------------
 
 # shellcheck disable=SC2046 # lists of words
-check 'bench --help tells every option' help_mentions bench seconds rounds no-check error no-sampling \
+check 'bench --help tells every option' help_mentions bench allow-large-images seconds rounds no-check error no-sampling \
     list html json baseline margin env env-layout ball-circle ball-distance ball-fov env-flip camera \
     animation only without scene $(settings_of environment size frame device) device kernel-dir help
 check 'and its own default size' grep -q '\[1920x1080;' help.txt
@@ -43,6 +43,8 @@ refuses 3 'not a folder' bench mirror --kernel-dir in/missing
 refuses 3 'in/missing.hdr: ' bench mirror --env in/missing.hdr
 refuses 5 'out/missing' bench mirror --json out/missing/x.json
 refuses 3 'in/missing.json' bench mirror --baseline in/missing.json
+mkfifo in/pipe.json
+refuses 3 'no regular file' bench mirror --baseline in/pipe.json
 printf '{"format": "glint be' >in/short.json
 refuses 3 'in/short.json: line 1' bench mirror --baseline in/short.json
 printf '{"scenes": []}' >in/other.json

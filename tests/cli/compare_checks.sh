@@ -37,7 +37,7 @@ head -c 300 in/half.exr >in/short.exr
 
 # ---- help and mistakes --------------------------------------------------------------------------
 
-check 'compare --help tells every option' help_mentions compare fail-above fail-below output heat \
+check 'compare --help tells every option' help_mentions compare allow-large-images fail-above fail-below output heat \
     json help
 for metric in rmse relative-rmse mae p99 max differing nan infinite alpha psnr; do
     check "and $metric" grep -qw -- "$metric" help.txt

@@ -11,7 +11,7 @@ cp "$scenes"/mirror_sphere.* in/
 
 # ---- help and mistakes --------------------------------------------------------------------------
 
-check 'env --help tells every option' help_mentions env env-layout ball-circle ball-distance \
+check 'env --help tells every option' help_mentions env allow-large-images env-layout ball-circle ball-distance \
     ball-fov probe studio to size env-rotate flip exposure compression help
 for layout in $single faces; do
     check "and $layout" grep -qw -- "$layout" help.txt

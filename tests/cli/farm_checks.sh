@@ -63,6 +63,9 @@ printf '{"format": "something"}' >in/7.json
 refuses 3 'not what glint farm writes' farm report in
 refuses 3 'could not be read' farm report in/none
 refuses 3 'it is no job of that folder' farm report in --job 8
+mkfifo in/9.json
+refuses 3 'no regular file' farm report in --job 9
+rm in/9.json
 refuses 2 '--job' farm report in --job ../7
 check 'mistakes: nothing was submitted' test ! -s "$CALLS"
 

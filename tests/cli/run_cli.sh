@@ -59,7 +59,7 @@ mkdir in/folder.gltf in/empty
 
 # ---- help ---------------------------------------------------------------------------------------
 
-inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera animation only without scene device help'
+inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera animation only without scene allow-large-images device help'
 # shellcheck disable=SC2046,SC2086 # lists of words
 {
     check 'render --help tells every option' help_mentions render $inputs output exposure compression \
@@ -225,6 +225,23 @@ else
 fi
 "$glint" info in/mirror.gltf >/dev/full 2>stderr
 check 'results onto a full device: exit status 5' test $? -eq 5
+"$glint" info in/mirror.gltf >&- 2>stderr
+check 'results onto a closed stdout: exit status 5' test $? -eq 5
+"$glint" render in/mirror.gltf --size 8x8 -o out/x.png --progress none >&-
+check 'what writes a file needs no stdout' test $? -eq 0
+rm -f out/x.png
+
+# Names that would drive a terminal: ESC, BEL, newline, CSI (U+009B), right-to-left (U+202E).
+evil='\\u001b[31m\\u0007\\n\\u009b1m\\u202e'
+sed "s/\"name\": \"[a-z]*/&$evil/g" in/mirror.gltf >in/evil.gltf
+cp in/evil.gltf "in/e"$'\e[31m\a\u009b1m\u202e'vil.gltf
+has_escapes() { LC_ALL=C grep -qP '[\x00-\x09\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80[\x8e\x8f\xa8-\xae]' "$@"; }
+for words in 'info' 'info --json -' 'info --camera none' 'bench --rounds 1 --no-check --size 8x8'; do
+    # shellcheck disable=SC2086 # a list of words
+    run $words in/e*vil.gltf
+    cat stdout stderr >both
+    check "$words: names cannot drive a terminal" eval '[ -s both ] && ! has_escapes both'
+done
 "$glint" info in/mirror.gltf 2>stderr | head -n 1 >/dev/null
 check 'a reader that leaves is no error' test "${PIPESTATUS[0]}" -eq 0 -a ! -s stderr
 

@@ -437,7 +437,7 @@ clean
 
 # ---- contact sheets -----------------------------------------------------------------------------
 
-check 'contact --help tells every option' help_mentions contact output columns width exposure help
+check 'contact --help tells every option' help_mentions contact output columns width exposure allow-large-images help
 refuses 2 'no output' contact whole/f.0001.exr
 refuses 2 'no images' contact -o out/sheet.png
 refuses 2 'one of the images' contact whole/*.exr -o whole/f.0002.exr

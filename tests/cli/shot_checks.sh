@@ -14,7 +14,7 @@ cp "$scenes"/mirror_sphere.* "$scenes"/clockwork.* in/
 # ---- capture ------------------------------------------------------------------------------------
 
 # shellcheck disable=SC2046 # lists of words
-check 'capture --help tells every option' help_mentions capture at around to size exposure \
+check 'capture --help tells every option' help_mentions capture allow-large-images at around to size exposure \
     compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-flip camera \
     animation only without scene $(settings_of environment frame device) device kernel-dir help
 run --help
@@ -289,7 +289,7 @@ clean
 # ---- relight -------------------------------------------------------------------------------------
 
 # shellcheck disable=SC2046 # a list of words
-check 'relight --help tells every option' help_mentions relight env env-layout ball-circle \
+check 'relight --help tells every option' help_mentions relight allow-large-images env env-layout ball-circle \
     ball-distance ball-fov env-flip $(settings_of environment) output exposure compression exr-type progress help
 run --help
 check 'glint --help lists it' grep -q '^  relight ' stdout
@@ -316,7 +316,7 @@ refuses 2 'no --env is given' relight in/kept.exr -o out/a.exr --env-layout ball
 refuses 2 'with --env-layout ball' relight in/kept.exr -o out/a.exr --env in/axes.exr --ball-fov 30
 refuses 3 'it holds no directions' relight in/axes.exr -o out/a.exr
 refuses 3 'is no EXR' relight in/plate.png -o out/a.exr
-refuses 3 'is no EXR' relight in/none.exr -o out/a.exr
+refuses 3 'No such file' relight in/none.exr -o out/a.exr
 refuses 3 'in/none.exr' relight in/kept.exr --env in/none.exr -o out/a.exr
 head -c 3000 in/kept.exr >in/cut.exr
 refuses 3 'in/cut.exr' relight in/cut.exr -o out/a.exr

@@ -11,7 +11,7 @@ void image_bytes_free(image_bytes *file)
     *file = (image_bytes){0};
 }
 
-static void put(image_bytes *file, const void *bytes, size_t length)
+void image_bytes_put(image_bytes *file, const void *bytes, size_t length)
 {
     if (file->bytes == NULL || file->length + length > file->capacity) {
         file->capacity = 2 * (file->length + length);
@@ -25,11 +25,18 @@ static void put(image_bytes *file, const void *bytes, size_t length)
 }
 
 // All three formats are written with the low byte first.
-static void put_number(image_bytes *file, uint64_t number, int bytes)
+void image_bytes_put_number(image_bytes *file, uint64_t number, int bytes)
 {
     for (int i = 0; i < bytes; i++) {
         unsigned char byte = (unsigned char)(number >> (8 * i));
-        put(file, &byte, 1);
+        image_bytes_put(file, &byte, 1);
+    }
+}
+
+void image_bytes_put_big(image_bytes *file, uint64_t number, int bytes)
+{
+    for (int i = bytes - 1; i >= 0; i--) {
+        image_bytes_put_number(file, number >> (8 * i) & 0xff, 1);
     }
 }
 
@@ -37,12 +44,12 @@ static void put_float(image_bytes *file, float value)
 {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    put_number(file, bits, 4);
+    image_bytes_put_number(file, bits, 4);
 }
 
 static void put_text(image_bytes *file, const char *text)
 {
-    put(file, text, strlen(text) + 1);
+    image_bytes_put(file, text, strlen(text) + 1);
 }
 
 // ---- EXR: openexr.com, "OpenEXR File Layout" ----------------------------------------------------
@@ -51,21 +58,21 @@ static void put_attribute(image_bytes *file, const char *name, const char *type,
 {
     put_text(file, name);
     put_text(file, type);
-    put_number(file, size, 4);
+    image_bytes_put_number(file, size, 4);
 }
 
 static void put_window(image_bytes *file, const char *name, const int window[4])
 {
     put_attribute(file, name, "box2i", 16);
     for (int i = 0; i < 4; i++) {
-        put_number(file, (uint64_t)(int64_t)window[i], 4);
+        image_bytes_put_number(file, (uint64_t)(int64_t)window[i], 4);
     }
 }
 
 static void put_exr_header(image_bytes *file, const exr_recipe *recipe)
 {
-    put_number(file, 20000630, 4);
-    put_number(file, 2, 4);
+    image_bytes_put_number(file, 20000630, 4);
+    image_bytes_put_number(file, 2, 4);
     uint32_t size = 1;
     for (int c = 0; c < recipe->channels; c++) {
         size += (uint32_t)strlen(recipe->names[c]) + 1 + 16;
@@ -73,22 +80,22 @@ static void put_exr_header(image_bytes *file, const exr_recipe *recipe)
     put_attribute(file, "channels", "chlist", size);
     for (int c = 0; c < recipe->channels; c++) {
         put_text(file, recipe->names[c]);
-        put_number(file, 2, 4); // float
-        put_number(file, 0, 4);
-        put_number(file, 1, 4); // sampled at every pixel
-        put_number(file, 1, 4);
+        image_bytes_put_number(file, 2, 4); // float
+        image_bytes_put_number(file, 0, 4);
+        image_bytes_put_number(file, 1, 4); // sampled at every pixel
+        image_bytes_put_number(file, 1, 4);
     }
-    put_number(file, 0, 1);
+    image_bytes_put_number(file, 0, 1);
     put_attribute(file, "compression", "compression", 1);
-    put_number(file, 0, 1);
+    image_bytes_put_number(file, 0, 1);
     put_window(file, "dataWindow", recipe->data);
     put_window(file, "displayWindow", recipe->display);
     if (recipe->envmap >= 0) {
         put_attribute(file, "envmap", "envmap", 1);
-        put_number(file, (uint64_t)recipe->envmap, 1);
+        image_bytes_put_number(file, (uint64_t)recipe->envmap, 1);
     }
     put_attribute(file, "lineOrder", "lineOrder", 1);
-    put_number(file, 0, 1);
+    image_bytes_put_number(file, 0, 1);
     put_attribute(file, "pixelAspectRatio", "float", 4);
     put_float(file, 1.0f);
     put_attribute(file, "screenWindowCenter", "v2f", 8);
@@ -96,7 +103,7 @@ static void put_exr_header(image_bytes *file, const exr_recipe *recipe)
     put_float(file, 0.0f);
     put_attribute(file, "screenWindowWidth", "float", 4);
     put_float(file, 1.0f);
-    put_number(file, 0, 1);
+    image_bytes_put_number(file, 0, 1);
 }
 
 image_bytes exr_bytes(const exr_recipe *recipe)
@@ -108,11 +115,11 @@ image_bytes exr_bytes(const exr_recipe *recipe)
     uint64_t line = (uint64_t)width * (uint64_t)recipe->channels * 4;
     uint64_t first = file.length + 8 * (uint64_t)height;
     for (int y = 0; y < height; y++) {
-        put_number(&file, first + (uint64_t)y * (line + 8), 8);
+        image_bytes_put_number(&file, first + (uint64_t)y * (line + 8), 8);
     }
     for (int y = 0; y < height; y++) {
-        put_number(&file, (uint64_t)(int64_t)(recipe->data[1] + y), 4);
-        put_number(&file, line, 4);
+        image_bytes_put_number(&file, (uint64_t)(int64_t)(recipe->data[1] + y), 4);
+        image_bytes_put_number(&file, line, 4);
         for (int c = 0; c < recipe->channels; c++) {
             for (int x = 0; x < width; x++) {
                 put_float(&file, recipe->value(c, recipe->data[0] + x, recipe->data[1] + y,
@@ -128,10 +135,10 @@ image_bytes exr_bytes(const exr_recipe *recipe)
 static void put_entry(image_bytes *file, unsigned tag, unsigned type, unsigned count,
                       unsigned value)
 {
-    put_number(file, tag, 2);
-    put_number(file, type, 2);
-    put_number(file, count, 4);
-    put_number(file, value, 4);
+    image_bytes_put_number(file, tag, 2);
+    image_bytes_put_number(file, type, 2);
+    image_bytes_put_number(file, count, 4);
+    image_bytes_put_number(file, value, 4);
 }
 
 image_bytes tiff_bytes(const tiff_recipe *recipe)
@@ -142,9 +149,9 @@ image_bytes tiff_bytes(const tiff_recipe *recipe)
     unsigned samples = (unsigned)recipe->samples;
     unsigned after = 8 + 2 + 12 * entries + 4; // the bits of each sample, then the pixels
     unsigned values = (unsigned)(recipe->width * recipe->height) * samples;
-    put(&file, "II*\0", 4);
-    put_number(&file, 8, 4);
-    put_number(&file, entries, 2);
+    image_bytes_put(&file, "II*\0", 4);
+    image_bytes_put_number(&file, 8, 4);
+    image_bytes_put_number(&file, entries, 2);
     put_entry(&file, 256, SHORT, 1, (unsigned)recipe->width);
     put_entry(&file, 257, SHORT, 1, (unsigned)recipe->height);
     // Two values fit into the entry itself.
@@ -160,12 +167,12 @@ image_bytes tiff_bytes(const tiff_recipe *recipe)
     if (recipe->extra != 0) {
         put_entry(&file, 338, SHORT, 1, (unsigned)recipe->extra);
     }
-    put_number(&file, 0, 4);
+    image_bytes_put_number(&file, 0, 4);
     for (int i = 0; i < 4; i++) {
-        put_number(&file, (uint64_t)recipe->bits, 2);
+        image_bytes_put_number(&file, (uint64_t)recipe->bits, 2);
     }
     for (unsigned i = 0; i < values; i++) {
-        put_number(&file, recipe->codes[i], recipe->bits / 8);
+        image_bytes_put_number(&file, recipe->codes[i], recipe->bits / 8);
     }
     return file;
 }
@@ -178,7 +185,7 @@ image_bytes hdr_bytes(int width, int height, const unsigned char *rgbe)
     char header[128];
     snprintf(header, sizeof header, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", height,
              width);
-    put(&file, header, strlen(header));
-    put(&file, rgbe, (size_t)(width * height) * 4);
+    image_bytes_put(&file, header, strlen(header));
+    image_bytes_put(&file, rgbe, (size_t)(width * height) * 4);
     return file;
 }

@@ -13,6 +13,11 @@ typedef struct image_bytes {
 
 void image_bytes_free(image_bytes *file);
 
+// For files that are put together elsewhere. Numbers have their low byte first, or their high one.
+void image_bytes_put(image_bytes *file, const void *bytes, size_t length);
+void image_bytes_put_number(image_bytes *file, uint64_t number, int bytes);
+void image_bytes_put_big(image_bytes *file, uint64_t number, int bytes);
+
 // An uncompressed EXR of one part with float channels, names in alphabetical order. Windows are
 // {x min, y min, x max, y max}. The value of a channel at a pixel is value(channel, x, y, context).
 // envmap: −1 for no such attribute, 0 lat-long, 1 cube.

@@ -2,6 +2,7 @@
 #include "cli/common/inputs.h"
 
 #include "base/clock.h"
+#include "image/decoder.h"
 #include "scene/built_in.h"
 #include "scene/subset.h"
 
@@ -94,11 +95,20 @@ glint_status glint_parse_flip(const glint_option *option, const char *text, void
     return GLINT_OK;
 }
 
+glint_status glint_parse_allow_large(const glint_option *option, const char *text,
+                                     void *destination, glint_error *error)
+{
+    (void)option, (void)text, (void)destination, (void)error;
+    glint_decoder_allow_large();
+    return GLINT_OK;
+}
+
 const glint_option glint_input_options[] = {
     {GLINT_OPTION_HEADING, .help = "Scene and environment"},
     {GLINT_OPTION_TEXT, .name = "env", .argument = "FILE",
      .help =
-         "The environment: an image (exr, hdr, png, tiff, dds, jpeg), a folder that holds six "
+         "The environment: an image (exr, hdr, png, tiff, dds, jpeg, webp), a folder that holds "
+         "six "
          "faces, or a pattern with %s in the place of the face's name. For render also one for "
          "each frame, ball.####.exr, or capture:NODE: the node alone, lit by what is around it.",
      .fallback = "a built-in studio", .offset = OFFSET(env)},
@@ -123,6 +133,7 @@ const glint_option glint_input_options[] = {
      .offset = OFFSET(only)},
     {GLINT_OPTION_TEXT, .name = "without", .argument = "NODE,…",
      .help = "Leave these nodes out, likewise.", .offset = OFFSET(without)},
+    GLINT_LARGE_IMAGES_OPTION,
     GLINT_OPTION_END,
 };
 
@@ -232,6 +243,9 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
 {
     *inputs = (glint_inputs){0};
     const double begun = glint_progress_elapsed(display);
+    if (request->env != NULL) {
+        glint_decoder_start(); // gets ready while the scene is loaded
+    }
     glint_progress_phase(display, "load_scene", "loading the scene");
     TRY(load_scene(request, inputs, error));
     inputs->scene_ms = glint_progress_elapsed(display) - begun;

@@ -37,6 +37,18 @@ extern const glint_option glint_size_options[];
 extern const glint_option glint_settings_options[];
 extern const glint_option glint_kernel_dir_options[];
 
+// Lifts the limits on what an image file may cost, for the whole process.
+glint_option_parser glint_parse_allow_large;
+#define GLINT_LARGE_IMAGES_OPTION                                                                  \
+    {                                                                                              \
+        GLINT_OPTION_FLAG,                                                                         \
+            .name = "allow-large-images",                                                          \
+            .help =                                                                                \
+                "Lift the limits on the memory and time that an image file may cost. For files "   \
+                "that you trust.",                                                                 \
+            .parse = glint_parse_allow_large                                                       \
+    }
+
 // Rows that say how an environment's file is read, for a request with a glint_layout_request at
 // `member`; glint_layout_request_check looks at them together.
 glint_option_parser glint_parse_layout, glint_parse_circle, glint_parse_distance;

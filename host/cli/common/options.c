@@ -102,11 +102,10 @@ static glint_status take(parsing *p, const glint_option *option, const char *val
 {
     char *destination = (char *)p->request + option->offset;
     if (option->kind == GLINT_OPTION_FLAG) {
-        if (option->letter == help_row.letter) {
-            p->help = true;
-        } else {
-            *(bool *)destination = true;
+        if (option->parse != NULL) {
+            return option->parse(option, NULL, destination, error);
         }
+        *(option->letter == help_row.letter ? &p->help : (bool *)destination) = true;
         return GLINT_OK;
     }
     if (value == NULL && p->next == p->end) {

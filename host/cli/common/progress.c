@@ -1,6 +1,7 @@
 // The bar, the plain lines and the JSON lines of progress. See progress.h.
 #include "cli/common/progress.h"
 
+#include "base/plain_text.h"
 #include "base/clock.h"
 #include "cli/common/say.h"
 #include "report/json.h"
@@ -81,8 +82,11 @@ void glint_progress_clear(glint_progress_display *display)
 // One write a line: another process's output may come between lines, not into them.
 static void draw_line(glint_progress_display *display, const char *text)
 {
+    char plain[512];
+    snprintf(plain, sizeof plain, "%s", text);
+    glint_make_plain(plain);
     // The last column stays free: some terminals go to the next line when it is written.
-    fprintf(stderr, "\r%.*s\033[K", terminal_columns() - 1, text);
+    fprintf(stderr, "\r%.*s\033[K", terminal_columns() - 1, plain);
     fflush(stderr);
     display->line_is_drawn = true;
 }
@@ -90,7 +94,7 @@ static void draw_line(glint_progress_display *display, const char *text)
 // One line, one write. Takes the reference.
 static void print_event(const glint_progress_display *display, json_t *event)
 {
-    char *text = event != NULL ? json_dumps(event, JSON_REAL_PRECISION(9)) : NULL;
+    char *text = event != NULL ? glint_json_dump(event, JSON_REAL_PRECISION(9)) : NULL;
     if (text != NULL) {
         fprintf(display->events != NULL ? display->events : stderr, "%s\n", text);
     }

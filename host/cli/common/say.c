@@ -1,8 +1,9 @@
 // Messages on stderr. See say.h.
 #include "cli/common/say.h"
 
+#include "base/plain_text.h"
+
 #include <stdarg.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,17 +14,25 @@ void glint_say(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    glint_make_plain(text);
     fprintf(stderr, "glint: %s\n", text);
+}
+
+// Several lines, each made plain.
+static void print_lines(char *text)
+{
+    for (char *line; (line = strsep(&text, "\n")) != NULL;) {
+        if (text != NULL || *line != '\0') {
+            glint_make_plain(line);
+            fprintf(stderr, "%s\n", line);
+        }
+    }
 }
 
 void glint_say_error(const glint_error *error)
 {
     glint_say("%s", error->message[0] != '\0' ? error->message : "failed without a reason");
-    const char *details = error->details;
-    if (details != NULL) {
-        const bool ends_line = details[0] != '\0' && details[strlen(details) - 1] == '\n';
-        fprintf(stderr, "%s%s", details, ends_line ? "" : "\n");
-    }
+    print_lines(error->details);
 }
 
 void glint_say_warnings(const glint_warnings *warnings, size_t first)

@@ -3,6 +3,7 @@
 #include "cli/common/options.h"
 
 #include "cli/common/file_names.h"
+#include "cli/common/inputs.h"
 #include "cli/common/json_output.h"
 #include "cli/compare/compare_table.h"
 #include "image/image_io.h"
@@ -117,6 +118,8 @@ static const glint_option compare_options[] = {
     {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE|-",
      .help = "Write the figures as JSON; - prints it instead of the table.",
      .offset = offsetof(compare_request, json)},
+    {GLINT_OPTION_HEADING, .help = "Input"},
+    GLINT_LARGE_IMAGES_OPTION,
     GLINT_OPTION_END,
 };
 

@@ -4,6 +4,7 @@
 #include "cli/common/say.h"
 
 #include "cli/common/file_names.h"
+#include "cli/common/inputs.h"
 #include "image/image_io.h"
 #include "image/output_file.h"
 #include "report/compare/contact_sheet.h"
@@ -32,6 +33,7 @@ static const glint_option contact_options[] = {
     {GLINT_OPTION_REAL, .name = "exposure", .argument = "EV",
      .help = "Stops of exposure for PNG, JPEG and TIFF; EXR and HDR stay linear.", .fallback = "0",
      .offset = offsetof(contact_request, exposure), .minimum = -100, .maximum = 100},
+    GLINT_LARGE_IMAGES_OPTION,
     GLINT_OPTION_END,
 };
 

@@ -35,6 +35,7 @@ static const glint_option env_options[] = {
      .offset = offsetof(env_request, probe)},
     {GLINT_OPTION_FLAG, .name = "studio", .help = "Instead of a file, the built-in studio.",
      .offset = offsetof(env_request, studio)},
+    GLINT_LARGE_IMAGES_OPTION,
     {GLINT_OPTION_HEADING, .help = "What is written"},
     ENV_OUTPUT_OPTIONS(offsetof(env_request, output), "the input's", "as fine as the input"),
     {GLINT_OPTION_REAL, .name = "env-rotate", .argument = "DEG",

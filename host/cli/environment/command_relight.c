@@ -35,6 +35,7 @@ static const glint_option relight_options[] = {
      .help = "Mirror the environment first, as for glint render.",
      .offset = offsetof(relight_request, inputs.env_flip), .parse = glint_parse_flip},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_ENVIRONMENT, offsetof(relight_request, inputs.settings)),
+    GLINT_LARGE_IMAGES_OPTION,
     {GLINT_OPTION_HEADING, .help = "Output"},
     {GLINT_OPTION_TEXT, .letter = 'o', .name = "output", .argument = "OUT",
      .help =

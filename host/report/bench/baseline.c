@@ -68,14 +68,7 @@ static void complete_settings(json_t *root)
 
 glint_status glint_baseline_load(const char *path, json_t **baseline, glint_error *error)
 {
-    json_error_t cause;
-    *baseline = json_load_file(path, JSON_REJECT_DUPLICATES, &cause);
-    if (*baseline == NULL && cause.line > 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: line %d: %s", path, cause.line, cause.text);
-    }
-    if (*baseline == NULL) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s", cause.text);
-    }
+    TRY(glint_json_read(path, baseline, error));
     glint_status status = check_form(*baseline, path, error);
     if (status != GLINT_OK) {
         json_decref(*baseline);

@@ -1,6 +1,7 @@
 // What decides a frame's pixels. See fingerprint.h.
 #include "report/frame/fingerprint.h"
 
+#include "base/regular_file.h"
 #include "device/kernel_sources.h"
 #include "render/settings_table.h"
 
@@ -10,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <xxhash.h>
 
 // Where files say what they say of themselves: headers come first, but for TIFF's, which may stand
@@ -182,19 +182,15 @@ glint_status glint_fingerprint_file(const char *path, glint_fingerprint *fingerp
 {
     XXH3_state_t *state;
     TRY(begin(&state, error));
-    glint_status status = GLINT_OK;
-    struct stat facts;
-    errno = 0;
-    const bool is_file = stat(path, &facts) == 0 && S_ISREG(facts.st_mode); // a pipe would wait
-    FILE *file = is_file ? fopen(path, "rbe") : NULL;
+    FILE *file;
+    glint_status status = glint_regular_file_open(path, &file, NULL, error);
     char bytes[16384];
     size_t size = 0;
     while (file != NULL && (size = fread(bytes, 1, sizeof bytes, file)) > 0) {
         XXH3_128bits_update(state, bytes, size);
     }
-    if (file == NULL || ferror(file) != 0) {
-        status = glint_fail(error, GLINT_BAD_INPUT, "%s: %s", path,
-                            errno != 0 ? strerror(errno) : "not a file");
+    if (file != NULL && ferror(file) != 0) {
+        status = glint_fail(error, GLINT_BAD_INPUT, "%s: %s", path, strerror(errno));
     }
     if (file != NULL) {
         fclose(file);
@@ -278,9 +274,8 @@ static bool find_in(const char *bytes, size_t size, char text[GLINT_FINGERPRINT_
 void glint_fingerprint_find(const char *path, char text[GLINT_FINGERPRINT_TEXT])
 {
     text[0] = '\0';
-    struct stat facts;
-    const bool is_file = stat(path, &facts) == 0 && S_ISREG(facts.st_mode); // a pipe would wait
-    FILE *file = is_file ? fopen(path, "rbe") : NULL;
+    FILE *file;
+    (void)glint_regular_file_open(path, &file, NULL, NULL);
     char *bytes = malloc(SEARCHED);
     if (file != NULL && bytes != NULL) {
         const size_t first = fread(bytes, 1, SEARCHED, file);

@@ -124,7 +124,7 @@ struct glint_stats_log {
 // Takes the reference.
 static glint_status add_line(glint_stats_log *log, json_t *object, glint_error *error)
 {
-    char *text = object != NULL ? json_dumps(object, JSON_REAL_PRECISION(9)) : NULL;
+    char *text = object != NULL ? glint_json_dump(object, JSON_REAL_PRECISION(9)) : NULL;
     json_decref(object);
     if (text == NULL) {
         return glint_fail_memory(error, "a line of statistics");

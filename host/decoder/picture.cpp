@@ -1,19 +1,23 @@
-// One image file through OpenImageIO, values as stored. See decode.hpp.
+// A picture through OpenImageIO, values as stored. See decode.hpp.
 //
 // Of a file with several parts the first is read that has colour (R, G, B) or grey (Y); of a
 // mipmapped one, level 0. Deep pixels are refused. An EXR's pixels are put into its display window,
 // zero where it has none; one with the envmap attribute is its data window. ICC profiles are not
 // applied.
-#include "codec/decode.hpp"
+#include "decoder/decode.hpp"
+
+#include "image/image_io.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string>
 #include <strings.h>
+#include <vector>
 
 using OIIO::ImageInput;
 using OIIO::ImageSpec;
@@ -21,12 +25,6 @@ using OIIO::TypeDesc;
 
 namespace glint
 {
-
-std::shared_mutex &gate()
-{
-    static std::shared_mutex mutex;
-    return mutex;
-}
 
 namespace
 {
@@ -145,6 +143,15 @@ struct Part {
     Picked picked;
 };
 
+// For a message: the first names, and that there are more.
+void list_names(const std::vector<std::string> &from, std::string &names)
+{
+    const std::size_t most = 8;
+    for (std::size_t i = 0; i < from.size() && i <= most; i++) {
+        names += (names.empty() ? "" : ", ") + (i < most ? from[i] : "…");
+    }
+}
+
 glint_status find_part(const char *path, ImageInput &input, Part &part, glint_error *error)
 {
     bool has_deep = false;
@@ -154,6 +161,12 @@ glint_status find_part(const char *path, ImageInput &input, Part &part, glint_er
         has_deep = has_deep || spec.deep;
         if (spec.deep) {
             continue;
+        }
+        if (spec.nchannels > GLINT_PICTURE_CHANNELS_MAX) {
+            return glint_fail(error, GLINT_BAD_INPUT,
+                              "%s: %d channels are more than the %d that are read (save the wanted "
+                              "ones alone)",
+                              path, spec.nchannels, GLINT_PICTURE_CHANNELS_MAX);
         }
         Picked picked = pick(spec, doubt);
         if (picked.colors > 0 && doubt.empty()) {
@@ -165,9 +178,7 @@ glint_status find_part(const char *path, ImageInput &input, Part &part, glint_er
                               "%s: holds several layers: %s (save the wanted one alone)", path,
                               doubt.c_str());
         }
-        for (const std::string &name : spec.channelnames) {
-            names += (names.empty() ? "" : ", ") + name;
-        }
+        list_names(spec.channelnames, names);
     }
     (void)input.geterror(); // that there is no further part is no error
     if (has_deep) {
@@ -193,40 +204,36 @@ std::uint64_t expansion_max(const char *plugin)
 }
 
 // Before anything of the image's size is allocated.
-glint_status check_size(const Source &source, const ImageSpec &spec, glint_error *error)
+glint_status check_size(const glint_decode_request &request, const Part &part, glint_error *error)
 {
-    const char *path = source.path;
+    const char *path = request.path;
+    const ImageSpec &spec = part.spec;
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %d × %d × %d pixels are no picture", path,
                           spec.width, spec.height, spec.depth);
     }
     std::uint64_t pixels = std::uint64_t(spec.width) * std::uint64_t(spec.height);
-    if (pixels / expansion_max(source.plugin) * spec.pixel_bytes(true) > source.size) {
+    if (pixels / expansion_max(request.plugin) * spec.pixel_bytes(true) > request.file_bytes) {
         return glint_fail(
             error, GLINT_BAD_INPUT,
             "%s: says %d × %d pixels, which its %llu bytes cannot hold (it is damaged "
             "or cut short)",
-            path, spec.width, spec.height, (unsigned long long)source.size);
+            path, spec.width, spec.height, (unsigned long long)request.file_bytes);
     }
-    if (pixels > values_max / 4) {
-        return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: %d × %d pixels are more than %zu can be read (make it smaller)",
-                          path, spec.width, spec.height, values_max / 4);
-    }
-    return GLINT_OK;
+    return check_cost(request, spec.width, spec.height, part.picked.channels(), error);
 }
 
 // ---- Facts --------------------------------------------------------------------------------------
 
-void find_transfer(const char *plugin, const ImageSpec &spec, Facts &facts)
+void find_transfer(const char *plugin, const ImageSpec &spec, glint_stored_facts &facts)
 {
-    facts.transfer = Transfer::Linear;
+    facts.transfer = GLINT_TRANSFER_LINEAR;
     if (facts.code_bits == 0) {
         return;
     }
-    facts.transfer = Transfer::Srgb;
+    facts.transfer = GLINT_TRANSFER_SRGB;
     if (strcasecmp(spec.get_string_attribute("oiio:ColorSpace").c_str(), "linear") == 0) {
-        facts.transfer = Transfer::Linear;
+        facts.transfer = GLINT_TRANSFER_LINEAR;
     }
     if (std::strcmp(plugin, "png") != 0) {
         return;
@@ -234,14 +241,14 @@ void find_transfer(const char *plugin, const ImageSpec &spec, Facts &facts)
     // PNG's gAMA chunk: 1/2.2 is what its specification tells writers of sRGB to put there.
     float gamma = spec.get_float_attribute("oiio:Gamma", 0.0f);
     if (std::fabs(gamma - 1.0f) < 0.01f) {
-        facts.transfer = Transfer::Linear;
+        facts.transfer = GLINT_TRANSFER_LINEAR;
     } else if (gamma > 0.1f && gamma < 10.0f && std::fabs(gamma - 2.2f) > 0.02f) {
-        facts.transfer = Transfer::Power;
+        facts.transfer = GLINT_TRANSFER_POWER;
         facts.gamma = gamma;
     }
 }
 
-void find_facts(const char *plugin, const Part &part, Facts &facts)
+void find_facts(const char *plugin, const Part &part, glint_stored_facts &facts)
 {
     const ImageSpec &spec = part.spec;
     facts.width = spec.width;
@@ -305,88 +312,138 @@ bool read_pixels(ImageInput &input, const Part &part, TypeDesc type, T *to)
     return true;
 }
 
-bool read_values(ImageInput &input, const Part &part, Decoded &decoded)
+// The pixels as they are in the file, without a frame.
+bool read_values(ImageInput &input, const Part &part, int code_bits, void *to)
 {
-    const Facts &facts = decoded.facts;
-    std::size_t values =
-        std::size_t(facts.width) * std::size_t(facts.height) * std::size_t(facts.channels);
-    if (facts.code_bits == 8) {
-        decoded.codes.resize(values);
-        return read_pixels(input, part, TypeDesc::UINT8, decoded.codes.data());
-    }
-    if (facts.code_bits == 16) {
-        std::vector<std::uint16_t> codes(values);
-        if (!read_pixels(input, part, TypeDesc::UINT16, codes.data())) {
-            return false;
-        }
-        decoded.codes.resize(values * sizeof(std::uint16_t));
-        std::memcpy(decoded.codes.data(), codes.data(), decoded.codes.size());
-        return true;
-    }
-    decoded.values.resize(values);
-    return read_pixels(input, part, TypeDesc::FLOAT, decoded.values.data());
+    return code_bits == 8
+               ? read_pixels(input, part, TypeDesc::UINT8, static_cast<std::uint8_t *>(to))
+           : code_bits == 16
+               ? read_pixels(input, part, TypeDesc::UINT16, static_cast<std::uint16_t *>(to))
+               : read_pixels(input, part, TypeDesc::FLOAT, static_cast<float *>(to));
 }
 
-// Puts an EXR's data window into its display window.
-glint_status frame_pixels(const char *path, const ImageSpec &spec, Decoded &decoded,
-                          glint_error *error)
+std::size_t bytes_of(const glint_stored_facts &facts)
 {
-    Facts &facts = decoded.facts;
-    int left = spec.x - spec.full_x, top = spec.y - spec.full_y;
-    if (left == 0 && top == 0 && spec.width == spec.full_width && spec.height == spec.full_height) {
-        return GLINT_OK;
-    }
-    std::int64_t width = spec.full_width, height = spec.full_height;
-    if (width < 1 || height < 1 || std::uint64_t(width) * std::uint64_t(height) > values_max / 4) {
-        return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: its display window of %d × %d pixels cannot be used (crop it)", path,
-                          spec.full_width, spec.full_height);
-    }
-    std::vector<float> framed(std::size_t(width) * std::size_t(height) *
-                              std::size_t(facts.channels));
-    int first = std::max(0, -left);
-    std::int64_t last = std::min<std::int64_t>(facts.width, width - left);
-    std::size_t channels = std::size_t(facts.channels);
-    for (int y = std::max(0, -top); y < facts.height && y + top < height && first < last; y++) {
-        const float *from =
-            &decoded.values[(std::size_t(y) * std::size_t(facts.width) + std::size_t(first)) *
-                            channels];
-        float *to =
-            &framed[(std::size_t(y + top) * std::size_t(width) + std::size_t(first + left)) *
-                    channels];
+    std::size_t each = facts.code_bits == 0 ? sizeof(float) : std::size_t(facts.code_bits / 8);
+    return std::size_t(facts.width) * std::size_t(facts.height) * std::size_t(facts.channels) *
+           each;
+}
+
+bool is_framed(const glint_decode_request &request, const Part &part,
+               const glint_stored_facts &facts)
+{
+    const ImageSpec &spec = part.spec;
+    return std::strcmp(request.plugin, "openexr") == 0 && facts.envmap == GLINT_ENVMAP_NONE &&
+           facts.code_bits == 0 &&
+           (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+            spec.height != spec.full_height);
+}
+
+// Puts an EXR's data window into its display window, which is zero elsewhere.
+void frame_pixels(const ImageSpec &spec, const glint_stored_facts &window, const float *values,
+                  float *framed)
+{
+    const std::int64_t left = std::int64_t(spec.x) - spec.full_x;
+    const std::int64_t top = std::int64_t(spec.y) - spec.full_y;
+    const std::int64_t width = spec.full_width, height = spec.full_height;
+    const std::int64_t first = std::max<std::int64_t>(0, -left);
+    const std::int64_t last = std::min<std::int64_t>(window.width, width - left);
+    const std::size_t channels = std::size_t(window.channels);
+    for (std::int64_t y = std::max<std::int64_t>(0, -top);
+         y < window.height && y + top < height && first < last; y++) {
+        const float *from = values + std::size_t(y * window.width + first) * channels;
+        float *to = framed + std::size_t((y + top) * width + first + left) * channels;
         std::copy(from, from + std::size_t(last - first) * channels, to);
     }
-    decoded.values.swap(framed);
-    facts.width = int(width);
-    facts.height = int(height);
+}
+
+// Reads the pixels, and frames them.
+glint_status read_framed(const glint_decode_request &request, ImageInput &input, const Part &part,
+                         Memory &memory, glint_stored_facts &facts, bool *is_read,
+                         glint_error *error)
+{
+    const ImageSpec &spec = part.spec;
+    TRY(check_cost(request, spec.full_width, spec.full_height, facts.channels, error));
+    std::vector<float> values(bytes_of(facts) / sizeof(float));
+    *is_read = read_values(input, part, facts.code_bits, values.data());
+    const glint_stored_facts window = facts;
+    facts.width = spec.full_width;
+    facts.height = spec.full_height;
+    frame_pixels(spec, window, values.data(),
+                 reinterpret_cast<float *>(memory.grow(bytes_of(facts))));
     return GLINT_OK;
 }
 
-glint_status decode_part(const Source &source, ImageInput &input, Decoded &decoded,
-                         glint_error *error)
+glint_status decode_part(const glint_decode_request &request, ImageInput &input, Memory &memory,
+                         glint_decode_answer &answer, glint_error *error)
 {
-    const char *path = source.path, *plugin = source.plugin;
+    const char *path = request.path;
+    glint_stored_facts &facts = answer.facts;
     Part part;
     TRY(find_part(path, input, part, error));
-    TRY(check_size(source, part.spec, error));
-    find_facts(plugin, part, decoded.facts);
-    if (!read_values(input, part, decoded)) {
+    TRY(check_size(request, part, error));
+    find_facts(request.plugin, part, facts);
+    bool is_read = false;
+    if (is_framed(request, part, facts)) {
+        TRY(read_framed(request, input, part, memory, facts, &is_read, error));
+    } else {
+        is_read = read_values(input, part, facts.code_bits, memory.grow(bytes_of(facts)));
+    }
+    answer.value_bytes = bytes_of(facts);
+    if (!is_read) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
                           cause_of(input, path).c_str());
     }
-    if (std::strcmp(plugin, "openexr") == 0 && decoded.facts.envmap == GLINT_ENVMAP_NONE &&
-        decoded.facts.code_bits == 0) {
-        TRY(frame_pixels(path, part.spec, decoded, error));
+    return GLINT_OK;
+}
+
+// ---- JPEG ---------------------------------------------------------------------------------------
+
+// A JPEG that is cut short decodes without a complaint, grey where it ends: whether its end is
+// there must be looked for. Segments tell their length; after the start of scan (DA) the end (FF
+// D9) comes, which cannot be among the coded pixels.
+bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
+{
+    std::size_t at = 2;
+    while (at + 4 <= bytes.size() && bytes[at] == 0xff) {
+        unsigned marker = bytes[at + 1];
+        at += 2u + bytes[at + 2] * 256u + bytes[at + 3];
+        if (marker == 0xda) {
+            const unsigned char end[] = {0xff, 0xd9};
+            return at < bytes.size() && std::search(bytes.begin() + std::ptrdiff_t(at), bytes.end(),
+                                                    end, end + 2) != bytes.end();
+        }
+    }
+    // Not the usual structure: the decoder may judge.
+    return at + 4 <= bytes.size();
+}
+
+glint_status check_jpeg(const glint_decode_request &request, glint_error *error)
+{
+    std::vector<unsigned char> bytes(request.file_bytes);
+    std::FILE *file = std::fopen(request.path, "rbe");
+    std::size_t length = file != nullptr ? std::fread(bytes.data(), 1, bytes.size(), file) : 0;
+    if (file != nullptr) {
+        std::fclose(file);
+    }
+    bytes.resize(length);
+    if (!jpeg_is_whole(bytes)) {
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: its end is missing (make the file anew)",
+                          request.path);
     }
     return GLINT_OK;
 }
 
 } // namespace
 
-glint_status decode(const Source &source, Decoded &decoded, glint_error *error)
+glint_status decode_picture(const glint_decode_request &request, Memory &memory,
+                            glint_decode_answer &answer, glint_error *error)
 {
-    const char *path = source.path;
-    std::unique_ptr<ImageInput> input = ImageInput::create(source.plugin);
+    const char *path = request.path;
+    if (std::strcmp(request.plugin, "jpeg") == 0) {
+        TRY(check_jpeg(request, error));
+    }
+    std::unique_ptr<ImageInput> input = ImageInput::create(request.plugin);
     if (input == nullptr) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: OpenImageIO was built without this format (convert it to .exr)",
@@ -399,7 +456,7 @@ glint_status decode(const Source &source, Decoded &decoded, glint_error *error)
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
                           cause_of(*input, path).c_str());
     }
-    glint_status status = decode_part(source, *input, decoded, error);
+    const glint_status status = decode_part(request, *input, memory, answer, error);
     input->close();
     return status;
 }

@@ -1,0 +1,43 @@
+// What the parts of the decoder share.
+#ifndef GLINT_DECODER_DECODE_HPP
+#define GLINT_DECODER_DECODE_HPP
+
+#include "decoder/decode.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace glint
+{
+
+// The memory file into which values go. Owns its mapping.
+class Memory
+{
+  public:
+    explicit Memory(int file) : file_(file) {}
+    Memory(const Memory &) = delete;
+    Memory &operator=(const Memory &) = delete;
+    ~Memory();
+
+    // Makes it this large, and zero. Throws std::bad_alloc.
+    std::uint8_t *grow(std::size_t bytes);
+
+  private:
+    int file_;
+    void *at_ = nullptr;
+    std::size_t bytes_ = 0;
+};
+
+// Throw what OpenImageIO throws, and std::bad_alloc.
+glint_status decode_picture(const glint_decode_request &request, Memory &memory,
+                            glint_decode_answer &answer, glint_error *error);
+glint_status decode_channels(const glint_decode_request &request, Memory &memory,
+                             glint_decode_answer &answer, glint_error *error);
+
+// Refuses a picture that takes more than the request allows.
+glint_status check_cost(const glint_decode_request &request, std::int64_t width,
+                        std::int64_t height, std::int64_t channels, glint_error *error);
+
+} // namespace glint
+
+#endif

@@ -1,0 +1,188 @@
+// Pictures as stored. See stored.h.
+#include "image/stored.h"
+
+#include "base/memory.h"
+#include "image/color.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+static float linear_of(const glint_stored_facts *facts, float code)
+{
+    return facts->transfer == GLINT_TRANSFER_SRGB    ? glint_srgb_to_linear(code)
+           : facts->transfer == GLINT_TRANSFER_POWER ? powf(code, facts->gamma)
+                                                     : code;
+}
+
+// One pixel as read. Alpha is never curved. A colour that was multiplied by alpha before the curve
+// is divided first: the curve belongs to the colour.
+static void develop_pixel(const glint_stored_facts *facts, const float *linear, const float *codes,
+                          float *pixel)
+{
+    const int colors = facts->channels <= 2 ? 1 : 3;
+    const bool has_alpha = colors < facts->channels;
+    const float alpha = has_alpha ? codes[colors] : 1.0f;
+    const bool was_multiplied = has_alpha && facts->is_unassociated == 0;
+    for (int c = 0; c < colors; c++) {
+        if (was_multiplied && facts->transfer != GLINT_TRANSFER_LINEAR) {
+            pixel[c] = alpha > 0.0f ? alpha * linear_of(facts, codes[c] / alpha) : linear[c];
+        } else {
+            pixel[c] = was_multiplied ? linear[c] : linear[c] * alpha;
+        }
+    }
+    if (has_alpha) {
+        pixel[colors] = alpha;
+    }
+}
+
+static size_t count_pixels(const glint_stored_facts *facts)
+{
+    return (size_t)facts->width * (size_t)facts->height;
+}
+
+// What codes mean: values as they are, and with the curve taken off.
+typedef struct meanings {
+    float *plain, *linear;
+} meanings;
+
+#define CHUNK 4096 // pixels that are read at a time
+
+// Pixels as they were read: 8 bits a code, or 16.
+typedef struct chunk {
+    uint16_t codes[CHUNK * 4];
+    size_t pixels;
+} chunk;
+
+// Compiled once for each width of codes.
+static inline void develop_each(const glint_stored_facts *facts, const meanings *of,
+                                const chunk *from, bool is_wide, float *pixels)
+{
+    const uint8_t *narrow = (const uint8_t *)from->codes;
+    const size_t channels = (size_t)facts->channels;
+    for (size_t p = 0; p < from->pixels; p++) {
+        float curved[4], straight[4];
+        for (size_t c = 0; c < channels; c++) {
+            const size_t place = p * channels + c;
+            const unsigned code = is_wide ? from->codes[place] : narrow[place];
+            curved[c] = of->linear[code];
+            straight[c] = of->plain[code];
+        }
+        develop_pixel(facts, curved, straight, pixels + p * channels);
+    }
+}
+
+static glint_status develop_chunks(const glint_stored *stored, const meanings *of, float *pixels,
+                                   glint_error *error)
+{
+    const glint_stored_facts *facts = &stored->facts;
+    const bool is_wide = facts->code_bits == 16;
+    const size_t channels = (size_t)facts->channels, count = count_pixels(facts);
+    const size_t pixel_bytes = channels * (is_wide ? sizeof(uint16_t) : sizeof(uint8_t));
+    chunk from;
+    for (size_t done = 0; done < count; done += CHUNK) {
+        from.pixels = count - done < CHUNK ? count - done : CHUNK;
+        TRY(glint_stored_read(stored, done * pixel_bytes, from.codes, from.pixels * pixel_bytes,
+                              error));
+        if (is_wide) {
+            develop_each(facts, of, &from, true, pixels + done * channels);
+        } else {
+            develop_each(facts, of, &from, false, pixels + done * channels);
+        }
+    }
+    return GLINT_OK;
+}
+
+static glint_status develop_codes(const glint_stored *stored, float *pixels, glint_error *error)
+{
+    const glint_stored_facts *facts = &stored->facts;
+    const unsigned most = facts->code_bits == 16 ? UINT16_MAX : UINT8_MAX;
+    float *values = glint_allocate_unset(most + 1, 2 * sizeof *values);
+    if (values == NULL) {
+        return glint_fail_memory(error, "an image");
+    }
+    const meanings of = {values, values + most + 1};
+    for (unsigned code = 0; code <= most; code++) {
+        of.plain[code] = (float)((double)code / most);
+        of.linear[code] = linear_of(facts, of.plain[code]);
+    }
+    const glint_status status = develop_chunks(stored, &of, pixels, error);
+    free(values);
+    return status;
+}
+
+static glint_status develop_floats(const glint_stored *stored, float *pixels, glint_error *error)
+{
+    const glint_stored_facts *facts = &stored->facts;
+    const size_t channels = (size_t)facts->channels, count = count_pixels(facts);
+    TRY(glint_stored_read(stored, 0, pixels, stored->value_bytes, error));
+    for (size_t p = 0; facts->is_unassociated != 0 && p < count; p++) {
+        float value[4];
+        memcpy(value, pixels + p * channels, channels * sizeof *value);
+        develop_pixel(facts, value, value, pixels + p * channels);
+    }
+    return GLINT_OK;
+}
+
+// Where pixel (x, y) of an upright image of `width` × `height` lies in the stored one, by EXIF's
+// numbers: 2 mirrored, 3 half a turn, 4 upside down, 5 to 8 with rows and columns exchanged.
+static void stored_place(int orientation, int width, int height, int place[2])
+{
+    const int x = place[0], y = place[1];
+    const bool flips_x =
+        orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
+    const bool flips_y =
+        orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
+    if (orientation >= 5) {
+        // Upright (x, y) comes from stored (y, x), 6 and 8 being quarter turns.
+        place[0] = flips_y ? height - 1 - y : y;
+        place[1] = flips_x ? width - 1 - x : x;
+    } else {
+        place[0] = flips_x ? width - 1 - x : x;
+        place[1] = flips_y ? height - 1 - y : y;
+    }
+}
+
+static glint_status set_upright(int orientation, glint_image *image, glint_error *error)
+{
+    if (orientation < 2 || orientation > 8) {
+        return GLINT_OK;
+    }
+    const bool exchanges = orientation >= 5;
+    glint_image upright;
+    TRY(glint_image_create(exchanges ? image->height : image->width,
+                           exchanges ? image->width : image->height, image->channels, &upright,
+                           error));
+    for (int y = 0; y < upright.height; y++) {
+        for (int x = 0; x < upright.width; x++) {
+            int place[2] = {x, y};
+            stored_place(orientation, upright.width, upright.height, place);
+            memcpy(glint_image_pixel(&upright, x, y), glint_image_pixel(image, place[0], place[1]),
+                   (size_t)image->channels * sizeof(float));
+        }
+    }
+    glint_image_free(image);
+    *image = upright;
+    return GLINT_OK;
+}
+
+static glint_status develop(const glint_stored *stored, glint_image *image, glint_error *error)
+{
+    TRY(stored->facts.code_bits == 0 ? develop_floats(stored, image->pixels, error)
+                                     : develop_codes(stored, image->pixels, error));
+    return set_upright(stored->facts.orientation, image, error);
+}
+
+glint_status glint_stored_develop(const glint_stored *stored, glint_image *image,
+                                  glint_error *error)
+{
+    const glint_stored_facts *facts = &stored->facts;
+    TRY(glint_image_create(facts->width, facts->height, facts->channels, image, error));
+    const glint_status status = develop(stored, image, error);
+    if (status != GLINT_OK) {
+        glint_image_free(image);
+    }
+    return status;
+}

@@ -1,0 +1,137 @@
+// What the decoder of images may do: read files, compute in threads, answer. Nothing else.
+#include "decoder/sandbox.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define MIB (UINT64_C(1) << 20)
+
+// In a child, as a sandbox cannot be left; the number of the first attempt that went wrong, or 0.
+static int in_child(int (*attempt)(void))
+{
+    const pid_t process = fork();
+    if (process == 0) {
+        _exit(glint_sandbox_enter() ? attempt() : 100);
+    }
+    int how = 0;
+    assert_int_equal(waitpid(process, &how, 0), process);
+    assert_true(WIFEXITED(how));
+    return WEXITSTATUS(how);
+}
+
+static int is_refused(long result)
+{
+    return result == -1 && errno == EPERM;
+}
+
+static int reach_out(void)
+{
+    char program[] = "/bin/true";
+    char *const arguments[] = {program, NULL};
+    return !is_refused(open("/tmp/glint-escaped", O_WRONLY | O_CREAT, 0600))        ? 1
+           : !is_refused(open("/dev/null", O_RDWR))                                 ? 2
+           : !is_refused(creat("/tmp/glint-escaped", 0600))                         ? 3
+           : !is_refused(unlink("/tmp/glint-escaped"))                              ? 4
+           : !is_refused(rename("/tmp/a", "/tmp/b"))                                ? 5
+           : !is_refused(mkdir("/tmp/glint-escaped", 0700))                         ? 6
+           : !is_refused(socket(AF_INET, SOCK_STREAM, 0))                           ? 7
+           : !is_refused(fork())                                                    ? 8
+           : !is_refused(kill(getppid(), 0))                                        ? 9
+           : !is_refused(execv(program, arguments))                                 ? 10
+           : !is_refused(prlimit(getppid(), RLIMIT_CPU, &(struct rlimit){0}, NULL)) ? 11
+           : !is_refused(chmod("/tmp", 01777))                                      ? 12
+                                                                                    : 0;
+}
+
+static void others_cannot_be_reached(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(reach_out), 0);
+    assert_int_equal(access("/tmp/glint-escaped", F_OK), -1);
+}
+
+static void *add_one(void *number)
+{
+    ++*(int *)number;
+    return NULL;
+}
+
+static int work(void)
+{
+    pthread_t thread;
+    int number = 1, file = open("/proc/self/statm", O_RDONLY);
+    char byte;
+    return file < 0 || read(file, &byte, 1) != 1                  ? 1
+           : pthread_create(&thread, NULL, add_one, &number) != 0 ? 2
+           : pthread_join(thread, NULL) != 0 || number != 2       ? 3
+                                                                  : 0;
+}
+
+static void work_goes_on(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(work), 0);
+}
+
+static int use_memory(void)
+{
+    const glint_decode_limits limits = {.memory_bytes = 64 * MIB, .cpu_seconds = 5, .seconds = 60};
+    glint_sandbox_limit(&limits, 1);
+    void *small = malloc(32 * MIB), *large = malloc(256 * MIB);
+    const int result = small == NULL ? 1 : large != NULL ? 2 : 0;
+    free(small);
+    free(large);
+    return result;
+}
+
+static void memory_is_limited(void **state)
+{
+    (void)state;
+#ifdef __SANITIZE_ADDRESS__
+    print_message("skipped: AddressSanitizer reserves more memory than any limit\n");
+    skip();
+#endif
+    assert_int_equal(in_child(use_memory), 0);
+}
+
+static void time_is_limited(void **state)
+{
+    (void)state;
+    const pid_t process = fork();
+    if (process == 0) {
+        const glint_decode_limits limits = {.cpu_seconds = 1};
+        glint_sandbox_limit(&limits, 1);
+        for (volatile unsigned count = 0;; count = count + 1) {
+        }
+    }
+    int how = 0;
+    assert_int_equal(waitpid(process, &how, 0), process);
+    assert_true(WIFSIGNALED(how));
+    assert_int_equal(WTERMSIG(how), SIGXCPU);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(others_cannot_be_reached),
+        cmocka_unit_test(work_goes_on),
+        cmocka_unit_test(memory_is_limited),
+        cmocka_unit_test(time_is_limited),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
