@@ -2,9 +2,12 @@
 // Nothing else prints an error or exits.
 #include "cli/commands.h"
 #include "cli/common/options.h"
+
+#include "cli/common/death.h"
 #include "cli/common/plain_stdout.h"
 #include "cli/common/say.h"
 #include "cli/common/signals.h"
+#include "device/driver_cache.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -84,6 +87,22 @@ static glint_status run_help(int argc, char **argv, glint_error *error)
     return GLINT_OK;
 }
 
+// Runs the command, with the driver's cache of kernels in order where it needs a device.
+static glint_status run_on_device(const glint_command *command, void *request,
+                                  const glint_arguments *arguments, glint_error *error)
+{
+    if (command->uses_device) {
+        glint_driver_cache_prepare();
+    }
+    const glint_status status = command->run(request, arguments, error);
+    const char *note = glint_driver_cache_note();
+    if (note != NULL) {
+        glint_say("warning: %s", note);
+    }
+    glint_driver_cache_release();
+    return status;
+}
+
 static glint_status run_command(const glint_command *command, int argc, char **argv,
                                 glint_error *error)
 {
@@ -99,7 +118,7 @@ static glint_status run_command(const glint_command *command, int argc, char **a
     if (status == GLINT_OK && arguments.help) {
         glint_options_help(command, text_columns(), stdout);
     } else if (status == GLINT_OK) {
-        status = command->run(request, &arguments, error);
+        status = run_on_device(command, request, &arguments, error);
     }
     free(request);
     return status;
@@ -150,6 +169,7 @@ int main(int argc, char **argv)
     open_standard_streams();
     glint_plain_stdout_begin();
     glint_signals_install();
+    glint_death_install();
     glint_error error = {0};
     glint_status status = dispatch(argc, argv, &error);
     if (status == GLINT_OK) {

@@ -2,6 +2,7 @@
 // build of the same source with the same options fast.
 #include "device/program.h"
 
+#include "device/driver_cache.h"
 #include "device/kernel_sources.h"
 #include "device/opencl_error.h"
 
@@ -89,6 +90,15 @@ static void keep_built(struct glint_device *device, const char *options, cl_prog
     device->programs = kept;
 }
 
+// A damaged cache may give programs without a kernel.
+static bool has_kernels(cl_program program)
+{
+    size_t count = 0;
+    return clGetProgramInfo(program, CL_PROGRAM_NUM_KERNELS, sizeof count, &count, NULL) !=
+               CL_SUCCESS ||
+           count > 0;
+}
+
 static glint_status compile(const struct glint_device *device, source *found, const char *options,
                             cl_program *program, glint_error *error)
 {
@@ -97,6 +107,9 @@ static glint_status compile(const struct glint_device *device, source *found, co
         clCreateProgramWithSource(device->context, found->count, found->parts, NULL, &code);
     TRY(glint_check_opencl(error, device, "creating the kernels' program", code));
     code = clBuildProgram(made, 1, &device->id, options, NULL, NULL);
+    if (code == CL_SUCCESS && !has_kernels(made)) {
+        code = CL_INVALID_PROGRAM_EXECUTABLE;
+    }
     if (code != CL_SUCCESS) {
         glint_status status =
             glint_fail_opencl(error, device, "compiling the kernels (the log follows)", code);
@@ -108,6 +121,22 @@ static glint_status compile(const struct glint_device *device, source *found, co
     }
     *program = made;
     return GLINT_OK;
+}
+
+// Our own kernels compile: where they do not, the driver's cache may be damaged.
+static glint_status compile_or_mend(const struct glint_device *device, source *found,
+                                    const char *options, cl_program *program, glint_error *error)
+{
+    glint_driver_cache_begin();
+    glint_status status = compile(device, found, options, program, error);
+    if (status != GLINT_OK && found->include_option[0] == '\0' && glint_driver_cache_mend()) {
+        if (error != NULL) {
+            glint_error_free(error);
+        }
+        status = compile(device, found, options, program, error);
+    }
+    glint_driver_cache_end();
+    return status;
 }
 
 glint_status glint_program_build(struct glint_device *device, const glint_program_request *request,
@@ -126,7 +155,7 @@ glint_status glint_program_build(struct glint_device *device, const glint_progra
     if (*program != NULL) {
         return GLINT_OK;
     }
-    TRY(compile(device, &found, options, program, error));
+    TRY(compile_or_mend(device, &found, options, program, error));
     if (request->with_probes) {
         keep_built(device, options, *program);
     }

@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include "base/clock.h"
+#include "device/driver_cache.h"
 #include "render/vertices.h"
 
 #include <stdlib.h>
@@ -50,7 +51,10 @@ static glint_status find_kernels(glint_renderer *r, glint_error *error)
     bool are_new;
     TRY(glint_kernel_cache_get(&r->cache, &request, &r->kernels, &are_new, error));
     if (are_new) {
-        TRY(warm_up(r, error));
+        glint_driver_cache_begin();
+        const glint_status status = warm_up(r, error);
+        glint_driver_cache_end();
+        TRY(status);
         r->phases.kernel_build += glint_lap_ms(&clock);
     }
     return GLINT_OK;

@@ -357,6 +357,7 @@ const glint_command glint_command_info = {
                 "  glint info car.glb --env studio.hdr --depth 2 --json\n",
     .groups = groups,
     .positional = "SCENE",
+    .uses_device = true,
     .request_size = sizeof(info_request),
     .set_defaults = set_defaults,
     .run = run,

@@ -1,0 +1,249 @@
+// The driver's cache of compiled kernels. See driver_cache.h.
+#include "device/driver_cache.h"
+
+#include "base/status.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <fts.h>
+#include <limits.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <time.h>
+#include <unistd.h>
+
+#define FOLDER_NAME "POCL_CACHE_DIR"
+#define MARK "glint-died"       // in the cache; holds when the run began to compile
+#define TOUCHED "last_accessed" // in an entry; PoCL touches it when it uses the entry
+#define LEAST_ROOM (UINT64_C(16) << 20)
+#define SLACK 2 // seconds that clocks of files may be behind
+
+static char folder[PATH_MAX];    // of the cache; "" before it is known
+static char temporary[PATH_MAX]; // of ours; "": none
+static char note[GLINT_MESSAGE_CAPACITY];
+static char epitaph[GLINT_MESSAGE_CAPACITY];
+static char mark_path[PATH_MAX + sizeof "/" MARK];
+static char mark_text[32];
+static time_t begun;
+static atomic_bool is_used;
+static void (*watcher)(void);
+
+// ---- The folder ---------------------------------------------------------------------------------
+
+// As PoCL finds it.
+static void find_folder(void)
+{
+    const char *given = getenv(FOLDER_NAME), *home = getenv("HOME");
+    const char *caches = getenv("XDG_CACHE_HOME");
+    if (given != NULL && given[0] != '\0') {
+        snprintf(folder, sizeof folder, "%s", given);
+    } else if (caches != NULL && caches[0] != '\0') {
+        snprintf(folder, sizeof folder, "%s/pocl/kcache", caches);
+    } else if (home != NULL && home[0] != '\0') {
+        snprintf(folder, sizeof folder, "%s/.cache/pocl/kcache", home);
+    } else {
+        snprintf(folder, sizeof folder, "/tmp/pocl/kcache");
+    }
+    snprintf(mark_path, sizeof mark_path, "%s/" MARK, folder);
+    snprintf(epitaph, sizeof epitaph,
+             "glint: %.700s: the driver died while it compiled kernels, or loaded them from this "
+             "cache (run glint again: it will compile them anew)\n",
+             folder);
+}
+
+// Makes the folder with those above it. False where that fails.
+static bool make_folder(const char *path)
+{
+    char part[PATH_MAX];
+    snprintf(part, sizeof part, "%s", path);
+    for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        (void)mkdir(part, 0777);
+        *slash = '/';
+    }
+    return mkdir(part, 0777) == 0 || errno == EEXIST;
+}
+
+// Why kernels cannot be kept there; NULL: they can.
+static const char *find_fault(void)
+{
+    struct stat facts;
+    struct statvfs room;
+    if (!make_folder(folder)) {
+        return strerror(errno);
+    }
+    if (stat(folder, &facts) == 0 && !S_ISDIR(facts.st_mode)) {
+        return "it is no folder";
+    }
+    if (access(folder, W_OK | X_OK) != 0) {
+        return strerror(errno);
+    }
+    const bool is_full = statvfs(folder, &room) == 0 &&
+                         (uint64_t)room.f_bavail * (uint64_t)room.f_frsize < LEAST_ROOM;
+    return is_full ? "its disk is full" : NULL;
+}
+
+// ---- Entries ------------------------------------------------------------------------------------
+
+static void remove_tree(const char *path)
+{
+    char name[PATH_MAX];
+    snprintf(name, sizeof name, "%s", path);
+    FTS *tree = fts_open((char *[]){name, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
+    for (FTSENT *entry; tree != NULL && (entry = fts_read(tree)) != NULL;) {
+        if (entry->fts_info == FTS_DP) {
+            (void)rmdir(entry->fts_accpath);
+        } else if (entry->fts_info != FTS_D) {
+            (void)unlink(entry->fts_accpath);
+        }
+    }
+    if (tree != NULL) {
+        fts_close(tree);
+    }
+}
+
+// Entries are folders of folders of the cache.
+static bool remove_used_since(time_t since)
+{
+    bool is_any = false;
+    char name[PATH_MAX];
+    snprintf(name, sizeof name, "%s", folder);
+    FTS *tree = fts_open((char *[]){name, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
+    for (FTSENT *entry; tree != NULL && (entry = fts_read(tree)) != NULL;) {
+        char touched[PATH_MAX];
+        struct stat facts;
+        if (entry->fts_info != FTS_D || entry->fts_level < 2) {
+            continue;
+        }
+        fts_set(tree, entry, FTS_SKIP);
+        const int length = snprintf(touched, sizeof touched, "%s/" TOUCHED, entry->fts_path);
+        if (length < (int)sizeof touched && stat(touched, &facts) == 0 &&
+            facts.st_mtime >= since - SLACK) {
+            remove_tree(entry->fts_path);
+            is_any = true;
+        }
+    }
+    if (tree != NULL) {
+        fts_close(tree);
+    }
+    return is_any;
+}
+
+// ---- Before and while ---------------------------------------------------------------------------
+
+static void mend_after_death(void)
+{
+    char text[sizeof mark_text] = "";
+    const int mark = open(mark_path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (mark < 0) {
+        return;
+    }
+    const bool is_read = read(mark, text, sizeof text - 1) > 0;
+    close(mark);
+    (void)unlink(mark_path);
+    if (is_read && remove_used_since((time_t)strtoll(text, NULL, 10))) {
+        snprintf(note, sizeof note,
+                 "%.700s: an earlier run died over this kernel cache: what it used was removed, "
+                 "and is compiled anew",
+                 folder);
+    }
+}
+
+// Kernels go to a folder of this run's.
+static void take_temporary(const char *fault)
+{
+    const char *place = getenv("TMPDIR");
+    snprintf(temporary, sizeof temporary, "%s/glint-kernels-XXXXXX",
+             place != NULL && place[0] != '\0' ? place : "/tmp");
+    const bool is_made = mkdtemp(temporary) != NULL && setenv(FOLDER_NAME, temporary, 1) == 0;
+    snprintf(note, sizeof note, "%.500s: the kernel cache cannot be used: %.100s; kernels are %s",
+             folder, fault,
+             is_made ? "compiled for this run alone (" FOLDER_NAME " names another folder)"
+                     : "not kept (let " FOLDER_NAME " name a folder that can be written)");
+    if (is_made) {
+        snprintf(folder, sizeof folder, "%s", temporary);
+    } else {
+        temporary[0] = '\0';
+    }
+}
+
+void glint_driver_cache_prepare(void)
+{
+    find_folder();
+    const char *fault = find_fault();
+    if (fault != NULL) {
+        take_temporary(fault);
+    } else {
+        mend_after_death();
+    }
+}
+
+void glint_driver_cache_release(void)
+{
+    if (temporary[0] != '\0') {
+        remove_tree(temporary);
+        temporary[0] = '\0';
+    }
+}
+
+const char *glint_driver_cache_note(void)
+{
+    return note[0] != '\0' ? note : NULL;
+}
+
+void glint_driver_cache_begin(void)
+{
+    begun = time(NULL);
+    snprintf(mark_text, sizeof mark_text, "%lld\n", (long long)begun);
+    atomic_store(&is_used, folder[0] != '\0');
+    if (watcher != NULL) {
+        watcher();
+    }
+}
+
+void glint_driver_cache_watch(void (*watch)(void))
+{
+    watcher = watch;
+}
+
+void glint_driver_cache_end(void)
+{
+    atomic_store(&is_used, false);
+}
+
+bool glint_driver_cache_mend(void)
+{
+    if (folder[0] == '\0' || !remove_used_since(begun)) {
+        return false;
+    }
+    snprintf(note, sizeof note,
+             "%.700s: a kernel of this cache was damaged: it was removed, and compiled anew",
+             folder);
+    return true;
+}
+
+// ---- In signal handlers -------------------------------------------------------------------------
+
+bool glint_driver_cache_is_used(void)
+{
+    return atomic_load(&is_used);
+}
+
+void glint_driver_cache_mark(void)
+{
+    const int mark = open(mark_path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (mark >= 0) {
+        (void)!write(mark, mark_text, strlen(mark_text));
+        close(mark);
+    }
+}
+
+const char *glint_driver_cache_epitaph(void)
+{
+    return epitaph;
+}

@@ -1,0 +1,34 @@
+// The driver's cache of compiled kernels, as PoCL keeps it: where it is, whether it can be used,
+// and how damage in it is mended. Other drivers have caches of their own, which this leaves alone.
+#ifndef GLINT_DEVICE_DRIVER_CACHE_H
+#define GLINT_DEVICE_DRIVER_CACHE_H
+
+#include <stdbool.h>
+
+// To be called once, before OpenCL is used. Removes entries over which an earlier run died. Where
+// the cache cannot be written, kernels go to a temporary folder.
+void glint_driver_cache_prepare(void);
+
+// Removes the temporary folder.
+void glint_driver_cache_release(void);
+
+// What was done about the cache, as a sentence that begins with its folder; NULL: nothing.
+const char *glint_driver_cache_note(void);
+
+// `watch` is called whenever the driver begins to compile. NULL, as at first: nobody watches.
+void glint_driver_cache_watch(void (*watch)(void));
+
+// Between the two the driver compiles, or loads from its cache.
+void glint_driver_cache_begin(void);
+void glint_driver_cache_end(void);
+
+// Removes the entries that were used since the beginning. False where there were none.
+bool glint_driver_cache_mend(void);
+
+// For signal handlers: whether the driver compiles or loads; and, if it died of that, a mark for
+// the next run, and a line about it.
+bool glint_driver_cache_is_used(void);
+void glint_driver_cache_mark(void);
+const char *glint_driver_cache_epitaph(void);
+
+#endif

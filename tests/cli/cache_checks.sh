@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# The driver's cache of kernels, damaged or out of reach: one clear line, and glint goes on.
+# cache_checks.sh GLINT JSON_GET SCENES
+# shellcheck source-path=SCRIPTDIR source=common.sh
+. "$(dirname -- "$0")/common.sh"
+scene=$3/mirror_sphere.gltf
+export POCL_CACHE_DIR=$work/cache
+picture=("$scene" --size 16x9 -o out/x.png --progress none)
+
+# A cache that holds the kernel, and what PoCL keeps of it.
+mkdir cache
+run render "${picture[@]}"
+check 'the cache is filled' test "$status" -eq 0 -a -n "$(find cache -name program.bc)"
+cp -r cache good
+
+# Damages the files of that name by a command on each.
+damage() { # NAME COMMAND…
+    local name=$1
+    shift
+    rm -rf cache out/x.png
+    cp -r good cache
+    find cache -name "$name" -print0 | while read -rd '' file; do "$@" "$file"; done
+}
+empty() { : >"$1"; }
+shorten() { head -c 1000 "$1" >"$1.short" && mv "$1.short" "$1"; }
+# What glint itself says; PoCL and LLVM say more.
+says() { grep -q "^glint: .*$work/cache: .*$1" stderr; }
+
+damage program.bc empty
+run render "${picture[@]}"
+check 'an empty program: compiled anew' test "$status" -eq 0 -a -s out/x.png
+check 'an empty program: a warning names the cache' says 'damaged'
+run render "${picture[@]}"
+check 'an empty program: once' test "$status" -eq 0 -a ! -s stderr
+
+# dies NAME WHAT COMMAND: the driver dies in the first run, and the second one mends the cache.
+dies() {
+    damage "$2" "$3"
+    run render "${picture[@]}"
+    check "$1: exit status 4" test "$status" -eq 4 -a ! -e out/x.png
+    check "$1: a line names the cache" says 'run glint again'
+    run render "${picture[@]}"
+    check "$1: the next run mends it" test "$status" -eq 0 -a -s out/x.png
+    check "$1: and says so" says 'compiled anew'
+    run render "${picture[@]}"
+    check "$1: once" test "$status" -eq 0 -a ! -s stderr
+}
+dies 'an empty kernel' '*.so' empty
+if [ -z "${ASAN_OPTIONS-}" ]; then
+    dies 'a short kernel' '*.so' shorten
+else
+    skip 'a short kernel' 'AddressSanitizer takes SIGBUS'
+fi
+
+# A cache out of reach: kernels go to a folder that is gone afterwards.
+out_of_reach() { # NAME
+    rm -f out/x.png
+    mkdir -p tmp
+    TMPDIR=$work/tmp run render "${picture[@]}"
+    check "$1: rendered" test "$status" -eq 0 -a -s out/x.png
+    check "$1: a warning names the cache" grep -q 'the kernel cache cannot be used' stderr
+    check "$1: nothing is left behind" test -z "$(ls -A tmp)"
+}
+rm -rf cache
+: >cache
+out_of_reach 'a file in its place'
+rm cache
+POCL_CACHE_DIR=/proc/none/cache out_of_reach 'no folder'
+mkdir cache
+if mount -t tmpfs -o size=20m none cache 2>mount.log; then
+    head -c 12m /dev/zero >cache/fill
+    out_of_reach 'a full disk'
+    umount cache
+else
+    skip 'a full disk' 'no small file system can be mounted'
+fi
+
+# Another's death is its own: nothing is marked.
+rm -rf cache
+cp -r good cache
+"$glint" render "$scene" --turntable 999 --size 64x64 -o out/f.####.png --progress none 2>/dev/null &
+sleep 1
+kill -ABRT $! && wait $!
+check 'a signal from outside: its own status' test $? -eq 134
+check 'a signal from outside: no mark' test ! -e cache/glint-died
+finish
