@@ -9,6 +9,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// For each triangle, at most, beside the scene; the tree itself takes half of it.
+#define GLINT_BVH_BYTES_WHILE_BUILT 75
+
 // A leaf's triangles as the host sees them; the values are described in kernels/layout.h.
 typedef struct glint_cluster {
     float positions[3][GLINT_CLUSTER_LANES]; // x, y, z of each vertex

@@ -87,13 +87,10 @@ static glint_status run_help(int argc, char **argv, glint_error *error)
     return GLINT_OK;
 }
 
-// Runs the command, with the driver's cache of kernels in order where it needs a device.
-static glint_status run_on_device(const glint_command *command, void *request,
-                                  const glint_arguments *arguments, glint_error *error)
+// What was done about the driver's cache is said at the end.
+static glint_status run_and_tidy(const glint_command *command, void *request,
+                                 const glint_arguments *arguments, glint_error *error)
 {
-    if (command->uses_device) {
-        glint_driver_cache_prepare();
-    }
     const glint_status status = command->run(request, arguments, error);
     const char *note = glint_driver_cache_note();
     if (note != NULL) {
@@ -118,7 +115,7 @@ static glint_status run_command(const glint_command *command, int argc, char **a
     if (status == GLINT_OK && arguments.help) {
         glint_options_help(command, text_columns(), stdout);
     } else if (status == GLINT_OK) {
-        status = run_on_device(command, request, &arguments, error);
+        status = run_and_tidy(command, request, &arguments, error);
     }
     free(request);
     return status;

@@ -1,6 +1,7 @@
 // OpenCL devices. See device.h.
 #include "device/device.h"
 
+#include "device/driver_cache.h"
 #include "device/opencl.h"
 #include "device/opencl_error.h"
 
@@ -111,6 +112,7 @@ static glint_status find_devices(found_device **devices, size_t *count, glint_er
     *count = 0;
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
+    glint_driver_cache_prepare();
     cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count);
     if (code != CL_SUCCESS || platform_count == 0) {
         return glint_fail(error, GLINT_DEVICE_FAILED,

@@ -174,6 +174,9 @@ static void take_temporary(const char *fault)
 
 void glint_driver_cache_prepare(void)
 {
+    if (folder[0] != '\0') {
+        return;
+    }
     find_folder();
     const char *fault = find_fault();
     if (fault != NULL) {

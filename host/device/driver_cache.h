@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-// To be called once, before OpenCL is used. Removes entries over which an earlier run died. Where
+// Before OpenCL is used; the first call counts. Removes entries over which an earlier run died. Where
 // the cache cannot be written, kernels go to a temporary folder.
 void glint_driver_cache_prepare(void);
 

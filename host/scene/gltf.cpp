@@ -8,10 +8,14 @@
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_flatten.hpp"
 #include "scene/gltf_sweep.hpp"
+#include "scene/gltf_uri.hpp"
 
+#include <map>
 #include <memory>
 #include <new>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace glint
 {
@@ -93,16 +97,42 @@ void fill(glint_scene_source &source, double time, glint_scene &scene)
     }
 }
 
+// Of buffers that name one file the longest is read, once, and stands for all of them.
+void read_buffers(Load &load)
+{
+    const json &buffers = objects_of(load.document.root, "buffers");
+    std::vector<int> stand_in(buffers.size());
+    std::map<std::string, std::size_t> longest;
+    auto length = [&](std::size_t i) { return buffers[i]["byteLength"].get<std::uint64_t>(); };
+    for (std::size_t i = 0; i < buffers.size(); i++) {
+        const json *uri = member(buffers[i], "uri");
+        if (uri != nullptr && !is_data_uri(uri->get_ref<const std::string &>())) {
+            std::size_t &best = longest.try_emplace(uri->get<std::string>(), i).first->second;
+            best = length(i) > length(best) ? i : best;
+        }
+    }
+    for (std::size_t i = 0; i < buffers.size(); i++) {
+        const json *uri = member(buffers[i], "uri");
+        const auto found = uri != nullptr ? longest.find(uri->get<std::string>()) : longest.end();
+        stand_in[i] = static_cast<int>(found != longest.end() ? found->second : i);
+    }
+    load.model.buffers.resize(buffers.size());
+    for (std::size_t i = 0; i < buffers.size(); i++) {
+        if (stand_in[i] == static_cast<int>(i)) {
+            load.model.buffers[i].data = read_buffer(load.document, i);
+        }
+    }
+    for (tinygltf::BufferView &view : load.model.bufferViews) {
+        view.buffer = stand_in[static_cast<std::size_t>(view.buffer)];
+    }
+}
+
 void open(const char *path, const glint_scene_options &options, glint_scene_source &source)
 {
     Load &load = source.load;
     read_document(path, load.document);
     check_document(load.document, load.model);
-    const std::size_t buffers = objects_of(load.document.root, "buffers").size();
-    load.model.buffers.reserve(buffers);
-    for (std::size_t i = 0; i < buffers; i++) {
-        load.model.buffers.emplace_back().data = read_buffer(load.document, i);
-    }
+    read_buffers(load);
     load.primitives = prepare_primitives(load.model, load.tally);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);
     choose_nodes(load, options.scene);
@@ -122,6 +152,8 @@ glint_status guard(const char *path, glint_error *error, Work work)
         return GLINT_OK;
     } catch (const refusal &refused) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s", path, refused.what());
+    } catch (const shortage &lack) {
+        return glint_fail(error, GLINT_OUT_OF_MEMORY, "%s: %s", path, lack.what());
     } catch (const std::bad_alloc &) {
         return glint_fail(error, GLINT_OUT_OF_MEMORY, "%s: not enough memory for the scene", path);
     } catch (const std::exception &unexpected) {

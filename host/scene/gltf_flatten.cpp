@@ -3,6 +3,7 @@
 // on, so that memory is what the scene's arrays take. See gltf_flatten.hpp.
 #include "scene/gltf_flatten.hpp"
 
+#include "base/free_memory.h"
 #include "base/memory.h"
 #include "scene/gltf_bounds.hpp"
 #include "scene/gltf_material.hpp"
@@ -169,8 +170,22 @@ class Writer
     }
 
   private:
+    // Before the memory is touched: what the machine has not would be taken from other programs.
+    static void check_memory(std::size_t triangles, std::size_t bytes)
+    {
+        const double gib = 1 << 30;
+        const std::uint64_t left = glint_free_memory();
+        if (bytes > left) {
+            throw shortage("its " + std::to_string(triangles) + " triangles take " +
+                           shown(std::round(double(bytes) / gib * 10) / 10) + " GiB, and " +
+                           shown(std::round(double(left) / gib * 10) / 10) +
+                           " GiB of memory are free (render a part with --only, or instance less)");
+        }
+    }
+
     void allocate(std::size_t triangles, bool with_normals)
     {
+        check_memory(triangles, glint_scene_bytes(triangles, with_normals));
         scene_.positions = static_cast<float *>(glint_allocate(triangles, 9 * sizeof(float)));
         scene_.normals = with_normals
                              ? static_cast<float *>(glint_allocate(triangles, 9 * sizeof(float)))

@@ -23,6 +23,13 @@ class refusal : public std::runtime_error
     using std::runtime_error::runtime_error;
 };
 
+// The machine cannot hold the scene: GLINT_OUT_OF_MEMORY, with a message.
+class shortage : public std::runtime_error
+{
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 // Where something stands in the document, such as meshes[3].primitives[0].mode. Cheap to make, so
 // that it can be made for every object; the text is put together only for a message. The keys must
 // outlive it.

@@ -67,6 +67,12 @@ typedef struct glint_scene {
     glint_vec3 swept_low, swept_high; // bounds over the whole animation, where it does
 } glint_scene;
 
+// Bytes of the arrays of so many triangles.
+static inline size_t glint_scene_bytes(size_t triangles, bool with_normals)
+{
+    return triangles * (9 * sizeof(float) * (with_normals ? 2 : 1) + sizeof(uint32_t));
+}
+
 typedef struct glint_scene_options {
     const char *scene;     // which glTF scene, by name or index; NULL: the file's default, else 0
     const char *animation; // which clip, by name or index; "all" at once, "none"; NULL: the first

@@ -245,6 +245,37 @@ done
 "$glint" info in/mirror.gltf 2>stderr | head -n 1 >/dev/null
 check 'a reader that leaves is no error' test "${PIPESTATUS[0]}" -eq 0 -a ! -s stderr
 
+# ---- memory ------------------------------------------------------------------------------------
+
+# A triangle and 300 buffers of 10 MB that are one file; and 20 million triangles by 20,000 nodes.
+{ printf %s "$buffer" | base64 -d && head -c 10000000 /dev/zero; } >in/big.bin
+repeat() { # COUNT TEXT: with commas between
+    printf "%.0s$2," $(seq "$1") | sed 's/,$//'
+}
+sed "s#\"buffers\": .*#\"buffers\": [$(repeat 300 '{\"byteLength\": 10000000, \"uri\": \"big.bin\"}')]}#" \
+    in/mirror.gltf >in/shared.gltf
+cat >in/instanced.gltf <<JSON
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [$(seq -s, 0 19999)]}],
+ "nodes": [$(repeat 20000 '{\"mesh\": 0}')],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                "min": [-1, -1, 0], "max": [1, 1, 0]},
+               {"bufferView": 1, "componentType": 5121, "count": 3000, "type": "SCALAR"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 1, "byteLength": 3000}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,$buffer"},
+             {"byteLength": 3000, "uri": "indices.bin"}]}
+JSON
+printf '\0\1\2%.0s' $(seq 1000) >in/indices.bin
+if [ -z "${ASAN_OPTIONS-}" ]; then
+    (ulimit -v 1000000 && "$glint" info in/shared.gltf >stdout 2>stderr)
+    check 'buffers of one file are read once' test $? -eq 0 -a ! -s stderr
+    (ulimit -v 800000 && "$glint" info in/instanced.gltf >stdout 2>stderr)
+    check 'too many triangles: exit status 8' test $? -eq 8 -a "$(wc -l <stderr)" -eq 1
+    check 'too many triangles: a number' grep -q '20000000 triangles take 0.7 GiB, and 0' stderr
+else
+    skip 'memory' 'AddressSanitizer knows no limit'
+fi
+
 # ---- what is written ----------------------------------------------------------------------------
 
 renders 'EXR' out/x.exr && check 'EXR: signature' begins_with out/x.exr 762f3101

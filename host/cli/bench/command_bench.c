@@ -574,7 +574,6 @@ const glint_command glint_command_bench = {
     .groups = groups,
     .positional = "SCENE",
     .takes_any_number = true,
-    .uses_device = true,
     .request_size = sizeof(bench_request),
     .set_defaults = set_defaults,
     .run = run,

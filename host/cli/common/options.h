@@ -29,7 +29,6 @@ typedef struct glint_command {
     const char *positional; // what a positional argument is called: "SCENE"; NULL: none is taken
     const char *second_positional; // what a second one is called, if two are taken; else NULL
     bool takes_any_number;         // of `positional`, none too; else exactly those that are named
-    bool uses_device;              // may compile kernels
     size_t request_size;           // of the struct that the tables' offsets count in
     void (*set_defaults)(void *request); // on a zeroed request; NULL: zero is the default
     glint_status (*run)(void *request, const glint_arguments *arguments, glint_error *error);

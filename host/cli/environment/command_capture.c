@@ -401,7 +401,6 @@ const glint_command glint_command_capture = {
     .groups = groups,
     .positional = "SCENE",
     .second_positional = "OUT",
-    .uses_device = true,
     .request_size = sizeof(capture_request),
     .set_defaults = set_defaults,
     .run = run,

@@ -74,7 +74,6 @@ const glint_command glint_command_devices = {
     .examples = "  glint devices\n"
                 "  glint render scene.gltf -o frame.exr --device 0\n",
     .groups = groups,
-    .uses_device = true,
     .request_size = sizeof(devices_request),
     .run = run,
 };

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/common/options.h"
 
+#include "accel/bvh.h"
 #include "cli/common/inputs.h"
 #include "device/device.h"
 #include "render/view.h"
@@ -64,6 +65,10 @@ static void print_scene(const glint_scene *scene, const glint_topology *topology
     printf("  %zu triangles, %zu instances, %zu materials, %zu cameras\n", scene->triangle_count,
            scene->instance_count, scene->material_count, scene->camera_count);
     if (scene->triangle_count > 0) {
+        const double mib = 1 << 20;
+        const size_t bytes = glint_scene_bytes(scene->triangle_count, scene->normals != NULL);
+        printf("  memory: %.1f MiB, and up to %.1f MiB to build the tree\n", (double)bytes / mib,
+               (double)(scene->triangle_count * GLINT_BVH_BYTES_WHILE_BUILT) / mib);
         printf("  bounds (%g, %g, %g) to (%g, %g, %g) m\n", scene->low.x, scene->low.y,
                scene->low.z, scene->high.x, scene->high.y, scene->high.z);
         printf("  %zu connected surfaces: %zu closed, %zu proved convex; %zu boundary edges\n",
@@ -357,7 +362,6 @@ const glint_command glint_command_info = {
                 "  glint info car.glb --env studio.hdr --depth 2 --json\n",
     .groups = groups,
     .positional = "SCENE",
-    .uses_device = true,
     .request_size = sizeof(info_request),
     .set_defaults = set_defaults,
     .run = run,

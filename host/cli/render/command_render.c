@@ -205,7 +205,6 @@ const glint_command glint_command_render = {
                 "  glint render walk.glb --animation walk --fps 25 -o walk/walk.####.exr\n",
     .groups = render_option_groups,
     .positional = "SCENE",
-    .uses_device = true,
     .request_size = sizeof(render_request),
     .set_defaults = set_defaults,
     .run = run,

@@ -380,7 +380,6 @@ const glint_command glint_command_selftest = {
                 "  glint selftest --case slivers,prism --kernel-width all\n"
                 "  glint selftest --case rays_at_vertices --rays 1e8\n",
     .groups = groups,
-    .uses_device = true,
     .request_size = sizeof(selftest_request),
     .set_defaults = set_defaults,
     .run = run,
