@@ -154,6 +154,7 @@ static void text_becomes_plain(void **state)
         {"\xc2\x9b"
          "1m \xc2\x80 \xc2\x9f \u00a0",
          "?1m ? ? \u00a0"},
+        // NOLINTNEXTLINE(misc-misleading-bidirectional): that is what it tests
         {"\u202etxt.exe\u2066 \u200f \u2028 \u061c", "?txt.exe? ? ? ?"},
         {"\xc2", "?"},                                      // cut short
         {"\xe2\x80", "??"},                                 // likewise

@@ -19,9 +19,10 @@ glint_status refuse(const glint_decode_request &request, const char *why, glint_
     return glint_fail(error, GLINT_BAD_INPUT, "%s: %s", request.path, why);
 }
 
-glint_status take(const glint_decode_request &request, ImageInput &input, const ImageSpec &spec,
-                  glint::Memory &memory, glint_decode_answer &answer, glint_error *error)
+glint_status take(const glint_decode_request &request, ImageInput &input, glint::Memory &memory,
+                  glint_decode_answer &answer, glint_error *error)
 {
+    const ImageSpec &spec = input.spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 ||
         spec.nchannels > GLINT_PICTURE_CHANNELS_MAX || spec.depth > 1 || spec.deep) {
         return refuse(request, "its size or its channels cannot be used (render it anew)", error);
@@ -62,7 +63,7 @@ glint_status glint::decode_channels(const glint_decode_request &request, Memory 
         return refuse(request, "is no EXR that can be read (check the name, or render it anew)",
                       error);
     }
-    const glint_status status = take(request, *input, spec, memory, answer, error);
+    const glint_status status = take(request, *input, memory, answer, error);
     input->close();
     return status;
 }

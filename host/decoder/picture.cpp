@@ -357,21 +357,18 @@ void frame_pixels(const ImageSpec &spec, const glint_stored_facts &window, const
     }
 }
 
-// Reads the pixels, and frames them.
-glint_status read_framed(const glint_decode_request &request, ImageInput &input, const Part &part,
-                         Memory &memory, glint_stored_facts &facts, bool *is_read,
-                         glint_error *error)
+// Reads the pixels, and frames them. False where they cannot be read.
+bool read_framed(ImageInput &input, const Part &part, Memory &memory, glint_stored_facts &facts)
 {
     const ImageSpec &spec = part.spec;
-    TRY(check_cost(request, spec.full_width, spec.full_height, facts.channels, error));
     std::vector<float> values(bytes_of(facts) / sizeof(float));
-    *is_read = read_values(input, part, facts.code_bits, values.data());
+    const bool is_read = read_values(input, part, facts.code_bits, values.data());
     const glint_stored_facts window = facts;
     facts.width = spec.full_width;
     facts.height = spec.full_height;
     frame_pixels(spec, window, values.data(),
                  reinterpret_cast<float *>(memory.grow(bytes_of(facts))));
-    return GLINT_OK;
+    return is_read;
 }
 
 glint_status decode_part(const glint_decode_request &request, ImageInput &input, Memory &memory,
@@ -385,7 +382,9 @@ glint_status decode_part(const glint_decode_request &request, ImageInput &input,
     find_facts(request.plugin, part, facts);
     bool is_read = false;
     if (is_framed(request, part, facts)) {
-        TRY(read_framed(request, input, part, memory, facts, &is_read, error));
+        TRY(check_cost(request, part.spec.full_width, part.spec.full_height, facts.channels,
+                       error));
+        is_read = read_framed(input, part, memory, facts);
     } else {
         is_read = read_values(input, part, facts.code_bits, memory.grow(bytes_of(facts)));
     }

@@ -77,6 +77,7 @@ static const char *const words[] = {
     "####",
     "%s%n",
     "\xff\xfe",
+    // NOLINTNEXTLINE(misc-misleading-bidirectional): that is what it tests
     "\xe2\x80\xae",
     "\x1b[2J",
     "1-2147483647",
