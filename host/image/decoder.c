@@ -33,9 +33,9 @@
 // and what they need for themselves.
 #define PICTURE_COPIES 2
 #define MEMORY_BYTES (128 * MIB)
-// A second decodes 4 MiB of a file, at the slowest.
-#define CPU_SECONDS_LEAST 10
-#define FILE_BYTES_A_SECOND (4 * MIB)
+// A second decodes 2 MiB of a file, at the slowest.
+#define CPU_SECONDS_LEAST 5
+#define FILE_BYTES_A_SECOND (2 * MIB)
 // Other work may keep the cores busy.
 #define SECONDS_LEAST 60
 #define SECONDS_EACH 20 // for each second of CPU time
