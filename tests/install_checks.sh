@@ -10,7 +10,8 @@ render() {
 }
 cd "$(dirname "$0")/.."
 # ./glint builds the program's target alone.
-[ ! -f "$1/build.ninja" ] || ninja -C "$1" -t inputs glint | grep -q libglint_codec.so
+[ ! -f "$1/build.ninja" ] ||
+    [ "$(ninja -C "$1" -t inputs glint | grep -cE '^(libglint_codec\.so|glint-decoder)$')" = 2 ]
 "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr >/dev/null
 render
 [ -s "$prefix/x.png" ]
