@@ -5,8 +5,8 @@
 
 #include <stdbool.h>
 
-// Before OpenCL is used; the first call counts. Removes entries over which an earlier run died. Where
-// the cache cannot be written, kernels go to a temporary folder.
+// Before OpenCL is used; the first call counts. Removes entries over which an earlier run died.
+// Where the cache cannot be written, kernels go to a temporary folder.
 void glint_driver_cache_prepare(void);
 
 // Removes the temporary folder.

@@ -11,6 +11,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +57,8 @@ glint_decode_limits glint_decoder_limits(uint64_t file_bytes)
     };
 }
 
+static atomic_int threads_each; // as glint_decoder_use_threads has it
+
 // ---- The decoder's process ----------------------------------------------------------------------
 
 // `lock` guards the other members.
@@ -65,7 +68,6 @@ static struct {
     pid_t process; // the decoder
     int socket;    // to it; meaningful where owner is this process
     bool is_ready; // it has said so
-    int threads;
 } decoder = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 // The decoder is installed where the codec is (CMakeLists.txt), and stands beside the program, or
@@ -333,7 +335,7 @@ static glint_status run(glint_decode_request *request, const glint_image_source 
     snprintf(request->path, sizeof request->path, "%s", source->path);
     snprintf(request->plugin, sizeof request->plugin, "%s", source->plugin);
     request->file_bytes = source->size;
-    request->threads = decoder.threads;
+    request->threads = atomic_load(&threads_each);
     stored->file = memfd_create("glint picture", MFD_CLOEXEC);
     if (stored->file < 0) {
         return glint_fail(error, GLINT_BAD_INPUT,
@@ -406,7 +408,7 @@ void glint_decoder_start(void)
 
 void glint_decoder_use_threads(int count)
 {
-    decoder.threads = count;
+    atomic_store(&threads_each, count);
 }
 
 void glint_decoder_allow_large(void)

@@ -78,8 +78,11 @@ fi
 # Another's death is its own: nothing is marked.
 rm -rf cache
 cp -r good cache
-"$glint" render "$scene" --turntable 999 --size 64x64 -o out/f.####.png --progress none 2>/dev/null &
-sleep 1
+"$glint" render "$scene" --turntable 9999 --size 64x64 -o out/f.####.png --progress none 2>/dev/null &
+for _ in $(seq 600); do # until the kernels are there
+    [ ! -e out/f.0002.png ] || break
+    sleep 0.1
+done
 kill -ABRT $! && wait $!
 check 'a signal from outside: its own status' test $? -eq 134
 check 'a signal from outside: no mark' test ! -e cache/glint-died

@@ -1,8 +1,8 @@
 // The bar, the plain lines and the JSON lines of progress. See progress.h.
 #include "cli/common/progress.h"
 
-#include "base/plain_text.h"
 #include "base/clock.h"
+#include "base/plain_text.h"
 #include "cli/common/say.h"
 #include "report/json.h"
 
