@@ -56,10 +56,31 @@ static uint64_t left_by_limit(void)
     return left_of(limit.rlim_cur, pages * (uint64_t)sysconf(_SC_PAGESIZE));
 }
 
+// What a group has left. The system takes cached files back when memory is short.
+static uint64_t left_in_group(const char *group)
+{
+    static const char *const cached[] = {"inactive_file ", "active_file "};
+    char file[PATH_MAX];
+    uint64_t most, used, bytes;
+    snprintf(file, sizeof file, GROUPS "%.4000s/memory.max", group);
+    if (!read_number(file, "", &most)) {
+        return UINT64_MAX;
+    }
+    snprintf(file, sizeof file, GROUPS "%.4000s/memory.current", group);
+    if (!read_number(file, "", &used)) {
+        return UINT64_MAX;
+    }
+    snprintf(file, sizeof file, GROUPS "%.4000s/memory.stat", group);
+    for (int i = 0; i < 2; i++) {
+        used = read_number(file, cached[i], &bytes) ? left_of(used, bytes) : used;
+    }
+    return left_of(most, used);
+}
+
 // Of the process's group, and of those that it is in (cgroups, version 2).
 static uint64_t left_by_groups(void)
 {
-    char path[PATH_MAX], file[PATH_MAX];
+    char path[PATH_MAX];
     FILE *own = fopen("/proc/self/cgroup", "re");
     const bool is_known = own != NULL && fscanf(own, "0::%4000s", path) == 1;
     if (own != NULL) {
@@ -68,12 +89,7 @@ static uint64_t left_by_groups(void)
     uint64_t left = UINT64_MAX;
     for (char *end = is_known ? path + strlen(path) : NULL; end != NULL; end = strrchr(path, '/')) {
         *end = '\0';
-        uint64_t most, used;
-        snprintf(file, sizeof file, GROUPS "%.4000s/memory.max", path);
-        if (read_number(file, "", &most)) {
-            snprintf(file, sizeof file, GROUPS "%.4000s/memory.current", path);
-            left = read_number(file, "", &used) ? least(left, left_of(most, used)) : left;
-        }
+        left = least(left, left_in_group(path));
     }
     return left;
 }

@@ -206,6 +206,10 @@ void glint_sandbox_limit(const glint_decode_limits *limits, int threads)
     if (limits->seconds > 0) {
         alarm(limits->seconds);
     }
+    // The memory file does not count as address space when it is written to.
+    if (limits->picture_bytes > 0) {
+        limit(RLIMIT_FSIZE, limits->picture_bytes + GLINT_DECODE_NAMES_MAX);
+    }
     if (limits->memory_bytes > 0 && !IS_ADDRESS_SANITIZED) {
         const uint64_t count = (uint64_t)(threads > 0 ? threads : sysconf(_SC_NPROCESSORS_ONLN));
         make_threads_small();

@@ -219,15 +219,16 @@ void glint_driver_cache_end(void)
     atomic_store(&is_used, false);
 }
 
-bool glint_driver_cache_mend(void)
+bool glint_driver_cache_clean(void)
 {
-    if (folder[0] == '\0' || !remove_used_since(begun)) {
-        return false;
-    }
+    return folder[0] != '\0' && remove_used_since(begun);
+}
+
+void glint_driver_cache_is_mended(void)
+{
     snprintf(note, sizeof note,
              "%.700s: a kernel of this cache was damaged: it was removed, and compiled anew",
              folder);
-    return true;
 }
 
 // ---- In signal handlers -------------------------------------------------------------------------

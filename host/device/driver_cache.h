@@ -23,7 +23,10 @@ void glint_driver_cache_begin(void);
 void glint_driver_cache_end(void);
 
 // Removes the entries that were used since the beginning. False where there were none.
-bool glint_driver_cache_mend(void);
+bool glint_driver_cache_clean(void);
+
+// Notes that cleaning helped.
+void glint_driver_cache_is_mended(void);
 
 // For signal handlers: whether the driver compiles or loads; and, if it died of that, a mark for
 // the next run, and a line about it.

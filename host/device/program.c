@@ -129,11 +129,14 @@ static glint_status compile_or_mend(const struct glint_device *device, source *f
 {
     glint_driver_cache_begin();
     glint_status status = compile(device, found, options, program, error);
-    if (status != GLINT_OK && found->include_option[0] == '\0' && glint_driver_cache_mend()) {
+    if (status != GLINT_OK && found->include_option[0] == '\0' && glint_driver_cache_clean()) {
         if (error != NULL) {
             glint_error_free(error);
         }
         status = compile(device, found, options, program, error);
+        if (status == GLINT_OK) {
+            glint_driver_cache_is_mended();
+        }
     }
     glint_driver_cache_end();
     return status;

@@ -25,9 +25,9 @@
 
 // ---- Limits -------------------------------------------------------------------------------------
 
-// What a small file may cost: a picture of 512 MiB, which is 8192 × 4096 pixels of four floats.
-// Larger files get more. A file of a mebibyte may hold a picture of 512 MiB, one of a gibibyte
-// 64 GiB: no picture that is not empty is compressed more than that.
+// A small file may hold a picture of 512 MiB, which is 8192 × 4096 pixels of four floats. From
+// 8 MiB on, a file may hold 64 bytes of picture for each of its own. Only nearly empty pictures are
+// compressed more than that.
 #define PICTURE_BYTES_LEAST (512 * MIB)
 #define PICTURE_BYTES_EACH 64
 // Decoders hold up to two copies of a picture (a progressive JPEG's coefficients, a TIFF's strip),
@@ -253,7 +253,8 @@ static glint_status fail_of_death(const glint_decode_request *request, int how, 
                                             : request->limits.seconds);
     }
     return glint_fail(error, GLINT_BAD_INPUT,
-                      "%s: the decoder failed on it: it is damaged (make the file anew)",
+                      "%s: the decoder failed on it: it is damaged or unusual (make the file "
+                      "anew, or convert it to EXR)",
                       request->path);
 }
 
@@ -271,13 +272,16 @@ static bool is_credible(const glint_decode_request *request, const glint_decode_
     const uint64_t bytes = facts->code_bits == 0 ? sizeof(float) : (uint64_t)facts->code_bits / 8;
     const uint64_t most = SIZE_MAX / 4 / bytes / (uint64_t)facts->channels;
     return pixels <= most && answer->value_bytes == pixels * (uint64_t)facts->channels * bytes &&
-           answer->name_bytes <= UINT64_C(1) << 24;
+           answer->name_bytes <= GLINT_DECODE_NAMES_MAX;
 }
 
 static glint_status take(const glint_decode_request *request, const glint_decode_answer *answer,
                          glint_stored *stored, glint_error *error)
 {
     if (answer->kind == GLINT_DECODED && answer->status == GLINT_OUT_OF_MEMORY) {
+        if (request->limits.memory_bytes == 0) {
+            return glint_fail_memory(error, "an image");
+        }
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: takes more than %" PRIu64 " MiB to decode (it is damaged; or give "
                           "--allow-large-images)",
@@ -349,7 +353,7 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
                                       const glint_decode_limits *limits, glint_stored *stored,
                                       glint_error *error)
 {
-    *stored = (glint_stored){.file = -1};
+    *stored = (glint_stored){.path = source->path, .file = -1};
     glint_decode_request *request = calloc(1, sizeof *request);
     if (request == NULL) {
         return glint_fail_memory(error, "an image");
@@ -388,7 +392,8 @@ glint_status glint_stored_read(const glint_stored *stored, size_t offset, void *
     for (char *at = to; bytes > 0;) {
         const ssize_t length = pread(stored->file, at, bytes, (off_t)offset);
         if (length == 0 || (length < 0 && errno != EINTR)) {
-            return glint_fail(error, GLINT_BAD_INPUT, "an image's decoder failed (try again)");
+            return glint_fail(error, GLINT_BAD_INPUT, "%s: its values were cut off (try again)",
+                              stored->path);
         }
         if (length > 0) {
             at += length;

@@ -11,6 +11,7 @@
 // What the decoder made of a file: values in a memory file, [height][width][channels] of code_bits,
 // or of float. It is read and not mapped: the decoder may still change it, or cut it off.
 typedef struct glint_stored {
+    const char *path; // of the image file, borrowed
     glint_stored_facts facts;
     size_t value_bytes;
     size_t name_bytes; // all_channels: after the values, [channels] texts, each with its end

@@ -21,6 +21,7 @@ extern "C" {
 #define GLINT_DECODER_SOCKET 3 // the decoder's descriptor of the socket to glint
 #define GLINT_DECODE_PATH 4096
 #define GLINT_PICTURE_CHANNELS_MAX 4096
+#define GLINT_DECODE_NAMES_MAX (UINT64_C(16) << 20) // bytes of channels' names
 
 // What a file may cost. 0: no limit.
 typedef struct glint_decode_limits {

@@ -125,12 +125,13 @@ glint_status glint_image_read(const char *path, glint_image *image, glint_image_
 }
 
 // The channels' names, from texts that end at `end`, each with a zero of its own.
-static glint_status split_names(const char *texts, const char *end, glint_channels *channels,
-                                glint_error *error)
+static glint_status split_names(const char *path, const char *texts, const char *end,
+                                glint_channels *channels, glint_error *error)
 {
     for (int i = 0; i < channels->count; i++) {
         if (memchr(texts, '\0', (size_t)(end - texts)) == NULL) {
-            return glint_fail(error, GLINT_BAD_INPUT, "an EXR's channels came without names");
+            return glint_fail(error, GLINT_BAD_INPUT,
+                              "%s: its channels came without names (try again)", path);
         }
         channels->names[i] = strdup(texts);
         if (channels->names[i] == NULL) {
@@ -160,7 +161,7 @@ static glint_status copy_channels(const glint_stored *stored, glint_channels *ch
            glint_stored_read(stored, 0, channels->values, stored->value_bytes, error));
     TRY_OR(cleanup, status,
            glint_stored_read(stored, stored->value_bytes, texts, stored->name_bytes, error));
-    status = split_names(texts, texts + stored->name_bytes, channels, error);
+    status = split_names(stored->path, texts, texts + stored->name_bytes, channels, error);
 cleanup:
     free(texts);
     return status;

@@ -113,8 +113,8 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
                                 const glint_write_options *options, glint_encoded *encoded,
                                 glint_error *error);
 
-// glint_image_load_ahead starts a thread that loads OpenImageIO, for a caller who reads or writes
-// an image later. The caller must call glint_image_end_loading, which joins the thread, before the
+// glint_image_load_ahead starts a thread that loads OpenImageIO, for a caller who writes an image
+// later. The caller must call glint_image_end_loading, which joins the thread, before the
 // process exits: exit handlers unload libraries, and must not while the thread loads them. Both
 // functions belong to the main thread.
 void glint_image_load_ahead(void);

@@ -51,7 +51,8 @@ const char *glint_json_text_at(const json_t *root, const char *path);
 // GLINT_OUTPUT_FAILED.
 glint_status glint_json_write(const char *path, json_t *root, glint_error *error);
 
-// Reads a file that holds one value, without members of one name. Takes no reference. Errors:
+// Reads a file that holds one value, in which no object has two members of one
+// name. The caller releases *root. Errors:
 // GLINT_BAD_INPUT with the file's name, and the line where one is at fault.
 glint_status glint_json_read(const char *path, json_t **root, glint_error *error);
 

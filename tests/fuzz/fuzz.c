@@ -18,6 +18,7 @@
 #include "scene/scene.h"
 #include "scene/topology.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -108,9 +109,7 @@ static void replace(text *t, size_t at, size_t removed, const char *by, size_t l
 static size_t token_end(const text *t, size_t at)
 {
     while (at < t->length &&
-           strchr("+-.0123456789eE_abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ",
-                  t->bytes[at]) != NULL &&
-           t->bytes[at] != '\0') {
+           (isalnum((unsigned char)t->bytes[at]) || memchr("+-._", t->bytes[at], 4) != NULL)) {
         at++;
     }
     return at;
