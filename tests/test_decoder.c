@@ -64,7 +64,9 @@ static void hostile_files_are_refused_in_one_line(void **state)
         const char *path = scratch_path(hostile->name);
         const glint_image_source source = source_of(path);
         glint_decode_limits limits = glint_decoder_limits(source.size);
-        limits.cpu_seconds = 1; // so that the test is done sooner
+        if (strcmp(hostile->said, "to decode") == 0) {
+            limits.cpu_seconds = 1; // these never end: one second shows it
+        }
         glint_stored stored;
         glint_error error = {0};
         assert_int_equal(glint_decoder_run_within(&source, false, &limits, &stored, &error),
