@@ -36,9 +36,9 @@ json_t *glint_json_truncation(const glint_truncation *truncation);
 json_t *glint_json_summary(const glint_summary *summary);
 // Where no pixel was compared, the figures are null.
 json_t *glint_json_metrics(const glint_metrics *metrics);
-// Counts and bounds; with `everything` also the materials, the instances and the cameras.
-// `topology` may be NULL.
-json_t *glint_json_scene(const glint_scene *scene, const glint_topology *topology, bool everything);
+// Counts and bounds; with `everything` also the topology, if the subject has one, the materials,
+// their variants, the instances and the cameras.
+json_t *glint_json_scene(const glint_subject *subject, bool everything);
 
 // The value at the end of the names in `path`, "frames.kernel.median"; NULL where there is none. Of
 // the wrong type or missing, a number is NaN and a text is NULL. All borrowed.

@@ -230,6 +230,7 @@ static bool copy_materials(const recipe *made, glint_scene *scene)
     bool done = scene->materials != NULL;
     for (size_t i = 0; done && i < made->material_count; i++) {
         scene->materials[i] = made->materials[i];
+        scene->materials[i].index = (int)i;
         done = copy_text(made->materials[i].name, &scene->materials[i].name);
         scene->material_count++;
     }

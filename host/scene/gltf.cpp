@@ -7,8 +7,10 @@
 
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_flatten.hpp"
+#include "scene/gltf_material.hpp"
 #include "scene/gltf_sweep.hpp"
 #include "scene/gltf_uri.hpp"
+#include "scene/gltf_variants.hpp"
 
 #include <map>
 #include <memory>
@@ -33,6 +35,8 @@ void report(const Load &load, const glint_scene &scene, glint_warnings *warnings
                    path, scene.skipped_points, scene.skipped_lines);
     }
     load.tally.report(path, warnings);
+    glint_material_overrides_warn(&load.overrides, scene.materials, scene.material_count, path,
+                                  warnings);
     if (scene.triangle_count == 0) {
         glint_warn(warnings, "%s: the scene has no triangles, only the environment will be seen",
                    path);
@@ -89,6 +93,7 @@ void fill(glint_scene_source &source, double time, glint_scene &scene)
 {
     walk_scene(source.load, time, scene);
     flatten(source.load, scene);
+    name_variants(source.load.model, scene);
     scene.path = copy_text(source.load.document.path);
     scene.moves = source.load.moves_triangles;
     if (scene.moves) {
@@ -127,11 +132,54 @@ void read_buffers(Load &load)
     }
 }
 
+// Whether a primitive names no material.
+bool uses_default_material(const Model &model)
+{
+    for (const tinygltf::Mesh &mesh : model.meshes) {
+        for (const tinygltf::Primitive &primitive : mesh.primitives) {
+            if (primitive.material < 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Looks for what the overrides name among all materials of the file: what triangles use may change
+// with time.
+void resolve_overrides(Load &load)
+{
+    const json &root = load.document.root;
+    const std::size_t count = objects_of(root, "materials").size();
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count; i++) {
+        names.push_back(material_name(root, static_cast<std::ptrdiff_t>(i)));
+    }
+    std::vector<glint_material> materials;
+    for (std::size_t i = 0; i < count; i++) {
+        materials.push_back(read_material(root, static_cast<std::ptrdiff_t>(i)));
+        materials.back().name = names[i].empty() ? nullptr : names[i].data();
+    }
+    if (uses_default_material(load.model)) {
+        materials.push_back(read_material(root, -1));
+    }
+    glint_error error = {};
+    if (glint_material_overrides_resolve(&load.overrides, materials.data(), materials.size(),
+                                         &error) != GLINT_OK) {
+        throw refusal(error.message);
+    }
+}
+
 void open(const char *path, const glint_scene_options &options, glint_scene_source &source)
 {
     Load &load = source.load;
     read_document(path, load.document);
     check_document(load.document, load.model);
+    choose_variant(options.variant, load.model);
+    if (options.overrides != nullptr) {
+        load.overrides = *options.overrides;
+        resolve_overrides(load);
+    }
     read_buffers(load);
     load.primitives = prepare_primitives(load.model, load.tally);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);

@@ -6,6 +6,7 @@
 #include "scene/gltf_check_storage.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/gltf_material.hpp"
+#include "scene/gltf_variants.hpp"
 
 namespace glint
 {
@@ -97,6 +98,7 @@ void check_document(const Document &document, Model &model)
     check_storage(document, model);
     check_images(document);
     check_materials(document.root);
+    check_variants(document.root, model);
     check_meshes(document.root, model);
     check_graph(document.root, model);
     check_animations(document.root, model);

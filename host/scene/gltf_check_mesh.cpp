@@ -2,6 +2,9 @@
 // hold is checked when it is read (gltf_primitive.cpp). See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_check_storage.hpp"
+#include "scene/gltf_variants.hpp"
+
+#include <utility>
 
 namespace glint
 {
@@ -107,8 +110,12 @@ void check_meshes(const json &root, Model &model)
         }
         tinygltf::Mesh &mesh = model.meshes.emplace_back();
         for (std::size_t p = 0; p < primitives.size(); p++) {
-            mesh.primitives.push_back(
-                check_primitive(root, primitives[p], (place / "primitives")[p], model));
+            const Place at = (place / "primitives")[p];
+            mesh.primitives.push_back(check_primitive(root, primitives[p], at, model));
+            VariantMaterials mapped = check_variant_mappings(root, primitives[p], at, model);
+            if (!mapped.empty()) {
+                model.mapped.push_back({i, p, std::move(mapped)});
+            }
         }
     }
 }

@@ -29,8 +29,7 @@ constexpr std::array<Extension, 11> extensions = {{
     {"EXT_mesh_gpu_instancing", Holder::node, true, nullptr},
     {"KHR_lights_punctual", Holder::node, false,
      "lights are not modelled, the environment alone gives light"},
-    {"KHR_materials_variants", Holder::primitive, false,
-     "material variants are not modelled, the default is shown"},
+    {"KHR_materials_variants", Holder::primitive, true, nullptr},
     // Draco's data repeats what the accessors hold, where it is not required.
     {"KHR_draco_mesh_compression", Holder::primitive, false, nullptr},
 }};

@@ -316,13 +316,15 @@ void keep_used_materials(Load &load, std::size_t default_material, glint_scene &
         }
         std::ptrdiff_t source = i == default_material ? -1 : static_cast<std::ptrdiff_t>(i);
         place[i] = static_cast<std::uint32_t>(scene.material_count);
-        scene.materials[scene.material_count] = read_material(root, source);
+        glint_material &material = scene.materials[scene.material_count];
+        material = read_material(root, source);
+        material.name = copy_text(material_name(root, source));
         scene.material_count++;
-        if (source >= 0) {
-            scene.materials[scene.material_count - 1].name =
-                copy_text(optional_text(objects_of(root, "materials")[i], Place(), "name"));
+        if (glint_material_overrides_apply(&load.overrides, &material)) {
+            survey_override(material, load.tally);
+        } else {
+            survey_material(root, source, load.tally);
         }
-        survey_material(root, source, load.tally);
     }
     for (std::size_t i = 0; i < scene.instance_count; i++) {
         scene.instances[i].material = place[scene.instances[i].material];

@@ -204,6 +204,15 @@ glint_material read(const json &root, const json &material, const Place &place)
     return result;
 }
 
+const char *const rendered_smooth =
+    "roughness above 0 on metal or glass is rendered smooth for now";
+
+// materials[3] "gem"
+std::string named(std::size_t index, const std::string &name)
+{
+    return (Place() / "materials")[index].text() + (name.empty() ? "" : " " + in_quotes(name));
+}
+
 bool shows_roughness(const glint_material &material)
 {
     const glint_lobes lobes = glint_material_lobes(&material);
@@ -251,9 +260,13 @@ glint_material read_material(const json &root, std::ptrdiff_t index)
 {
     if (index >= 0) {
         auto i = static_cast<std::size_t>(index);
-        return read(root, objects_of(root, "materials")[i], (Place() / "materials")[i]);
+        glint_material result =
+            read(root, objects_of(root, "materials")[i], (Place() / "materials")[i]);
+        result.index = static_cast<int>(index);
+        return result;
     }
     glint_material result = {};
+    result.index = static_cast<int>(objects_of(root, "materials").size());
     for (int i = 0; i < 3; i++) {
         result.base_color[i] = 1;
         result.attenuation_color[i] = 1;
@@ -266,18 +279,23 @@ glint_material read_material(const json &root, std::ptrdiff_t index)
     return result;
 }
 
+std::string material_name(const json &root, std::ptrdiff_t index)
+{
+    return index < 0 ? ""
+                     : optional_text(objects_of(root, "materials")[static_cast<std::size_t>(index)],
+                                     Place(), "name");
+}
+
 void survey_material(const json &root, std::ptrdiff_t index, Tally &tally)
 {
-    const char *const smooth = "roughness above 0 on metal or glass is rendered smooth for now";
     if (index < 0) {
-        tally.add(smooth, "the default material");
+        tally.add(rendered_smooth, "the default material");
         return;
     }
     auto i = static_cast<std::size_t>(index);
     Place place = (Place() / "materials")[i];
     const json &material = objects_of(root, "materials")[i];
-    std::string name = optional_text(material, place, "name");
-    std::string where = place.text() + (name.empty() ? "" : " " + in_quotes(name));
+    std::string where = named(i, material_name(root, index));
     for (const Slot &slot : slots) {
         const json *holder = holder_of(material, place, slot);
         if (holder != nullptr && member(*holder, slot.key) != nullptr) {
@@ -286,7 +304,7 @@ void survey_material(const json &root, std::ptrdiff_t index, Tally &tally)
         }
     }
     if (shows_roughness(read_material(root, index))) {
-        tally.add(smooth, where);
+        tally.add(rendered_smooth, where);
     }
     std::string alpha = optional_text(material, place, "alphaMode");
     if (alpha == "MASK" || alpha == "BLEND") {
@@ -294,6 +312,14 @@ void survey_material(const json &root, std::ptrdiff_t index, Tally &tally)
     }
     survey_extensions(material, Holder::material, where, tally);
     survey_extras(material, where, tally);
+}
+
+void survey_override(const glint_material &material, Tally &tally)
+{
+    if (shows_roughness(material)) {
+        tally.add(rendered_smooth, named(static_cast<std::size_t>(material.index),
+                                         material.name != nullptr ? material.name : ""));
+    }
 }
 
 } // namespace glint

@@ -17,8 +17,14 @@ void check_materials(const json &root);
 // The material of a checked document (its name left NULL); glTF's default material for −1.
 glint_material read_material(const json &root, std::ptrdiff_t index);
 
+// Its name; empty where it has none.
+std::string material_name(const json &root, std::ptrdiff_t index);
+
 // What of a used material is not modelled, is added to the tally.
 void survey_material(const json &root, std::ptrdiff_t index, Tally &tally);
+
+// Likewise of a material that the command line has replaced whole.
+void survey_override(const glint_material &material, Tally &tally);
 
 } // namespace glint
 

@@ -9,12 +9,24 @@
 #define TINYGLTF_NO_FS
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <fstream> // which tinygltf leaves out without its file functions, and uses all the same
+#include <map>
+#include <string>
 #include <tiny_gltf.h>
 #include <vector>
 
 namespace glint
 {
+
+// Materials by the variant in which a primitive has them (KHR_materials_variants).
+using VariantMaterials = std::map<std::size_t, int>;
+
+// A primitive whose material depends on the variant: meshes[mesh].primitives[number].
+struct MappedPrimitive {
+    std::size_t mesh, number;
+    VariantMaterials materials;
+};
 
 // The checks fill it, each object where it is checked (gltf_check*.cpp), with what the loader reads
 // of it. So no value can be read that nobody has checked. An index of −1 refers to nothing; an
@@ -22,8 +34,11 @@ namespace glint
 // gives the same, but it is no validator: it drops what it cannot read, hides negative offsets,
 // opens files and follows what is out of range.
 struct Model : tinygltf::Model {
-    bool quantized = false;   // KHR_mesh_quantization is declared
-    std::vector<int> parents; // of each node; −1: a root
+    bool quantized = false;            // KHR_mesh_quantization is declared
+    std::vector<int> parents;          // of each node; −1: a root
+    std::vector<std::string> variants; // the names of the file's variants of materials
+    std::ptrdiff_t variant = -1;       // the chosen one; −1: the plain materials
+    std::vector<MappedPrimitive> mapped;
 };
 
 } // namespace glint

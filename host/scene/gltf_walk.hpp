@@ -4,6 +4,7 @@
 
 #include "scene/gltf_animation.hpp"
 #include "scene/gltf_primitive.hpp"
+#include "scene/material_override.h"
 #include "scene/scene.h"
 
 #include <string>
@@ -32,7 +33,8 @@ struct Load {
     Model model;
     Primitives primitives;
     Clips clips;
-    std::vector<Visit> visits; // depth first: parents come before their children
+    glint_material_overrides overrides = {}; // resolved
+    std::vector<Visit> visits;               // depth first: parents come before their children
     std::vector<Draw> draws;
     bool moves_triangles = false, moves_cameras = false; // over time, some of those that are drawn
     Tally tally;

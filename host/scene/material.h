@@ -11,6 +11,7 @@ extern "C" {
 // glTF 2.0's factors, and the extensions that are modelled. Colours are linear Rec.709 in [0, 1].
 typedef struct glint_material {
     char *name; // may be NULL; owned
+    int index;  // in the file; of glTF's default material, how many the file has
     float base_color[3];
     float metallic;             // [0, 1]
     float roughness;            // [0, 1]; above 0, metal and glass are rendered smooth, paint matte

@@ -17,6 +17,10 @@ void glint_scene_free(glint_scene *scene)
     for (size_t i = 0; i < scene->camera_count; i++) {
         free(scene->cameras[i].name);
     }
+    for (size_t i = 0; i < scene->variant_count; i++) {
+        free(scene->variants[i]);
+    }
+    free(scene->variants);
     free(scene->path);
     free(scene->positions);
     free(scene->normals);

@@ -56,6 +56,10 @@ typedef struct glint_scene {
     size_t instance_count;
     glint_instance *instances; // in the order of their triangles
 
+    size_t variant_count;
+    char **variants; // names of the file's variants of its materials, owned
+    int variant;     // 1 + the chosen one's index; 0: none, which is the plain materials
+
     size_t camera_count;
     glint_camera *cameras; // in depth-first order of their nodes
 
@@ -76,6 +80,9 @@ static inline size_t glint_scene_bytes(size_t triangles, bool with_normals)
 typedef struct glint_scene_options {
     const char *scene;     // which glTF scene, by name or index; NULL: the file's default, else 0
     const char *animation; // which clip, by name or index; "all" at once, "none"; NULL: the first
+    const char *variant;   // which variant of the materials, by name or index; NULL: none, which is
+                           // the plain materials
+    const struct glint_material_overrides *overrides; // of its materials, copied; NULL: none
 } glint_scene_options;
 
 // Loads .gltf or .glb as it is at the beginning of its animation. `options` and `warnings` may be

@@ -40,6 +40,7 @@ glint_status bench_error_measure(const bench_error_task *task, char **text, glin
     const glint_bench_scene scene = {
         .name = request->scene,
         .subject = {.scene = &loaded->scene,
+                    .overrides = &request->overrides,
                     .environment = &loaded->environment,
                     .camera = &loaded->viewpoint.camera,
                     .settings = &request->settings,

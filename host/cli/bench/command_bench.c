@@ -165,6 +165,7 @@ static glint_status measure(scene_task *task, glint_inputs *loaded, char **text,
     const glint_bench_scene scene = {
         .name = request->scene,
         .subject = {.scene = &loaded->scene,
+                    .overrides = &request->overrides,
                     .environment = &loaded->environment,
                     .camera = &loaded->viewpoint.camera,
                     .settings = &request->settings,

@@ -127,6 +127,16 @@ const glint_option glint_input_options[] = {
     {GLINT_OPTION_TEXT, .name = "scene", .argument = "NAME|INDEX",
      .help = "Which of the file's glTF scenes.", .fallback = "the file's default",
      .offset = OFFSET(scene_name)},
+    {GLINT_OPTION_TEXT, .name = "variant", .argument = "NAME|INDEX",
+     .help = "Which of the file's variants of its materials (KHR_materials_variants); glint info "
+             "lists them.",
+     .fallback = "none: the plain materials", .offset = OFFSET(variant)},
+    {GLINT_OPTION_CUSTOM, .name = "material", .argument = "NAME=WHAT",
+     .help = "Make a material of the file into another: Gem=glass,ior=2.42. NAME is its name or "
+             "index, or * for all; WHAT is a preset, or values, or a preset and values behind it. "
+             "Presets: " GLINT_MATERIAL_PRESETS ". Values: " GLINT_MATERIAL_VALUES
+             ". It may be given several times.",
+     .offset = OFFSET(overrides), .parse = glint_material_override_parse},
     {GLINT_OPTION_TEXT, .name = "only", .argument = "NODE,…",
      .help = "Leave all nodes out but these, with what hangs under them: names or indices, with "
              "commas between. Cameras and turntables stay those of the whole scene.",
@@ -188,14 +198,39 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
     return GLINT_OK;
 }
 
+// Built-in scenes have no variants.
+static glint_status load_built_in(const glint_input_request *request, glint_scene *scene,
+                                  glint_error *error)
+{
+    if (request->variant != NULL) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: there is no material variant \"%.60s\" (the scene has none)",
+                          request->scene, request->variant);
+    }
+    TRY(glint_built_in_scene(request->scene, scene, error));
+    glint_material_overrides overrides = request->overrides;
+    glint_error cause = {0};
+    const glint_status status = glint_material_overrides_resolve(&overrides, scene->materials,
+                                                                 scene->material_count, &cause);
+    if (status != GLINT_OK) {
+        return glint_fail(error, status, "%s: %s", request->scene, cause.message);
+    }
+    for (size_t i = 0; i < scene->material_count; i++) {
+        glint_material_overrides_apply(&overrides, &scene->materials[i]);
+    }
+    return GLINT_OK;
+}
+
 static glint_status load_scene(const glint_input_request *request, glint_inputs *inputs,
                                glint_error *error)
 {
     if (request->is_built_in) {
-        return glint_built_in_scene(request->scene, &inputs->scene, error);
+        return load_built_in(request, &inputs->scene, error);
     }
     const glint_scene_options options = {.scene = request->scene_name,
-                                         .animation = request->animation};
+                                         .animation = request->animation,
+                                         .variant = request->variant,
+                                         .overrides = &request->overrides};
     TRY(glint_scene_open(request->scene, &options, &inputs->source, error));
     inputs->motion = *glint_scene_motion(inputs->source);
     const glint_status status =

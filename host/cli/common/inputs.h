@@ -8,6 +8,7 @@
 #include "cli/common/progress.h"
 #include "environment/environment.h"
 #include "render/plan.h"
+#include "scene/material_override.h"
 #include "scene/scene.h"
 
 // What the command line says of the inputs and of what is computed from them. Texts are borrowed
@@ -18,6 +19,8 @@ typedef struct glint_input_request {
     const char *scene_name;
     const char *camera;
     const char *animation;
+    const char *variant;
+    glint_material_overrides overrides;
     const char *only, *without; // lists of nodes, see scene/subset.h
     bool is_for_render;         // set by the command: plates and captures are its business
     bool camera_may_wait; // likewise: of a scene that moves, one that has no direction at time

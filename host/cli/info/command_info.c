@@ -98,8 +98,8 @@ static void print_material(const glint_scene *scene, size_t index)
             triangles += scene->instances[i].triangle_count;
         }
     }
-    printf("  %zu %s: %s, %zu triangles; colour (%g, %g, %g), metallic %g, roughness %g", index,
-           name_or_none(material->name), glint_material_kind(material), triangles,
+    printf("  %d %s: %s, %zu triangles; colour (%g, %g, %g), metallic %g, roughness %g",
+           material->index, name_or_none(material->name), glint_material_kind(material), triangles,
            (double)material->base_color[0], (double)material->base_color[1],
            (double)material->base_color[2], (double)material->metallic,
            (double)material->roughness);
@@ -134,10 +134,27 @@ static void print_lists(const glint_scene *scene)
     printf("\nInstances\n");
     for (size_t i = 0; i < scene->instance_count && i < LIST_MAX; i++) {
         const glint_instance *instance = &scene->instances[i];
-        printf("  %s (node %d): %zu triangles of material %u\n", name_or_none(instance->node),
-               instance->node_index, instance->triangle_count, instance->material);
+        printf("  %s (node %d): %zu triangles of material %d\n", name_or_none(instance->node),
+               instance->node_index, instance->triangle_count,
+               scene->materials[instance->material].index);
     }
     print_more(scene->instance_count);
+}
+
+static void print_variants(const glint_scene *scene)
+{
+    if (scene->variant_count == 0) {
+        return;
+    }
+    printf("\nVariants of the materials\n");
+    for (size_t i = 0; i < scene->variant_count && i < LIST_MAX; i++) {
+        printf("  %zu %s%s\n", i, name_or_none(scene->variants[i]),
+               (int)i + 1 == scene->variant ? " (shown)" : "");
+    }
+    print_more(scene->variant_count);
+    if (scene->variant == 0) {
+        printf("  the plain materials are shown (--variant NAME shows one of these)\n");
+    }
 }
 
 static void print_camera(const glint_camera *camera)
@@ -246,6 +263,7 @@ static void print_text(const glint_subject *subject)
     print_scene(subject->scene, subject->topology);
     print_motion(subject->motion);
     print_lists(subject->scene);
+    print_variants(subject->scene);
     print_cameras(subject->scene, subject->camera);
     print_environment(subject->environment);
     print_plan(subject);
@@ -308,6 +326,7 @@ static glint_status print(const info_request *request, info_work *work, glint_er
     const glint_subject subject = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,
+        .overrides = &request->inputs.overrides,
         .motion = &work->inputs.motion,
         .environment = &work->inputs.environment,
         .camera = &work->inputs.viewpoint.camera,

@@ -102,6 +102,7 @@ glint_subject render_tracer_subject(const render_tracer *tracer, const render_sh
     const glint_inputs *inputs = &shot->stage.inputs;
     return (glint_subject){
         .scene = &inputs->scene,
+        .overrides = &shot->request->inputs.overrides,
         .environment = &inputs->environment,
         .camera = &inputs->viewpoint.camera,
         .settings = &shot->request->inputs.settings,

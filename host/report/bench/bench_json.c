@@ -112,7 +112,7 @@ json_t *glint_bench_scene_json(const glint_bench_scene *scene, const glint_bench
     glint_json_put(object, "device", glint_json_device(&result->device));
     glint_json_put(object, "plan", glint_json_plan(&result->plan));
     glint_json_put(object, "bvh", glint_json_bvh(&result->bvh));
-    glint_json_put(object, "scene", glint_json_scene(subject->scene, NULL, false));
+    glint_json_put(object, "scene", glint_json_scene(subject, false));
     glint_json_put(object, "environment", glint_json_environment(subject->environment));
     glint_json_put(object, "camera", glint_json_camera(subject->camera));
     glint_json_put(object, "warnings", glint_json_warnings(subject->warnings));

@@ -41,7 +41,7 @@ glint_status glint_inventory_json(const glint_subject *subject, char **text, gli
 {
     json_t *root = json_object();
     glint_json_put_text(root, "glint", GLINT_VERSION);
-    glint_json_put(root, "scene", glint_json_scene(subject->scene, subject->topology, true));
+    glint_json_put(root, "scene", glint_json_scene(subject, true));
     glint_json_put(root, "animation", animation_object(subject->motion));
     glint_json_put(root, "environment", glint_json_environment(subject->environment));
     glint_json_put(root, "camera", glint_json_camera(subject->camera));

@@ -172,6 +172,7 @@ static json_t *material_object(const glint_material *material)
 {
     json_t *object = json_object();
     glint_json_put_text(object, "name", material->name);
+    glint_json_put(object, "index", json_integer(material->index));
     glint_json_put_text(object, "kind", glint_material_kind(material));
     glint_json_put(object, "base_color", color(material->base_color));
     glint_json_put_real(object, "metallic", (double)material->metallic);
@@ -215,6 +216,16 @@ static json_t *instance_object(const glint_instance *instance)
     return object;
 }
 
+// null: the file's plain materials, and "" for a variant without a name.
+static json_t *variant_name(const glint_scene *scene, int variant)
+{
+    if (variant < 0) {
+        return json_null();
+    }
+    const char *name = scene->variants[variant];
+    return glint_json_text(name != NULL ? name : "");
+}
+
 static void put_lists(json_t *object, const glint_scene *scene)
 {
     json_t *materials = json_array();
@@ -222,6 +233,11 @@ static void put_lists(json_t *object, const glint_scene *scene)
         (void)json_array_append_new(materials, material_object(&scene->materials[i]));
     }
     glint_json_put(object, "materials", materials);
+    json_t *variants = json_array();
+    for (size_t i = 0; i < scene->variant_count; i++) {
+        (void)json_array_append_new(variants, variant_name(scene, (int)i));
+    }
+    glint_json_put(object, "variants", variants);
     json_t *instances = json_array();
     for (size_t i = 0; i < scene->instance_count; i++) {
         (void)json_array_append_new(instances, instance_object(&scene->instances[i]));
@@ -234,8 +250,19 @@ static void put_lists(json_t *object, const glint_scene *scene)
     glint_json_put(object, "cameras", cameras);
 }
 
-json_t *glint_json_scene(const glint_scene *scene, const glint_topology *topology, bool everything)
+// What the command line made of the materials, as it said it.
+static json_t *overrides_list(const glint_material_overrides *overrides)
 {
+    json_t *list = json_array();
+    for (size_t i = 0; overrides != NULL && i < overrides->count; i++) {
+        (void)json_array_append_new(list, glint_json_text(overrides->list[i].text));
+    }
+    return list;
+}
+
+json_t *glint_json_scene(const glint_subject *subject, bool everything)
+{
+    const glint_scene *scene = subject->scene;
     json_t *object = json_object();
     glint_json_put_text(object, "name", scene->path);
     glint_json_put_count(object, "triangle_count", scene->triangle_count);
@@ -249,8 +276,10 @@ json_t *glint_json_scene(const glint_scene *scene, const glint_topology *topolog
         glint_json_put(object, "low", vector(scene->low));
         glint_json_put(object, "high", vector(scene->high));
     }
-    if (topology != NULL) {
-        glint_json_put(object, "topology", topology_object(topology));
+    glint_json_put(object, "variant", variant_name(scene, scene->variant - 1));
+    glint_json_put(object, "material_overrides", overrides_list(subject->overrides));
+    if (everything && subject->topology != NULL) {
+        glint_json_put(object, "topology", topology_object(subject->topology));
     }
     if (everything) {
         put_lists(object, scene);

@@ -69,7 +69,7 @@ static void put_subject(json_t *root, const glint_subject *subject)
     glint_json_put(root, "plan", glint_json_plan(subject->plan));
     glint_json_put(root, "device", glint_json_device(subject->device));
     glint_json_put(root, "bvh", glint_json_bvh(subject->bvh));
-    glint_json_put(root, "scene", glint_json_scene(subject->scene, NULL, false));
+    glint_json_put(root, "scene", glint_json_scene(subject, false));
     glint_json_put(root, "environment", glint_json_environment(subject->environment));
     glint_json_put(root, "camera", glint_json_camera(subject->camera));
 }

@@ -7,6 +7,7 @@
 #include "device/capabilities.h"
 #include "environment/environment.h"
 #include "render/plan.h"
+#include "scene/material_override.h"
 #include "scene/scene.h"
 #include "scene/topology.h"
 
@@ -14,7 +15,8 @@
 typedef struct glint_subject {
     const glint_scene *scene;
     const glint_topology *topology;
-    const glint_motion *motion; // NULL, or all zero: nothing moves
+    const glint_material_overrides *overrides; // of the scene's materials, which has them already
+    const glint_motion *motion;                // NULL, or all zero: nothing moves
     const glint_environment *environment;
     const glint_camera *camera;
     const glint_settings *settings;

@@ -142,7 +142,7 @@ static glint_status put_subject(json_t *entry, const glint_subject *subject, gli
     glint_fingerprint scene_is = {0}, environment_is = {0};
     TRY(glint_fingerprint_scene(subject->scene, &scene_is, error));
     TRY(glint_fingerprint_environment(subject->environment, &environment_is, error));
-    json_t *scene = glint_json_scene(subject->scene, NULL, false);
+    json_t *scene = glint_json_scene(subject, false);
     json_t *environment = glint_json_environment(subject->environment);
     put_fingerprint(scene, &scene_is);
     put_fingerprint(environment, &environment_is);
