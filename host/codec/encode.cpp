@@ -8,7 +8,7 @@
 //              that is fit for comparison must not hide it.
 //   EXR float  as they are.
 //   HDR        NaN and negative values become 0; infinity becomes 1.6e38, what RGBE can hold.
-//   8 bits     NaN and negative values become 0; above 1 is 1.
+//   8 bits     NaN and negative values become 0; above 1 is 1, unless a tone curve maps it.
 // Grey stays grey where the format has it (EXR, PNG, TIFF, JPEG). TIFF is written with 8 bits,
 // sRGB.
 #include "image/codec.h"
@@ -115,14 +115,15 @@ void fill_rgbe(const glint_image &image, std::vector<unsigned char> &bytes)
     }
 }
 
-// Exposure, then unpremultiplied where alpha is kept, then the curve.
-void fill_codes(const glint_image &image, Channels wanted, float exposure,
+// Exposure, then unpremultiplied where alpha is kept, then the tone curve, then sRGB. Tone curves
+// are not linear: they must see the colour without its alpha.
+void fill_codes(const glint_image &image, Channels wanted, const glint_write_options &options,
                 std::vector<unsigned char> &bytes)
 {
     std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
     bytes.resize(pixels * std::size_t(wanted.total));
     unsigned char *to = bytes.data();
-    float gain = std::exp2(exposure);
+    float gain = std::exp2(options.exposure);
     for (std::size_t p = 0; p < pixels; p++) {
         const float *from = image.pixels + p * std::size_t(image.channels);
         float scale = gain;
@@ -132,8 +133,13 @@ void fill_codes(const glint_image &image, Channels wanted, float exposure,
             // A pixel of alpha 0 that still emits keeps its colour.
             scale = alpha > 0.0f ? gain / alpha : gain;
         }
+        float color[3];
+        for (int c = 0; c < 3; c++) {
+            color[c] = from[wanted.color == 3 ? c : 0] * scale;
+        }
+        glint_tone_map(options.tone, color);
         for (int c = 0; c < wanted.color; c++) {
-            *to++ = glint_linear_to_srgb8(from[c] * scale);
+            *to++ = glint_linear_to_srgb8(color[c]);
         }
         if (wanted.total > wanted.color) {
             float clamped = alpha > 0.0f ? std::min(alpha, 1.0f) : 0.0f;
@@ -295,7 +301,7 @@ Encoded prepare(const glint_image &image, Format format, const glint_write_optio
         fill_rgbe(image, made.bytes);
     } else {
         describe_codes(made.spec, format, options);
-        fill_codes(image, wanted, options.exposure, made.bytes);
+        fill_codes(image, wanted, options, made.bytes);
     }
     add_metadata(made.spec, format, options);
     return made;

@@ -204,6 +204,13 @@ bool glint_image_can_write(const char *path)
     return glint_image_written_format(path) != NULL;
 }
 
+bool glint_image_stays_linear(const char *path)
+{
+    const glint_written_format *format = glint_image_written_format(path);
+    return format != NULL &&
+           (format->kind == GLINT_WRITTEN_EXR || format->kind == GLINT_WRITTEN_HDR);
+}
+
 glint_status glint_image_check_output(const char *path, const glint_write_options *options,
                                       glint_error *error)
 {

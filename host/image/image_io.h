@@ -5,6 +5,7 @@
 
 #include "base/status.h"
 #include "image/image.h"
+#include "image/tone.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -76,6 +77,7 @@ typedef struct glint_write_options {
                              // zip packbits; PNG: a level "0".."9"; JPEG: a quality "1".."100".
                              // NULL: the format's default
     float exposure;          // stops, applied to PNG, JPEG and TIFF only; EXR and HDR stay linear
+    glint_tone tone;         // likewise, after exposure
     const glint_metadata *metadata; // EXR: typed; PNG, JPEG and TIFF: as text, without matrices
     size_t metadata_count;
     glint_envmap envmap;           // EXR: written as the standard attribute
@@ -86,18 +88,22 @@ typedef struct glint_write_options {
 // True if the path's extension is one that can be written: exr hdr png jpg jpeg tif tiff.
 bool glint_image_can_write(const char *path);
 
+// Whether the path's extension names a format that is written linear: exr hdr.
+bool glint_image_stays_linear(const char *path);
+
 // GLINT_USAGE (naming what may be given) when the extension cannot be written or the compression
 // does not suit the format. Called before any work is done.
 glint_status glint_image_check_output(const char *path, const glint_write_options *options,
                                       glint_error *error);
 
 // Writes linear premultiplied pixels. EXR and HDR as they are; PNG, JPEG and 8-bit TIFF after
-// exposure, unpremultiplied where the format keeps alpha, and the sRGB curve (HDR and JPEG keep no
-// alpha: what is written is the premultiplied colour, over black). The file appears whole or not
-// at all: a temporary name in the same folder, fsync, rename; stale temporaries of the same output
-// whose process is gone are removed. A symbolic link is followed and stays; devices and pipes are
-// refused. Values that a format cannot hold: see image_write.cpp. `options` may be NULL.
-// Errors: GLINT_OUTPUT_FAILED with the file's name and the cause; nothing is left behind.
+// exposure, unpremultiplied where the format keeps alpha, the tone curve and the sRGB curve (HDR
+// and JPEG keep no alpha: what is written is the premultiplied colour, over black). The file
+// appears whole or not at all: a temporary name in the same folder, fsync, rename; stale
+// temporaries of the same output whose process is gone are removed. A symbolic link is followed and
+// stays; devices and pipes are refused. Values that a format cannot hold: see image_write.cpp.
+// `options` may be NULL. Errors: GLINT_OUTPUT_FAILED with the file's name and the cause; nothing is
+// left behind.
 glint_status glint_image_write(const char *path, const glint_image *image,
                                const glint_write_options *options, glint_error *error);
 

@@ -62,7 +62,7 @@ mkdir in/folder.gltf in/empty
 inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera animation variant material only without scene allow-large-images device help'
 # shellcheck disable=SC2046,SC2086 # lists of words
 {
-    check 'render --help tells every option' help_mentions render $inputs output exposure compression \
+    check 'render --help tells every option' help_mentions render $inputs output exposure tone compression \
         exr-type preview stats progress progress-fd frames turntable fps skip-existing shard max-error surroundings \
         capture-size proxy env-at kernel-dir $(settings_of environment size frame device layers)
     check 'info --help tells every option' help_mentions info $inputs json \
@@ -130,6 +130,7 @@ for value in x 1x nan inf -inf 1e9 1e999 0x10 ' 1' '1 ' 0,5 ''; do
     refuses 2 '--min-weight' render "${ok[@]}" --min-weight "$value"
 done
 refuses 2 '--min-weight' render "${ok[@]}" --min-weight -0.1
+refuses 2 '--tone filmic: one of none|pbr-neutral|agx' render "${ok[@]}" --tone filmic
 refuses 2 '--precision half' render "${ok[@]}" --precision half
 refuses 2 '--texels double' render "${ok[@]}" --texels double
 refuses 2 '--filter sharp' render "${ok[@]}" --filter sharp
@@ -362,6 +363,26 @@ check 'a warning is said once' test "$(grep -c '^glint: warning: .*rough' stderr
 clean
 run render in/mirror.gltf --size 8x8 -o out/x.exr --exposure 1 --progress none
 check 'an exposure that is left out is said' grep -q 'warning: .*exposure' stderr
+clean
+run render in/mirror.gltf --size 8x8 -o out/x.exr --tone agx --progress none
+check 'a tone curve that is left out is said' grep -q 'warning: out/x.exr: --tone is left out' stderr
+clean
+run render in/mirror.gltf --size 8x8 -o out/x.exr --tone agx --preview --progress none
+check 'a tone curve of the preview is not' test "$status" -eq 0 -a ! -s stderr
+clean
+for tone in none pbr-neutral agx; do
+    run render "${ok[@]}" --size 8x8 --exposure 3 --tone $tone --stats out/stats.json
+    check "--tone $tone in --stats" stat_is $tone settings tone
+    mv out/x.png in/tone-$tone.png
+done
+run render "${ok[@]}" --size 8x8 --exposure 3
+check '--tone none is the default' same_pixels out/x.png in/tone-none.png
+check '--tone pbr-neutral is another picture' apart 0.01 in/tone-pbr-neutral.png in/tone-none.png
+check '--tone agx is a third' apart 0.01 in/tone-agx.png in/tone-pbr-neutral.png
+"$glint" render "${ok[@]}" --size 8x8 --exposure 3 --tone agx --progress none --compression 0
+check '--tone agx: the file says so' grep -qaF 'glint:tone: agx' out/x.png
+"$glint" render "${ok[@]}" --size 8x8 --progress none --compression 0
+check '--tone none: the file says nothing' test "$(grep -caF glint:tone out/x.png)" -eq 0
 clean
 run render in/mirror.gltf --size 8x8 -o out/x.jpg --background transparent --progress none
 check 'an alpha that is not kept is said' grep -q 'warning: .*alpha' stderr

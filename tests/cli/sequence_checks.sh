@@ -110,6 +110,11 @@ clean
 
 # ---- restart ------------------------------------------------------------------------------------
 
+sequence --frames 1 -o out/f.####.exr
+sequence --frames 1 --tone agx -o out/f.####.exr --skip-existing
+check 'a tone curve that decides no pixel is no reason to render again' \
+    test "$(grep -c 'rendered again' stderr)" -eq 0
+clean
 cp whole/* out/
 rm out/f.0002.exr
 head -c 3000 whole/f.0003.exr >out/f.0003.exr
@@ -164,6 +169,8 @@ rm out/f.0002.png
 sequence --frames 1-2 --preview --exposure 1 -o out/f.####.exr --skip-existing
 check 'previews: a missing one is made again' \
     test "$(grep -c 'rendered again: its preview is missing' stderr)" -eq 1 -a -s out/f.0002.png
+sequence --frames 1-2 --preview --exposure 1 --tone agx -o out/f.####.exr --skip-existing
+check 'previews: another tone curve: again' test "$(grep -c 'made from another' stderr)" -eq 2
 rm out/*.png
 mkdir out/f.0001.png
 sequence --frames 1-2 --preview -o out/f.####.exr
@@ -437,7 +444,7 @@ clean
 
 # ---- contact sheets -----------------------------------------------------------------------------
 
-check 'contact --help tells every option' help_mentions contact output columns width exposure allow-large-images help
+check 'contact --help tells every option' help_mentions contact output columns width exposure tone allow-large-images help
 refuses 2 'no output' contact whole/f.0001.exr
 refuses 2 'no images' contact -o out/sheet.png
 refuses 2 'one of the images' contact whole/*.exr -o whole/f.0002.exr
@@ -446,6 +453,10 @@ refuses 2 'more than 32768 on a side' contact whole/*.exr --columns 8 --width 40
 refuses 5 'out/none' contact whole/*.exr -o out/none/sheet.png
 run contact whole/*.exr -o out/sheet.png
 check 'a contact sheet' test "$status" -eq 0 -a -s out/sheet.png -a ! -s stdout -a ! -s stderr
+run contact whole/*.exr -o out/toned.png --tone agx
+check 'a contact sheet with a tone curve' apart 0.01 out/toned.png out/sheet.png
+run contact whole/*.exr -o out/sheet.exr --tone agx
+check 'a contact sheet: a tone curve that is left out is said' grep -q 'warning: .*--tone' stderr
 run contact whole/f.0001.exr in/scene.bin whole/f.0002.exr -o out/part.png
 check 'a contact sheet: one is missing: exit status 6' test "$status" -eq 6 -a -s out/part.png
 check 'a contact sheet: it is named' grep -q 'in/scene.bin: ' stderr

@@ -290,7 +290,7 @@ clean
 
 # shellcheck disable=SC2046 # a list of words
 check 'relight --help tells every option' help_mentions relight allow-large-images env env-layout ball-circle \
-    ball-distance ball-fov env-flip $(settings_of environment) output exposure compression exr-type progress help
+    ball-distance ball-fov env-flip $(settings_of environment) output exposure tone compression exr-type progress help
 run --help
 check 'glint --help lists it' grep -q '^  relight ' stdout
 kept=("$spheres" --size 64x48 --exr-type float --texels float)

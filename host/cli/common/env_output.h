@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 #include "cli/common/options.h"
+#include "cli/common/tone_options.h"
 #include "environment/sampler.h"
 #include "render/settings.h"
 
@@ -35,14 +36,7 @@ typedef struct env_output_request {
          .offset = (member) + offsetof(env_output_request, size),                                  \
          .minimum = 1,                                                                             \
          .maximum = GLINT_SIDE_MAX},                                                               \
-        {GLINT_OPTION_REAL,                                                                        \
-         .name = "exposure",                                                                       \
-         .argument = "EV",                                                                         \
-         .help = "Stops of exposure for PNG, JPEG and TIFF; EXR and HDR stay linear.",             \
-         .fallback = "0",                                                                          \
-         .offset = (member) + offsetof(env_output_request, exposure),                              \
-         .minimum = -100,                                                                          \
-         .maximum = 100},                                                                          \
+        EXPOSURE_OPTION((member) + offsetof(env_output_request, exposure)),                        \
     {                                                                                              \
         GLINT_OPTION_TEXT,                                                                         \
             .name = "compression", .argument = "NAME",                                             \

@@ -5,6 +5,7 @@
 
 #include "cli/common/file_names.h"
 #include "cli/common/inputs.h"
+#include "cli/common/tone_options.h"
 #include "image/image_io.h"
 #include "image/output_file.h"
 #include "report/compare/contact_sheet.h"
@@ -17,6 +18,7 @@ typedef struct contact_request {
     int columns; // 0: by itself
     int width;   // of a picture on the sheet
     double exposure;
+    glint_tone tone;
 } contact_request;
 
 static const glint_option contact_options[] = {
@@ -30,9 +32,8 @@ static const glint_option contact_options[] = {
     {GLINT_OPTION_INT, .name = "width", .argument = "PIXELS",
      .help = "Width of each image on the sheet; the height is the first one's share.",
      .fallback = "240", .offset = offsetof(contact_request, width), .minimum = 16, .maximum = 4096},
-    {GLINT_OPTION_REAL, .name = "exposure", .argument = "EV",
-     .help = "Stops of exposure for PNG, JPEG and TIFF; EXR and HDR stay linear.", .fallback = "0",
-     .offset = offsetof(contact_request, exposure), .minimum = -100, .maximum = 100},
+    EXPOSURE_OPTION(offsetof(contact_request, exposure)),
+    TONE_OPTION(offsetof(contact_request, tone)),
     GLINT_LARGE_IMAGES_OPTION,
     GLINT_OPTION_END,
 };
@@ -128,7 +129,8 @@ cleanup:
 static glint_status make_sheet(contact_work *work, glint_error *error)
 {
     const contact_request *request = work->request;
-    const glint_write_options options = {.exposure = (float)request->exposure};
+    const glint_write_options options = {.exposure = (float)request->exposure,
+                                         .tone = request->tone};
     for (int i = 0; i < work->count; i++) {
         TRY(add_image(work, i, error));
     }
@@ -148,6 +150,10 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     contact_work work = {
         .request = context, .names = arguments->positionals, .count = arguments->positional_count};
     TRY(check_request(work.request, work.names, work.count, error));
+    glint_warnings warnings = {0};
+    tone_options_warn(work.request->output, work.request->exposure, work.request->tone, &warnings);
+    glint_say_warnings(&warnings, 0);
+    glint_warnings_free(&warnings);
     const glint_status status = make_sheet(&work, error);
     glint_contact_sheet_free(&work.sheet);
     return status;

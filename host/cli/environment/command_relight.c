@@ -7,6 +7,7 @@
 #include "cli/common/file_names.h"
 #include "cli/common/inputs.h"
 #include "cli/common/progress.h"
+#include "cli/common/tone_options.h"
 #include "image/image_io.h"
 #include "image/output_file.h"
 #include "render/terms.h"
@@ -22,6 +23,7 @@ typedef struct relight_request {
     const char *compression;
     int exr_type; // index of the choices
     double exposure;
+    glint_tone tone;
     int progress;
 } relight_request;
 
@@ -42,9 +44,8 @@ static const glint_option relight_options[] = {
          "The image to write, by its extension: exr, hdr, png, jpg or tiff. It appears whole or "
          "not at all.",
      .offset = offsetof(relight_request, output)},
-    {GLINT_OPTION_REAL, .name = "exposure", .argument = "EV",
-     .help = "Stops of exposure for PNG, JPEG and TIFF; EXR and HDR stay linear.", .fallback = "0",
-     .offset = offsetof(relight_request, exposure), .minimum = -100, .maximum = 100},
+    EXPOSURE_OPTION(offsetof(relight_request, exposure)),
+    TONE_OPTION(offsetof(relight_request, tone)),
     {GLINT_OPTION_TEXT, .name = "compression", .argument = "NAME", .help = "As for glint render.",
      .fallback = "the format's", .offset = offsetof(relight_request, compression)},
     {GLINT_OPTION_CHOICE, .name = "exr-type", .argument = "TYPE",
@@ -63,7 +64,8 @@ static glint_write_options write_options(const relight_request *request)
 {
     return (glint_write_options){.exr_float = request->exr_type == 1,
                                  .compression = request->compression,
-                                 .exposure = (float)request->exposure};
+                                 .exposure = (float)request->exposure,
+                                 .tone = request->tone};
 }
 
 static glint_status check_request(const relight_request *request, const char *path,
@@ -123,6 +125,7 @@ static glint_status light(const relight_request *request, const char *path, glin
     if (status != GLINT_OK) {
         goto cleanup;
     }
+    tone_options_warn(request->output, request->exposure, request->tone, &inputs->warnings);
     glint_say_warnings(&inputs->warnings, 0);
     warn_of_dropped(path, terms);
     TRY_OR(cleanup, status,

@@ -28,6 +28,7 @@ static glint_stats stats_of(const render_run *run, const glint_subject *subject)
         .encode_ms = frames->totals.write.sum,
         .total_ms = glint_progress_elapsed(&run->display),
         .exposure = run->request->exposure,
+        .tone = render_write_options(run->request).tone,
         .plate = run->request->plate,
         .choice = run->request->max_error > 0 && frames->totals.rendered > 0 ? &run->choice : NULL,
     };

@@ -2,6 +2,7 @@
 #include "cli/render/request.h"
 
 #include "cli/common/progress.h"
+#include "cli/common/tone_options.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -22,9 +23,8 @@ static const glint_option output_options[] = {
          "The image to write, by its extension: exr, hdr, png, jpg or tiff. It appears whole or "
          "not at all. Frames of a sequence take their number's place: frame.####.exr.",
      .offset = offsetof(render_request, output)},
-    {GLINT_OPTION_REAL, .name = "exposure", .argument = "EV",
-     .help = "Stops of exposure for PNG, JPEG and TIFF; EXR and HDR stay linear.", .fallback = "0",
-     .offset = offsetof(render_request, exposure), .minimum = -100, .maximum = 100},
+    EXPOSURE_OPTION(offsetof(render_request, exposure)),
+    TONE_OPTION(offsetof(render_request, tone)),
     {GLINT_OPTION_TEXT, .name = "compression", .argument = "NAME",
      .help = "EXR: none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab. TIFF: none, lzw, zip, "
              "packbits. PNG: a level from 0 to 9. JPEG: a quality from 1 to 100.",
@@ -33,7 +33,8 @@ static const glint_option output_options[] = {
      .help = "The picture's channels in an EXR: half or float.", .fallback = "half",
      .offset = offsetof(render_request, exr_type), .choices = EXR_TYPES},
     {GLINT_OPTION_FLAG, .name = "preview",
-     .help = "Write a PNG beside each EXR, of the same name, with --exposure and the sRGB curve.",
+     .help = "Write a PNG beside each EXR, of the same name, with --exposure, --tone and the sRGB "
+             "curve.",
      .offset = offsetof(render_request, preview)},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_LAYERS, offsetof(render_request, inputs.settings)),
     {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE|-",

@@ -4,6 +4,7 @@
 #include "cli/common/file_names.h"
 #include "cli/common/json_output.h"
 #include "cli/common/output_folder.h"
+#include "cli/common/tone_options.h"
 #include "image/output_file.h"
 
 #include <float.h>
@@ -17,9 +18,12 @@
 
 glint_write_options render_write_options(const render_request *request)
 {
+    // Where it decides no pixels, fingerprints must not hold it.
+    const bool is_mapped = request->preview || !glint_image_stays_linear(request->output);
     return (glint_write_options){.exr_float = request->exr_type == 1,
                                  .compression = request->compression,
-                                 .exposure = (float)request->exposure};
+                                 .exposure = (float)request->exposure,
+                                 .tone = is_mapped ? request->tone : GLINT_TONE_NONE};
 }
 
 // ---- Checks ------------------------------------------------------------------------------------
@@ -388,9 +392,8 @@ static void warn_of_format(const render_request *request, glint_warnings *warnin
     const char *output = request->output;
     bool is_hdr = glint_has_extension(output, ".hdr");
     bool is_jpeg = glint_has_extension(output, ".jpg") || glint_has_extension(output, ".jpeg");
-    if (request->exposure != 0 && !request->preview &&
-        (is_hdr || glint_has_extension(output, ".exr"))) {
-        glint_warn(warnings, "%s: --exposure is left out, this format stays linear", output);
+    if (!request->preview) {
+        tone_options_warn(output, request->exposure, request->tone, warnings);
     }
     if (request->inputs.settings.transparent && request->plate == NULL && (is_hdr || is_jpeg)) {
         glint_warn(warnings, "%s: this format keeps no alpha, the background becomes black",

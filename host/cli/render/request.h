@@ -19,6 +19,7 @@ typedef struct render_request {
     double max_error; // of the picture; 0: as the settings say
     int exr_type;     // index of the choices
     double exposure;
+    glint_tone tone;
     bool preview;             // a PNG beside the EXR
     const char *surroundings; // behind what is captured; NULL: the studio
     int capture_size;         // of a view

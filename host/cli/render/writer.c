@@ -39,6 +39,10 @@ static void fill_metadata(const render_shot *shot, const render_tracer *tracer,
     subject.environment = &lit_by;
     glint_frame_metadata_fill(&subject, frame->number, request->exposure,
                               frame->report.kernel_ms + frame->report.readback_ms, metadata);
+    const glint_tone tone = render_write_options(request).tone;
+    if (tone != GLINT_TONE_NONE) {
+        glint_frame_metadata_add_text(metadata, "glint:tone", glint_tone_names[tone]);
+    }
     if (made->plate != NULL) {
         glint_frame_metadata_add_text(metadata, "glint:plate", made->plate);
     }
@@ -97,6 +101,7 @@ static glint_status write_preview(const render_request *request, const glint_seq
         return glint_fail_memory(error, "a file name");
     }
     const glint_write_options options = {.exposure = (float)request->exposure,
+                                         .tone = request->tone,
                                          .metadata = parcel->metadata.entries,
                                          .metadata_count = parcel->metadata.count};
     glint_status status = glint_image_write(path, &frame->image, &options, error);

@@ -124,6 +124,10 @@ static void add_encoding(XXH3_state_t *state, const char *path, const glint_writ
     add_text(state, options->compression != NULL ? options->compression : "");
     const double numbers[] = {options->exr_float ? 1 : 0, (double)options->exposure};
     add_numbers(state, numbers, 2);
+    if (options->tone != GLINT_TONE_NONE) { // by name: older fingerprints stay valid
+        add_text(state, "tone");
+        add_text(state, glint_tone_names[options->tone]);
+    }
 }
 
 static glint_status begin(XXH3_state_t **state, glint_error *error)

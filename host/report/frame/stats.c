@@ -80,6 +80,7 @@ static void put_run(json_t *root, const glint_stats *stats)
     glint_json_put_text(root, "output", stats->output);
     json_t *settings = glint_json_settings(stats->subject->settings);
     glint_json_put_real(settings, "exposure", stats->exposure);
+    glint_json_put_text(settings, "tone", glint_tone_names[stats->tone]);
     if (stats->plate != NULL) {
         glint_json_put_text(settings, "background", stats->plate);
     }

@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 #include "bound/error_bound.h"
+#include "image/tone.h"
 #include "render/frame.h"
 #include "report/frame/subject.h"
 
@@ -20,6 +21,7 @@ typedef struct glint_stats {
     uint64_t frames; // of a sequence
     double load_scene_ms, load_environment_ms, encode_ms, total_ms;
     double exposure;                  // stops
+    glint_tone tone;                  // of what is written
     const char *plate;                // the background's file as it was given, NULL without one
     const glint_error_choice *choice; // where an error was to be kept, else NULL
 } glint_stats;
