@@ -201,6 +201,72 @@ static void a_turntable_goes_round_its_centre(void **state)
     }
 }
 
+static void a_camera_looks_at_its_target(void **state)
+{
+    (void)state;
+    glint_camera camera = {.yfov = 1};
+    const glint_vec3 eye = {1, 2, 3}, target = {4, 2, -1};
+    assert_true(glint_camera_look(eye, target, (glint_vec3){0, 5, 0}, &camera));
+    assert_right_handed(&camera);
+    assert_vector(camera.eye, 1, 2, 3);
+    assert_vector(camera.back, -0.6, 0, 0.8);
+    assert_vector(camera.up, 0, 1, 0);
+    // Up need not be at right angles to the view.
+    assert_true(glint_camera_look(eye, target, (glint_vec3){3, 5, -4}, &camera));
+    assert_vector(camera.up, 0, 1, 0);
+    assert_true(camera.yfov == 1);
+}
+
+static void a_camera_that_has_no_direction_stays(void **state)
+{
+    (void)state;
+    const glint_camera before = {.yfov = 1, .eye = {7, 8, 9}};
+    glint_camera camera = before;
+    const glint_vec3 eye = {1, 2, 3}, below = {1, -5, 3}, up = {0, 1, 0};
+    assert_false(glint_camera_look(eye, eye, up, &camera));
+    assert_false(glint_camera_look(eye, below, up, &camera));
+    assert_false(glint_camera_look(eye, below, (glint_vec3){0, -1e-300, 0}, &camera));
+    assert_false(glint_camera_look(eye, (glint_vec3){0, 0, 0}, (glint_vec3){0, 0, 0}, &camera));
+    assert_false(glint_camera_look(eye, (glint_vec3){NAN, 0, 0}, up, &camera));
+    assert_false(glint_camera_look((glint_vec3){INFINITY, 0, 0}, eye, up, &camera));
+    assert_memory_equal(&camera, &before, sizeof camera);
+}
+
+static void a_raised_camera_keeps_compass_and_distance(void **state)
+{
+    (void)state;
+    const glint_vec3 centre = {1, 2, 3};
+    const double compass[2] = {0.6, 0.8};
+    for (int degrees = -90; degrees <= 90; degrees += 15) {
+        // It looks elsewhere at first, and is rolled.
+        glint_camera camera = {.yfov = 1};
+        assert_true(glint_camera_look((glint_vec3){1 + 3 * compass[0], 6, 3 + 3 * compass[1]},
+                                      (glint_vec3){9, 9, 9}, (glint_vec3){1, 1, 0}, &camera));
+        glint_camera_raise(centre, degrees * GLINT_PI / 180, &camera);
+        assert_right_handed(&camera);
+        const double high = sin(degrees * GLINT_PI / 180), far = cos(degrees * GLINT_PI / 180);
+        assert_vector(camera.back, far * compass[0], high, far * compass[1]);
+        assert_vector(camera.eye, 1 + 5 * far * compass[0], 2 + 5 * high, 3 + 5 * far * compass[1]);
+        assert_near(camera.right.y, 0);
+        assert_true(camera.up.y >= 0);
+    }
+}
+
+// Straight above or below the centre, the picture's upper half says where the camera came from.
+static void a_camera_on_the_axis_is_raised_by_its_picture(void **state)
+{
+    (void)state;
+    const glint_vec3 centre = {0, 0, 0};
+    for (int side = -1; side <= 1; side += 2) {
+        glint_camera camera = {.yfov = 1};
+        assert_true(glint_camera_look((glint_vec3){0, 2 * side, 0}, centre,
+                                      (glint_vec3){-1.0 * side, 0, 0}, &camera));
+        glint_camera_raise(centre, 0, &camera);
+        assert_vector(camera.eye, 2, 0, 0);
+        assert_vector(camera.up, 0, 1, 0);
+    }
+}
+
 static void quarter_turns_are_exact(void **state)
 {
     (void)state;
@@ -234,6 +300,10 @@ int main(void)
         cmocka_unit_test(the_list_of_many_cameras_is_cut),
         cmocka_unit_test(a_scene_without_cameras_is_framed),
         cmocka_unit_test(a_turntable_goes_round_its_centre),
+        cmocka_unit_test(a_camera_looks_at_its_target),
+        cmocka_unit_test(a_camera_that_has_no_direction_stays),
+        cmocka_unit_test(a_raised_camera_keeps_compass_and_distance),
+        cmocka_unit_test(a_camera_on_the_axis_is_raised_by_its_picture),
         cmocka_unit_test(quarter_turns_are_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

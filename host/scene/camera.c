@@ -64,6 +64,42 @@ void glint_camera_frame_bounds(glint_vec3 low, glint_vec3 high, glint_camera *ca
     camera->eye = glint_vec3_add(center, glint_vec3_scale(back, distance));
 }
 
+bool glint_camera_look(glint_vec3 eye, glint_vec3 target, glint_vec3 up, glint_camera *camera)
+{
+    const glint_vec3 back = glint_vec3_normalize(glint_vec3_subtract(eye, target));
+    const glint_mat4 to_world = {{{1, up.x, back.x, eye.x},
+                                  {0, up.y, back.y, eye.y},
+                                  {0, up.z, back.z, eye.z},
+                                  {0, 0, 0, 1}}};
+    return glint_camera_from_matrix(&to_world, camera);
+}
+
+// The horizontal direction, a unit vector, from `centre` towards the camera.
+static glint_vec3 compass_direction(glint_vec3 centre, const glint_camera *camera)
+{
+    const double least = 1e-9; // less is rounding: the camera stands straight above or below
+    const glint_vec3 arm = glint_vec3_normalize(glint_vec3_subtract(camera->eye, centre));
+    const glint_vec3 up = glint_vec3_scale(camera->up, camera->back.y > 0 ? -1 : 1);
+    const glint_vec3 ways[] = {arm, camera->back, up};
+    for (int i = 0; i < 3; i++) {
+        if (hypot(ways[i].x, ways[i].z) > least) {
+            return glint_vec3_normalize((glint_vec3){ways[i].x, 0, ways[i].z});
+        }
+    }
+    return (glint_vec3){0, 0, 1};
+}
+
+void glint_camera_raise(glint_vec3 centre, double elevation, glint_camera *camera)
+{
+    const glint_vec3 towards = compass_direction(centre, camera);
+    const double distance = glint_vec3_length(glint_vec3_subtract(camera->eye, centre));
+    camera->back = glint_vec3_add(glint_vec3_scale(towards, cos(elevation)),
+                                  (glint_vec3){0, sin(elevation), 0});
+    camera->right = glint_vec3_cross((glint_vec3){0, 1, 0}, towards);
+    camera->up = glint_vec3_cross(camera->back, camera->right);
+    camera->eye = glint_vec3_add(centre, glint_vec3_scale(camera->back, distance));
+}
+
 // Turned about +Y by `quarters` quarter turns and an angle with the given cosine and sine.
 static glint_vec3 turn(glint_vec3 v, int quarters, double cosine, double sine)
 {

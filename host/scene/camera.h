@@ -34,6 +34,15 @@ bool glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera);
 // or the origin.
 void glint_camera_frame_bounds(glint_vec3 low, glint_vec3 high, glint_camera *camera);
 
+// The camera's axes at `eye`, looking at `target`, with `up` in the picture's upper half; its kind
+// and angle stay. False, and nothing is changed, if eye and target are the same place, or up is
+// zero or along the view.
+bool glint_camera_look(glint_vec3 eye, glint_vec3 target, glint_vec3 up, glint_camera *camera);
+
+// The camera put `elevation` radians (−π/2 to π/2) above the horizon of `centre`, which it then
+// looks at. The compass direction and the distance stay.
+void glint_camera_raise(glint_vec3 centre, double elevation, glint_camera *camera);
+
 // The camera turned about the vertical axis through `centre` (metres) by step/steps of a whole
 // turn, counter-clockwise seen from above (from +Z towards +X); any step, steps > 0. Quarter turns
 // are exact, whole ones the camera itself. The name stays the camera's.

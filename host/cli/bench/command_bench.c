@@ -91,8 +91,9 @@ static const glint_option size_options[] = {GLINT_SIZE_OPTIONS("1920x1080; with 
                                             GLINT_OPTION_END};
 
 static const glint_option *const groups[] = {
-    bench_options,          glint_input_options,      size_options,
-    glint_settings_options, glint_kernel_dir_options, NULL};
+    bench_options, glint_input_options,    glint_view_options,
+    size_options,  glint_settings_options, glint_kernel_dir_options,
+    NULL};
 
 // Everything a run holds. Zero is valid.
 typedef struct bench_work {

@@ -118,9 +118,6 @@ const glint_option glint_input_options[] = {
              "and back.",
      .offset = OFFSET(env_flip), .parse = glint_parse_flip},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_ENVIRONMENT, OFFSET(settings)),
-    {GLINT_OPTION_TEXT, .name = "camera", .argument = "NAME|INDEX",
-     .help = "The camera to see through.",
-     .fallback = "the first; without any, one that frames the scene", .offset = OFFSET(camera)},
     {GLINT_OPTION_TEXT, .name = "animation", .argument = "NAME|INDEX",
      .help = "Which of the file's animations; all at once, or none: everything as its nodes say.",
      .fallback = "the first", .offset = OFFSET(animation)},
@@ -146,6 +143,8 @@ const glint_option glint_input_options[] = {
     GLINT_LARGE_IMAGES_OPTION,
     GLINT_OPTION_END,
 };
+
+const glint_option glint_view_options[] = {GLINT_VIEW_OPTIONS(OFFSET(view)), GLINT_OPTION_END};
 
 const glint_option glint_size_options[] = {GLINT_SIZE_OPTIONS(NULL), GLINT_OPTION_END};
 
@@ -189,6 +188,7 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
                           "--env-layout: it says how a file is read, but no --env is given");
     }
     TRY(glint_layout_request_check(&request->env_as, error));
+    TRY(glint_view_request_check(&request->view, error));
     struct stat facts;
     if (request->kernel_dir != NULL &&
         (stat(request->kernel_dir, &facts) != 0 || !S_ISDIR(facts.st_mode))) {
@@ -252,14 +252,14 @@ static bool has_lost_camera(const glint_scene *scene)
     return is_lost;
 }
 
-glint_status glint_inputs_stage(const glint_input_request *request, glint_scene *scene,
+glint_status glint_inputs_stage(const glint_input_request *request, bool moves, glint_scene *scene,
                                 glint_viewpoint *viewpoint, glint_error *error)
 {
-    glint_vec3 low, high;
-    glint_scene_shown_bounds(scene, &low, &high);
-    viewpoint->centre =
-        low.x <= high.x ? glint_vec3_scale(glint_vec3_add(low, high), 0.5) : (glint_vec3){0, 0, 0};
-    glint_status status = glint_scene_camera(scene, request->camera, &viewpoint->camera, error);
+    const glint_settings *settings = &request->settings;
+    *viewpoint = (glint_viewpoint){.aspect = (double)settings->width / (double)settings->height,
+                                   .moves = moves};
+    glint_viewpoint_measure(scene, viewpoint);
+    glint_status status = glint_viewpoint_find(&request->view, scene, viewpoint, error);
     if (status == GLINT_BAD_INPUT && request->camera_may_wait && has_lost_camera(scene)) {
         viewpoint->camera = (glint_camera){.is_lost = true};
         glint_error_free(error);
@@ -284,7 +284,8 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
     glint_progress_phase(display, "load_scene", "loading the scene");
     TRY(load_scene(request, inputs, error));
     inputs->scene_ms = glint_progress_elapsed(display) - begun;
-    return glint_inputs_stage(request, &inputs->scene, &inputs->viewpoint, error);
+    return glint_inputs_stage(request, inputs->source != NULL, &inputs->scene, &inputs->viewpoint,
+                              error);
 }
 
 glint_status glint_inputs_load_environment(const glint_input_request *request,

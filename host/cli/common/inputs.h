@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "cli/common/options.h"
 #include "cli/common/progress.h"
+#include "cli/common/viewpoint.h"
 #include "environment/environment.h"
 #include "render/plan.h"
 #include "scene/material_override.h"
@@ -17,7 +18,7 @@ typedef struct glint_input_request {
     const char *scene; // the file, or the name of a built-in scene
     bool is_built_in;
     const char *scene_name;
-    const char *camera;
+    glint_view_request view;
     const char *animation;
     const char *variant;
     glint_material_overrides overrides;
@@ -36,6 +37,7 @@ typedef struct glint_input_request {
 // Tables of options for a request whose first member is a glint_input_request. The settings and the
 // kernels' folder follow the size under the same heading.
 extern const glint_option glint_input_options[];
+extern const glint_option glint_view_options[];
 extern const glint_option glint_size_options[];
 extern const glint_option glint_settings_options[];
 extern const glint_option glint_kernel_dir_options[];
@@ -111,16 +113,9 @@ void glint_input_request_default(glint_input_request *request);
 // GLINT_BAD_INPUT where --kernel-dir is no folder.
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
 
-// Where a scene is seen from. It is found in the whole scene, so that pictures of its parts fit
-// together.
-typedef struct glint_viewpoint {
-    glint_camera camera; // its strings are the scene's
-    glint_vec3 centre;   // of the bounds (metres, world space): what a turntable turns about
-} glint_viewpoint;
-
-// Finds the viewpoint, and takes away the nodes that are not to be there. Errors: as
-// glint_scene_camera and glint_scene_remove_nodes.
-glint_status glint_inputs_stage(const glint_input_request *request, glint_scene *scene,
+// Finds the viewpoint, and takes away the nodes that are not to be there. `moves`: something of the
+// scene does, over time. Errors: as glint_viewpoint_find and glint_scene_remove_nodes.
+glint_status glint_inputs_stage(const glint_input_request *request, bool moves, glint_scene *scene,
                                 glint_viewpoint *viewpoint, glint_error *error);
 
 // What was loaded. Zero is valid and empty.

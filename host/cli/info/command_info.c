@@ -26,8 +26,9 @@ static const glint_option output_options[] = {
     GLINT_OPTION_END,
 };
 
-static const glint_option *const groups[] = {output_options, glint_input_options,
-                                             glint_size_options, glint_settings_options, NULL};
+static const glint_option *const groups[] = {output_options,         glint_input_options,
+                                             glint_view_options,     glint_size_options,
+                                             glint_settings_options, NULL};
 
 // Everything a run holds. Zero is valid.
 typedef struct info_work {
@@ -168,15 +169,17 @@ static void print_camera(const glint_camera *camera)
            camera->eye.z, 0 - camera->back.x, 0 - camera->back.y, 0 - camera->back.z);
 }
 
-static void print_cameras(const glint_scene *scene, const glint_camera *chosen)
+static void print_cameras(const glint_scene *scene, const glint_view_request *view,
+                          const glint_camera *chosen)
 {
+    const bool is_made = scene->camera_count == 0 && !view->eye.is_given;
     printf("\nCameras\n");
     for (size_t i = 0; i < scene->camera_count && i < LIST_MAX; i++) {
         printf("  %zu %s: ", i, name_or_none(scene->cameras[i].name));
         print_camera(&scene->cameras[i]);
     }
     print_more(scene->camera_count);
-    printf("  used%s: ", scene->camera_count == 0 ? " (it frames the scene)" : "");
+    printf("  used%s%s: ", is_made ? " (it frames the scene)" : "", view->fit ? ", fitted" : "");
     print_camera(chosen);
 }
 
@@ -258,13 +261,13 @@ static void print_tree(const glint_bvh_report *bvh)
            bvh->bytes_per_triangle);
 }
 
-static void print_text(const glint_subject *subject)
+static void print_text(const glint_subject *subject, const glint_view_request *view)
 {
     print_scene(subject->scene, subject->topology);
     print_motion(subject->motion);
     print_lists(subject->scene);
     print_variants(subject->scene);
-    print_cameras(subject->scene, subject->camera);
+    print_cameras(subject->scene, view, subject->camera);
     print_environment(subject->environment);
     print_plan(subject);
     printf("\nMemory\n  about %.1f MiB on the device\n",
@@ -338,7 +341,7 @@ static glint_status print(const info_request *request, info_work *work, glint_er
         .warnings = &work->inputs.warnings,
     };
     if (!request->json) {
-        print_text(&subject);
+        print_text(&subject, &request->inputs.view);
         return GLINT_OK;
     }
     TRY(glint_inventory_json(&subject, &work->json, error));

@@ -18,10 +18,11 @@ static glint_status load_scene(const render_stage *stage, glint_progress_display
     glint_input_request request = stage->request->inputs;
     request.only = NULL;
     request.camera_may_wait = true; // nothing is seen through it
+    request.view = (glint_view_request){0};
     if (stage->inputs.source != NULL) {
         glint_viewpoint unused;
         TRY(glint_scene_at(stage->inputs.source, stage->time, scene, NULL, error));
-        return glint_inputs_stage(&request, scene, &unused, error);
+        return glint_inputs_stage(&request, true, scene, &unused, error);
     }
     glint_inputs inputs;
     glint_status status = glint_inputs_load_scene(&request, display, &inputs, error);

@@ -322,6 +322,7 @@ glint_status render_request_finish(render_request *request, glint_error *error)
     TRY(find_light(request, error));
     TRY(find_proxy(request, error));
     request->inputs.is_for_render = true;
+    request->inputs.view.turns = request->turntable > 0;
     TRY(glint_input_request_finish(&request->inputs, error));
     TRY(check_max_error(request, error));
     TRY(find_plate(request, error));

@@ -53,8 +53,8 @@ static glint_status move_to(render_stage *stage, double time, glint_error *error
     }
     if (inputs->motion.moves_cameras) {
         TRY(glint_scene_cameras_at(inputs->source, time, &inputs->scene, error));
-        return glint_scene_camera(&inputs->scene, stage->request->inputs.camera,
-                                  &inputs->viewpoint.camera, error);
+        return glint_viewpoint_find(&stage->request->inputs.view, &inputs->scene,
+                                    &inputs->viewpoint, error);
     }
     return GLINT_OK;
 }

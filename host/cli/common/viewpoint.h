@@ -1,0 +1,106 @@
+// Where a scene is seen from: the options about it, and the camera that they describe.
+#ifndef GLINT_CLI_COMMON_VIEWPOINT_H
+#define GLINT_CLI_COMMON_VIEWPOINT_H
+
+#include "base/status.h"
+#include "cli/common/options.h"
+#include "cli/common/proxy_option.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+
+// An angle, degrees. Zero: not given.
+typedef struct angle_request {
+    double degrees;
+    bool is_given;
+} angle_request;
+
+// What the command line says. Zero: the first camera, else the default one. Texts are borrowed.
+typedef struct glint_view_request {
+    const char *camera; // name or index
+    place_request eye, look_at, up;
+    double fov; // degrees; 0: the camera's
+    angle_request elevation;
+    bool fit;
+    bool turns; // set by the command: frames go round the scene, and all of them must fit
+} glint_view_request;
+
+glint_option_parser glint_parse_direction, glint_parse_elevation;
+
+// Rows for a request with a glint_view_request at `member`.
+#define GLINT_VIEW_OPTIONS(member)                                                                 \
+    {GLINT_OPTION_HEADING, .help = "Camera"},                                                      \
+        {GLINT_OPTION_TEXT,                                                                        \
+         .name = "camera",                                                                         \
+         .argument = "NAME|INDEX",                                                                 \
+         .help = "The camera to see through.",                                                     \
+         .fallback = "the first; without any, one that frames the scene",                          \
+         .offset = (member) + offsetof(glint_view_request, camera)},                               \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "eye",                                                                            \
+         .argument = "X,Y,Z",                                                                      \
+         .help = "A perspective camera of your own in place of the file's: where it stands, in "   \
+                 "metres of the scene's world. The other options about it may be left out.",       \
+         .offset = (member) + offsetof(glint_view_request, eye),                                   \
+         .parse = place_option_parse},                                                             \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "look-at",                                                                        \
+         .argument = "X,Y,Z",                                                                      \
+         .help = "With --eye, the place in the picture's middle.",                                 \
+         .fallback = "the middle of the scene's bounds",                                           \
+         .offset = (member) + offsetof(glint_view_request, look_at),                               \
+         .parse = place_option_parse},                                                             \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "up",                                                                             \
+         .argument = "X,Y,Z",                                                                      \
+         .help = "With --eye, the direction that points up in the picture.",                       \
+         .fallback = "0,1,0; straight down 0,0,-1, straight up 0,0,1",                             \
+         .offset = (member) + offsetof(glint_view_request, up),                                    \
+         .parse = glint_parse_direction},                                                          \
+        {GLINT_OPTION_REAL,                                                                        \
+         .name = "fov",                                                                            \
+         .argument = "DEG",                                                                        \
+         .help = "The vertical angle of view of a perspective camera.",                            \
+         .fallback = "the camera's; 40 with --eye",                                                \
+         .offset = (member) + offsetof(glint_view_request, fov),                                   \
+         .minimum = 0.001,                                                                         \
+         .maximum = 179.9},                                                                        \
+        {GLINT_OPTION_CUSTOM,                                                                      \
+         .name = "elevation",                                                                      \
+         .argument = "DEG",                                                                        \
+         .help = "Put the camera so many degrees above (below 0: below) the middle of the "        \
+                 "scene's bounds, and look at it from there. Compass direction and distance "      \
+                 "stay. For turntables, too.",                                                     \
+         .offset = (member) + offsetof(glint_view_request, elevation),                             \
+         .parse = glint_parse_elevation},                                                          \
+    {                                                                                              \
+        GLINT_OPTION_FLAG,                                                                         \
+            .name = "fit",                                                                         \
+            .help = "Move the camera, without turning it, until the scene fills the "              \
+                    "frame and is centred. What moves must fit at any time, and with "             \
+                    "--turntable in any position.",                                                \
+            .offset = (member) + offsetof(glint_view_request, fit)                                 \
+    }
+
+// GLINT_USAGE where options do not go together.
+glint_status glint_view_request_check(const glint_view_request *request, glint_error *error);
+
+// Where a scene is seen from. It is found in the whole scene, so that pictures of its parts fit
+// together.
+typedef struct glint_viewpoint {
+    glint_camera camera;  // its strings are the scene's
+    glint_vec3 low, high; // the shown bounds (metres, world space); low > high of an empty scene
+    glint_vec3 centre;    // of the bounds: what a turntable turns about
+    double aspect;        // of the frame: its width over its height
+    bool moves;           // something of the scene does, over time
+} glint_viewpoint;
+
+// Sets the bounds and the centre, before nodes are taken away. aspect and moves must be set.
+void glint_viewpoint_measure(const glint_scene *scene, glint_viewpoint *viewpoint);
+
+// Finds the camera in a scene that has been measured. Errors: as glint_scene_camera; GLINT_USAGE
+// where the options do not suit the scene.
+glint_status glint_viewpoint_find(const glint_view_request *request, const glint_scene *scene,
+                                  glint_viewpoint *viewpoint, glint_error *error);
+
+#endif

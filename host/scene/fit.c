@@ -1,0 +1,94 @@
+// Moving a camera so that a scene fills its frame. See fit.h.
+//
+// A point p is left of the frame's right edge if (right + t·back)·p ≤ right·eye + t·back·eye, with
+// t the tangent of the half angle. So each edge needs only the greatest product of its plane's
+// normal with a point, and the eye follows in closed form.
+#include "scene/fit.h"
+
+#include <math.h>
+
+enum { RIGHT_EDGE, LEFT_EDGE, UPPER_EDGE, LOWER_EDGE, NEAREST, EXTREMES };
+
+#define LEAST_DISTANCE 0.01 // of the bounds' radius: nearer, a point would hide all others
+
+typedef struct fit_extremes {
+    const glint_fit *fit;
+    glint_vec3 centre;
+    glint_vec3 normals[EXTREMES];
+    double across[EXTREMES]; // the normals' horizontal lengths
+    double most[EXTREMES];   // of normal·(point − centre)
+} fit_extremes;
+
+static void begin(const glint_fit *fit, const glint_camera *camera, fit_extremes *extremes)
+{
+    const double height = camera->orthographic ? 0 : tan(camera->yfov / 2);
+    const glint_vec3 sideways = glint_vec3_scale(camera->back, height * fit->aspect);
+    const glint_vec3 upright = glint_vec3_scale(camera->back, height);
+    const glint_vec3 centre = glint_vec3_scale(glint_vec3_add(fit->low, fit->high), 0.5);
+    *extremes = (fit_extremes){.fit = fit, .centre = centre};
+    extremes->normals[RIGHT_EDGE] = glint_vec3_add(sideways, camera->right);
+    extremes->normals[LEFT_EDGE] = glint_vec3_subtract(sideways, camera->right);
+    extremes->normals[UPPER_EDGE] = glint_vec3_add(upright, camera->up);
+    extremes->normals[LOWER_EDGE] = glint_vec3_subtract(upright, camera->up);
+    extremes->normals[NEAREST] = camera->back;
+    for (int i = 0; i < EXTREMES; i++) {
+        extremes->across[i] = hypot(extremes->normals[i].x, extremes->normals[i].z);
+        extremes->most[i] = -INFINITY;
+    }
+}
+
+static void add_point(fit_extremes *extremes, glint_vec3 point)
+{
+    const glint_vec3 p = glint_vec3_subtract(point, extremes->centre);
+    const double radius = extremes->fit->turns ? sqrt(p.x * p.x + p.z * p.z) : 0;
+    for (int i = 0; i < EXTREMES; i++) {
+        const glint_vec3 n = extremes->normals[i];
+        // On its circle about the axis a point comes to lie along the normal.
+        const double product =
+            extremes->fit->turns ? n.y * p.y + extremes->across[i] * radius : glint_vec3_dot(n, p);
+        extremes->most[i] = fmax(extremes->most[i], product);
+    }
+}
+
+static void add_points(fit_extremes *extremes)
+{
+    const glint_fit *fit = extremes->fit;
+    const glint_vec3 low = fit->low, high = fit->high;
+    for (int corner = 0; fit->as_box && corner < 8; corner++) {
+        add_point(extremes, (glint_vec3){(corner & 1) != 0 ? high.x : low.x,
+                                         (corner & 2) != 0 ? high.y : low.y,
+                                         (corner & 4) != 0 ? high.z : low.z});
+    }
+    const glint_scene *scene = fit->scene;
+    for (size_t i = 0; !fit->as_box && i < 3 * scene->triangle_count; i++) {
+        const float *stored = scene->positions + 3 * i;
+        const glint_vec3 relative = {(double)stored[0], (double)stored[1], (double)stored[2]};
+        add_point(extremes, glint_vec3_add(scene->origin, glint_vec3_scale(relative, scene->unit)));
+    }
+}
+
+void glint_camera_fit(const glint_fit *fit, glint_camera *camera)
+{
+    fit_extremes extremes;
+    begin(fit, camera, &extremes);
+    add_points(&extremes);
+    const double *most = extremes.most;
+    const double radius = glint_vec3_length(glint_vec3_subtract(fit->high, fit->low)) / 2;
+    const double width = (most[RIGHT_EDGE] + most[LEFT_EDGE]) / 2 / fit->aspect;
+    const double height = (most[UPPER_EDGE] + most[LOWER_EDGE]) / 2;
+    const double larger = fmax(width, height);
+    if (!(larger > 0) || !isfinite(larger) || !isfinite(radius)) {
+        return;
+    }
+    double distance = most[NEAREST] + radius; // before the centre
+    if (camera->orthographic) {
+        camera->ymag = larger;
+    } else {
+        distance = fmax(larger / tan(camera->yfov / 2), most[NEAREST] + LEAST_DISTANCE * radius);
+    }
+    const glint_vec3 aside =
+        glint_vec3_add(glint_vec3_scale(camera->right, (most[RIGHT_EDGE] - most[LEFT_EDGE]) / 2),
+                       glint_vec3_scale(camera->up, (most[UPPER_EDGE] - most[LOWER_EDGE]) / 2));
+    const glint_vec3 eye = glint_vec3_add(aside, glint_vec3_scale(camera->back, distance));
+    camera->eye = glint_vec3_add(extremes.centre, eye);
+}
