@@ -8,6 +8,7 @@
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_flatten.hpp"
 #include "scene/gltf_material.hpp"
+#include "scene/gltf_meshopt.hpp"
 #include "scene/gltf_sweep.hpp"
 #include "scene/gltf_uri.hpp"
 #include "scene/gltf_variants.hpp"
@@ -109,9 +110,10 @@ void read_buffers(Load &load)
     std::vector<int> stand_in(buffers.size());
     std::map<std::string, std::size_t> longest;
     auto length = [&](std::size_t i) { return buffers[i]["byteLength"].get<std::uint64_t>(); };
+    const std::vector<bool> &is_read = load.model.is_read;
     for (std::size_t i = 0; i < buffers.size(); i++) {
         const json *uri = member(buffers[i], "uri");
-        if (uri != nullptr && !is_data_uri(uri->get_ref<const std::string &>())) {
+        if (is_read[i] && uri != nullptr && !is_data_uri(uri->get_ref<const std::string &>())) {
             std::size_t &best = longest.try_emplace(uri->get<std::string>(), i).first->second;
             best = length(i) > length(best) ? i : best;
         }
@@ -123,7 +125,7 @@ void read_buffers(Load &load)
     }
     load.model.buffers.resize(buffers.size());
     for (std::size_t i = 0; i < buffers.size(); i++) {
-        if (stand_in[i] == static_cast<int>(i)) {
+        if (is_read[i] && stand_in[i] == static_cast<int>(i)) {
             load.model.buffers[i].data = read_buffer(load.document, i);
         }
     }
@@ -181,6 +183,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
         resolve_overrides(load);
     }
     read_buffers(load);
+    unpack_views(load.model);
     load.primitives = prepare_primitives(load.model, load.tally);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);
     choose_nodes(load, options.scene);

@@ -1,6 +1,8 @@
 // Validation of the raw JSON: buffers, views and accessors. See gltf_check_storage.hpp.
 #include "scene/gltf_check_storage.hpp"
 
+#include "scene/gltf_meshopt.hpp"
+
 #include <algorithm>
 #include <array>
 #include <climits>
@@ -15,62 +17,110 @@ constexpr std::uint64_t largest_total = std::uint64_t{8} << 30; // bytes of all 
 // An accessor without data is all zeros, whatever its count says.
 constexpr std::uint64_t most_zeros = std::uint64_t{1} << 24;
 
-void check_buffers(const Document &document)
+// Fills model.is_read: false for buffers without bytes.
+void check_buffers(const Document &document, Model &model)
 {
     const json &buffers = objects_of(document.root, "buffers");
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < buffers.size(); i++) {
         Place place = (Place() / "buffers")[i];
         std::uint64_t length = whole_at(buffers[i], place, "byteLength", 1, largest_whole);
-        total += std::min(length, largest_total + 1); // so the sum cannot overflow
+        const json *uri = member(buffers[i], "uri");
+        if (uri != nullptr) {
+            text_of(*uri, place / "uri");
+        }
+        const bool has_bytes = uri != nullptr || (i == 0 && document.has_bin);
+        model.is_read.push_back(!is_fallback(buffers[i], place) && has_bytes);
+        total += model.is_read[i] ? std::min(length, largest_total + 1) : 0; // cannot overflow
         if (total > largest_total) {
             refuse(place / "byteLength", "the buffers have more than 8 GiB together (split the "
                                          "scene)");
         }
-        const json *uri = member(buffers[i], "uri");
-        if (uri != nullptr) {
-            text_of(*uri, place / "uri");
-        } else if (!document.has_bin) {
-            refuse(place / "uri", "missing (only a .glb with a BIN chunk can leave it out)");
-        } else if (i > 0) {
-            refuse(place / "uri", "missing (only buffers[0] can be the BIN chunk)");
-        }
     }
 }
 
-void check_views(const json &root, Model &model)
+// Refuses to read a buffer that has no bytes.
+void expect_bytes(const Document &document, const Model &model, std::size_t buffer)
+{
+    if (model.is_read[buffer]) {
+        return;
+    }
+    Place place = (Place() / "buffers")[buffer];
+    if (is_fallback(objects_of(document.root, "buffers")[buffer], place)) {
+        refuse(place, "a fallback, but not only packed views refer to it (the file is damaged)");
+    }
+    refuse(place / "uri", document.has_bin
+                              ? "missing (only buffers[0] can be the BIN chunk)"
+                              : "missing (only a .glb with a BIN chunk can leave it out)");
+}
+
+// Who refers to a buffer.
+struct Users {
+    bool plain = false;    // a view, to its bytes
+    bool packed = false;   // a view that is unpacked instead
+    bool unpacked = false; // an extension, to the packed bytes
+};
+
+// A buffer whose data is packed elsewhere is not read, whether or not it has bytes.
+void choose_buffers(const Document &document, const std::vector<Users> &users, Model &model)
+{
+    const json &buffers = objects_of(document.root, "buffers");
+    for (std::size_t i = 0; i < users.size(); i++) {
+        const bool is_needed = users[i].plain || users[i].unpacked;
+        const bool stands_in = users[i].packed || is_fallback(buffers[i], (Place() / "buffers")[i]);
+        if (is_needed || !stands_in) {
+            expect_bytes(document, model, i);
+        }
+        model.is_read[i] = model.is_read[i] && (is_needed || !stands_in);
+    }
+}
+
+tinygltf::BufferView check_view(const json &root, const json &view, const Place &place)
 {
     const json &buffers = objects_of(root, "buffers");
-    const json &views = objects_of(root, "bufferViews");
-    for (std::size_t i = 0; i < views.size(); i++) {
-        Place place = (Place() / "bufferViews")[i];
-        const json &view = views[i];
-        const json *index = member(view, "buffer");
-        if (index == nullptr) {
-            refuse(place / "buffer", "missing (glTF 2.0 requires it)");
-        }
-        std::size_t buffer = index_of(*index, place / "buffer", buffers.size(), "buffer");
-        std::uint64_t length = whole_at(view, place, "byteLength", 1, largest_whole);
-        std::uint64_t offset = optional_whole(view, place, "byteOffset", 0, largest_whole);
-        std::uint64_t there = buffers[buffer]["byteLength"].get<std::uint64_t>();
-        if (offset > there || length > there - offset) { // each < 2^53: no overflow
-            refuse(place / "byteLength",
-                   counted(length, "byte") + " from byte " + std::to_string(offset) +
-                       " run past the end of buffers[" + std::to_string(buffer) + "], which has " +
-                       counted(there, "byte") + " (the file is damaged)");
-        }
-        const json *stride_value = member(view, "byteStride");
-        std::uint64_t stride =
-            stride_value == nullptr ? 0 : whole_number(*stride_value, place / "byteStride", 4, 252);
-        if (stride % 4 != 0) {
-            refuse(place / "byteStride", "not a multiple of 4 (glTF 2.0 requires it)");
-        }
-        tinygltf::BufferView &made = model.bufferViews.emplace_back();
-        made.buffer = static_cast<int>(buffer);
-        made.byteOffset = offset;
-        made.byteLength = length;
-        made.byteStride = stride;
+    const json *index = member(view, "buffer");
+    if (index == nullptr) {
+        refuse(place / "buffer", "missing (glTF 2.0 requires it)");
     }
+    std::size_t buffer = index_of(*index, place / "buffer", buffers.size(), "buffer");
+    std::uint64_t length = whole_at(view, place, "byteLength", 1, largest_whole);
+    std::uint64_t offset = optional_whole(view, place, "byteOffset", 0, largest_whole);
+    std::uint64_t there = buffers[buffer]["byteLength"].get<std::uint64_t>();
+    if (offset > there || length > there - offset) { // each < 2^53: no overflow
+        refuse(place / "byteLength", counted(length, "byte") + " from byte " +
+                                         std::to_string(offset) + " run past the end of buffers[" +
+                                         std::to_string(buffer) + "], which has " +
+                                         counted(there, "byte") + " (the file is damaged)");
+    }
+    const json *stride_value = member(view, "byteStride");
+    std::uint64_t stride =
+        stride_value == nullptr ? 0 : whole_number(*stride_value, place / "byteStride", 4, 252);
+    if (stride % 4 != 0) {
+        refuse(place / "byteStride", "not a multiple of 4 (glTF 2.0 requires it)");
+    }
+    tinygltf::BufferView made;
+    made.buffer = static_cast<int>(buffer);
+    made.byteOffset = offset;
+    made.byteLength = length;
+    made.byteStride = stride;
+    return made;
+}
+
+void check_views(const Document &document, Model &model)
+{
+    const json &views = objects_of(document.root, "bufferViews");
+    std::vector<Users> users(objects_of(document.root, "buffers").size());
+    for (std::size_t i = 0; i < views.size(); i++) {
+        model.bufferViews.push_back(
+            check_view(document.root, views[i], (Place() / "bufferViews")[i]));
+        const bool is_packed = check_packed_view(document.root, i, model);
+        Users &target = users[static_cast<std::size_t>(model.bufferViews[i].buffer)];
+        (is_packed ? target.packed : target.plain) = true;
+        if (is_packed) {
+            users[model.packed.back().buffer].unpacked = true;
+        }
+    }
+    choose_buffers(document, users, model);
 }
 
 std::uint64_t component_size(std::uint64_t component_type)
@@ -284,8 +334,8 @@ void check_format(const tinygltf::Accessor &accessor, const Place &place, const 
 
 void check_storage(const Document &document, Model &model)
 {
-    check_buffers(document);
-    check_views(document.root, model);
+    check_buffers(document, model);
+    check_views(document, model);
     const json &accessors = objects_of(document.root, "accessors");
     for (std::size_t i = 0; i < accessors.size(); i++) {
         check_accessor(accessors[i], (Place() / "accessors")[i], model);

@@ -17,7 +17,7 @@ struct Extension {
     const char *said; // where it stands in a used object; NULL: nothing, as nothing is missing
 };
 
-constexpr std::array<Extension, 11> extensions = {{
+constexpr std::array<Extension, 13> extensions = {{
     {"KHR_materials_transmission", Holder::material, true, nullptr},
     {"KHR_materials_ior", Holder::material, true, nullptr},
     {"KHR_materials_volume", Holder::material, true, nullptr},
@@ -26,6 +26,8 @@ constexpr std::array<Extension, 11> extensions = {{
     // Textures are not modelled, so neither is this wrong.
     {"KHR_texture_transform", Holder::texture, true, nullptr},
     {"KHR_mesh_quantization", Holder::document, true, nullptr},
+    {"EXT_meshopt_compression", Holder::document, true, nullptr},
+    {"KHR_meshopt_compression", Holder::document, true, nullptr},
     {"EXT_mesh_gpu_instancing", Holder::node, true, nullptr},
     {"KHR_lights_punctual", Holder::node, false,
      "lights are not modelled, the environment alone gives light"},

@@ -1,6 +1,7 @@
 // Checked access to JSON. See gltf_json.hpp.
 #include "scene/gltf_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -291,11 +292,13 @@ double number_of(const json &value, const Place &place)
 double number_within(const json &value, const Place &place, double low, double high)
 {
     double number = number_of(value, place);
-    if (!(number >= low && number <= high)) {
+    // Exporters compute in floats: past a bound by their rounding is on the bound.
+    const double slack = 1e-6 * (high - low);
+    if (!(number >= low - slack && number <= high + slack)) {
         refuse(place, shown(number) + " is outside [" + shown(low) + ", " + shown(high) +
                           "] (give a value within)");
     }
-    return number;
+    return std::min(std::max(number, low), high);
 }
 
 } // namespace glint

@@ -100,7 +100,7 @@ std::size_t index_of(const json &value, const Place &place, std::size_t count, c
 std::ptrdiff_t optional_index(const json &object, const Place &place, const char *key,
                               std::size_t count, const char *noun);
 
-// A finite number, and one within [low, high].
+// A finite number, and one within [low, high], but for the rounding of a float.
 double number_of(const json &value, const Place &place);
 double number_within(const json &value, const Place &place, double low, double high);
 

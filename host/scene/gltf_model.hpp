@@ -28,14 +28,27 @@ struct MappedPrimitive {
     VariantMaterials materials;
 };
 
+// A view whose bytes are packed (gltf_meshopt.hpp): `count` elements of `stride` bytes, from
+// `length` bytes at `offset` of a buffer.
+enum class PackedMode { attributes, triangles, indices };
+enum class PackedFilter { none, octahedral, quaternion, exponential };
+struct PackedView {
+    std::size_t view = 0, buffer = 0;
+    std::uint64_t offset = 0, length = 0, stride = 0, count = 0;
+    PackedMode mode = PackedMode::attributes;
+    PackedFilter filter = PackedFilter::none;
+};
+
 // The checks fill it, each object where it is checked (gltf_check*.cpp), with what the loader reads
 // of it. So no value can be read that nobody has checked. An index of −1 refers to nothing; an
 // accessor whose bufferView is −1 holds zeros. Where the file is in order tinygltf's own loader
 // gives the same, but it is no validator: it drops what it cannot read, hides negative offsets,
 // opens files and follows what is out of range.
 struct Model : tinygltf::Model {
-    bool quantized = false;            // KHR_mesh_quantization is declared
-    std::vector<int> parents;          // of each node; −1: a root
+    bool quantized = false;   // KHR_mesh_quantization is declared
+    std::vector<int> parents; // of each node; −1: a root
+    std::vector<PackedView> packed;
+    std::vector<bool> is_read;         // of each buffer; false: a placeholder for what views unpack
     std::vector<std::string> variants; // the names of the file's variants of materials
     std::ptrdiff_t variant = -1;       // the chosen one; −1: the plain materials
     std::vector<MappedPrimitive> mapped;
