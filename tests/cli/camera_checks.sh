@@ -147,9 +147,65 @@ run render in/seen.gltf --turntable 4 --elevation 30 --size 16x9 --frames 2 -o o
 check 'a turntable with an elevation' test "$status" -eq 0 -a -s out/t.2.exr
 clean
 
+# ---- all cameras --------------------------------------------------------------------------------
+
+refuses 3 'the scene has no camera' render in/unseen.gltf --camera all -o out/x.png
+refuses 2 'no output' render in/seen.gltf --camera all
+refuses 2 'camera 1 is orthographic' render in/seen.gltf --camera all --fov 30 -o out/x.png
+refuses 2 '--camera (leave one out)' render in/seen.gltf --camera all --eye 0,0,5 -o out/x.png
+refuses 2 'frames need a place' render in/seen.gltf --camera all --frames 1-3 -o out/x.png
+refuses 3 'no camera "all"' info in/seen.gltf --camera all
+refuses 5 'out/none' render in/seen.gltf --camera all -o out/none/x.png
+small=(--size 16x9 --progress none)
+run render in/seen.gltf --camera all "${small[@]}" -o out/x.exr --preview --stats out/s.json
+check '--camera all: exit status 0' test "$status" -eq 0 -a ! -s stderr
+check '--camera all: a file for each' test "$(echo out/*)" = \
+    'out/s.flat.json out/s.front.json out/x.flat.exr out/x.flat.png out/x.front.exr out/x.front.png'
+mv out/s.flat.json out/stats.json
+check '--camera all: --stats of each' stat_is orthographic camera type
+for camera in front flat; do
+    run render in/seen.gltf --camera $camera "${small[@]}" -o in/one.exr
+    check "--camera all: as --camera $camera" same_pixels in/one.exr out/x.$camera.exr
+done
+clean
+run render in/seen.gltf --camera all "${small[@]}" -o out/x.##.exr --frames 1-2
+check '--camera all: frames of each' test "$(echo out/*)" = \
+    'out/x.flat.01.exr out/x.flat.02.exr out/x.front.01.exr out/x.front.02.exr'
+rm out/x.flat.01.exr
+run render in/seen.gltf --camera all --size 16x9 -o out/x.##.exr --frames 1-2 --skip-existing --stats -
+check '--camera all: --skip-existing' test "$(grep -c '"outcome": "rendered"' stdout)" -eq 1
+check '--camera all: a log of each on stdout' test "$(grep -c '"event": "total"' stdout)" -eq 2
+clean
+run render in/seen.gltf --camera all "${small[@]}" -o out/x.#.exr --turntable 4 --shard 1/2 --fit
+check '--camera all: a part of a turntable of each' test "$(echo out/*)" = \
+    'out/x.flat.1.exr out/x.flat.3.exr out/x.front.1.exr out/x.front.3.exr'
+clean
+sed 's#"name": "flat"#"name": "../fl at"#; s#"name": "front", ##' in/seen.gltf >in/names.gltf
+run render in/names.gltf --camera all "${small[@]}" -o out/x.png
+check '--camera all: names that files can have' test -s out/x.0.png -a -s out/x..._fl_at.png
+clean
+sed 's#"name": "flat", #"name": "flat", "scale": [0, 0, 0], #' in/seen.gltf >in/lost.gltf
+run render in/lost.gltf --camera all "${small[@]}" -o out/x.png
+check '--camera all: one without a direction is left out' test "$status" -eq 0 -a "$(echo out/*)" = out/x.front.png
+check '--camera all: which' grep -q 'nodes\[2\] "flat": the camera has no direction' stderr
+clean
+write_scene '[0, 2, 1]' '"animations": [{"samplers": [{"input": 1, "output": 2}],
+   "channels": [{"sampler": 0, "target": {"node": 2, "path": "scale"}}]}],' >in/never.gltf
+run render in/never.gltf --camera all "${small[@]}" -o out/x.png
+check '--camera all: one that never has a direction: exit status 6' test "$status" -eq 6
+check '--camera all: which' grep -q 'camera 0 has no direction' stderr
+check '--camera all: how many' grep -q 'in/never.gltf: 1 of 2 cameras failed' stderr
+check '--camera all: the others are there' test "$(echo out/*)" = out/x.front.png
+clean
+run render in/seen.gltf --camera all "${small[@]}" -o in/seen.png
+cp in/seen.gltf in/x.front.png
+refuses 2 'this is an input' render in/x.front.png --camera all -o in/x.png
+check '--camera all: nothing is rendered before that' test ! -e in/x.flat.png
+
 # ---- other commands -----------------------------------------------------------------------------
 
 refuses 2 'unknown option --eye' capture in/seen.gltf out/c.exr --at 0,0,1 --eye 0,0,1
+refuses 2 'a job has the frames of one camera' farm slurm -- in/seen.gltf -o out/f.####.exr --turntable 4 --camera all
 run farm slurm --parts 2 --dry-run -- in/seen.gltf -o out/f.####.exr --turntable 4 --eye 0,0,5 --fit --elevation
 check 'farm looks at them' test "$status" -eq 2
 run farm slurm --parts 2 --dry-run -- in/seen.gltf -o out/f.####.exr --turntable 4 --eye 0,0,5 --fit

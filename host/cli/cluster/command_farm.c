@@ -7,6 +7,7 @@
 #include "cli/cluster/farm_slurm.h"
 #include "cli/common/json_output.h"
 #include "cli/common/output_folder.h"
+#include "cli/render/each_camera.h"
 #include "cli/render/light.h"
 #include "cli/render/request.h"
 #include "image/output_file.h"
@@ -175,6 +176,11 @@ static glint_status check_subject(const render_request *request, glint_error *er
         return glint_fail(error, GLINT_USAGE,
                           "%s: one frame alone (a sequence is named frame.####.exr)",
                           request->output);
+    }
+    if (render_each_camera_is_asked(request)) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--camera all: a job has the frames of one camera (submit a job for each "
+                          "camera)");
     }
     if (request->shard.count > 0 || request->stats != NULL) {
         return glint_fail(error, GLINT_USAGE,

@@ -33,8 +33,9 @@ glint_option_parser glint_parse_direction, glint_parse_elevation;
         {GLINT_OPTION_TEXT,                                                                        \
          .name = "camera",                                                                         \
          .argument = "NAME|INDEX",                                                                 \
-         .help = "The camera to see through.",                                                     \
-         .fallback = "the first; without any, one that frames the scene",                          \
+         .help = "The camera to see through. For render also all: a file for each of them, with "  \
+                 "the camera's name before the frame's number or the extension (car.front.png).",  \
+         .fallback = "the first; without any, one that sees the scene as by --fit",                \
          .offset = (member) + offsetof(glint_view_request, camera)},                               \
         {GLINT_OPTION_CUSTOM,                                                                      \
          .name = "eye",                                                                            \

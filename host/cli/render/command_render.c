@@ -4,6 +4,7 @@
 #include "cli/common/options.h"
 #include "cli/common/output_folder.h"
 #include "cli/common/say.h"
+#include "cli/render/each_camera.h"
 #include "cli/render/run.h"
 #include "cli/render/summary.h"
 
@@ -179,16 +180,22 @@ cleanup:
     return status;
 }
 
-static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
+static glint_status render_one(render_request *request, glint_error *error)
 {
-    render_request *request = context;
-    request->inputs.scene = arguments->positionals[0];
     glint_status status = render_request_finish(request, error);
     if (status == GLINT_OK) {
         status = run_request(request, error);
     }
     render_request_free(request);
     return status;
+}
+
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
+{
+    render_request *request = context;
+    request->inputs.scene = arguments->positionals[0];
+    return render_each_camera_is_asked(request) ? render_each_camera(request, render_one, error)
+                                                : render_one(request, error);
 }
 
 const glint_command glint_command_render = {
@@ -203,6 +210,8 @@ const glint_command glint_command_render = {
                 "  glint render car.glb --env studio.hdr --env-rotate 90 --samples 16 -o car.exr\n"
                 "  glint render jewel.glb --depth 8 --background transparent -o jewel.exr\n"
                 "  glint render jewel.glb --turntable 240 -o turn/jewel.####.exr\n"
+                "  glint render car.glb --camera all --size 1280x720 -o views/car.png\n"
+                "  glint render car.glb --eye 3,1,4 --fov 25 --fit -o car.png\n"
                 "  glint render walk.glb --animation walk --fps 25 -o walk/walk.####.exr\n",
     .groups = render_option_groups,
     .positional = "SCENE",
