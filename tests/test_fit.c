@@ -145,6 +145,27 @@ static void the_loose_edges_are_equally_far(void **state)
     }
 }
 
+static void a_margin_stays_free(void **state)
+{
+    (void)state;
+    seed = 7;
+    for (int round = 0; round < 20 * ASPECTS; round++) {
+        float positions[3 * POINTS];
+        const glint_scene scene = make_cloud(positions);
+        const double aspect = aspects[round % ASPECTS];
+        glint_camera camera = make_camera(round % 3 == 0);
+        const glint_fit fit = {
+            .scene = &scene, .low = scene.low, .high = scene.high, .aspect = aspect, .margin = 0.1};
+        glint_camera_fit(&fit, &camera);
+        shown all = show_vertices(&camera, aspect, &scene);
+        all.left /= 0.9;
+        all.right /= 0.9;
+        all.low /= 0.9;
+        all.high /= 0.9;
+        assert_fills(&all);
+    }
+}
+
 static void a_fitted_camera_stays_where_it_is(void **state)
 {
     (void)state;
@@ -250,6 +271,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_vertex_is_in_and_two_edges_are_touched),
         cmocka_unit_test(the_loose_edges_are_equally_far),
+        cmocka_unit_test(a_margin_stays_free),
         cmocka_unit_test(a_fitted_camera_stays_where_it_is),
         cmocka_unit_test(what_moves_is_fitted_by_the_corners_of_its_box),
         cmocka_unit_test(what_turns_fits_in_every_position),

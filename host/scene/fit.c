@@ -21,7 +21,7 @@ typedef struct fit_extremes {
 
 static void begin(const glint_fit *fit, const glint_camera *camera, fit_extremes *extremes)
 {
-    const double height = camera->orthographic ? 0 : tan(camera->yfov / 2);
+    const double height = camera->orthographic ? 0 : tan(camera->yfov / 2) * (1 - fit->margin);
     const glint_vec3 sideways = glint_vec3_scale(camera->back, height * fit->aspect);
     const glint_vec3 upright = glint_vec3_scale(camera->back, height);
     const glint_vec3 centre = glint_vec3_scale(glint_vec3_add(fit->low, fit->high), 0.5);
@@ -82,9 +82,10 @@ void glint_camera_fit(const glint_fit *fit, glint_camera *camera)
     }
     double distance = most[NEAREST] + radius; // before the centre
     if (camera->orthographic) {
-        camera->ymag = larger;
+        camera->ymag = larger / (1 - fit->margin);
     } else {
-        distance = fmax(larger / tan(camera->yfov / 2), most[NEAREST] + LEAST_DISTANCE * radius);
+        distance = fmax(larger / (tan(camera->yfov / 2) * (1 - fit->margin)),
+                        most[NEAREST] + LEAST_DISTANCE * radius);
     }
     const glint_vec3 aside =
         glint_vec3_add(glint_vec3_scale(camera->right, (most[RIGHT_EDGE] - most[LEFT_EDGE]) / 2),

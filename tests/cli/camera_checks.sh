@@ -47,6 +47,17 @@ camera_is() { # WANTED KEY[,KEY] ARGUMENT…
         'BEGIN { off = got - wanted; exit !(off < 1e-6 && off > -1e-6) }' || { echo "$keys is $got"; return 1; }
 }
 
+# How many times as far away the eye is as with --fit, seen along z.
+eye_is_further() { # LEAST MOST ARGUMENT…
+    local least=$1 most=$2 own fitted
+    shift 2
+    "$glint" info "$@" --json >info.json && own=$("$json_get" info.json camera eye 2) || return 1
+    "$glint" info "$@" --fit --json >info.json && fitted=$("$json_get" info.json camera eye 2) || return 1
+    echo "$own, $fitted with --fit"
+    awk -v own="$own" -v fitted="$fitted" -v least="$least" -v most="$most" \
+        'BEGIN { exit !(own > least * fitted && own < most * fitted) }'
+}
+
 # The bytes of worldToCamera in an EXR's header.
 matrix_of() {
     grep -aoP 'worldToCamera\0m44f\0\x40\0\0\0\K[\s\S]{64}' "$1" | od -An -tf4
@@ -122,6 +133,12 @@ check '--fit: its width' camera_is 1.7777778 ymag in/seen.gltf --camera flat --f
 check '--fit with --fov' camera_is 1 eye,2 in/seen.gltf --fov 90 --fit
 check '--fit: what moves fits all the time' camera_is 2 eye,0 in/moving.gltf --eye 0,0,9 --look-at 0,0,0 --fit
 check '--fit: and its width' camera_is 1.6875 eye,2 in/moving.gltf --eye 0,0,9 --look-at 0,0,0 --fov 90 --fit
+# In front of the triangle, from the direction (0.4, 0.3, 1); a little further away than with --fit.
+check 'a file without cameras: its direction' camera_is 0.8944272 back,2 in/unseen.gltf
+check 'a file without cameras: fitted, with a margin' eye_is_further 1.02 1.08 in/unseen.gltf --size 160x90
+check 'a file without cameras: in a tall frame, too' eye_is_further 1.02 1.08 in/unseen.gltf --size 90x160
+check 'a file without cameras: --fov' eye_is_further 1.02 1.08 in/unseen.gltf --fov 10
+check 'a file without cameras: --elevation' eye_is_further 1.02 1.08 in/unseen.gltf --elevation 60
 run info in/seen.gltf --fit
 check 'info says it' grep -q 'used, fitted: perspective' stdout
 run render in/moving.gltf --size 32x18 -o out/m.#.exr --frames 1,25 --fps 24 --eye 0,0,9 --look-at 0,0,0 --fit \

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define RADIANS (GLINT_PI / 180)
+#define DEFAULT_MARGIN 0.05 // of the camera of a file that has none
 
 // ---- The options -------------------------------------------------------------------------------
 
@@ -109,6 +110,7 @@ static void fit(const glint_view_request *request, const glint_scene *scene,
                            .low = viewpoint->low,
                            .high = viewpoint->high,
                            .turns = request->turns,
+                           .margin = request->fit ? 0 : DEFAULT_MARGIN,
                            .aspect = viewpoint->aspect};
     glint_camera_fit(&fit, &viewpoint->camera);
 }
@@ -130,7 +132,8 @@ glint_status glint_viewpoint_find(const glint_view_request *request, const glint
     if (request->elevation.is_given) {
         glint_camera_raise(viewpoint->centre, request->elevation.degrees * RADIANS, camera);
     }
-    if (request->fit) {
+    const bool is_default = scene->camera_count == 0 && !request->eye.is_given;
+    if (request->fit || is_default) {
         fit(request, scene, viewpoint);
     }
     return GLINT_OK;
