@@ -31,7 +31,7 @@ static void linear_and_step_hold_at_the_ends(void **state)
     (void)state;
     const double times[] = {0.5, 1.5, 3.5};
     const double values[] = {1, 2, 3, 5, -2, 3, 9, 0, 7};
-    glint_curve curve = {GLINT_INTERPOLATION_LINEAR, false, 3, times, values};
+    glint_curve curve = {GLINT_INTERPOLATION_LINEAR, false, 3, 3, times, values};
     static const double samples[][5] = {
         // time; LINEAR's value; STEP's first number
         {-1, 1, 2, 3, 1},       {0, 1, 2, 3, 1},         {0.5, 1, 2, 3, 1}, {1, 3, 0, 3, 1},
@@ -62,7 +62,7 @@ static void steps_come_at_their_frames(void **state)
             times[i] = (double)(float)(i / rates[r]);
             values[3 * i] = i;
         }
-        const glint_curve curve = {GLINT_INTERPOLATION_STEP, false, KEYS, times, values};
+        const glint_curve curve = {GLINT_INTERPOLATION_STEP, false, 3, KEYS, times, values};
         for (int i = 0; i < KEYS; i++) {
             double value[3];
             glint_curve_sample(&curve, i / rates[r], value);
@@ -87,7 +87,7 @@ static void splines_give_cubics_back(void **state)
             values[9 * i + k] = values[9 * i + 6 + k] = 3 * a * t * t - 4 * t + 1;
         }
     }
-    const glint_curve curve = {GLINT_INTERPOLATION_CUBIC, false, KEYS, times, values};
+    const glint_curve curve = {GLINT_INTERPOLATION_CUBIC, false, 3, KEYS, times, values};
     for (int step = 0; step <= 375; step++) {
         const double t = 0.25 + 0.01 * step;
         double value[3], expected[3];
@@ -124,7 +124,7 @@ static void rotations_take_the_shorter_way_at_a_steady_rate(void **state)
                 values[k] *= 3;
                 values[4 + k] *= sign * 0.5;
             }
-            const glint_curve curve = {GLINT_INTERPOLATION_LINEAR, true, 2, times, values};
+            const glint_curve curve = {GLINT_INTERPOLATION_LINEAR, true, 4, 2, times, values};
             for (int eighth = 0; eighth <= 8; eighth++) {
                 const double share = eighth / 8.0;
                 double got[4], expected[4];
@@ -147,7 +147,7 @@ static void splines_of_rotations_are_unit(void **state)
     // Through opposite quaternions: half-way the spline passes through 0, where there is no turn.
     const double values[] = {0, 0, 0, 0, 0, 0, 0, 1,  0, 0, 0, 0,
                              0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0};
-    const glint_curve curve = {GLINT_INTERPOLATION_CUBIC, true, 2, times, values};
+    const glint_curve curve = {GLINT_INTERPOLATION_CUBIC, true, 4, 2, times, values};
     for (int step = 0; step <= 16; step++) {
         double q[4];
         glint_curve_sample(&curve, step / 8.0, q);
@@ -163,15 +163,15 @@ static void what_never_changes_does_not_move(void **state)
     const double resting[18] = {0, 0, 0, 1, 2, 3, 0, 0, 0, 0, 0, 0, 1, 2, 3, 0, 0, 0};
     const double swinging[18] = {0, 0, 0, 1, 2, 3, 1, 0, 0, 0, 0, 0, 1, 2, 3, 0, 0, 0};
     assert_false(
-        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_LINEAR, false, 2, times, still}));
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_LINEAR, false, 3, 2, times, still}));
     assert_false(
-        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_LINEAR, false, 1, times, moving}));
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_LINEAR, false, 3, 1, times, moving}));
     assert_true(
-        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_STEP, false, 2, times, moving}));
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_STEP, false, 3, 2, times, moving}));
     assert_false(
-        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_CUBIC, false, 2, times, resting}));
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_CUBIC, false, 3, 2, times, resting}));
     assert_true(
-        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_CUBIC, false, 2, times, swinging}));
+        glint_curve_moves(&(glint_curve){GLINT_INTERPOLATION_CUBIC, false, 3, 2, times, swinging}));
 }
 
 // ---- Scenes ------------------------------------------------------------------------------------
@@ -515,7 +515,7 @@ static void what_is_not_animated_is_said(void **state)
     glint_scene scene;
     glint_warnings warnings = {0};
     assert_int_equal(glint_scene_at(source, 0, &scene, &warnings, NULL), GLINT_OK);
-    assert_true(any_warning_has(&warnings, "channels[0]: morph targets are not modelled"));
+    assert_true(any_warning_has(&warnings, "channels[0]: the node has no morph targets"));
     assert_true(any_warning_has(&warnings, "channels[1] and 1 more: only translation, rotation"));
     assert_true(any_warning_has(&warnings, "the first of 2 animations is shown"));
     glint_warnings_free(&warnings);

@@ -5,15 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-static int components_of(const glint_curve *curve)
-{
-    return curve->is_rotation ? 4 : 3;
-}
-
 // A key's value; `part` −1 and 1 are its tangents.
 static const double *key_value(const glint_curve *curve, size_t key, int part)
 {
-    const size_t components = (size_t)components_of(curve);
+    const size_t components = curve->components;
     return curve->interpolation == GLINT_INTERPOLATION_CUBIC
                ? curve->values + (3 * key + (size_t)(1 + part)) * components
                : curve->values + key * components;
@@ -73,7 +68,7 @@ static void spline(const glint_curve *curve, size_t key, double share, double se
     const double s2 = share * share, s3 = s2 * share;
     const double of_from = 2 * s3 - 3 * s2 + 1, of_leaving = (s3 - 2 * s2 + share) * seconds;
     const double of_to = 3 * s2 - 2 * s3, of_arriving = (s3 - s2) * seconds;
-    for (int k = 0; k < components_of(curve); k++) {
+    for (size_t k = 0; k < curve->components; k++) {
         result[k] =
             of_from * from[k] + of_leaving * leaving[k] + of_to * to[k] + of_arriving * arriving[k];
     }
@@ -85,7 +80,7 @@ static void spline(const glint_curve *curve, size_t key, double share, double se
 
 static void take_key(const glint_curve *curve, size_t key, double *value)
 {
-    memcpy(value, key_value(curve, key, 0), (size_t)components_of(curve) * sizeof *value);
+    memcpy(value, key_value(curve, key, 0), curve->components * sizeof *value);
     if (curve->is_rotation) {
         normalize4(value);
     }
@@ -126,7 +121,7 @@ void glint_curve_sample(const glint_curve *curve, double exact_time, double *val
         slerp(key_value(curve, key, 0), key_value(curve, key + 1, 0), share, value);
     } else {
         const double *from = key_value(curve, key, 0), *to = key_value(curve, key + 1, 0);
-        for (int k = 0; k < 3; k++) {
+        for (size_t k = 0; k < curve->components; k++) {
             value[k] = from[k] + share * (to[k] - from[k]);
         }
     }
@@ -134,7 +129,7 @@ void glint_curve_sample(const glint_curve *curve, double exact_time, double *val
 
 bool glint_curve_moves(const glint_curve *curve)
 {
-    const size_t components = (size_t)components_of(curve);
+    const size_t components = curve->components;
     for (size_t key = 1; key < curve->key_count; key++) {
         if (memcmp(key_value(curve, key, 0), key_value(curve, 0, 0), components * sizeof(double)) !=
             0) {

@@ -1,8 +1,8 @@
 // The glTF loader, from the file to the scene: read, check, walk, flatten.
 // Whatever is thrown on the way ends here as a status.
 //
-// Limits: files of 4 GiB, buffers of 8 GiB, 2^27 triangles; textures, skins and morph targets are
-// not applied, which is said in the warnings.
+// Limits: files of 4 GiB, buffers of 8 GiB, 2^27 triangles; textures are not applied, which is said
+// in the warnings.
 #include "scene/scene.h"
 
 #include "scene/gltf_check.hpp"
@@ -185,6 +185,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     read_buffers(load);
     unpack_views(load.model);
     load.primitives = prepare_primitives(load.model, load.tally);
+    load.skins = read_skins(load.model);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);
     choose_nodes(load, options.scene);
     if (load.moves_triangles) {

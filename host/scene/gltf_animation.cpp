@@ -17,9 +17,12 @@ namespace
 
 // ---- Checks ------------------------------------------------------------------------------------
 
-bool is_modelled(const std::string &path)
+constexpr std::array<const char *, 4> paths = {"translation", "rotation", "scale", "weights"};
+
+// The property of that path; paths.size() where it is none that is modelled.
+std::size_t property_of(const std::string &path)
 {
-    return path == "translation" || path == "rotation" || path == "scale";
+    return static_cast<std::size_t>(std::find(paths.begin(), paths.end(), path) - paths.begin());
 }
 
 glint_interpolation interpolation_of(const json &sampler, const Place &place)
@@ -57,22 +60,33 @@ std::size_t values_a_key(const json &sampler, const Place &place)
     return interpolation_of(sampler, place) == GLINT_INTERPOLATION_CUBIC ? 3 : 1;
 }
 
-// A sampler as the channel that uses it needs it.
-void check_output(const json &sampler, const Place &place, const std::string &path,
-                  const Model &model)
+// What a node's curve of weights moves; 0 where the node has nothing to morph.
+std::size_t targets_of(const Model &model, const json &target)
+{
+    const json *node = member(target, "node");
+    const int mesh = node == nullptr ? -1 : model.nodes[node->get<std::size_t>()].mesh;
+    return mesh < 0 ? 0 : model.target_counts[static_cast<std::size_t>(mesh)];
+}
+
+// A sampler as a channel for that property needs it; `targets` are those that weights are for.
+void check_output(const json &sampler, const Place &place, std::size_t property,
+                  std::size_t targets, const Model &model)
 {
     const tinygltf::Accessor &output = model.accessors[sampler["output"].get<std::size_t>()];
     const std::uint64_t keys = model.accessors[sampler["input"].get<std::size_t>()].count;
     const std::uint64_t values = output.count;
-    bool is_rotation = path == "rotation";
-    check_format(output, place / "output",
-                 {is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, true, is_rotation, false,
-                  is_rotation});
-    std::uint64_t each = values_a_key(sampler, place);
-    if (values != each * keys) {
-        refuse(place / "output", counted(values, "value") + " for " + counted(keys, "key") +
-                                     (each == 3 ? ", which have three each" : "") +
-                                     " (the file is damaged)");
+    const bool is_vector = property == translation || property == scale;
+    const int type = is_vector              ? TINYGLTF_TYPE_VEC3
+                     : property == rotation ? TINYGLTF_TYPE_VEC4
+                                            : TINYGLTF_TYPE_SCALAR;
+    check_format(output, place / "output", {type, true, !is_vector, false, !is_vector});
+    const std::uint64_t each = values_a_key(sampler, place);
+    const std::uint64_t numbers = each * (property == weights ? targets : 1);
+    if (values % numbers != 0 || values / numbers != keys) { // a product could overflow
+        refuse(place / "output",
+               counted(values, "value") + " for " + counted(keys, "key") +
+                   (property == weights ? " of " + counted(targets, "morph target") : "") +
+                   (each == 3 ? ", which have three each" : "") + " (the file is damaged)");
     }
 }
 
@@ -89,9 +103,11 @@ void check_channel(const json &channel, const Place &place, const json &samplers
     if (path.empty()) {
         refuse(place / "target" / "path", "missing (glTF 2.0 requires it)");
     }
-    if (is_modelled(path)) {
+    const std::size_t property = property_of(path);
+    const std::size_t targets = targets_of(model, target);
+    if (property < paths.size() && (property != weights || targets > 0)) {
         auto index = static_cast<std::size_t>(sampler);
-        check_output(samplers[index], samplers_place[index], path, model);
+        check_output(samplers[index], samplers_place[index], property, targets, model);
     }
 }
 
@@ -157,14 +173,18 @@ std::vector<double> read_values(const Reader &reader, std::size_t components, st
     return values;
 }
 
-Curve read_curve(const Model &model, const json &sampler, const Place &place, bool is_rotation)
+// `components` is how many numbers a value has.
+Curve read_curve(const Model &model, const json &sampler, const Place &place, Property property,
+                 std::size_t components)
 {
     Curve curve;
-    curve.is_rotation = is_rotation;
+    curve.is_rotation = property == rotation;
+    curve.components = components;
     curve.interpolation = interpolation_of(sampler, place);
     curve.times = read_times(Reader(model, sampler["input"].get<std::size_t>()), place);
     curve.values = read_values(Reader(model, sampler["output"].get<std::size_t>()),
-                               is_rotation ? 4 : 3, values_a_key(sampler, place), place);
+                               property == weights ? 1 : components, // which are scalars each
+                               values_a_key(sampler, place), place);
     return curve;
 }
 
@@ -181,26 +201,33 @@ void read_channel(Reading &reading, const json &animation, const Place &place, s
     const json &channel = animation["channels"][number];
     const json &target = channel["target"];
     std::string where = (place / "channels")[number].text();
-    auto path = target["path"].get<std::string>();
-    if (path == "weights") {
-        reading.tally.add("morph targets are not modelled, their animation is left out", where);
+    const std::size_t found = property_of(target["path"].get<std::string>());
+    if (found == paths.size() || member(target, "node") == nullptr) {
+        reading.tally.add("only translation, rotation, scale and weights of nodes are animated, "
+                          "this is left out",
+                          where);
         return;
     }
-    if (!is_modelled(path) || member(target, "node") == nullptr) {
-        reading.tally.add(
-            "only translation, rotation and scale of nodes are animated, this is left out", where);
+    auto property = static_cast<Property>(found);
+    const std::size_t targets = targets_of(reading.model, target);
+    if (property == weights && targets == 0) {
+        reading.tally.add("the node has no morph targets, the animation of their weights is left "
+                          "out",
+                          where);
         return;
     }
     auto node = target["node"].get<std::size_t>();
-    if (!reading.model.nodes[node].matrix.empty()) {
+    if (property != weights && !reading.model.nodes[node].matrix.empty()) {
         reading.tally.add("the node has a matrix, which cannot be animated, and stays where it is",
                           where);
         return;
     }
     auto sampler = channel["sampler"].get<std::size_t>();
-    Property property = path == "translation" ? translation : path == "rotation" ? rotation : scale;
     Curve curve = read_curve(reading.model, animation["samplers"][sampler],
-                             (place / "samplers")[sampler], property == rotation);
+                             (place / "samplers")[sampler], property,
+                             property == weights    ? targets
+                             : property == rotation ? 4
+                                                    : 3);
     reading.clips.duration = std::max(reading.clips.duration, curve.times.back());
     reading.clips.nodes[node].of[property] = std::move(curve);
 }

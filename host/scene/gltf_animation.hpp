@@ -16,26 +16,27 @@ namespace glint
 {
 
 // Refuses what refers to nothing, and accessors of the wrong kind or length. What is not modelled
-// (morph weights, pointers) passes.
+// (pointers) passes.
 void check_animations(const json &root, const Model &model);
 
-enum Property : std::size_t { translation, rotation, scale };
+enum Property : std::size_t { translation, rotation, scale, weights };
 
 // A curve with what it borrows.
 struct Curve {
     std::vector<double> times, values;
     glint_interpolation interpolation = GLINT_INTERPOLATION_LINEAR;
     bool is_rotation = false;
+    std::size_t components = 3;
 
     glint_curve view() const
     {
-        return {interpolation, is_rotation, times.size(), times.data(), values.data()};
+        return {interpolation, is_rotation, components, times.size(), times.data(), values.data()};
     }
 };
 
 // The properties of a node that move; empty curves for those that do not.
 struct Moves {
-    std::array<Curve, 3> of;
+    std::array<Curve, 4> of;
 };
 
 struct Clips {

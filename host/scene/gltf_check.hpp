@@ -17,7 +17,7 @@ void check_document(const Document &document, Model &model);
 // Meshes, and the primitives' attributes and indices.
 void check_meshes(const json &root, Model &model);
 
-// Nodes, scenes, cameras and skins.
+// Nodes, scenes, cameras, and skins (gltf_skin.hpp).
 void check_graph(const json &root, Model &model);
 
 } // namespace glint

@@ -1,7 +1,9 @@
-// Validation of the raw JSON: nodes, scenes, cameras and skins. Everything takes linear time: a
+// Validation of the raw JSON: nodes, scenes and cameras. Everything takes linear time: a
 // graph of 40 nodes can have 2^40 paths, and a chain can be 50,000 deep. See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_check_storage.hpp"
+#include "scene/gltf_morph.hpp"
+#include "scene/gltf_skin.hpp"
 
 #include <array>
 #include <cmath>
@@ -139,6 +141,10 @@ tinygltf::Node check_node(const json &root, const json &source, const Place &pla
     node.translation = check_numbers(source, place, "translation", 3);
     node.scale = check_numbers(source, place, "scale", 3);
     node.rotation = check_rotation(source, place);
+    if (node.mesh >= 0) {
+        node.weights =
+            check_weights(source, place, model.target_counts[static_cast<std::size_t>(node.mesh)]);
+    }
     check_instancing(source, place, model);
     return node;
 }
@@ -292,29 +298,12 @@ void check_cameras(const json &root, Model &model)
     }
 }
 
-// Skins are not applied, but what points outside the file says that the file is damaged.
-void check_skins(const json &root)
-{
-    const json &skins = objects_of(root, "skins");
-    std::size_t nodes = objects_of(root, "nodes").size();
-    std::size_t accessors = objects_of(root, "accessors").size();
-    for (std::size_t i = 0; i < skins.size(); i++) {
-        Place place = (Place() / "skins")[i];
-        const json &joints = array_at(skins[i], place, "joints");
-        for (std::size_t j = 0; j < joints.size(); j++) {
-            index_of(joints[j], (place / "joints")[j], nodes, "node");
-        }
-        optional_index(skins[i], place, "skeleton", nodes, "node");
-        optional_index(skins[i], place, "inverseBindMatrices", accessors, "accessor");
-    }
-}
-
 } // namespace
 
 void check_graph(const json &root, Model &model)
 {
     check_cameras(root, model);
-    check_skins(root);
+    check_skins(root, model);
     check_nodes(root, model);
     check_scenes(root, model);
 }

@@ -2,8 +2,11 @@
 // hold is checked when it is read (gltf_primitive.cpp). See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_check_storage.hpp"
+#include "scene/gltf_morph.hpp"
+#include "scene/gltf_skin.hpp"
 #include "scene/gltf_variants.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace glint
@@ -63,6 +66,7 @@ void check_attributes(const json &attributes, const Place &place, const Model &m
         }
         primitive.attributes[it.key()] = static_cast<int>(index);
     }
+    check_influences(attributes, place, model);
 }
 
 tinygltf::Primitive check_primitive(const json &root, const json &source, const Place &place,
@@ -82,16 +86,7 @@ tinygltf::Primitive check_primitive(const json &root, const json &source, const 
                "missing (without positions there is nothing to draw)");
     }
     check_indices(source, place, model, primitive);
-    const json &targets = optional_array(source, place, "targets");
-    for (std::size_t i = 0; i < targets.size(); i++) {
-        Place target = (place / "targets")[i];
-        if (!targets[i].is_object()) {
-            refuse(target, "not an object (glTF 2.0 requires one)");
-        }
-        for (auto it = targets[i].begin(); it != targets[i].end(); ++it) {
-            index_of(it.value(), target / it.key().c_str(), model.accessors.size(), "accessor");
-        }
-    }
+    check_targets(source, place, model, primitive);
     optional_object(source, place, "extensions");
     return primitive;
 }
@@ -109,6 +104,7 @@ void check_meshes(const json &root, Model &model)
             refuse(place / "primitives", "empty (a mesh has at least one primitive)");
         }
         tinygltf::Mesh &mesh = model.meshes.emplace_back();
+        std::size_t &targets = model.target_counts.emplace_back(0);
         for (std::size_t p = 0; p < primitives.size(); p++) {
             const Place at = (place / "primitives")[p];
             mesh.primitives.push_back(check_primitive(root, primitives[p], at, model));
@@ -116,7 +112,9 @@ void check_meshes(const json &root, Model &model)
             if (!mapped.empty()) {
                 model.mapped.push_back({i, p, std::move(mapped)});
             }
+            targets = std::max(targets, mesh.primitives.back().targets.size());
         }
+        mesh.weights = check_weights(meshes[i], place, targets);
     }
 }
 

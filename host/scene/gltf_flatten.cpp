@@ -27,6 +27,7 @@ constexpr double farthest = 1e18;
 
 struct Corner {
     std::size_t vertex;
+    std::size_t element; // of the draw's shape, where it has one
     glint_vec3 local;
 };
 using Triangle = std::array<Corner, 3>;
@@ -49,9 +50,14 @@ Triangle corners_of(const Draw &draw, std::size_t t, bool mirrored)
         // A mirroring node turns the winding round; swapping two corners puts the outside back.
         std::size_t from = mirrored && c > 0 ? 3 - c : c;
         std::size_t vertex = draw.primitive->vertex(t, from);
+        if (draw.shape != nullptr) {
+            const std::size_t element = draw.shape->element(t, from);
+            result[c] = {vertex, element, draw.shape->position(element)};
+            continue;
+        }
         std::array<double, 3> p{};
         draw.primitive->positions.numbers(vertex, 3, p.data());
-        result[c] = {vertex, {p[0], p[1], p[2]}};
+        result[c] = {vertex, 0, {p[0], p[1], p[2]}};
     }
     return result;
 }
@@ -60,8 +66,9 @@ Triangle corners_of(const Draw &draw, std::size_t t, bool mirrored)
 {
     refuse(draw.primitive->place() / "attributes" / "POSITION",
            "vertex " + std::to_string(corner.vertex) + " is (" + shown(corner.local.x) + ", " +
-               shown(corner.local.y) + ", " + shown(corner.local.z) +
-               ") (positions must be finite)");
+               shown(corner.local.y) + ", " + shown(corner.local.z) + ")" +
+               (draw.shape != nullptr ? " once its targets and joints have moved it" : "") +
+               " (positions must be finite)");
 }
 
 // A triangle with two corners in one place is degenerate under every transform, and must not be
@@ -210,7 +217,8 @@ class Writer
             glint_mat4_normal(&draw.to_world, {0, 0, 1}),
         };
         for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
-            Triangle triangle = corners_of(draw, t, mirrored);
+            const bool inside_out = draw.shape != nullptr && draw.shape->is_mirrored(t);
+            Triangle triangle = corners_of(draw, t, mirrored != inside_out);
             float *p = scene_.positions + 9 * scene_.triangle_count;
             if (is_collapsed(triangle) || !store_positions(draw, triangle, p)) {
                 scene_.degenerate_triangles++;
@@ -248,7 +256,12 @@ class Writer
         float *stored = scene_.normals + 9 * scene_.triangle_count;
         for (std::size_t c = 0; c < 3; c++) {
             std::array<double, 3> n{};
-            draw.primitive->normals.numbers(triangle[c].vertex, 3, n.data());
+            if (draw.shape != nullptr) {
+                const glint_vec3 moved = draw.shape->normal(triangle[c].element);
+                n = {moved.x, moved.y, moved.z};
+            } else {
+                draw.primitive->normals.numbers(triangle[c].vertex, 3, n.data());
+            }
             glint_vec3 sum = glint_vec3_scale(turned[0], n[0]);
             sum = glint_vec3_add(sum, glint_vec3_scale(turned[1], n[1]));
             sum = glint_vec3_normalize(glint_vec3_add(sum, glint_vec3_scale(turned[2], n[2])));
@@ -348,10 +361,13 @@ void flatten(Load &load, glint_scene &scene)
         throw refusal(std::to_string(triangles) + " triangles are more than the " +
                       std::to_string(most_triangles) + " that fit (split the scene)");
     }
+    deform(load.poses.deforming(), with_normals, load.tally);
     choose_frame(measure(load.draws), scene);
     std::size_t default_material = objects_of(load.document.root, "materials").size();
     Writer(load.draws, scene)
         .write(triangles, with_normals, static_cast<std::uint32_t>(default_material));
+    load.poses.clear(); // their memory is free while the scene is rendered
+    load.draws.clear();
     name_nodes(load.model, scene);
     keep_used_materials(load, default_material, scene);
 }

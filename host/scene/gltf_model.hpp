@@ -52,6 +52,7 @@ struct Model : tinygltf::Model {
     std::vector<std::string> variants; // the names of the file's variants of materials
     std::ptrdiff_t variant = -1;       // the chosen one; −1: the plain materials
     std::vector<MappedPrimitive> mapped;
+    std::vector<std::size_t> target_counts; // of each mesh's morph targets: the most of a primitive
 };
 
 } // namespace glint

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace glint
 {
@@ -80,6 +81,42 @@ void open_indices(const tinygltf::Primitive &source, Accessors &accessors, Primi
     }
 }
 
+void open_targets(const tinygltf::Primitive &source, Accessors &accessors, Primitive &primitive,
+                  Tally &tally)
+{
+    for (const auto &target : source.targets) {
+        MorphTarget &opened = primitive.targets.emplace_back();
+        for (std::size_t row = 0; row < morph_rows.size(); row++) {
+            const char *name = morph_rows[row].name;
+            const auto found = target.find(name);
+            if (found == target.end()) {
+                continue;
+            }
+            if (source.attributes.count(name) == 0) {
+                tally.add(std::string("a morph target moves ") + name +
+                              ", which the primitive has not, and is left out",
+                          primitive.place().text());
+                continue;
+            }
+            opened.of[row] = accessors.reader(static_cast<std::size_t>(found->second));
+        }
+    }
+}
+
+void open_influences(const tinygltf::Primitive &source, Accessors &accessors, Primitive &primitive)
+{
+    for (std::size_t set = 0;; set++) {
+        const auto joints = source.attributes.find("JOINTS_" + std::to_string(set));
+        const auto weights = source.attributes.find("WEIGHTS_" + std::to_string(set));
+        if (joints == source.attributes.end() || weights == source.attributes.end()) {
+            return;
+        }
+        primitive.influences.push_back(
+            {accessors.reader(static_cast<std::size_t>(joints->second)),
+             accessors.reader(static_cast<std::size_t>(weights->second))});
+    }
+}
+
 void count_triangles(Primitive &primitive, Tally &tally)
 {
     std::size_t corners =
@@ -122,9 +159,11 @@ Primitives prepare_primitives(const Model &model, Tally &tally)
                     primitive.normals = accessors.reader(static_cast<std::size_t>(normal->second));
                 }
                 open_indices(source, accessors, primitive);
+                open_targets(source, accessors, primitive, tally);
+                open_influences(source, accessors, primitive);
                 count_triangles(primitive, tally);
             }
-            result.all.push_back(primitive);
+            result.all.push_back(std::move(primitive));
         }
     }
     result.first.push_back(result.all.size());

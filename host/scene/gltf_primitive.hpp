@@ -4,6 +4,8 @@
 #define GLINT_SCENE_GLTF_PRIMITIVE_HPP
 
 #include "scene/gltf_accessor.hpp"
+#include "scene/gltf_morph.hpp"
+#include "scene/gltf_skin.hpp"
 #include "scene/gltf_tally.hpp"
 
 #include <vector>
@@ -18,6 +20,8 @@ struct Primitive {
     std::size_t triangles = 0; // 0 for points and lines
     bool indexed = false, has_normals = false;
     Reader positions, normals, indices;
+    std::vector<MorphTarget> targets;
+    std::vector<Influences> influences; // empty: no skin moves it
 
     Place place() const
     {

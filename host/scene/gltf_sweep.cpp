@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <map>
+#include <vector>
 
 namespace glint
 {
@@ -14,6 +17,11 @@ namespace
 // Between those what moves is taken to stay near where it is at both.
 constexpr int sweep_steps = 64;
 constexpr std::size_t most_sweep_keys = 4096;
+
+// Deforming takes longer. So many vertices over all times take about a second, and large meshes
+// are looked at less often.
+constexpr std::size_t most_deformed_vertices = std::size_t{1} << 25;
+constexpr std::size_t fewest_deformed_times = 17;
 
 std::vector<double> sweep_times(const Clips &clips)
 {
@@ -37,11 +45,16 @@ std::vector<double> sweep_times(const Clips &clips)
     return times;
 }
 
-Bounds box_of(const Primitive &primitive)
+// Of the corners of triangles, as the shape has them, or (NULL) as the file has them.
+Bounds box_of(const Primitive &primitive, const Shape *shape)
 {
     Bounds box;
     for (std::size_t t = 0; t < primitive.triangles; t++) {
         for (std::size_t c = 0; c < 3; c++) {
+            if (shape != nullptr) {
+                box.grow(shape->position(shape->element(t, c)));
+                continue;
+            }
             std::array<double, 3> p{};
             primitive.positions.numbers(primitive.vertex(t, c), 3, p.data());
             box.grow({p[0], p[1], p[2]});
@@ -59,55 +72,142 @@ void grow_by_box(const glint_mat4 &to_world, const Bounds &box, Bounds &all)
     }
 }
 
-// A visited node, and what it draws.
+// A visited node with a mesh.
 struct Drawing {
     std::size_t visit;
-    std::vector<Bounds> boxes;         // of its primitives that have any triangles
     std::vector<glint_mat4> instances; // relative to the node; empty: the node alone
 };
 
-void grow_by_drawing(const glint_mat4 &to_world, const Drawing &drawing, Bounds &all)
-{
-    if (is_hidden(to_world)) {
-        return;
-    }
-    for (const Bounds &box : drawing.boxes) {
-        for (const glint_mat4 &instance : drawing.instances) {
-            grow_by_box(glint_mat4_multiply(&to_world, &instance), box, all);
-        }
-        if (drawing.instances.empty()) {
-            grow_by_box(to_world, box, all);
-        }
-    }
-}
-
 std::vector<Drawing> drawings_of(const Load &load)
 {
-    std::vector<Bounds> boxes;
-    for (const Primitive &primitive : load.primitives.all) {
-        boxes.push_back(box_of(primitive));
-    }
     std::vector<Drawing> drawings;
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < load.visits.size(); i++) {
-        const int mesh = load.model.nodes[load.visits[i].node].mesh;
-        if (mesh < 0) {
+        const std::size_t node = load.visits[i].node;
+        if (!load.visits[i].is_shown || load.model.nodes[node].mesh < 0) {
             continue;
         }
-        Drawing drawing = {i, {}, {}};
-        for (std::size_t p = load.primitives.first[static_cast<std::size_t>(mesh)];
-             p < load.primitives.first[static_cast<std::size_t>(mesh) + 1]; p++) {
-            if (!boxes[p].is_empty()) {
-                drawing.boxes.push_back(boxes[p]);
-            }
-        }
-        if (!drawing.boxes.empty()) {
-            drawing.instances = instances_of(load, load.visits[i].node, drawn);
-            drawn += drawing.boxes.size() * std::max<std::size_t>(drawing.instances.size(), 1);
-            drawings.push_back(std::move(drawing));
+        const auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
+        const auto begin = load.primitives.all.begin();
+        const auto drawable =
+            std::count_if(begin + std::ptrdiff_t(load.primitives.first[mesh]),
+                          begin + std::ptrdiff_t(load.primitives.first[mesh + 1]),
+                          [](const Primitive &primitive) { return primitive.triangles > 0; });
+        if (drawable > 0) {
+            drawings.push_back({i, instances_of(load, node, drawn)});
+            drawn += static_cast<std::size_t>(drawable) *
+                     std::max<std::size_t>(drawings.back().instances.size(), 1);
         }
     }
     return drawings;
+}
+
+// Grows bounds by drawings at one time after the other.
+class Sweeper
+{
+  public:
+    explicit Sweeper(const Load &load) : load_(load), source_(pose_source(load))
+    {
+        placed_.reserve(load.visits.size());
+        for (std::size_t i = 0; i < load.visits.size(); i++) {
+            placed_.push_back(place_node(load, i, 0, placed_));
+        }
+        for (const Primitive &primitive : load.primitives.all) {
+            boxes_.push_back(box_of(primitive, nullptr));
+        }
+    }
+
+    // Where nodes that move stand at a time.
+    void place(double time)
+    {
+        for (std::size_t i = 0; i < load_.visits.size(); i++) {
+            if (load_.visits[i].moves) {
+                placed_[i] = place_node(load_, i, time, placed_);
+            }
+        }
+    }
+
+    // Deforms the meshes of drawings as they are at the time of place(). Returns how many vertices
+    // that took.
+    std::size_t pose(const std::vector<const Drawing *> &drawings, double time)
+    {
+        shape_boxes_.clear();
+        poses_.begin(source_, time, placed_);
+        for (const Drawing *drawing : drawings) {
+            poses_.shapes_of(source_, load_.visits[drawing->visit].node);
+        }
+        const std::vector<Shape *> shapes = poses_.deforming();
+        deform(shapes, false, said_elsewhere_);
+        std::size_t vertices = 0;
+        for (const Shape *shape : shapes) {
+            shape_boxes_[shape] = box_of(shape->primitive(), shape);
+            vertices += shape->element_count();
+        }
+        return vertices;
+    }
+
+    // By drawings that were posed, where they stand at the time of place().
+    void grow(const std::vector<const Drawing *> &drawings)
+    {
+        for (const Drawing *drawing : drawings) {
+            grow_by(*drawing);
+        }
+    }
+
+    const Bounds &bounds() const
+    {
+        return all_;
+    }
+
+  private:
+    void grow_by(const Drawing &drawing)
+    {
+        const tinygltf::Node &node = load_.model.nodes[load_.visits[drawing.visit].node];
+        const auto mesh = static_cast<std::size_t>(node.mesh);
+        const std::size_t first = load_.primitives.first[mesh];
+        const auto &shapes = poses_.shapes_of(source_, load_.visits[drawing.visit].node);
+        for (std::size_t i = first; i < load_.primitives.first[mesh + 1]; i++) {
+            const Shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
+            const Stand stand = poses_.stand_of(shape, node.skin, placed_[drawing.visit]);
+            const bool deforms = shape != nullptr && shape->deforms();
+            if (stand.is_hidden || load_.primitives.all[i].triangles == 0) {
+                continue;
+            }
+            const Bounds &box = deforms ? shape_boxes_.at(shape) : boxes_[i];
+            for (const glint_mat4 &instance : drawing.instances) {
+                grow_by_box(glint_mat4_multiply(&stand.to_world, &instance), box, all_);
+            }
+            if (drawing.instances.empty()) {
+                grow_by_box(stand.to_world, box, all_);
+            }
+        }
+    }
+
+    const Load &load_;
+    const PoseSource source_;
+    std::vector<glint_mat4> placed_; // of the visits
+    std::vector<Bounds> boxes_;      // of the primitives, as the file has them
+    std::map<const Shape *, Bounds> shape_boxes_;
+    Poses poses_;
+    Tally said_elsewhere_; // whoever loads a frame hears of it
+    Bounds all_;
+};
+
+// Of the times that meshes of so many vertices can be deformed at: evenly chosen, with the ends.
+std::vector<double> affordable(std::vector<double> times, std::size_t vertices)
+{
+    std::sort(times.begin(), times.end());
+    const std::size_t most = std::max(fewest_deformed_times,
+                                      most_deformed_vertices / std::max<std::size_t>(vertices, 1));
+    if (times.size() <= most) {
+        return times;
+    }
+    std::vector<double> chosen;
+    chosen.reserve(most);
+    for (std::size_t i = 0; i < most; i++) {
+        chosen.push_back(times[i * (times.size() - 1) / (most - 1)]);
+    }
+    return chosen;
 }
 
 } // namespace
@@ -115,33 +215,35 @@ std::vector<Drawing> drawings_of(const Load &load)
 Bounds sweep(const Load &load)
 {
     const std::vector<Drawing> drawings = drawings_of(load);
-    std::vector<glint_mat4> placed;
-    placed.reserve(load.visits.size());
-    std::vector<std::size_t> moving; // visits
-    for (std::size_t i = 0; i < load.visits.size(); i++) {
-        placed.push_back(place_node(load, i, 0, placed));
-        if (load.visits[i].moves) {
-            moving.push_back(i);
-        }
-    }
-    Bounds all;
-    std::vector<const Drawing *> moving_drawings;
+    std::vector<const Drawing *> rigid; // those that stay and those that move as they are
+    std::vector<const Drawing *> still;
+    std::vector<const Drawing *> moving;
+    std::vector<const Drawing *> deforming;
     for (const Drawing &drawing : drawings) {
-        if (load.visits[drawing.visit].moves) {
-            moving_drawings.push_back(&drawing);
-        } else {
-            grow_by_drawing(placed[drawing.visit], drawing, all);
+        const Visit &visit = load.visits[drawing.visit];
+        (visit.deforms ? deforming : rigid).push_back(&drawing);
+        if (!visit.deforms) {
+            (visit.moves ? moving : still).push_back(&drawing);
         }
     }
-    for (double time : sweep_times(load.clips)) {
-        for (std::size_t visit : moving) {
-            placed[visit] = place_node(load, visit, time, placed);
-        }
-        for (const Drawing *drawing : moving_drawings) {
-            grow_by_drawing(placed[drawing->visit], *drawing, all);
+    const std::vector<double> times = sweep_times(load.clips);
+    Sweeper sweeper(load);
+    sweeper.pose(rigid, 0);
+    sweeper.grow(still);
+    for (double time : times) {
+        sweeper.place(time);
+        sweeper.grow(moving);
+    }
+    if (!deforming.empty()) {
+        sweeper.place(0);
+        const std::size_t vertices = sweeper.pose(deforming, 0);
+        for (double time : affordable(times, vertices)) {
+            sweeper.place(time);
+            sweeper.pose(deforming, time);
+            sweeper.grow(deforming);
         }
     }
-    return all;
+    return sweeper.bounds();
 }
 
 } // namespace glint

@@ -79,10 +79,11 @@ const Moves *moves_of(const Load &load, std::size_t index)
     return found == load.clips.nodes.end() ? nullptr : &found->second;
 }
 
+// Whether the node's place ever changes.
 bool ever_moves(const Moves *moves)
 {
     return moves != nullptr &&
-           std::any_of(moves->of.begin(), moves->of.end(), [](const Curve &curve) {
+           std::any_of(moves->of.begin(), moves->of.begin() + weights, [](const Curve &curve) {
                const glint_curve view = curve.view();
                return !curve.times.empty() && glint_curve_moves(&view);
            });
@@ -146,9 +147,6 @@ void survey_node(Load &load, std::size_t index)
 {
     std::string where = node_where(load, index);
     survey_rotation(load, index, where);
-    if (load.model.nodes[index].skin >= 0) {
-        load.tally.add("skins are not applied, the mesh is shown as it was bound", where);
-    }
     survey_extensions(objects_of(load.document.root, "nodes")[index], Holder::node, where,
                       load.tally);
 }
@@ -158,9 +156,6 @@ void survey_primitive(Load &load, const Primitive &primitive)
     const json &source =
         objects_of(load.document.root, "meshes")[primitive.mesh]["primitives"][primitive.number];
     std::string where = primitive.place().text();
-    if (const json *targets = member(source, "targets"); targets != nullptr && !targets->empty()) {
-        load.tally.add("morph targets are not applied, the base shape is shown", where);
-    }
     if (member(source["attributes"], "COLOR_0") != nullptr) {
         load.tally.add("vertex colours (COLOR_0) are not modelled, baseColorFactor alone is used",
                        where);
@@ -170,24 +165,41 @@ void survey_primitive(Load &load, const Primitive &primitive)
 
 void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene)
 {
-    std::vector<glint_mat4> places = instances_of(load, node, load.draws.size());
-    for (glint_mat4 &place : places) {
-        place = glint_mat4_multiply(&to_world, &place);
-    }
-    if (places.empty()) {
-        places.push_back(to_world);
-    }
+    const std::vector<glint_mat4> instances = instances_of(load, node, load.draws.size());
+    const std::size_t copies = std::max<std::size_t>(instances.size(), 1);
+    const std::vector<Shape> &shapes = load.poses.shapes_of(pose_source(load), node);
+    const int skin = load.model.nodes[node].skin;
     auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
-    for (std::size_t i = load.primitives.first[mesh]; i < load.primitives.first[mesh + 1]; i++) {
+    const std::size_t first = load.primitives.first[mesh];
+    bool hides_any = false;
+    for (std::size_t i = first; i < load.primitives.first[mesh + 1]; i++) {
         const Primitive &primitive = load.primitives.all[i];
+        const Shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
+        const Stand stand = load.poses.stand_of(shape, skin, to_world);
+        if (stand.is_hidden) {
+            hides_any = true;
+            continue;
+        }
         if (primitive.mode < 4) {
-            (primitive.mode == 0 ? scene.skipped_points : scene.skipped_lines) += places.size();
+            (primitive.mode == 0 ? scene.skipped_points : scene.skipped_lines) += copies;
             continue;
         }
         survey_primitive(load, primitive);
-        for (const glint_mat4 &place : places) {
-            load.draws.push_back({&primitive, static_cast<int>(node), place});
+        if (skin >= 0 && !shape->is_skinned()) {
+            load.tally.add("a skin does not move it, as it has no JOINTS_0; its node places it",
+                           primitive.place().text());
         }
+        shape = shape != nullptr && shape->deforms() ? shape : nullptr;
+        for (const glint_mat4 &instance : instances) {
+            load.draws.push_back({&primitive, static_cast<int>(node),
+                                  glint_mat4_multiply(&stand.to_world, &instance), shape});
+        }
+        if (instances.empty()) {
+            load.draws.push_back({&primitive, static_cast<int>(node), stand.to_world, shape});
+        }
+    }
+    if (hides_any) {
+        load.tally.add("a scale of 0 hides the mesh", node_where(load, node));
     }
 }
 
@@ -286,6 +298,100 @@ std::vector<int> find_roots(Load &load, const char *name)
     return roots;
 }
 
+// Adds the roots and all below them to the visits.
+void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
+{
+    struct Step {
+        int node;
+        std::ptrdiff_t parent;
+    };
+    std::vector<Step> stack;
+    for (auto it = roots.rbegin(); it != roots.rend(); ++it) {
+        stack.push_back({*it, -1});
+    }
+    while (!stack.empty()) {
+        const Step step = stack.back();
+        stack.pop_back();
+        auto index = static_cast<std::size_t>(step.node);
+        const tinygltf::Node &node = load.model.nodes[index];
+        const bool moves =
+            ever_moves(moves_of(load, index)) ||
+            (step.parent >= 0 && load.visits[static_cast<std::size_t>(step.parent)].moves);
+        const auto here = static_cast<std::ptrdiff_t>(load.visits.size());
+        load.visit_of[index] = here;
+        load.visits.push_back({index, step.parent, is_shown, moves, false});
+        for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
+            stack.push_back({*it, here});
+        }
+    }
+}
+
+// Joints may lie in trees that the scene does not show. Each tree is visited once, so that this
+// takes linear time.
+void visit_joints(Load &load)
+{
+    const std::size_t shown = load.visits.size();
+    std::vector<char> is_known(load.skins.size(), 0);
+    for (std::size_t i = 0; i < shown; i++) {
+        const tinygltf::Node &node = load.model.nodes[load.visits[i].node];
+        if (node.mesh < 0 || node.skin < 0 || is_known[static_cast<std::size_t>(node.skin)] != 0) {
+            continue;
+        }
+        is_known[static_cast<std::size_t>(node.skin)] = 1;
+        for (std::size_t joint : load.skins[static_cast<std::size_t>(node.skin)].joints) {
+            if (load.visit_of[joint] < 0) {
+                auto root = static_cast<int>(joint);
+                while (load.model.parents[static_cast<std::size_t>(root)] >= 0) {
+                    root = load.model.parents[static_cast<std::size_t>(root)];
+                }
+                visit_trees(load, {root}, false);
+            }
+        }
+    }
+}
+
+bool any_joint_moves(const Load &load, const Skin &skin)
+{
+    return std::any_of(skin.joints.begin(), skin.joints.end(), [&](std::size_t joint) {
+        const std::ptrdiff_t visit = load.visit_of[joint];
+        return visit >= 0 && load.visits[static_cast<std::size_t>(visit)].moves;
+    });
+}
+
+// Whether the node itself places a primitive of its mesh: joints place the others.
+bool places_any(const Load &load, const tinygltf::Node &node)
+{
+    const auto mesh = static_cast<std::size_t>(node.mesh);
+    const auto begin = load.primitives.all.begin();
+    return node.skin < 0 || std::any_of(begin + std::ptrdiff_t(load.primitives.first[mesh]),
+                                        begin + std::ptrdiff_t(load.primitives.first[mesh + 1]),
+                                        [](const Primitive &p) { return p.influences.empty(); });
+}
+
+// Which meshes and cameras the clip moves, once all visits are known.
+void survey_motion(Load &load)
+{
+    std::vector<char> skin_moves;
+    skin_moves.reserve(load.skins.size());
+    for (const Skin &skin : load.skins) {
+        skin_moves.push_back(any_joint_moves(load, skin) ? 1 : 0);
+    }
+    for (Visit &visit : load.visits) {
+        if (!visit.is_shown) {
+            continue;
+        }
+        const tinygltf::Node &node = load.model.nodes[visit.node];
+        load.moves_cameras = load.moves_cameras || (visit.moves && node.camera >= 0);
+        if (node.mesh >= 0) {
+            visit.deforms =
+                weights_move(load.clips, visit.node) ||
+                (node.skin >= 0 && skin_moves[static_cast<std::size_t>(node.skin)] != 0);
+            load.moves_triangles =
+                load.moves_triangles || visit.deforms || (visit.moves && places_any(load, node));
+        }
+    }
+}
+
 } // namespace
 
 char *copy_text(const std::string &text)
@@ -300,14 +406,9 @@ char *copy_text(const std::string &text)
     return copy;
 }
 
-bool is_hidden(const glint_mat4 &matrix)
+PoseSource pose_source(const Load &load)
 {
-    for (const auto &row : {matrix.m[0], matrix.m[1], matrix.m[2]}) {
-        if (row[0] != 0 || row[1] != 0 || row[2] != 0) {
-            return false;
-        }
-    }
-    return true;
+    return {load.model, load.primitives, load.clips, load.skins, load.visit_of};
 }
 
 std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::size_t drawn)
@@ -346,31 +447,10 @@ std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::si
 
 void choose_nodes(Load &load, const char *name)
 {
-    struct Step {
-        int node;
-        std::ptrdiff_t parent;
-    };
-    std::vector<Step> stack;
-    std::vector<int> roots = find_roots(load, name);
-    for (auto it = roots.rbegin(); it != roots.rend(); ++it) {
-        stack.push_back({*it, -1});
-    }
-    while (!stack.empty()) {
-        const Step step = stack.back();
-        stack.pop_back();
-        auto index = static_cast<std::size_t>(step.node);
-        const tinygltf::Node &node = load.model.nodes[index];
-        const bool moves =
-            ever_moves(moves_of(load, index)) ||
-            (step.parent >= 0 && load.visits[static_cast<std::size_t>(step.parent)].moves);
-        load.moves_triangles = load.moves_triangles || (moves && node.mesh >= 0);
-        load.moves_cameras = load.moves_cameras || (moves && node.camera >= 0);
-        const auto here = static_cast<std::ptrdiff_t>(load.visits.size());
-        load.visits.push_back({index, step.parent, moves});
-        for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
-            stack.push_back({*it, here});
-        }
-    }
+    load.visit_of.assign(load.model.nodes.size(), -1);
+    visit_trees(load, find_roots(load, name), true);
+    visit_joints(load);
+    survey_motion(load);
 }
 
 glint_mat4 place_node(const Load &load, std::size_t visit, double time,
@@ -391,15 +471,16 @@ void walk_scene(Load &load, double time, glint_scene &scene)
     Cameras cameras;
     for (std::size_t i = 0; i < load.visits.size(); i++) {
         placed.push_back(place_node(load, i, time, placed));
+    }
+    load.poses.begin(pose_source(load), time, placed);
+    for (std::size_t i = 0; i < load.visits.size() && load.visits[i].is_shown; i++) {
         const std::size_t index = load.visits[i].node;
         const tinygltf::Node &node = load.model.nodes[index];
         survey_node(load, index);
         if (node.camera >= 0) {
             add_camera(load, index, placed[i], cameras);
         }
-        if (node.mesh >= 0 && is_hidden(placed[i])) {
-            load.tally.add("a scale of 0 hides the mesh", node_where(load, index));
-        } else if (node.mesh >= 0) {
+        if (node.mesh >= 0) {
             draw_mesh(load, index, placed[i], scene);
         }
     }

@@ -3,6 +3,7 @@
 #define GLINT_SCENE_GLTF_WALK_HPP
 
 #include "scene/gltf_animation.hpp"
+#include "scene/gltf_pose.hpp"
 #include "scene/gltf_primitive.hpp"
 #include "scene/material_override.h"
 #include "scene/scene.h"
@@ -13,18 +14,21 @@
 namespace glint
 {
 
-// A node that the chosen scene shows.
+// A node that the chosen scene shows, or that only joints of its skins need.
 struct Visit {
     std::size_t node;
     std::ptrdiff_t parent; // a Visit; −1: a root
+    bool is_shown;         // false: only joints need it
     bool moves;            // over time, by itself or with a parent
+    bool deforms;          // over time, its mesh is morphed or its skin's joints move
 };
 
 // A primitive at a node (or at one of the node's instances).
 struct Draw {
     const Primitive *primitive;
     int node;
-    glint_mat4 to_world;
+    glint_mat4 to_world; // from `shape` where there is one
+    const Shape *shape;  // NULL: the primitive as the file has it
 };
 
 // What the loader works on.
@@ -34,7 +38,10 @@ struct Load {
     Primitives primitives;
     Clips clips;
     glint_material_overrides overrides = {}; // resolved
-    std::vector<Visit> visits;               // depth first: parents come before their children
+    std::vector<Skin> skins;
+    std::vector<Visit> visits;            // depth first: parents come before their children
+    std::vector<std::ptrdiff_t> visit_of; // [node]; −1: not visited
+    Poses poses;                          // of the draws
     std::vector<Draw> draws;
     bool moves_triangles = false, moves_cameras = false; // over time, some of those that are drawn
     Tally tally;
@@ -48,8 +55,7 @@ void choose_nodes(Load &load, const char *name);
 glint_mat4 place_node(const Load &load, std::size_t visit, double time,
                       const std::vector<glint_mat4> &placed);
 
-// Whether a node with this matrix draws nothing.
-bool is_hidden(const glint_mat4 &matrix);
+PoseSource pose_source(const Load &load);
 
 // The places of a node's instances, relative to the node; empty where it is not instanced. Refuses
 // more than fit, where `drawn` primitives are drawn already. The node must have a mesh.
