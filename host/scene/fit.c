@@ -46,21 +46,22 @@ static void add_point(fit_extremes *extremes, glint_vec3 point)
         // On its circle about the axis a point comes to lie along the normal.
         const double product =
             extremes->fit->turns ? n.y * p.y + extremes->across[i] * radius : glint_vec3_dot(n, p);
-        extremes->most[i] = fmax(extremes->most[i], product);
+        extremes->most[i] = product > extremes->most[i] ? product : extremes->most[i];
     }
 }
 
-static void add_points(fit_extremes *extremes)
+static void add_corners(fit_extremes *extremes, glint_vec3 low, glint_vec3 high)
 {
-    const glint_fit *fit = extremes->fit;
-    const glint_vec3 low = fit->low, high = fit->high;
-    for (int corner = 0; fit->as_box && corner < 8; corner++) {
+    for (int corner = 0; corner < 8; corner++) {
         add_point(extremes, (glint_vec3){(corner & 1) != 0 ? high.x : low.x,
                                          (corner & 2) != 0 ? high.y : low.y,
                                          (corner & 4) != 0 ? high.z : low.z});
     }
-    const glint_scene *scene = fit->scene;
-    for (size_t i = 0; !fit->as_box && i < 3 * scene->triangle_count; i++) {
+}
+
+static void add_vertices(fit_extremes *extremes, const glint_scene *scene)
+{
+    for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
         const float *stored = scene->positions + 3 * i;
         const glint_vec3 relative = {(double)stored[0], (double)stored[1], (double)stored[2]};
         add_point(extremes, glint_vec3_add(scene->origin, glint_vec3_scale(relative, scene->unit)));
@@ -71,7 +72,11 @@ void glint_camera_fit(const glint_fit *fit, glint_camera *camera)
 {
     fit_extremes extremes;
     begin(fit, camera, &extremes);
-    add_points(&extremes);
+    if (fit->as_box) {
+        add_corners(&extremes, fit->low, fit->high);
+    } else {
+        add_vertices(&extremes, fit->scene);
+    }
     const double *most = extremes.most;
     const double radius = glint_vec3_length(glint_vec3_subtract(fit->high, fit->low)) / 2;
     const double width = (most[RIGHT_EDGE] + most[LEFT_EDGE]) / 2 / fit->aspect;

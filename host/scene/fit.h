@@ -22,10 +22,10 @@ typedef struct glint_fit {
 } glint_fit;
 
 // Moves the camera without turning it: every point is in the frame, the outermost ones lie on two
-// opposite edges (or the margin before them), and the other two edges are equally far. A
-// perspective camera keeps its angle and is never nearer to a point than a hundredth of the box's
-// radius, so a spike that points at it may not reach the edges. An orthographic one gets another
-// height and stands one radius before the points. Without points the camera stays.
+// opposite edges (or the margin before them), and the planes of the other two edges are equally
+// far. A perspective camera keeps its angle and is never nearer to a point than a hundredth of the
+// box's radius, so a spike that points at it may not reach the edges. An orthographic one gets
+// another height and stands one radius before the points. Without points the camera stays.
 void glint_camera_fit(const glint_fit *fit, glint_camera *camera);
 
 #ifdef __cplusplus

@@ -40,8 +40,8 @@ glint_option_parser glint_parse_direction, glint_parse_elevation;
         {GLINT_OPTION_CUSTOM,                                                                      \
          .name = "eye",                                                                            \
          .argument = "X,Y,Z",                                                                      \
-         .help = "A perspective camera of your own in place of the file's: where it stands, in "   \
-                 "metres of the scene's world. The other options about it may be left out.",       \
+         .help = "Where a perspective camera of your own stands, in metres of the scene's world. " \
+                 "It takes the place of the file's cameras.",                                      \
          .offset = (member) + offsetof(glint_view_request, eye),                                   \
          .parse = place_option_parse},                                                             \
         {GLINT_OPTION_CUSTOM,                                                                      \

@@ -113,7 +113,7 @@ static const glint_option capture_options[] = {
 };
 
 const glint_option *const render_option_groups[] = {output_options,           sequence_options,
-                                                    glint_input_options,      glint_view_options,
-                                                    capture_options,          glint_size_options,
+                                                    glint_input_options,      capture_options,
+                                                    glint_view_options,       glint_size_options,
                                                     glint_settings_options,   error_options,
                                                     glint_kernel_dir_options, NULL};
