@@ -6,7 +6,7 @@
 typedef struct layers {
     glint_layers_record of_pixel[TILE_PIXELS];
     scalar heaviest[TILE_PIXELS]; // weight of the look-up whose face is noted, 0: none yet
-    bool is_middle;               // the sample at hand is the one that triangle and face are of
+    bool is_middle;               // the sample at hand is the one that the surface and the face are of
 } layers;
 
 static inline void begin_layers(layers *l)
@@ -15,24 +15,12 @@ static inline void begin_layers(layers *l)
         glint_layers_record *record = &l->of_pixel[i];
         record->surfaces = record->total_reflections = 0;
         record->truncated = 0;
-        record->triangle = record->material = record->face = -1;
-        l->heaviest[i] = 0;
-    }
-}
-
-// What the primary rays of the middle samples meet.
-static inline void note_triangles(layers *l, const scene_buffers *scene, const tile *t)
-{
-    for (int i = 0; i < TILE_PIXELS && l->is_middle; i++) {
-        const lane_int place = LANE_INT(t->place[i / GLINT_WIDTH], i % GLINT_WIDTH);
-        if (place < 0) {
-            continue;
+        record->triangle = record->face = -1;
+        record->z = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            record->normal[k] = record->albedo[k] = 0;
         }
-        const size_t cluster = (size_t)place / GLINT_CLUSTER_LANES;
-        global const int *values =
-            (global const int *)(scene->clusters + cluster * GLINT_CLUSTER_VALUES);
-        l->of_pixel[i].triangle = scene->numbers[place];
-        l->of_pixel[i].material = values[GLINT_CLUSTER_MATERIAL];
+        l->heaviest[i] = 0;
     }
 }
 

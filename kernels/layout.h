@@ -145,6 +145,7 @@ typedef struct glint_frame_record {
     int band;       // how many rows of tiles, 1 or more
     int first_band; // where this launch begins
     int terms;      // that a pixel keeps at most, with GLINT_TERMS
+    float unit;     // metres per stored unit, a power of two; with GLINT_DIAGNOSTICS
 } glint_frame_record;
 
 // ---- Irradiance --------------------------------------------------------------------------------
@@ -166,14 +167,17 @@ typedef struct glint_frame_record {
 // ---- Layers ------------------------------------------------------------------------------------
 // With GLINT_DIAGNOSTICS: what became of a pixel's paths, [height][width]. The first three are of
 // all its samples, the others of the one in the middle: of k × k, that in column and row k/2,
-// rounded down: the nearest to the pixel's centre, for even k one of four.
+// rounded down: the nearest to the pixel's centre, for even k one of four. The last three are of
+// the surface that its primary ray meets, with the directions of world space.
 typedef struct glint_layers_record {
     int surfaces;          // that the longest path met
     int total_reflections; // their sum
     float truncated;       // sum of the weights that took the environment without being traced
     int triangle;          // number in the scene of what the primary ray met, −1: nothing
-    int material;          // that triangle's, −1: none
     int face;              // of the cube map, in which the heaviest look-up fell, −1: none
+    float z;               // metres along the axis of view; ∞: nothing
+    float normal[3];       // for shading, unit, towards the viewer; 0: nothing
+    float albedo[3];       // base colour, linear R, G, B; 0: nothing
 } glint_layers_record;
 
 // ---- Terms -------------------------------------------------------------------------------------

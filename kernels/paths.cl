@@ -50,6 +50,16 @@ typedef struct primary {
     lanes_int places; // of the triangles hit, −1: none
 } primary;
 
+// The primary rays of a group, and which triangles they meet.
+static inline primary primary_of(const tile *t, int group)
+{
+    primary first;
+    first.x = t->x[group % TILE_COLUMNS];
+    first.y = t->y[group / TILE_COLUMNS];
+    first.places = t->place[group];
+    return first;
+}
+
 // The directions of the primary rays through points (x, y) of the image plane, see
 // glint_frame_record: 1 long or more.
 static inline real3 primary_directions(const glint_frame_record *frame, real x, real y)

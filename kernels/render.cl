@@ -48,6 +48,7 @@ GLINT_FEATURES(CHECK)
 #include "paths.cl"
 #include "vertices.cl"
 #include "mirrors.cl"
+#include "first_surfaces.cl"
 
 #define SAMPLES_PER_AXIS(frame) (GLINT_SUPERSAMPLING ? (frame)->samples_per_axis : 1)
 
@@ -116,16 +117,6 @@ typedef struct gathered {
     real3 color[TILE_GROUPS];
     real alpha[TILE_GROUPS];
 } gathered;
-
-// The primary rays of a group, and which triangles they meet.
-static inline primary primary_of(const tile *t, int group)
-{
-    primary first;
-    first.x = t->x[group % TILE_COLUMNS];
-    first.y = t->y[group / TILE_COLUMNS];
-    first.places = t->place[group];
-    return first;
-}
 
 #if GLINT_HITS
 // Instead of colours: distance, barycentric weights, and the triangle's number as the alpha.
@@ -256,7 +247,7 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
         }
 #if GLINT_DIAGNOSTICS
         tally->layers->is_middle = sample == k / 2 * (k + 1);
-        note_triangles(tally->layers, scene, &t);
+        note_first_surfaces(tally->layers, scene, frame, &image, &t);
 #endif
 #if GLINT_HITS
         describe_hits(scene, frame, &image, &t, sums);

@@ -1,4 +1,4 @@
-// Diagnostic layers: against the oracle and against the frame's own counters, alike at every width
+// Layers: against the oracle and against the frame's own counters, alike at every width
 // and size of tiles, and without a trace in the picture.
 #include "support/bridge.h"
 #include "support/render.h"
@@ -26,16 +26,20 @@ static size_t pixel_count(const glint_settings *settings)
     return (size_t)settings->width * (size_t)settings->height;
 }
 
+// A layer's first channel, of a frame that has all; its others stand behind it.
 static const float *layer(const test_frame *frame, glint_aov aov)
 {
-    assert_int_equal(frame->layers.count, GLINT_AOV_COUNT);
-    return frame->layers.channels[aov].values;
+    assert_int_equal(frame->layers.count, glint_layers_channels(GLINT_AOV_ALL));
+    return frame->layers.channels[glint_layers_channels(GLINT_AOV_BIT(aov) - 1)].values;
 }
 
 static void assert_same_layers(const test_frame *a, const test_frame *b, size_t pixels)
 {
-    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
-        assert_memory_equal(layer(a, (glint_aov)i), layer(b, (glint_aov)i), pixels * sizeof(float));
+    assert_int_equal(a->layers.count, b->layers.count);
+    for (size_t i = 0; i < a->layers.count; i++) {
+        assert_string_equal(a->layers.channels[i].name, b->layers.channels[i].name);
+        assert_memory_equal(a->layers.channels[i].values, b->layers.channels[i].values,
+                            pixels * sizeof(float));
     }
 }
 
@@ -44,31 +48,133 @@ static void assert_same_layers(const test_frame *a, const test_frame *b, size_t 
 // As in test_agreement.c: within this of a decision single precision may decide otherwise.
 #define FLOAT_MARGIN 1e-4
 
+// Of layers of the first surface, in single precision. Weights of a triangle are right to some
+// roundings of its extent in the picture, and normals follow them.
+#define Z_ERROR 2e-6 // relative
+#define NORMAL_ERROR 2e-5
+
 typedef struct comparison {
+    const glint_scene *scene;
     const bridge *bridge;
     const oracle_view *view;
     const test_frame *frame;
     size_t different, unexplained;
+    double z_error, normal_error; // the largest where triangles agree
 } comparison;
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void turn_to(const double direction[3], double n[3])
+{
+    const double sign = dot(n, direction) < 0 ? -1 : 1;
+    for (int k = 0; k < 3; k++) {
+        n[k] *= sign;
+    }
+}
+
+// A unit vector; false of what has no direction.
+static bool unit(double n[3])
+{
+    const double length = sqrt(dot(n, n));
+    for (int k = 0; k < 3 && length > 0; k++) {
+        n[k] /= length;
+    }
+    return length > 0;
+}
+
+// The normal that rule 1 of "Light transport" asks for.
+static void shading_normal(const oracle_triangle *t, const oracle_hit *hit, const oracle_ray *ray,
+                           double n[3])
+{
+    double geometric[3], a[3], b[3];
+    const double viewer[3] = {-ray->direction[0], -ray->direction[1], -ray->direction[2]};
+    bool is_smooth = true;
+    for (int k = 0; k < 3; k++) {
+        a[k] = t->position[1][k] - t->position[0][k];
+        b[k] = t->position[2][k] - t->position[0][k];
+        n[k] = 0;
+        for (int v = 0; v < 3; v++) {
+            n[k] += hit->barycentric[v] * t->normal[v][k];
+        }
+        is_smooth = is_smooth && dot(t->normal[k], t->normal[k]) > 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        geometric[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+    assert_true(unit(geometric));
+    turn_to(viewer, geometric);
+    if (!is_smooth || !unit(n)) {
+        memcpy(n, geometric, sizeof geometric);
+    }
+    turn_to(geometric, n);
+    turn_to(viewer, n);
+}
+
+// The first surface as the oracle sees it, against the layers of pixel `at`.
+static bool surfaces_agree(comparison *c, size_t at, const oracle_ray *ray, const oracle_hit *hit)
+{
+    const oracle_scene *scene = bridge_scene(c->bridge);
+    const size_t pixels = (size_t)c->view->width * (size_t)c->view->height;
+    const float *normals = layer(c->frame, GLINT_AOV_NORMAL) + at;
+    const float *albedo = layer(c->frame, GLINT_AOV_ALBEDO) + at;
+    const double z = (double)layer(c->frame, GLINT_AOV_Z)[at];
+    double n[3] = {0}, along = INFINITY;
+    const double none[3] = {0}, *base = none;
+    if (hit->triangle >= 0) {
+        const oracle_triangle *t = &scene->triangles[hit->triangle];
+        shading_normal(t, hit, ray, n);
+        base = scene->materials[t->material].base;
+        along = 0;
+        for (int k = 0; k < 3; k++) {
+            const double place = ray->origin[k] + hit->distance * ray->direction[k];
+            along -= (place - c->view->eye[k]) * c->view->back[k];
+        }
+    }
+    bool agree = isinf(along) ? z == along : fabs(z - along) <= Z_ERROR * along;
+    c->z_error = isinf(along) || isinf(z) ? c->z_error : fmax(c->z_error, fabs(z - along) / along);
+    for (size_t k = 0; k < 3; k++) {
+        const double error = fabs((double)normals[k * pixels] - n[k]);
+        agree = agree && error <= NORMAL_ERROR && albedo[k * pixels] == (float)base[k];
+        c->normal_error = agree ? fmax(c->normal_error, error) : c->normal_error;
+    }
+    return agree;
+}
+
+// What the file calls the triangle's node and material.
+static bool names_agree(const comparison *c, size_t at, int triangle)
+{
+    int object = -1, material = -1;
+    for (size_t i = 0; i < c->scene->instance_count; i++) {
+        const glint_instance *instance = &c->scene->instances[i];
+        if (triangle >= 0 && (size_t)triangle >= instance->first_triangle &&
+            (size_t)triangle < instance->first_triangle + instance->triangle_count) {
+            object = instance->node_index;
+            material = c->scene->materials[instance->material].index;
+        }
+    }
+    return layer(c->frame, GLINT_AOV_TRIANGLE)[at] == (float)triangle &&
+           layer(c->frame, GLINT_AOV_OBJECT)[at] == (float)object &&
+           layer(c->frame, GLINT_AOV_MATERIAL)[at] == (float)material;
+}
 
 // Whether a pixel's layers are what the oracle says. Weights err as the paths do, by some hundreds
 // of roundings.
-static bool layers_agree(const comparison *c, const int pixel[2], const oracle_report *report)
+static bool layers_agree(comparison *c, const int pixel[2], const oracle_report *report)
 {
     const size_t at = (size_t)pixel[1] * (size_t)c->view->width + (size_t)pixel[0];
     const int k = c->view->samples, middle = k / 2;
     const double position[2] = {pixel[0] + (middle + 0.5) / k, pixel[1] + (middle + 0.5) / k};
     const oracle_ray ray = oracle_primary_ray(c->view, position);
-    const oracle_scene *scene = bridge_scene(c->bridge);
-    const oracle_hit hit = oracle_closest_hit(scene, &ray, -1);
-    const int material = hit.triangle >= 0 ? scene->triangles[hit.triangle].material : -1;
+    const oracle_hit hit = oracle_closest_hit(bridge_scene(c->bridge), &ray, -1);
     const double truncated = report->truncated_by_depth + report->truncated_by_weight;
     const test_frame *f = c->frame;
-    return layer(f, GLINT_AOV_DEPTH)[at] == (float)report->deepest &&
+    return layer(f, GLINT_AOV_SURFACES)[at] == (float)report->deepest &&
            layer(f, GLINT_AOV_TIR)[at] == (float)((double)report->total_reflections / (k * k)) &&
            fabs((double)layer(f, GLINT_AOV_TRUNCATED)[at] - truncated) <= 1e-4 &&
-           layer(f, GLINT_AOV_TRIANGLE)[at] == (float)hit.triangle &&
-           layer(f, GLINT_AOV_MATERIAL)[at] == (float)material;
+           names_agree(c, at, hit.triangle) && surfaces_agree(c, at, &ray, &hit);
 }
 
 static void compare_pixel(comparison *c, const int pixel[2])
@@ -95,12 +201,13 @@ static void compare_scene(const char *name, const glint_settings *settings)
     glint_camera camera;
     assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
     const oracle_view view = bridge_view(&camera, settings);
-    comparison c = {.bridge = b, .view = &view, .frame = &frame};
+    comparison c = {.scene = &scene, .bridge = b, .view = &view, .frame = &frame};
     for (int i = 0; i < settings->width * settings->height; i++) {
         compare_pixel(&c, (const int[]){i % settings->width, i / settings->width});
     }
-    print_message("%-20s %zu of %zu pixels have other layers than the oracle's\n", name,
-                  c.different, pixel_count(settings));
+    print_message("%-20s %zu of %zu pixels have other layers than the oracle's; Z errs by %.2g, "
+                  "normals by %.2g\n",
+                  name, c.different, pixel_count(settings), c.z_error, c.normal_error);
     assert_int_equal(c.unexplained, 0);
     assert_true(c.different <= pixel_count(settings) / 50);
     bridge_free(b);
@@ -112,8 +219,8 @@ static void compare_scene(const char *name, const glint_settings *settings)
 static void layers_agree_with_the_oracle(void **state)
 {
     (void)state;
-    static const char *const names[] = {"nested_glass", "gallery", "facing_mirrors", "glass_sphere",
-                                        "prism"};
+    static const char *const names[] = {"nested_glass", "gallery", "facing_mirrors",
+                                        "glass_sphere", "prism",   "orthographic"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         glint_settings settings = frame_of_layers(8);
         settings.samples_per_axis = i == 4 ? 2 : 1;
@@ -223,7 +330,7 @@ static void layers_add_up_to_what_the_frame_reports(void **state)
         for (size_t p = 0; p < pixel_count(&settings); p++) {
             truncated += (double)layer(&frame, GLINT_AOV_TRUNCATED)[p];
             total_reflections += round((double)layer(&frame, GLINT_AOV_TIR)[p] * (double)samples);
-            deepest = fmax(deepest, (double)layer(&frame, GLINT_AOV_DEPTH)[p]);
+            deepest = fmax(deepest, (double)layer(&frame, GLINT_AOV_SURFACES)[p]);
         }
         const glint_truncation *t = &frame.report.truncation;
         const double reported = t->by_depth + t->by_min_weight + t->by_stack;
@@ -281,12 +388,13 @@ static void the_short_way_of_mirrors_writes_the_same_layers(void **state)
     settings.all_features = true;
     test_render_named("mirror_sphere", &settings, &paths);
     size_t other_faces = 0;
-    for (size_t p = 0; p < pixel_count(&settings); p++) {
-        for (int i = 0; i < GLINT_AOV_COUNT; i++) {
-            const double difference = fabs((double)layer(&mirrors, (glint_aov)i)[p] -
-                                           (double)layer(&paths, (glint_aov)i)[p]);
-            other_faces += i == GLINT_AOV_FACE && difference > 0;
-            assert_true(i == GLINT_AOV_FACE || difference <= 1e-6);
+    for (size_t i = 0; i < mirrors.layers.count; i++) {
+        const glint_channel *a = &mirrors.layers.channels[i], *b = &paths.layers.channels[i];
+        const bool is_face = strcmp(a->name, "face.index") == 0;
+        for (size_t p = 0; p < pixel_count(&settings); p++) {
+            const bool differ = a->values[p] != b->values[p]; // not of two that are infinite
+            other_faces += is_face && differ;
+            assert_true(is_face || !differ || fabs((double)(a->values[p] - b->values[p])) <= 1e-6);
         }
     }
     assert_true(other_faces <= 2);
@@ -303,12 +411,13 @@ static void what_a_pixel_shows_is_its_middle_samples(void **state)
     test_render_named("nested_glass", &settings, &one);
     settings.samples_per_axis = 3;
     test_render_named("nested_glass", &settings, &nine);
-    for (int i = GLINT_AOV_TRIANGLE; i < GLINT_AOV_COUNT; i++) {
-        assert_memory_equal(layer(&one, (glint_aov)i), layer(&nine, (glint_aov)i),
+    for (size_t i = glint_layers_channels(GLINT_AOV_BIT(GLINT_AOV_TRIANGLE) - 1);
+         i < one.layers.count; i++) {
+        assert_memory_equal(one.layers.channels[i].values, nine.layers.channels[i].values,
                             pixel_count(&settings) * sizeof(float));
     }
     for (size_t p = 0; p < pixel_count(&settings); p++) {
-        assert_true(layer(&nine, GLINT_AOV_DEPTH)[p] >= layer(&one, GLINT_AOV_DEPTH)[p]);
+        assert_true(layer(&nine, GLINT_AOV_SURFACES)[p] >= layer(&one, GLINT_AOV_SURFACES)[p]);
     }
     test_frame_free(&one);
     test_frame_free(&nine);
@@ -340,14 +449,61 @@ static void an_empty_scene_has_faces_and_nothing_else(void **state)
     test_frame frame;
     test_render(&scene, &environment, NULL, &settings, &frame);
     for (size_t p = 0; p < pixel_count(&settings); p++) {
-        assert_true(layer(&frame, GLINT_AOV_DEPTH)[p] == 0);
+        assert_true(layer(&frame, GLINT_AOV_SURFACES)[p] == 0);
         assert_true(layer(&frame, GLINT_AOV_TIR)[p] == 0);
         assert_true(layer(&frame, GLINT_AOV_TRUNCATED)[p] == 0);
         assert_true(layer(&frame, GLINT_AOV_TRIANGLE)[p] == -1);
         assert_true(layer(&frame, GLINT_AOV_MATERIAL)[p] == -1);
+        assert_true(layer(&frame, GLINT_AOV_OBJECT)[p] == -1);
+        assert_true(layer(&frame, GLINT_AOV_Z)[p] == INFINITY);
+        for (size_t k = 0; k < 3; k++) {
+            assert_true(layer(&frame, GLINT_AOV_NORMAL)[k * pixel_count(&settings) + p] == 0);
+            assert_true(layer(&frame, GLINT_AOV_ALBEDO)[k * pixel_count(&settings) + p] == 0);
+        }
         assert_true(layer(&frame, GLINT_AOV_FACE)[p] == 5); // the default camera looks along −Z
     }
     test_frame_free(&frame);
+    glint_environment_free(&environment);
+}
+
+// ---- Scales -------------------------------------------------------------------------------------
+
+static void scale(glint_vec3 *v, double by)
+{
+    *v = glint_vec3_scale(*v, by);
+}
+
+// Z is in metres, whatever the scene's unit. Of a power of two as scale all else keeps its bits.
+static void distances_grow_with_the_scene_and_nothing_else_does(void **state)
+{
+    (void)state;
+    static const double scales[] = {0x1p-40, 0x1p40};
+    const glint_settings settings = frame_of_layers(2);
+    glint_environment environment;
+    bridge_direction_environment(16, &environment);
+    test_frame plain;
+    test_render_named("mirror_sphere", &settings, &plain);
+    for (size_t i = 0; i < 2; i++) {
+        glint_scene scene = {0};
+        test_frame scaled;
+        test_scene_load("mirror_sphere", &scene);
+        scene.unit *= scales[i];
+        scale(&scene.origin, scales[i]);
+        scale(&scene.low, scales[i]);
+        scale(&scene.high, scales[i]);
+        scale(&scene.cameras[0].eye, scales[i]);
+        test_render(&scene, &environment, NULL, &settings, &scaled);
+        for (size_t p = 0; p < pixel_count(&settings); p++) {
+            assert_true(layer(&scaled, GLINT_AOV_Z)[p] ==
+                        (float)scales[i] * layer(&plain, GLINT_AOV_Z)[p]);
+        }
+        memcpy((float *)layer(&scaled, GLINT_AOV_Z), layer(&plain, GLINT_AOV_Z),
+               pixel_count(&settings) * sizeof(float));
+        assert_same_layers(&plain, &scaled, pixel_count(&settings));
+        test_frame_free(&scaled);
+        glint_scene_free(&scene);
+    }
+    test_frame_free(&plain);
     glint_environment_free(&environment);
 }
 
@@ -372,28 +528,6 @@ static void only_layers_that_are_asked_for_are_made(void **state)
     test_frame_free(&all);
 }
 
-static void a_renderer_without_layers_gives_none(void **state)
-{
-    (void)state;
-    glint_scene scene = {0};
-    glint_environment environment;
-    bridge_direction_environment(16, &environment);
-    glint_settings settings = frame_of_layers(1);
-    settings.aovs = 0;
-    const glint_renderer_inputs inputs = {.device = test_device(),
-                                          .scene = &scene,
-                                          .environment = &environment,
-                                          .settings = &settings};
-    glint_renderer *renderer;
-    assert_int_equal(glint_renderer_create(&inputs, &renderer, NULL), GLINT_OK);
-    glint_layers layers;
-    assert_int_equal(glint_renderer_layers(renderer, &layers, NULL), GLINT_USAGE);
-    assert_int_equal(layers.count, 0);
-    assert_null(layers.values);
-    glint_renderer_free(renderer);
-    glint_environment_free(&environment);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -405,8 +539,8 @@ int main(void)
         cmocka_unit_test(what_a_pixel_shows_is_its_middle_samples),
         cmocka_unit_test(layers_do_not_depend_on_the_filter),
         cmocka_unit_test(an_empty_scene_has_faces_and_nothing_else),
+        cmocka_unit_test(distances_grow_with_the_scene_and_nothing_else_does),
         cmocka_unit_test(only_layers_that_are_asked_for_are_made),
-        cmocka_unit_test(a_renderer_without_layers_gives_none),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

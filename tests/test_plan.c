@@ -335,7 +335,7 @@ static void settings_out_of_range_are_usage_errors(void **state)
     bad[5].min_weight = 1.5;
     bad[6].env_rotate = INFINITY;
     bad[7].kernel_width = 4;
-    bad[8].aovs = GLINT_AOV_ALL + 1;
+    bad[8].aovs = GLINT_AOV_VALID + 1;
     for (int i = 0; i < 9; i++) {
         glint_plan plan;
         glint_error error = {0};

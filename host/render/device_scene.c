@@ -24,6 +24,7 @@ static glint_status upload(glint_device_scene *s, const glint_scene *scene, glin
     const glint_upload_inputs inputs = {
         .device = s->device, .scene = scene, .bvh = &s->shown.tree, .plan = &shown->plan};
     TRY(glint_geometry_upload(&inputs, &s->geometry, error));
+    TRY(glint_owners_set(&s->owners, scene, error));
     s->space = glint_stored_space_of(scene);
     const size_t bytes = shown->bvh.cluster_count * glint_vertices_bytes(&shown->plan);
     glint_buffer_release(&s->vertices);
@@ -60,6 +61,7 @@ void glint_device_scene_free(glint_device_scene *s)
 {
     glint_geometry_memory_free(&s->geometry);
     glint_buffer_release(&s->vertices);
+    glint_owners_free(&s->owners);
     glint_bvh_free(&s->shown.tree);
     glint_bvh_free(&s->next.tree);
     *s = (glint_device_scene){0};

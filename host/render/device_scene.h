@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 #include "device/buffer.h"
+#include "render/owners.h"
 #include "render/prepared_scene.h"
 #include "render/upload.h"
 #include "render/view.h"
@@ -18,6 +19,7 @@ typedef struct glint_device_scene {
     glint_prepared_scene next;         // its tree is fitted from that of the last but one
     bool next_is_ready;                // set and read by whoever prepares it
     glint_stored_space space;
+    glint_owners owners;
     glint_geometry_memory geometry;
     cl_mem vertices; // what is found at them
     double upload_ms;

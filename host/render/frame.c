@@ -85,5 +85,5 @@ glint_status glint_renderer_layers(glint_renderer *renderer, glint_layers *layer
     if (settings->aovs == 0 && settings->terms == 0) {
         return glint_fail(error, GLINT_USAGE, "no layers were asked for");
     }
-    return glint_target_layers(&renderer->target, settings, layers, error);
+    return glint_target_layers(&renderer->target, settings, &renderer->scene.owners, layers, error);
 }

@@ -4,23 +4,33 @@
 #include "base/memory.h"
 #include "base/option.h"
 #include "kernels/layout.h"
+#include "render/owners.h"
 #include "render/settings.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-// A channel's part before the dot is the layer's name, as programs show it. The part behind must
-// not be one of those that DWA takes for colour, and compresses with loss: R, G, B, Y, RY, BY.
+// A channel's part before the dot is the layer's name, as programs show it. The names behind it are
+// those by which programs know vectors and colours. Those of numbers must not be one that DWA takes
+// for colour, and compresses with loss: R, G, B, Y, RY, BY. Compositing programs look for the
+// distance under Z alone.
 static const struct {
-    const char *name, *channel;
+    const char *name;
+    const char *channels[4]; // NULL at the end
 } known[GLINT_AOV_COUNT] = {
-    [GLINT_AOV_DEPTH] = {"depth", "depth.surfaces"},
-    [GLINT_AOV_TIR] = {"tir", "tir.count"},
-    [GLINT_AOV_TRUNCATED] = {"truncated", "truncated.weight"},
-    [GLINT_AOV_TRIANGLE] = {"triangle", "triangle.index"},
-    [GLINT_AOV_MATERIAL] = {"material", "material.index"},
-    [GLINT_AOV_FACE] = {"face", "face.index"},
+    [GLINT_AOV_SURFACES] = {"surfaces", {"surfaces.count"}},
+    [GLINT_AOV_TIR] = {"tir", {"tir.count"}},
+    [GLINT_AOV_TRUNCATED] = {"truncated", {"truncated.weight"}},
+    [GLINT_AOV_TRIANGLE] = {"triangle", {"triangle.index"}},
+    [GLINT_AOV_MATERIAL] = {"material", {"material.index"}},
+    [GLINT_AOV_OBJECT] = {"object", {"object.index"}},
+    [GLINT_AOV_FACE] = {"face", {"face.index"}},
+    [GLINT_AOV_Z] = {"Z", {"Z"}},
+    [GLINT_AOV_NORMAL] = {"normal", {"normal.X", "normal.Y", "normal.Z"}},
+    [GLINT_AOV_ALBEDO] = {"albedo", {"albedo.R", "albedo.G", "albedo.B"}},
+    [GLINT_AOV_DEPTH] = {"depth", {"depth.surfaces"}},
 };
 
 const char *glint_aov_name(glint_aov aov)
@@ -36,7 +46,7 @@ static uint32_t aov_by_name(const char *name)
         return GLINT_AOV_ALL;
     }
     for (int i = 0; i < GLINT_AOV_COUNT; i++) {
-        if (strcmp(name, known[i].name) == 0) {
+        if (strcasecmp(name, known[i].name) == 0) {
             return GLINT_AOV_BIT(i);
         }
     }
@@ -47,7 +57,7 @@ static glint_status fail_unknown(const char *option, const char *name, glint_err
 {
     const char *words[GLINT_AOV_COUNT + 2] = {"all"};
     char list[128] = "all";
-    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+    for (int i = 0; (GLINT_AOV_ALL & GLINT_AOV_BIT(i)) != 0; i++) {
         const size_t length = strlen(list);
         words[i + 1] = known[i].name;
         snprintf(list + length, sizeof list - length, ", %s", known[i].name);
@@ -83,8 +93,8 @@ glint_status glint_aovs_parse(const char *option, const char *text, uint32_t *ao
 void glint_aovs_print(uint32_t aovs, char *text, size_t capacity)
 {
     size_t length = 0;
-    snprintf(text, capacity, "%s", aovs > GLINT_AOV_ALL ? "unknown" : "");
-    for (int i = 0; i < GLINT_AOV_COUNT && aovs <= GLINT_AOV_ALL && length < capacity; i++) {
+    snprintf(text, capacity, "%s", aovs > GLINT_AOV_VALID ? "unknown" : "");
+    for (int i = 0; i < GLINT_AOV_COUNT && aovs <= GLINT_AOV_VALID && length < capacity; i++) {
         if ((aovs & GLINT_AOV_BIT(i)) != 0) {
             length += (size_t)snprintf(text + length, capacity - length, "%s%s",
                                        length > 0 ? "," : "", known[i].name);
@@ -102,9 +112,13 @@ void glint_layers_free(glint_layers *layers)
     *layers = (glint_layers){0};
 }
 
-static float value_of(const glint_layers_record *record, glint_aov aov, int samples)
+// Channel `k` of the layer.
+static float value_of(const glint_layers_inputs *in, size_t pixel, glint_aov aov, int k)
 {
+    const glint_layers_record *record = &in->records[pixel];
+    const int samples = in->settings->samples_per_axis * in->settings->samples_per_axis;
     switch (aov) {
+    case GLINT_AOV_SURFACES:
     case GLINT_AOV_DEPTH:
         return (float)record->surfaces;
     case GLINT_AOV_TIR:
@@ -114,35 +128,61 @@ static float value_of(const glint_layers_record *record, glint_aov aov, int samp
     case GLINT_AOV_TRIANGLE:
         return (float)record->triangle;
     case GLINT_AOV_MATERIAL:
-        return (float)record->material;
+        return (float)glint_owner_of(in->owners, record->triangle).material;
+    case GLINT_AOV_OBJECT:
+        return (float)glint_owner_of(in->owners, record->triangle).node;
     case GLINT_AOV_FACE:
         return (float)record->face;
+    case GLINT_AOV_Z:
+        return record->z;
+    case GLINT_AOV_NORMAL:
+        return record->normal[k];
+    case GLINT_AOV_ALBEDO:
+        return record->albedo[k];
     case GLINT_AOV_COUNT:
         break;
     }
     return 0;
 }
 
-glint_status glint_layers_make(const glint_layers_record *records, size_t pixel_count,
-                               const glint_settings *settings, glint_layers *layers,
+// How many channels the layer has, if it is wanted; else 0.
+static int channel_count(uint32_t aovs, int aov)
+{
+    int count = 0;
+    while ((aovs & GLINT_AOV_BIT(aov)) != 0 && known[aov].channels[count] != NULL) {
+        count++;
+    }
+    return count;
+}
+
+size_t glint_layers_channels(uint32_t aovs)
+{
+    size_t count = 0;
+    for (int i = 0; i < GLINT_AOV_COUNT; i++) {
+        count += (size_t)channel_count(aovs, i);
+    }
+    return count;
+}
+
+glint_status glint_layers_make(const glint_layers_inputs *in, glint_layers *layers,
                                glint_error *error)
 {
-    const int samples = settings->samples_per_axis * settings->samples_per_axis;
+    const uint32_t aovs = in->settings->aovs;
     *layers = (glint_layers){0};
-    float *values = glint_allocate_unset(pixel_count, GLINT_AOV_COUNT * sizeof *values);
+    float *values =
+        glint_allocate_unset(in->pixel_count, glint_layers_channels(aovs) * sizeof *values);
     if (values == NULL) {
         return glint_fail_memory(error, "the layers");
     }
     layers->values = values;
     for (int i = 0; i < GLINT_AOV_COUNT; i++) {
-        if ((settings->aovs & GLINT_AOV_BIT(i)) == 0) {
-            continue;
+        for (int k = 0; k < channel_count(aovs, i); k++) {
+            for (size_t p = 0; p < in->pixel_count; p++) {
+                values[p] = value_of(in, p, (glint_aov)i, k);
+            }
+            layers->channels[layers->count++] = (glint_channel){known[i].channels[k], values};
+            values += in->pixel_count;
         }
-        for (size_t p = 0; p < pixel_count; p++) {
-            values[p] = value_of(&records[p], (glint_aov)i, samples);
-        }
-        layers->channels[layers->count++] = (glint_channel){known[i].channel, values};
-        values += pixel_count;
     }
     return GLINT_OK;
 }

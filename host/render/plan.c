@@ -1,6 +1,7 @@
 // The plan: what is compiled, and why. See plan.h.
 #include "render/plan.h"
 
+#include "render/layers.h"
 #include "render/plan_parts.h"
 
 #include <stdio.h>
@@ -25,13 +26,14 @@ const char *glint_feature_meaning(glint_feature feature)
     return meanings[feature];
 }
 
-// Layers tell what was cut short, which a depth that is proved would be told of as.
+// Layers of paths tell what was cut short, which a depth that is proved would be told of as.
 static void choose_sight(const glint_settings *settings, const glint_sight *sight, glint_plan *plan)
 {
     plan->sight = (glint_sight){0};
     if (sight != NULL && glint_plan_may_heed_sight(settings)) {
-        plan->sight =
-            settings->aovs == 0 ? *sight : (glint_sight){.exits_escape = sight->exits_escape};
+        plan->sight = (settings->aovs & GLINT_AOV_OF_PATHS) == 0
+                          ? *sight
+                          : (glint_sight){.exits_escape = sight->exits_escape};
     }
 }
 

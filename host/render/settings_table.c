@@ -238,13 +238,14 @@ const glint_setting glint_setting_table[] = {
     {GLINT_SETTINGS_OF_LAYERS, MEMBER(aovs), .fingerprint = 12, .roles = GLINT_SETTING_VARIES,
      .print = print_aovs,
      .option = {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
-                .help = "Layers that tell what became of each pixel's paths, as further channels "
-                        "of the EXR: depth (surfaces that the longest met), tir (total "
-                        "reflections), truncated (weight that was not traced to its end), triangle "
-                        "and material (what the primary ray met), face (of the environment, where "
-                        "the heaviest look-up fell); with commas between them, or all. With "
-                        "several samples depth is the maximum, tir and truncated are means, the "
-                        "others numbers from 0, −1 for none, of the sample in the middle.",
+                .help = "Further channels of the EXR, with commas between them, or all. What the "
+                        "primary ray meets: Z (metres along the axis of view), normal (world "
+                        "space), albedo (base colour), object and material (indices in the file), "
+                        "triangle. What became of the paths: surfaces (that the longest met), tir "
+                        "(total reflections), truncated (weight that was not traced to its end), "
+                        "face (of the environment, where the heaviest look-up fell). With several "
+                        "samples surfaces is the maximum, tir and truncated are means, the others "
+                        "are of the sample in the middle.",
                 .parse = parse_aovs}},
     {GLINT_SETTINGS_OF_LAYERS, MEMBER(terms), .fingerprint = 14, .roles = GLINT_SETTING_VARIES,
      .option = {GLINT_OPTION_INT, .name = "directions", .argument = "K",

@@ -121,7 +121,8 @@ static glint_status read_part(const glint_target *target, glint_target_part part
 }
 
 glint_status glint_target_layers(const glint_target *target, const glint_settings *settings,
-                                 glint_layers *layers, glint_error *error)
+                                 const glint_owners *owners, glint_layers *layers,
+                                 glint_error *error)
 {
     const size_t pixels = pixel_count(settings);
     void *records = NULL, *terms = NULL;
@@ -129,7 +130,8 @@ glint_status glint_target_layers(const glint_target *target, const glint_setting
     glint_status status = GLINT_OK;
     if (settings->aovs != 0) {
         TRY_OR(cleanup, status, read_part(target, GLINT_TARGET_LAYERS, settings, &records, error));
-        TRY_OR(cleanup, status, glint_layers_make(records, pixels, settings, layers, error));
+        const glint_layers_inputs inputs = {records, pixels, owners, settings};
+        TRY_OR(cleanup, status, glint_layers_make(&inputs, layers, error));
     }
     if (settings->terms > 0) {
         TRY_OR(cleanup, status, read_part(target, GLINT_TARGET_TERMS, settings, &terms, error));

@@ -7,6 +7,7 @@
 #include "device/buffer.h"
 #include "render/arguments.h"
 #include "render/layers.h"
+#include "render/owners.h"
 #include "render/pixels.h"
 #include "render/plan.h"
 
@@ -55,7 +56,8 @@ glint_status glint_target_read_counters(const glint_target *target,
 // The layers and terms of the last frame, which was rendered with these settings. On failure
 // *layers is empty.
 glint_status glint_target_layers(const glint_target *target, const glint_settings *settings,
-                                 glint_layers *layers, glint_error *error);
+                                 const glint_owners *owners, glint_layers *layers,
+                                 glint_error *error);
 
 void glint_target_free(glint_target *target);
 

@@ -17,7 +17,7 @@ static const char *const header_names[HEADER] = {"constant_r", "constant_g", "co
                                                  "dropped"};
 static const char *const term_names[TERM] = {"x", "y", "z", "kind", "wr", "wg", "wb"};
 
-_Static_assert(GLINT_LAYER_CHANNELS >= GLINT_AOV_COUNT + HEADER + TERM * GLINT_TERMS_MAX,
+_Static_assert(GLINT_LAYER_CHANNELS >= GLINT_AOV_CHANNELS + HEADER + TERM * GLINT_TERMS_MAX,
                "all channels have room");
 
 static void name_channel(int which, char name[GLINT_LAYER_NAME])

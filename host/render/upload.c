@@ -15,8 +15,8 @@
 _Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
-_Static_assert(sizeof(glint_layers_record) == 24, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 26 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 27 * 4, "glint_frame_record has gaps");
 
 void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
                             glint_content contents[GLINT_GEOMETRY_CONTENTS])

@@ -138,8 +138,8 @@ refuses 3 'plate.png' render "${ok[@]}" --background plate.png
 refuses 2 '--progress loud' render "${ok[@]}" --progress loud
 refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
 refuses 2 '--exr-type' render "${ok[@]}" --exr-type float
-refuses 2 'did you mean depth?' render in/mirror.gltf -o out/x.exr --aov tir,depht
-refuses 2 "no layer 'frobnicate' (there are all, depth" render in/mirror.gltf -o out/x.exr --aov frobnicate
+refuses 2 'did you mean surfaces?' render in/mirror.gltf -o out/x.exr --aov tir,surface
+refuses 2 "no layer 'frobnicate' (there are all, surfaces" render in/mirror.gltf -o out/x.exr --aov frobnicate
 for list in '' ',' 'tir,' ',tir' 'tir,,face' 'tir face' none; do
     refuses 2 '--aov: there is no layer' render in/mirror.gltf -o out/x.exr --aov "$list"
 done
@@ -149,7 +149,7 @@ refuses 2 '--kernel-tile 4' render "${ok[@]}" --kernel-tile 4
 refuses 2 '--shading vertex' render "${ok[@]}" --shading vertex
 refuses 2 '--shading vertex-color: surfaces see' render "${ok[@]}" --shading vertex-color --depth 3
 refuses 2 '--filter mip: --shading vertex-direction shades vertices' render "${ok[@]}" --shading vertex-direction --filter mip
-refuses 2 '--aov depth: --shading vertex-direction shades vertices' render in/mirror.gltf -o out/x.exr --shading vertex-direction --aov depth
+refuses 2 '--aov tir: --shading vertex-direction shades vertices' render in/mirror.gltf -o out/x.exr --shading vertex-direction --aov tir
 refuses 2 '--fresnel schlick' render "${ok[@]}" --fresnel schlick
 refuses 2 'latlong' render "${ok[@]}" --env in/sky.hdr --env-layout mercator
 refuses 2 '--env-layout' render "${ok[@]}" --env-layout latlong
@@ -393,18 +393,34 @@ clean
 
 # ---- layers -------------------------------------------------------------------------------------
 
-# has_channels NAME…: the EXR's header names these layers, and no other.
+# has_channels NAME…: the EXR's header names these channels beside R, G, B and A, and no other.
 has_channels() {
     local name
     for name in "$@"; do grep -qaF "$name" out/x.exr || return 1; done
-    [ "$(head -c 400 out/x.exr | grep -oaE '[a-z]+\.(surfaces|count|weight|index)' | wc -l)" -eq $# ]
+    [ "$(head -c 900 out/x.exr | tr '\0' '\n' |
+        grep -caxE '[a-z]+\.(surfaces|count|weight|index|[XYZRGB])|Z')" -eq $# ]
 }
-renders '--aov all' out/x.exr --aov all --compression none
-check '--aov all: every layer' has_channels depth.surfaces tir.count truncated.weight \
-    triangle.index material.index face.index
+renders '--aov all' out/x.exr --aov all --compression none --depth 1
+check '--aov all: every layer' has_channels surfaces.count tir.count truncated.weight triangle.index \
+    material.index object.index face.index Z normal.X normal.Y normal.Z albedo.R albedo.G albedo.B
+cp out/x.exr in/layers.exr
 clean
-renders '--aov tir,depth,tir' out/x.exr --aov tir,depth,tir --exr-type float
-check '--aov tir,depth,tir: two layers' has_channels tir.count depth.surfaces
+renders 'without them' out/x.exr --depth 1
+check 'readers find the picture' same_pixels in/layers.exr out/x.exr
+clean
+renders '--aov tir,surfaces,tir' out/x.exr --aov tir,surfaces,tir --exr-type float
+check '--aov tir,surfaces,tir: two layers' has_channels tir.count surfaces.count
+clean
+renders '--aov object,material' out/x.exr --aov object,material
+check 'the names of objects' grep -qaF '{"0":"triangle"}' out/x.exr
+check 'the names of materials' grep -qaF '{"0":"chrome"}' out/x.exr
+clean
+run render in/mirror.gltf --size 8x8 -o out/x.exr --aov depth
+check 'the old name of a layer: its old channel' has_channels depth.surfaces
+check 'the old name of a layer: said once' test "$(grep -c "is called 'surfaces' now" stderr)" -eq 1
+clean
+run render in/mirror.gltf --size 8x8 -o out/x.exr --aov normal --compression dwaa
+check 'a compression that loses digits of a layer is said' grep -q 'dwaa loses digits of the layers' stderr
 clean
 run render in/mirror.gltf --size 8x8 -o out/x.exr --aov all --aov face --stats out/stats.json
 check 'the last list counts' has_channels face.index

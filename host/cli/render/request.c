@@ -402,13 +402,32 @@ static void warn_of_format(const render_request *request, glint_warnings *warnin
     }
 }
 
+static bool has_layer(const render_request *request, uint32_t layers)
+{
+    return (request->inputs.settings.aovs & layers) != 0;
+}
+
 static void warn_of_layers(const render_request *request, const glint_scene *scene,
                            glint_warnings *warnings)
 {
-    if ((request->inputs.settings.aovs & GLINT_AOV_BIT(GLINT_AOV_TRIANGLE)) != 0 &&
+    const char *output = request->output, *compression = request->compression;
+    if (has_layer(request, GLINT_AOV_BIT(GLINT_AOV_TRIANGLE)) &&
         scene->triangle_count > GLINT_AOV_TRIANGLES_EXACT) {
         glint_warn(warnings, "%s: the layer 'triangle' rounds numbers above %u, by 4 at most",
-                   request->output, GLINT_AOV_TRIANGLES_EXACT);
+                   output, GLINT_AOV_TRIANGLES_EXACT);
+    }
+    if (has_layer(request, GLINT_AOV_BIT(GLINT_AOV_DEPTH))) {
+        glint_warn(warnings,
+                   "%s: the layer 'depth' counts surfaces, and is called 'surfaces' now (the "
+                   "distance is 'Z')",
+                   output);
+    }
+    if (has_layer(request, GLINT_AOV_LOSSY) && compression != NULL &&
+        strncmp(compression, "dwa", 3) == 0) {
+        glint_warn(warnings,
+                   "%s: --compression %s loses digits of the layers 'normal' and 'albedo', as of "
+                   "the picture (zip and piz keep them)",
+                   output, compression);
     }
 }
 

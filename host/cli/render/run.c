@@ -210,7 +210,8 @@ static size_t count_writers(const render_run *run)
 {
     const render_request *request = run->request;
     const glint_settings *settings = &request->inputs.settings;
-    const double values = 4 + (request->plate != NULL ? 4 : 0) + (settings->aovs != 0 ? 6 : 0) +
+    const double values = 4 + (request->plate != NULL ? 4 : 0) +
+                          (double)glint_layers_channels(settings->aovs) +
                           7.0 * settings->terms; // of a pixel
     const size_t room =
         glint_sequence_writers(values * sizeof(float) * settings->width * settings->height);

@@ -3,11 +3,25 @@
 
 #include "cli/render/plate.h"
 #include "image/output_file.h"
+#include "report/frame/manifest.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 // ---- Packing -----------------------------------------------------------------------------------
+
+// False without memory.
+static bool add_manifests(const render_shot *shot, render_parcel *made)
+{
+    const glint_scene *scene = &shot->stage.inputs.scene;
+    const uint32_t aovs = shot->request->inputs.settings.aovs;
+    if ((aovs & GLINT_AOV_BIT(GLINT_AOV_OBJECT)) != 0 &&
+        glint_manifest_of_objects(scene, &made->objects, NULL) != GLINT_OK) {
+        return false;
+    }
+    return (aovs & GLINT_AOV_BIT(GLINT_AOV_MATERIAL)) == 0 ||
+           glint_manifest_of_materials(scene, &made->materials, NULL) == GLINT_OK;
+}
 
 static render_parcel *make_parcel(const render_shot *shot, int frame)
 {
@@ -17,7 +31,8 @@ static render_parcel *make_parcel(const render_shot *shot, int frame)
     if (made != NULL) {
         made->environment = strdup(environment != NULL ? environment : "");
         made->plate = has_plate ? glint_frame_name_make(&shot->request->plate_name, frame) : NULL;
-        if (made->environment == NULL || (has_plate && made->plate == NULL)) {
+        if (made->environment == NULL || (has_plate && made->plate == NULL) ||
+            !add_manifests(shot, made)) {
             render_parcel_free(made);
             return NULL;
         }
@@ -46,6 +61,8 @@ static void fill_metadata(const render_shot *shot, const render_tracer *tracer,
     if (made->plate != NULL) {
         glint_frame_metadata_add_text(metadata, "glint:plate", made->plate);
     }
+    glint_frame_metadata_add_text(metadata, GLINT_MANIFEST_OBJECTS, made->objects);
+    glint_frame_metadata_add_text(metadata, GLINT_MANIFEST_MATERIALS, made->materials);
     if (request->max_error > 0) {
         glint_frame_metadata_add_real(metadata, "glint:max_error", request->max_error);
         glint_frame_metadata_add_real(metadata, "glint:error", made->choice.error);
@@ -86,6 +103,8 @@ void render_parcel_free(render_parcel *parcel)
     if (parcel != NULL) {
         free(parcel->environment);
         free(parcel->plate);
+        free(parcel->objects);
+        free(parcel->materials);
         free(parcel);
     }
 }

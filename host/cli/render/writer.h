@@ -11,8 +11,9 @@
 typedef struct render_parcel {
     glint_frame_metadata metadata;
     char fingerprint[GLINT_FINGERPRINT_TEXT];
-    char *environment; // its name
-    char *plate;       // the file; NULL without one
+    char *environment;         // its name
+    char *plate;               // the file; NULL without one
+    char *objects, *materials; // manifests; NULL without these layers
     double build_ms;
     const char *tree;
     glint_error_choice choice; // where --max-error asks for one

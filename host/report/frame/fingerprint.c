@@ -62,6 +62,17 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
     add_array(state, m->attenuation_color, sizeof *m->attenuation_color, 3);
 }
 
+// By what layers and manifests name it.
+static void add_instance(XXH3_state_t *state, const glint_scene *scene,
+                         const glint_instance *instance)
+{
+    const glint_material *material = &scene->materials[instance->material];
+    const double numbers[] = {instance->node_index, material->index};
+    add_numbers(state, numbers, 2);
+    add_text(state, instance->node != NULL ? instance->node : "");
+    add_text(state, material->name != NULL ? material->name : "");
+}
+
 static void add_scene(XXH3_state_t *state, const glint_scene *scene)
 {
     add_vector(state, scene->origin);
@@ -73,6 +84,9 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
     add_array(state, scene->material_of, sizeof *scene->material_of, scene->triangle_count);
     for (size_t i = 0; i < scene->material_count; i++) {
         add_material(state, &scene->materials[i]);
+    }
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        add_instance(state, scene, &scene->instances[i]);
     }
 }
 

@@ -17,7 +17,7 @@
 void glint_world_to_camera(const glint_camera *camera, float matrix[16]);
 void glint_world_to_ndc(const glint_camera *camera, double aspect, float matrix[16]);
 
-enum { GLINT_FRAME_METADATA_MAX = 24, GLINT_FRAME_METADATA_SETTINGS = 4 };
+enum { GLINT_FRAME_METADATA_MAX = 28, GLINT_FRAME_METADATA_SETTINGS = 4 };
 
 // Holds what `entries` point to: not to be copied.
 typedef struct glint_frame_metadata {
