@@ -35,6 +35,13 @@ typedef struct bad_case {
 #define SPARSE(text) ACCESSOR("\"count\":9,\"bufferView\":0," VEC3 ",\"sparse\":{" text "}")
 #define CAMERA(text) GOOD ",\"cameras\":[{" text "}]"
 
+#define SKIN(count, joints)                                                                        \
+    VIEW "\"accessors\":[{\"bufferView\":0,\"type\":\"MAT4\",\"componentType\":5126," count        \
+         "}],\"nodes\":[{}],\"skins\":[{\"joints\":[" joints "],\"inverseBindMatrices\":0}]"
+#define MORPH(mesh, node)                                                                          \
+    TETRAHEDRON_STORAGE ",\"meshes\":[{" mesh ",\"primitives\":[{" TETRAHEDRON_PRIMITIVE           \
+                        ",\"targets\":[{\"POSITION\":0},{}]}]}],\"nodes\":[{\"mesh\":0" node "}]"
+
 static const bad_case cases[] = {
     // Buffers and views.
     {"\"bufferViews\":[{\"buffer\":0}]", "bufferViews[0].byteLength: missing"},
@@ -210,6 +217,27 @@ static const bad_case cases[] = {
     {GOOD ",\"images\":[{\"bufferView\":9}]",
      "images[0].bufferView: 9: there is no such bufferView"},
     {GOOD ",\"textures\":[{\"source\":0}]", "textures[0].source: 0: there is no such image"},
+    {GOOD ",\"skins\":[{\"joints\":[]}]", "skins[0].joints: empty"},
+    {GOOD ",\"skins\":[{\"joints\":[0,7]}]", "skins[0].joints[1]: 7: there is no such node"},
+    {GOOD ",\"skins\":[{\"joints\":[0],\"inverseBindMatrices\":0}]",
+     "skins[0].inverseBindMatrices: the accessor holds VEC3"},
+    {SKIN("\"count\":1", "0,0"), "inverseBindMatrices: accessors[0] has 1 element for 2 joints"},
+    {PRIMITIVE("\"attributes\":{\"POSITION\":0,\"JOINTS_0\":0}"),
+     "primitives[0].attributes.WEIGHTS_0: missing beside JOINTS_0"},
+    {PRIMITIVE("\"attributes\":{\"POSITION\":0,\"WEIGHTS_0\":0}"),
+     "primitives[0].attributes.JOINTS_0: missing beside WEIGHTS_0"},
+    {PRIMITIVE("\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":0}"),
+     "attributes.JOINTS_0: the accessor does not hold joints"},
+    // Morph targets.
+    {PRIMITIVE("\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":2}]"),
+     "primitives[0].targets[0].POSITION: the accessor holds SCALAR"},
+    {PRIMITIVE("\"attributes\":{\"POSITION\":0},\"targets\":[3]"),
+     "primitives[0].targets[0]: 3 stands where an object must stand"},
+    {MORPH("\"weights\":[1]", ""), "meshes[0].weights: 1 number for 2 morph targets"},
+    {MORPH("\"weights\":[1,null]", ""), "meshes[0].weights[1]: null stands where"},
+    {MORPH("\"weights\":{}", ""), "meshes[0].weights: an object stands where"},
+    {MORPH("\"name\":\"m\"", ",\"weights\":[0,0,0]"),
+     "nodes[0].weights: 3 numbers for 2 morph targets"},
     {GOOD ",\"skins\":[{}]", "skins[0].joints: missing"},
 };
 

@@ -33,7 +33,8 @@ static glint_scene_source *open_figure(const char *folder, const figure *f)
     return source;
 }
 
-static glint_scene scene_at(glint_scene_source *source, double time)
+// `warning` is part of the only one that is to be given; NULL: none.
+static glint_scene warned_scene_at(glint_scene_source *source, double time, const char *warning)
 {
     glint_scene scene;
     glint_error error = {0};
@@ -41,11 +42,18 @@ static glint_scene scene_at(glint_scene_source *source, double time)
     if (glint_scene_at(source, time, &scene, &warnings, &error) != GLINT_OK) {
         fail_msg("%s", error.message);
     }
-    if (warnings.count > 0) {
-        fail_msg("%s", warnings.texts[0]);
+    assert_true(warnings.count <= 1);
+    const char *said = warnings.count > 0 ? warnings.texts[0] : "";
+    if (warning == NULL ? warnings.count > 0 : strstr(said, warning) == NULL) {
+        fail_msg("said: %s", said);
     }
     glint_warnings_free(&warnings);
     return scene;
+}
+
+static glint_scene scene_at(glint_scene_source *source, double time)
+{
+    return warned_scene_at(source, time, NULL);
 }
 
 static double world(const glint_scene *scene, size_t number)
@@ -181,6 +189,181 @@ static void flattened_skins_keep_their_normals(void **state)
     assert_kind(*state, (figure_kind){.influences = 4, .flattens = true, .turns = true}, true);
 }
 
+// ---- Nodes -------------------------------------------------------------------------------------
+
+static void joints_need_not_be_in_the_scene(void **state)
+{
+    assert_kind(*state, (figure_kind){.influences = 4, .turns = true, .joints_outside = true},
+                true);
+}
+
+// Each copy of a skinned mesh stands where its instance alone says, of a morphed one at its node,
+// too: the second is the first, shifted.
+static void instances_share_what_deforms_them(void **state)
+{
+    figure_kind kind = {.influences = 8, .turns = true, .instanced = true, .seed = 7};
+    for (int skinned = 1; skinned >= 0; skinned--) {
+        kind.targets = 3;
+        kind.interpolation = "LINEAR";
+        kind.influences = skinned ? 8 : 0;
+        figure f = figure_make(&kind);
+        for (int k = 0; k < 3; k++) { // the node neither turns nor scales
+            f.mesh_node.rotation[k] = 0;
+            f.mesh_node.scale[k] = 1;
+        }
+        f.mesh_node.rotation[3] = 1;
+        glint_scene_source *source = open_figure(*state, &f);
+        glint_scene scene = scene_at(source, 0.3);
+        assert_int_equal(scene.triangle_count, 2 * FIGURE_TRIANGLES);
+        for (size_t number = 0; number < 9 * FIGURE_TRIANGLES; number++) {
+            const double shift =
+                world(&scene, number + 9 * (size_t)FIGURE_TRIANGLES) - world(&scene, number);
+            assert_true(fabs(shift - (double)figure_instance[number % 3]) <= scene.unit * 0x1p-24);
+            const figure_triangle expected = figure_triangle_at(&f, 0.3, (int)(number / 9));
+            assert_true(fabs(world(&scene, number) - (&expected.positions[0][0])[number % 9]) <=
+                        scene.unit * 0x1p-24);
+        }
+        glint_scene_free(&scene);
+        glint_scene_close(source);
+    }
+}
+
+// glTF hides a skinned mesh where all its joints have a scale of 0, and not where only its node
+// has.
+static void joints_of_no_size_hide_the_mesh(void **state)
+{
+    const figure_kind kind = {.influences = 4, .seed = 1};
+    figure f = figure_make(&kind);
+    memset(f.rig.scale, 0, sizeof f.rig.scale);
+    glint_scene_source *source = open_figure(*state, &f);
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    assert_int_equal(glint_scene_at(source, 0, &scene, &warnings, NULL), GLINT_OK);
+    assert_true(any_warning_has(&warnings, "nodes[0]: a scale of 0 hides the mesh"));
+    assert_int_equal(scene.triangle_count, 0);
+    assert_int_equal(scene.degenerate_triangles, 0);
+    glint_warnings_free(&warnings);
+    glint_scene_free(&scene);
+    glint_scene_close(source);
+}
+
+// ---- Mistakes ----------------------------------------------------------------------------------
+
+// Sums that are not 1 are mended as the model mends them.
+static void weights_are_normalised_with_a_warning(void **state)
+{
+    const figure_kind kind = {.influences = 8, .turns = true, .seed = 2};
+    figure f = figure_make(&kind);
+    for (int i = 0; i < FIGURE_INFLUENCES; i++) {
+        f.weights[3][i] *= 2;
+        f.weights[9][i] *= 0.25;
+    }
+    glint_scene_source *source = open_figure(*state, &f);
+    glint_scene scene = warned_scene_at(
+        source, 0.4, "meshes[0].primitives[0]: joint weights do not sum to 1 and are normalised");
+    assert_stands_as_modelled(&f, &scene, 0.4);
+    glint_scene_free(&scene);
+    glint_scene_close(source);
+}
+
+static void vertices_without_a_weight_follow_the_first_joint_that_they_name(void **state)
+{
+    const figure_kind kind = {.influences = 4, .turns = true, .seed = 4};
+    figure f = figure_make(&kind);
+    memset(f.weights[5], 0, sizeof f.weights[5]);
+    glint_scene_source *source = open_figure(*state, &f);
+    glint_scene scene = warned_scene_at(source, 1, "follow the first joint that they name");
+    f.weights[5][0] = 1;
+    assert_stands_as_modelled(&f, &scene, 1);
+    glint_scene_free(&scene);
+    glint_scene_close(source);
+}
+
+static void spoil(figure *f, int which)
+{
+    switch (which) {
+    case 0:
+        f->weights[5][2] = -0.25;
+        break;
+    case 1:
+        f->weights[6][7] = NAN;
+        break;
+    case 2:
+        f->weights[0][4] = INFINITY;
+        break;
+    case 3:
+        f->joints[7][5] = FIGURE_JOINTS;
+        f->weights[7][5] = 0.5;
+        break;
+    case 4:
+        memset(f->weights[8], 0, sizeof f->weights[8]);
+        f->joints[8][0] = 200;
+        break;
+    case 5:
+        f->inverse_bind[2][5] = NAN;
+        break;
+    case 6:
+        f->inverse_bind[3][7] = 0.5f;
+        break;
+    case 7:
+        f->deltas[1][0][4][2] = NAN;
+        break;
+    default:
+        f->morph_keys[1][1][0] = INFINITY;
+        break;
+    }
+}
+
+static void what_means_nothing_is_refused(void **state)
+{
+    static const char *const said[] = {
+        "meshes[0].primitives[0].attributes.WEIGHTS_0: vertex 5 has a weight of -0.25",
+        "meshes[0].primitives[0].attributes.WEIGHTS_1: vertex 6 has a weight of nan",
+        "meshes[0].primitives[0].attributes.WEIGHTS_1: vertex 0 has a weight of inf",
+        "attributes.JOINTS_1: vertex 7 follows joint 4 (the skin has 4 joints)",
+        "attributes.JOINTS_0: vertex 8 follows joint 200 (the skin has 4 joints)",
+        "skins[0].inverseBindMatrices: matrix 2 is not finite",
+        "skins[0].inverseBindMatrices: the last row of matrix 3 is not 0 0 0 1",
+        "vertex 4 is (nan, nan, nan) once its targets and joints have moved it",
+        "output: value 3 is not finite",
+    };
+    for (int which = 0; which < (int)(sizeof said / sizeof *said); which++) {
+        for (int turns = 0; turns < 2; turns++) { // the bounds of a clip meet them first
+            const figure_kind kind = {.influences = 8,
+                                      .targets = 3,
+                                      .interpolation = "LINEAR",
+                                      .turns = turns != 0,
+                                      .seed = 5};
+            figure f = figure_make(&kind);
+            spoil(&f, which);
+            char *text = figure_text(&f);
+            glint_scene scene;
+            glint_error error = {0};
+            assert_int_equal(load_text(*state, text, &scene, NULL, &error), GLINT_BAD_INPUT);
+            if (strstr(error.message, said[which]) == NULL) {
+                fail_msg("%s: not %s", error.message, said[which]);
+            }
+            glint_error_free(&error);
+            free(text);
+        }
+    }
+}
+
+// A joint's number does not matter where its weight is 0.
+static void joints_without_weight_may_be_any(void **state)
+{
+    const figure_kind kind = {.influences = 4, .turns = true, .seed = 6};
+    figure f = figure_make(&kind);
+    f.weights[5][1] = f.weights[5][2] = 0;
+    f.joints[5][1] = f.joints[5][2] = 255;
+    glint_scene_source *source = open_figure(*state, &f);
+    glint_scene scene = warned_scene_at(source, 1, "");
+    f.joints[5][1] = f.joints[5][2] = 0;
+    assert_stands_as_modelled(&f, &scene, 1);
+    glint_scene_free(&scene);
+    glint_scene_close(source);
+}
+
 // ---- Bounds ------------------------------------------------------------------------------------
 
 // The default camera's bounds: the figure at all times that are looked at, and no more.
@@ -226,6 +409,13 @@ int main(void)
         cmocka_unit_test(morphs_come_before_skins),
         cmocka_unit_test(mirrored_joints_turn_the_winding),
         cmocka_unit_test(flattened_skins_keep_their_normals),
+        cmocka_unit_test(joints_need_not_be_in_the_scene),
+        cmocka_unit_test(instances_share_what_deforms_them),
+        cmocka_unit_test(joints_of_no_size_hide_the_mesh),
+        cmocka_unit_test(weights_are_normalised_with_a_warning),
+        cmocka_unit_test(vertices_without_a_weight_follow_the_first_joint_that_they_name),
+        cmocka_unit_test(what_means_nothing_is_refused),
+        cmocka_unit_test(joints_without_weight_may_be_any),
         cmocka_unit_test(bounds_are_those_of_the_whole_clip),
     };
     return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);

@@ -32,8 +32,8 @@ void check_matrices(const json &skin, const Place &skin_place, const Model &mode
     check_format(accessor, place, {TINYGLTF_TYPE_MAT4, true, false, false});
     if (accessor.count < result.joints.size()) {
         refuse(place, "accessors[" + std::to_string(index) + "] has " +
-                          std::to_string(accessor.count) + " matrices for " +
-                          counted(result.joints.size(), "joint") + " (each needs one)");
+                          counted(accessor.count, "element") + " for " +
+                          counted(result.joints.size(), "joint") + " (each needs a matrix)");
     }
 }
 

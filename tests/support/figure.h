@@ -17,6 +17,12 @@ enum {
     FIGURE_KEYS = 3,
 };
 
+// Joints 0 and 3 stand under a rig that is no joint, 1 under 0, 2 under 1. Two of them turn.
+extern const int figure_parents[FIGURE_JOINTS], figure_turning[2];
+
+// Where the second copy of an instanced figure stands, from its node; from the origin with a skin.
+extern const float figure_instance[3];
+
 // How deltas of targets are stored.
 typedef enum figure_deltas {
     FIGURE_FLOATS,
@@ -38,6 +44,8 @@ typedef struct figure_kind {
     bool mirrors;              // a joint mirrors
     bool flattens;             // all joints stand under a scale of (1, 1, 0)
     bool hides_mesh_node;      // by a scale of 0, which skins do not heed
+    bool joints_outside;       // the scene shows the mesh's node alone
+    bool instanced;            // a second copy stands at figure_instance
     uint64_t seed;
 } figure_kind;
 
