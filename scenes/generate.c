@@ -27,6 +27,7 @@ static const struct {
     {"clockwork", build_clockwork},
     {"shot", build_shot},
     {"water", build_water},
+    {"worm", build_worm},
 };
 
 static glint_status write_scenes(const char *folder, glint_error *error)

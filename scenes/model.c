@@ -1,12 +1,17 @@
 // A scene before it is written. See model.h.
 #include "model.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 void model_free(model *scene)
 {
     for (int i = 0; i < scene->geometry_count; i++) {
         mesh_free(&scene->geometries[i].mesh);
+        flesh *f = &scene->geometries[i].flesh;
+        free(f->bulge);
+        free(f->normal_bulge);
+        free(f->weights);
     }
     *scene = (model){0};
 }
@@ -38,7 +43,8 @@ int model_add_material(model *scene, const material *m)
 static node *add_node(model *scene, const char *name)
 {
     node *added = &scene->nodes[next_index(scene, &scene->node_count)];
-    *added = (node){.name = name, .geometry = -1, .camera = -1, .rotation = {0, 0, 0, 1}};
+    *added =
+        (node){.name = name, .geometry = -1, .camera = -1, .rotation = {0, 0, 0, 1}, .parent = -1};
     return added;
 }
 
@@ -47,6 +53,14 @@ static void move(node *n, glint_vec3 position)
     n->translation[0] = position.x;
     n->translation[1] = position.y;
     n->translation[2] = position.z;
+}
+
+node *model_add_joint(model *scene, const char *name, int parent, glint_vec3 position)
+{
+    node *added = add_node(scene, name);
+    added->parent = parent;
+    move(added, position);
+    return added;
 }
 
 node *model_add_object(model *scene, const char *name, int material_index, glint_vec3 position)
@@ -74,11 +88,16 @@ motion *model_add_motion(model *scene, const node *moved, const char *path,
     return added;
 }
 
+int motion_components(const motion *m)
+{
+    return strcmp(m->path, "rotation") == 0 ? 4 : strcmp(m->path, "weights") == 0 ? 1 : 3;
+}
+
 void motion_add_key(motion *m, double seconds, const double *value)
 {
     const int last = m->key_count < MOTION_KEYS ? m->key_count++ : MOTION_KEYS - 1;
     m->times[last] = seconds;
-    memcpy(m->values[last], value, (strcmp(m->path, "rotation") == 0 ? 4 : 3) * sizeof *value);
+    memcpy(m->values[last], value, (size_t)motion_components(m) * sizeof *value);
 }
 
 static void add_camera(model *scene, const camera *c, glint_vec3 eye, glint_vec3 target)

@@ -33,7 +33,18 @@ typedef struct node {
     double translation[3];
     double rotation[4];
     double scale; // 0 means 1
+    int parent;   // a node; −1: none
 } node;
+
+// What deforms a geometry's vertices: one morph target, and joints. Zero is none. Freed with the
+// model.
+#define FLESH_JOINTS 4
+typedef struct flesh {
+    glint_vec3 *bulge, *normal_bulge; // [vertex_count]: what the target adds
+    double (*weights)[FLESH_JOINTS];  // [vertex_count], with a sum of 1
+    int joints[FLESH_JOINTS];         // nodes that neither turn nor scale at rest
+    glint_vec3 rest[FLESH_JOINTS];    // where the joints stand then, in the geometry's space
+} flesh;
 
 typedef struct camera {
     const char *name;
@@ -48,7 +59,7 @@ typedef struct camera {
 #define MOTION_KEYS 16
 typedef struct motion {
     int node;
-    const char *path;          // "translation", "rotation" or "scale"
+    const char *path;          // "translation", "rotation", "scale" or "weights" (of one target)
     const char *interpolation; // "LINEAR", "STEP" or "CUBICSPLINE"
     int key_count;
     double times[MOTION_KEYS]; // seconds, ascending
@@ -64,6 +75,7 @@ typedef struct model {
     struct {
         const char *name;
         mesh mesh;
+        flesh flesh;
     } geometries[MODEL_CAPACITY];
     material materials[MODEL_CAPACITY];
     node nodes[MODEL_CAPACITY];
@@ -78,6 +90,9 @@ void model_free(model *scene);
 // A new empty mesh; its index is geometry_count − 1. The pointer stays valid.
 mesh *model_add_geometry(model *scene, const char *name);
 int model_add_material(model *scene, const material *m);
+
+// An empty node under a parent (−1: none), moved to (x, y, z) from there.
+node *model_add_joint(model *scene, const char *name, int parent, glint_vec3 position);
 
 // A node that shows the newest geometry in a material, moved to (x, y, z).
 node *model_add_object(model *scene, const char *name, int material_index, glint_vec3 position);
@@ -95,7 +110,10 @@ void model_add_orthographic(model *scene, const char *name, double ymag, glint_v
 // A motion of a node, without keys.
 motion *model_add_motion(model *scene, const node *moved, const char *path,
                          const char *interpolation);
-// A key; the tangent is 0. `value` has 3 numbers, or 4 of a rotation.
+// How many numbers a value has: 4 of a rotation, 1 of weights, else 3.
+int motion_components(const motion *m);
+
+// A key; the tangent is 0.
 void motion_add_key(motion *m, double seconds, const double *value);
 
 material material_metal(const char *name, double r, double g, double b);

@@ -28,6 +28,9 @@ void build_water(model *scene);
 void build_clockwork(model *scene);
 void build_shot(model *scene);
 
+// A figure that bends and bulges (figures.c).
+void build_worm(model *scene);
+
 // The labelled axis environment, 1024 × 512, lat-long (axes_map.c).
 glint_status draw_axes_map(glint_image *image, glint_error *error);
 

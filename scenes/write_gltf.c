@@ -12,7 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COMPONENT_UINT16 = 5123, COMPONENT_UINT32 = 5125, COMPONENT_FLOAT = 5126 };
+enum {
+    COMPONENT_UINT8 = 5121,
+    COMPONENT_UINT16 = 5123,
+    COMPONENT_UINT32 = 5125,
+    COMPONENT_FLOAT = 5126
+};
 enum { TARGET_VERTICES = 34962, TARGET_INDICES = 34963 };
 
 typedef struct gltf_writer {
@@ -22,6 +27,11 @@ typedef struct gltf_writer {
     json_t *views, *accessors, *meshes, *channels, *samplers;
     // The accessors of each geometry; −1: none.
     int position[MODEL_CAPACITY], normal[MODEL_CAPACITY], index[MODEL_CAPACITY];
+    // Those of what deforms it; −1: none.
+    struct {
+        int bulge, normal_bulge, joints, weights, inverse_bind, skin;
+    } flesh[MODEL_CAPACITY];
+    int skin_count;
     int mesh_of[MODEL_CAPACITY][MODEL_CAPACITY]; // [geometry][material]: mesh, −1: not yet
 } gltf_writer;
 
@@ -130,12 +140,11 @@ static int write_positions(gltf_writer *w, const mesh *m)
     return add_accessor(w, start, positions, TARGET_VERTICES);
 }
 
-static int write_normals(gltf_writer *w, const mesh *m)
+static int write_vectors(gltf_writer *w, const glint_vec3 *vectors, size_t count)
 {
     size_t start = w->offset;
-    put_vectors(w, m->normals, m->vertex_count);
-    return add_accessor(w, start, accessor(COMPONENT_FLOAT, m->vertex_count, "VEC3"),
-                        TARGET_VERTICES);
+    put_vectors(w, vectors, count);
+    return add_accessor(w, start, accessor(COMPONENT_FLOAT, count, "VEC3"), TARGET_VERTICES);
 }
 
 static int write_indices(gltf_writer *w, const mesh *m)
@@ -153,13 +162,64 @@ static int write_indices(gltf_writer *w, const mesh *m)
     return added;
 }
 
+// A joint without weight is written as 0.
+static int write_joints(gltf_writer *w, const flesh *f, size_t count)
+{
+    size_t start = w->offset;
+    for (size_t i = 0; i < count; i++) {
+        for (uint32_t k = 0; k < FLESH_JOINTS; k++) {
+            put_bytes(w, f->weights[i][k] > 0 ? k : 0, 1);
+        }
+    }
+    return add_accessor(w, start, accessor(COMPONENT_UINT8, count, "VEC4"), TARGET_VERTICES);
+}
+
+static int write_weights(gltf_writer *w, const flesh *f, size_t count)
+{
+    size_t start = w->offset;
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < FLESH_JOINTS; k++) {
+            put_float(w, f->weights[i][k]);
+        }
+    }
+    return add_accessor(w, start, accessor(COMPONENT_FLOAT, count, "VEC4"), TARGET_VERTICES);
+}
+
+// Column by column. Joints at rest only stand elsewhere.
+static int write_inverse_bind(gltf_writer *w, const flesh *f)
+{
+    size_t start = w->offset;
+    for (int joint = 0; joint < FLESH_JOINTS; joint++) {
+        const glint_vec3 rest = f->rest[joint];
+        const double back[4] = {0 - rest.x, 0 - rest.y, 0 - rest.z, 1}; // never −0
+        for (int i = 0; i < 16; i++) {
+            put_float(w, i >= 12 ? back[i - 12] : i % 5 == 0);
+        }
+    }
+    return add_accessor(w, start, accessor(COMPONENT_FLOAT, FLESH_JOINTS, "MAT4"), 0);
+}
+
+static void write_flesh(gltf_writer *w, int geometry)
+{
+    const flesh *f = &w->scene->geometries[geometry].flesh;
+    const size_t count = w->scene->geometries[geometry].mesh.vertex_count;
+    const bool bulges = f->bulge != NULL, is_skinned = f->weights != NULL;
+    w->flesh[geometry].bulge = bulges ? write_vectors(w, f->bulge, count) : -1;
+    w->flesh[geometry].normal_bulge = bulges ? write_vectors(w, f->normal_bulge, count) : -1;
+    w->flesh[geometry].joints = is_skinned ? write_joints(w, f, count) : -1;
+    w->flesh[geometry].weights = is_skinned ? write_weights(w, f, count) : -1;
+    w->flesh[geometry].inverse_bind = is_skinned ? write_inverse_bind(w, f) : -1;
+    w->flesh[geometry].skin = is_skinned ? w->skin_count++ : -1;
+}
+
 static void write_geometries(gltf_writer *w)
 {
     for (int i = 0; i < w->scene->geometry_count; i++) {
         const mesh *m = &w->scene->geometries[i].mesh;
         w->position[i] = write_positions(w, m);
-        w->normal[i] = m->flat ? -1 : write_normals(w, m);
+        w->normal[i] = m->flat ? -1 : write_vectors(w, m->normals, m->vertex_count);
         w->index[i] = write_indices(w, m);
+        write_flesh(w, i);
     }
 }
 
@@ -187,8 +247,9 @@ static void put_values(gltf_writer *w, const double *values, int count)
 
 static int write_values(gltf_writer *w, const motion *m)
 {
+    static const char *const types[] = {NULL, "SCALAR", NULL, "VEC3", "VEC4"};
     const bool is_spline = strcmp(m->interpolation, "CUBICSPLINE") == 0;
-    const int count = strcmp(m->path, "rotation") == 0 ? 4 : 3;
+    const int count = motion_components(m);
     size_t start = w->offset;
     for (int i = 0; i < m->key_count; i++) {
         if (is_spline) {
@@ -200,8 +261,7 @@ static int write_values(gltf_writer *w, const motion *m)
         }
     }
     const size_t elements = (size_t)m->key_count * (is_spline ? 3 : 1);
-    return add_accessor(w, start, accessor(COMPONENT_FLOAT, elements, count == 4 ? "VEC4" : "VEC3"),
-                        0);
+    return add_accessor(w, start, accessor(COMPONENT_FLOAT, elements, types[count]), 0);
 }
 
 static void write_motions(gltf_writer *w)
@@ -295,8 +355,17 @@ static int find_or_add_mesh(gltf_writer *w, const node *n)
     if (w->normal[n->geometry] >= 0) {
         json_object_set_new(attributes, "NORMAL", json_integer(w->normal[n->geometry]));
     }
+    if (w->flesh[n->geometry].skin >= 0) {
+        json_object_set_new(attributes, "JOINTS_0", json_integer(w->flesh[n->geometry].joints));
+        json_object_set_new(attributes, "WEIGHTS_0", json_integer(w->flesh[n->geometry].weights));
+    }
     json_t *primitive = json_pack("{s:o, s:i, s:i}", "attributes", attributes, "indices",
                                   w->index[n->geometry], "material", n->material);
+    if (w->flesh[n->geometry].bulge >= 0) {
+        json_object_set_new(primitive, "targets",
+                            json_pack("[{s:i, s:i}]", "POSITION", w->flesh[n->geometry].bulge,
+                                      "NORMAL", w->flesh[n->geometry].normal_bulge));
+    }
     *found = (int)json_array_size(w->meshes);
     json_array_append_new(w->meshes,
                           json_pack("{s:s, s:[o]}", "name", w->scene->geometries[n->geometry].name,
@@ -304,11 +373,25 @@ static int find_or_add_mesh(gltf_writer *w, const node *n)
     return *found;
 }
 
+static json_t *children_of(const model *scene, int parent)
+{
+    json_t *children = json_array();
+    for (int i = 0; i < scene->node_count; i++) {
+        if (scene->nodes[i].parent == parent) {
+            json_array_append_new(children, json_integer(i));
+        }
+    }
+    return children;
+}
+
 static json_t *node_to_json(gltf_writer *w, const node *n)
 {
     json_t *object = json_pack("{s:s}", "name", n->name);
     if (n->geometry >= 0) {
         json_object_set_new(object, "mesh", json_integer(find_or_add_mesh(w, n)));
+        if (w->flesh[n->geometry].skin >= 0) {
+            json_object_set_new(object, "skin", json_integer(w->flesh[n->geometry].skin));
+        }
     }
     if (n->camera >= 0) {
         json_object_set_new(object, "camera", json_integer(n->camera));
@@ -321,7 +404,30 @@ static json_t *node_to_json(gltf_writer *w, const node *n)
         json_object_set_new(object, "scale",
                             numbers((const double[3]){n->scale, n->scale, n->scale}, 3));
     }
+    json_t *children = children_of(w->scene, (int)(n - w->scene->nodes));
+    if (json_array_size(children) > 0) {
+        json_object_set(object, "children", children);
+    }
+    json_decref(children);
     return object;
+}
+
+static json_t *skins_to_json(const gltf_writer *w)
+{
+    json_t *skins = json_array();
+    for (int i = 0; i < w->scene->geometry_count; i++) {
+        if (w->flesh[i].skin >= 0) {
+            json_t *joints = json_array();
+            for (int k = 0; k < FLESH_JOINTS; k++) {
+                json_array_append_new(joints,
+                                      json_integer(w->scene->geometries[i].flesh.joints[k]));
+            }
+            json_array_append_new(skins,
+                                  json_pack("{s:o, s:i}", "joints", joints, "inverseBindMatrices",
+                                            w->flesh[i].inverse_bind));
+        }
+    }
+    return skins;
 }
 
 // znear and zfar have to be there for validity; they do not clip.
@@ -352,13 +458,12 @@ static json_t *scene_to_json(gltf_writer *w)
     json_t *materials = json_array();
     json_t *nodes = json_array();
     json_t *cameras = json_array();
-    json_t *roots = json_array();
+    json_t *roots = children_of(scene, -1);
     for (int i = 0; i < scene->material_count; i++) {
         json_array_append_new(materials, material_to_json(&scene->materials[i], used));
     }
     for (int i = 0; i < scene->node_count; i++) {
         json_array_append_new(nodes, node_to_json(w, &scene->nodes[i]));
-        json_array_append_new(roots, json_integer(i));
     }
     for (int i = 0; i < scene->camera_count; i++) {
         json_array_append_new(cameras, camera_to_json(&scene->cameras[i]));
@@ -385,6 +490,9 @@ static json_t *scene_to_json(gltf_writer *w)
     json_object_set(file, "meshes", w->meshes);
     json_object_set(file, "accessors", w->accessors);
     json_object_set(file, "bufferViews", w->views);
+    if (w->skin_count > 0) {
+        json_object_set_new(file, "skins", skins_to_json(w));
+    }
     if (scene->motion_count > 0) {
         json_object_set_new(file, "animations",
                             json_pack("[{s:s, s:O, s:O}]", "name", scene->clip, "channels",
