@@ -206,8 +206,8 @@ static const bad_case cases[] = {
     {MATERIAL("\"extensions\":{\"KHR_materials_unlit\":true}"),
      "KHR_materials_unlit: true stands where an object must stand"},
     // Extensions, images, textures, skins.
-    {GOOD ",\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
-     "\"KHR_draco_mesh_compression\" is required by the file and not supported"},
+    {GOOD ",\"extensionsRequired\":[\"VENDOR_of_the_future\"]",
+     "\"VENDOR_of_the_future\" is required by the file and not supported"},
     {GOOD ",\"extensionsRequired\":\"KHR_materials_ior\"", "extensionsRequired: the text"},
     {GOOD ",\"images\":[{}]", "images[0]: neither a uri nor a bufferView"},
     {GOOD ",\"images\":[{\"uri\":\"http://example.org/a.png\"}]",

@@ -19,10 +19,13 @@ glint_status decode(const glint_decode_request &request, Memory &memory,
                     glint_decode_answer &answer, glint_error *error)
 {
     try {
+        if (request.is_mesh != 0) {
+            return decode_mesh(request, memory.file(), answer, error);
+        }
         return request.all_channels != 0 ? decode_channels(request, memory, answer, error)
                                          : decode_picture(request, memory, answer, error);
     } catch (const std::bad_alloc &) {
-        return glint_fail_memory(error, "an image");
+        return glint_fail_memory(error, request.is_mesh != 0 ? "a mesh" : "an image");
     } catch (const std::exception &fault) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", request.path,
                           fault.what());

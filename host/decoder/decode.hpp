@@ -19,6 +19,11 @@ class Memory
     Memory &operator=(const Memory &) = delete;
     ~Memory();
 
+    int file() const
+    {
+        return file_;
+    }
+
     // Makes it this large, and zero. Throws std::bad_alloc.
     std::uint8_t *grow(std::size_t bytes);
 
@@ -33,6 +38,10 @@ glint_status decode_picture(const glint_decode_request &request, Memory &memory,
                             glint_decode_answer &answer, glint_error *error);
 glint_status decode_channels(const glint_decode_request &request, Memory &memory,
                              glint_decode_answer &answer, glint_error *error);
+
+// The memory file `file` holds the job, and gets the results.
+glint_status decode_mesh(const glint_decode_request &request, int file, glint_decode_answer &answer,
+                         glint_error *error);
 
 // Refuses a picture that takes more than the request allows.
 glint_status check_cost(const glint_decode_request &request, std::int64_t width,

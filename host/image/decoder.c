@@ -241,21 +241,26 @@ static glint_status submit(const glint_decode_request *request, const int given[
 
 // ---- Answers ------------------------------------------------------------------------------------
 
+// What to do about a file that costs too much.
+static const char *way_out(const glint_decode_request *request)
+{
+    return request->is_mesh ? "export it without Draco" : "give --allow-large-images";
+}
+
 static glint_status fail_of_death(const glint_decode_request *request, int how, glint_error *error)
 {
     const int number = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
     if (number == SIGXCPU || number == SIGALRM) {
         return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: takes more than %" PRIu32 " s to decode (it is damaged; or give "
-                          "--allow-large-images)",
+                          "%s: takes more than %" PRIu32 " s to decode (it is damaged; or %s)",
                           request->path,
-                          number == SIGXCPU ? request->limits.cpu_seconds
-                                            : request->limits.seconds);
+                          number == SIGXCPU ? request->limits.cpu_seconds : request->limits.seconds,
+                          way_out(request));
     }
     return glint_fail(error, GLINT_BAD_INPUT,
                       "%s: the decoder failed on it: it is damaged or unusual (make the file "
-                      "anew, or convert it to EXR)",
-                      request->path);
+                      "anew, or %s)",
+                      request->path, request->is_mesh ? way_out(request) : "convert it to EXR");
 }
 
 static bool is_credible(const glint_decode_request *request, const glint_decode_answer *answer)
@@ -283,9 +288,8 @@ static glint_status take(const glint_decode_request *request, const glint_decode
             return glint_fail_memory(error, "an image");
         }
         return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: takes more than %" PRIu64 " MiB to decode (it is damaged; or give "
-                          "--allow-large-images)",
-                          request->path, request->limits.memory_bytes / MIB);
+                          "%s: takes more than %" PRIu64 " MiB to decode (it is damaged; or %s)",
+                          request->path, request->limits.memory_bytes / MIB, way_out(request));
     }
     if (answer->kind == GLINT_DECODED && answer->status != GLINT_OK) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s", answer->message);
@@ -293,7 +297,7 @@ static glint_status take(const glint_decode_request *request, const glint_decode
     if (answer->kind != GLINT_DECODED) {
         return fail_of_death(request, answer->status, error);
     }
-    if (!is_credible(request, answer)) {
+    if (!request->is_mesh && !is_credible(request, answer)) {
         return fail_of_death(request, 0, error);
     }
     stored->facts = answer->facts;
@@ -365,6 +369,24 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
     if (status != GLINT_OK) {
         glint_stored_free(stored);
     }
+    return status;
+}
+
+glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits *limits, int file,
+                                    uint64_t *index_bytes, glint_error *error)
+{
+    glint_stored stored = {.path = name, .file = file};
+    glint_decode_request *request = calloc(1, sizeof *request);
+    if (request == NULL) {
+        return glint_fail_memory(error, "a mesh");
+    }
+    snprintf(request->path, sizeof request->path, "%s", name);
+    request->is_mesh = 1;
+    request->limits = *limits;
+    request->threads = 1;
+    const glint_status status = ask(request, &stored, error);
+    *index_bytes = stored.value_bytes;
+    free(request);
     return status;
 }
 

@@ -8,6 +8,10 @@
 
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // What the decoder made of a file: values in a memory file, [height][width][channels] of code_bits,
 // or of float. It is read and not mapped: the decoder may still change it, or cut it off.
 typedef struct glint_stored {
@@ -31,6 +35,11 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
 // What a file of this size may cost, unless the limits are lifted.
 glint_decode_limits glint_decoder_limits(uint64_t file_bytes);
 
+// Decodes a mesh that stands in the memory file `file` (mesh_decoding.h). `name` stands for it in
+// messages. Sets the bytes of its indices, which the caller must not believe.
+glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits *limits, int file,
+                                    uint64_t *index_bytes, glint_error *error);
+
 void glint_stored_free(glint_stored *stored);
 
 // Reads so many bytes from `offset` on. Errors: GLINT_BAD_INPUT where the decoder has cut them off.
@@ -45,5 +54,9 @@ void glint_decoder_use_threads(int count);
 
 // Lifts the limits on what a file may cost (--allow-large-images).
 void glint_decoder_allow_large(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

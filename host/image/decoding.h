@@ -37,6 +37,7 @@ typedef struct glint_decode_request {
     uint64_t file_bytes; // the file's size
     glint_decode_limits limits;
     int32_t threads;      // 0: one for each core
+    int32_t is_mesh;      // a mesh of Draco's in the memory file (mesh_decoding.h), no image
     int32_t all_channels; // an EXR's channels by name, instead of a picture
 } glint_decode_request;
 

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 #include "scene/gltf_check.hpp"
+#include "scene/gltf_draco.hpp"
 #include "scene/gltf_flatten.hpp"
 #include "scene/gltf_material.hpp"
 #include "scene/gltf_meshopt.hpp"
@@ -184,6 +185,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     }
     read_buffers(load);
     unpack_views(load.model);
+    decode_draco(load.model);
     load.primitives = prepare_primitives(load.model, load.tally);
     load.skins = read_skins(load.model);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);

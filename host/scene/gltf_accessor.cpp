@@ -8,7 +8,7 @@ namespace glint
 
 const unsigned char Reader::zeros_[64] = {};
 
-static const unsigned char *view_data(const Model &model, std::size_t index)
+const unsigned char *view_data(const Model &model, std::size_t index)
 {
     const tinygltf::BufferView &view = model.bufferViews[index];
     return model.buffers[static_cast<std::size_t>(view.buffer)].data.data() + view.byteOffset;

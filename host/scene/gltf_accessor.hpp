@@ -10,6 +10,9 @@
 namespace glint
 {
 
+// The bytes of a view. Its buffer was read.
+const unsigned char *view_data(const Model &model, std::size_t view);
+
 // Random access to an accessor, in place: nothing is copied, so a scene's size bounds the memory
 // whatever a count says. Zero is valid and reads zeros. The model must outlive it.
 class Reader

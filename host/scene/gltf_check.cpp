@@ -51,6 +51,7 @@ void check_extensions(const json &root, Model &model)
                                     "the file without it)");
         }
         model.quantized = model.quantized || name == "KHR_mesh_quantization";
+        model.requires_draco = model.requires_draco || name == "KHR_draco_mesh_compression";
     }
     const json &used = optional_array(root, Place(), "extensionsUsed");
     for (std::size_t i = 0; i < used.size(); i++) {
@@ -100,6 +101,7 @@ void check_document(const Document &document, Model &model)
     check_materials(document.root);
     check_variants(document.root, model);
     check_meshes(document.root, model);
+    check_zeros(model);
     check_graph(document.root, model);
     check_animations(document.root, model);
 }

@@ -2,6 +2,7 @@
 // hold is checked when it is read (gltf_primitive.cpp). See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_check_storage.hpp"
+#include "scene/gltf_draco.hpp"
 #include "scene/gltf_morph.hpp"
 #include "scene/gltf_skin.hpp"
 #include "scene/gltf_variants.hpp"
@@ -108,6 +109,7 @@ void check_meshes(const json &root, Model &model)
         for (std::size_t p = 0; p < primitives.size(); p++) {
             const Place at = (place / "primitives")[p];
             mesh.primitives.push_back(check_primitive(root, primitives[p], at, model));
+            check_draco(primitives[p], at, model);
             VariantMaterials mapped = check_variant_mappings(root, primitives[p], at, model);
             if (!mapped.empty()) {
                 model.mapped.push_back({i, p, std::move(mapped)});

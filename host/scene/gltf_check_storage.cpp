@@ -301,10 +301,6 @@ void check_accessor(const json &source, const Place &place, Model &model)
         }
         check_range(model, at, place / "count",
                     {accessor.byteOffset, accessor.count, size, stride});
-    } else if (accessor.count > most_zeros) {
-        refuse(place / "count", std::to_string(accessor.count) +
-                                    " zeros: an accessor without a bufferView holds nothing else "
-                                    "(give it a bufferView)");
     }
     check_sparse(source, place, model, size, accessor);
     model.accessors.push_back(std::move(accessor));
@@ -329,6 +325,20 @@ void check_format(const tinygltf::Accessor &accessor, const Place &place, const 
         refuse(place, "the accessor holds " + std::string(type_name(accessor.type)) +
                           " of component type " + std::to_string(component) +
                           (normalized ? ", normalized" : "") + " (it must be " + wanted + ")");
+    }
+}
+
+void check_zeros(const Model &model)
+{
+    for (std::size_t i = 0; i < model.accessors.size(); i++) {
+        const tinygltf::Accessor &accessor = model.accessors[i];
+        if (accessor.bufferView < 0 && accessor.count > most_zeros &&
+            model.filled_accessors.count(i) == 0) {
+            refuse((Place() / "accessors")[i] / "count",
+                   std::to_string(accessor.count) +
+                       " zeros: an accessor without a bufferView holds nothing else (give it a "
+                       "bufferView)");
+        }
     }
 }
 

@@ -11,6 +11,9 @@ namespace glint
 // Fills the model's views and accessors. Reads no buffer.
 void check_storage(const Document &document, Model &model);
 
+// Refuses many zeros: accessors without data that nothing fills. The meshes were checked.
+void check_zeros(const Model &model);
+
 // A vertex attribute, index or instance attribute must be of one of these.
 struct Format {
     int type;                   // TINYGLTF_TYPE_VEC3

@@ -32,8 +32,7 @@ constexpr std::array<Extension, 13> extensions = {{
     {"KHR_lights_punctual", Holder::node, false,
      "lights are not modelled, the environment alone gives light"},
     {"KHR_materials_variants", Holder::primitive, true, nullptr},
-    // Draco's data repeats what the accessors hold, where it is not required.
-    {"KHR_draco_mesh_compression", Holder::primitive, false, nullptr},
+    {"KHR_draco_mesh_compression", Holder::primitive, true, nullptr},
 }};
 
 const char *shown_without(Holder holder)

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <fstream> // which tinygltf leaves out without its file functions, and uses all the same
 #include <map>
+#include <set>
 #include <string>
 #include <tiny_gltf.h>
 #include <vector>
@@ -39,6 +40,12 @@ struct PackedView {
     PackedFilter filter = PackedFilter::none;
 };
 
+// A primitive that Draco packed (gltf_draco.hpp), and the ids of its attributes there.
+struct DracoPrimitive {
+    std::size_t mesh = 0, number = 0, view = 0;
+    std::vector<std::pair<std::string, std::uint32_t>> attributes;
+};
+
 // The checks fill it, each object where it is checked (gltf_check*.cpp), with what the loader reads
 // of it. So no value can be read that nobody has checked. An index of −1 refers to nothing; an
 // accessor whose bufferView is −1 holds zeros. Where the file is in order tinygltf's own loader
@@ -48,6 +55,9 @@ struct Model : tinygltf::Model {
     bool quantized = false;   // KHR_mesh_quantization is declared
     std::vector<int> parents; // of each node; −1: a root
     std::vector<PackedView> packed;
+    bool requires_draco = false;
+    std::vector<DracoPrimitive> draco;
+    std::set<std::size_t> filled_accessors; // by Draco
     std::vector<bool> is_read;         // of each buffer; false: a placeholder for what views unpack
     std::vector<std::string> variants; // the names of the file's variants of materials
     std::ptrdiff_t variant = -1;       // the chosen one; −1: the plain materials

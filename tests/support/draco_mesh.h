@@ -1,0 +1,30 @@
+// Meshes packed by Draco's own encoder, for tests.
+#ifndef GLINT_TESTS_SUPPORT_DRACO_MESH_H
+#define GLINT_TESTS_SUPPORT_DRACO_MESH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct draco_mesh {
+    size_t vertices, triangles;
+    const float *positions;  // [vertices][3], Draco's attribute 0
+    const float *normals;    // [vertices][3], attribute 1
+    const uint8_t *colors;   // [vertices][4], normalised, attribute 2
+    const uint32_t *indices; // [triangles][3]
+    bool edgebreaker;        // vertices and triangles may change their order
+    int bits;                // of positions and normals; 0: they keep every bit
+} draco_mesh;
+
+// The packed bytes, which the caller frees.
+unsigned char *draco_pack(const draco_mesh *mesh, size_t *size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
