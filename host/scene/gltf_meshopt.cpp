@@ -1,7 +1,7 @@
 // Views packed by meshoptimizer. See gltf_meshopt.hpp.
 //
 // The library decodes in glint's own process: it knows where input and output end, and fuzzing with
-// guard pages found no access beyond (tests/fuzz). Nothing is allocated that the packed bytes
+// guard pages found no access beyond. Nothing is allocated that the packed bytes
 // cannot hold: the format needs a bit for four bytes of a vertex, or a byte for an index or a
 // triangle.
 #include "scene/gltf_meshopt.hpp"
