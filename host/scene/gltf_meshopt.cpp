@@ -1,9 +1,8 @@
 // Views packed by meshoptimizer. See gltf_meshopt.hpp.
 //
 // The library decodes in glint's own process: it knows where input and output end, and fuzzing with
-// guard pages found no access beyond. Nothing is allocated that the packed bytes
-// cannot hold: the format needs a bit for four bytes of a vertex, or a byte for an index or a
-// triangle.
+// guard pages found no access beyond. Nothing is allocated that the packed bytes cannot hold: the
+// format needs a bit for eight bytes of a vertex, or a byte for an index or a triangle.
 #include "scene/gltf_meshopt.hpp"
 
 #include "base/free_memory.h"
