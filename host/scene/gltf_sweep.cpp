@@ -18,9 +18,9 @@ namespace
 constexpr int sweep_steps = 64;
 constexpr std::size_t most_sweep_keys = 4096;
 
-// Deforming takes longer. So many vertices over all times take about a second, and large meshes
-// are looked at less often.
-constexpr std::size_t most_deformed_vertices = std::size_t{1} << 25;
+// Deforming takes longer, about 120 ns a vertex of four joints. So many vertices over all times
+// take two seconds of one core; meshes of more are looked at less often.
+constexpr std::size_t most_deformed_vertices = std::size_t{1} << 24;
 constexpr std::size_t fewest_deformed_times = 17;
 
 std::vector<double> sweep_times(const Clips &clips)
