@@ -58,7 +58,7 @@ glint_status glint::decode_channels(const glint_decode_request &request, Memory 
     if (input == nullptr) {
         return refuse(request, "OpenImageIO was built without OpenEXR", error);
     }
-    if (!input->open(request.path, spec)) {
+    if (!input->open(opened_path(request), spec)) {
         (void)input->geterror();
         return refuse(request, "is no EXR that can be read (check the name, or render it anew)",
                       error);

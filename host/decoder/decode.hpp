@@ -6,9 +6,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace glint
 {
+
+// What is opened: the path, or the image in memory.
+inline std::string opened_path(const glint_decode_request &request)
+{
+    return request.file < 0 ? request.path : "/proc/self/fd/" + std::to_string(request.file);
+}
 
 // The memory file into which values go. Owns its mapping.
 class Memory

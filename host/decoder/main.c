@@ -47,38 +47,48 @@ static void say_death(int socket, int how)
 
 // ---- A child ------------------------------------------------------------------------------------
 
-_Noreturn static void be_child(const glint_decode_request *request, int socket, int memory)
+// The descriptors of a request: a socket for the answer, a file for the values, the image.
+typedef struct descriptors {
+    int socket, memory, image; // image −1: a path is read
+} descriptors;
+
+_Noreturn static void be_child(const glint_decode_request *request, const descriptors *given)
 {
     static glint_decode_answer answer;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     close(GLINT_DECODER_SOCKET);
     (void)glint_sandbox_enter();
     glint_sandbox_limit(&request->limits, request->threads);
-    glint_decode(request, memory, &answer);
-    send_answer(socket, &answer);
+    glint_decode(request, given->memory, &answer);
+    send_answer(given->socket, &answer);
     _exit(0); // without the handlers of libraries that may be broken
 }
 
 // ---- Requests -----------------------------------------------------------------------------------
 
-// The two descriptors that came with a request; false where there are none.
-static bool find_descriptors(struct msghdr *message, int given[2])
+// The descriptors that came with a request; false where there are none.
+static bool find_descriptors(struct msghdr *message, descriptors *given)
 {
     const struct cmsghdr *rights = CMSG_FIRSTHDR(message);
     if (rights == NULL || rights->cmsg_level != SOL_SOCKET || rights->cmsg_type != SCM_RIGHTS ||
-        rights->cmsg_len != CMSG_LEN(2 * sizeof(int))) {
+        (rights->cmsg_len != CMSG_LEN(2 * sizeof(int)) &&
+         rights->cmsg_len != CMSG_LEN(GLINT_DECODE_DESCRIPTORS * sizeof(int)))) {
         return false;
     }
-    memcpy(given, CMSG_DATA(rights), 2 * sizeof(int));
+    int files[GLINT_DECODE_DESCRIPTORS] = {-1, -1, -1};
+    memcpy(files, CMSG_DATA(rights), rights->cmsg_len - CMSG_LEN(0));
+    given->socket = files[0];
+    given->memory = files[1];
+    given->image = files[2];
     return true;
 }
 
 // False once glint has ended.
-static bool receive_request(glint_decode_request *request, int given[2])
+static bool receive_request(glint_decode_request *request, descriptors *given)
 {
     union {
         struct cmsghdr header;
-        char bytes[CMSG_SPACE(2 * sizeof(int))];
+        char bytes[CMSG_SPACE(GLINT_DECODE_DESCRIPTORS * sizeof(int))];
     } control;
     struct iovec packet = {request, sizeof *request};
     struct msghdr message = {.msg_iov = &packet,
@@ -89,7 +99,11 @@ static bool receive_request(glint_decode_request *request, int given[2])
     do {
         length = recvmsg(GLINT_DECODER_SOCKET, &message, MSG_CMSG_CLOEXEC);
     } while (length < 0 && errno == EINTR);
-    return length == (ssize_t)sizeof *request && find_descriptors(&message, given);
+    if (length != (ssize_t)sizeof *request || !find_descriptors(&message, given)) {
+        return false;
+    }
+    request->file = given->image;
+    return true;
 }
 
 static bool remember(pid_t process, int socket)
@@ -107,21 +121,24 @@ static bool remember(pid_t process, int socket)
     return true;
 }
 
-static void begin(const glint_decode_request *request, const int given[2])
+static void begin(const glint_decode_request *request, const descriptors *given)
 {
     const pid_t process = fork();
     if (process == 0) {
-        be_child(request, given[0], given[1]);
+        be_child(request, given);
     }
-    close(given[1]);
+    close(given->memory);
+    if (given->image >= 0) {
+        close(given->image);
+    }
     if (process < 0) {
         glint_decode_answer refusal = {.kind = GLINT_DECODED, .status = GLINT_BAD_INPUT};
         snprintf(refusal.message, sizeof refusal.message, "%.800s: no process to decode it: %s",
                  request->path, strerror(errno));
-        send_answer(given[0], &refusal);
-        close(given[0]);
-    } else if (!remember(process, given[0])) {
-        close(given[0]); // the child has it, too
+        send_answer(given->socket, &refusal);
+        close(given->socket);
+    } else if (!remember(process, given->socket)) {
+        close(given->socket); // the child has it, too
     }
 }
 
@@ -170,11 +187,11 @@ int main(void)
             bury_all(signals);
         }
         if (waited[0].revents != 0) {
-            int given[2];
-            if (!receive_request(&request, given)) {
+            descriptors given;
+            if (!receive_request(&request, &given)) {
                 _exit(0); // children end with this process
             }
-            begin(&request, given);
+            begin(&request, &given);
         }
     }
 }

@@ -30,11 +30,12 @@ namespace
 {
 
 // The first line of what OpenImageIO says, without the file's name, which our message names.
-std::string cause_of(ImageInput &input, const char *path)
+std::string cause_of(ImageInput &input, const glint_decode_request &request)
 {
+    const std::string path = opened_path(request);
     std::string text = input.geterror();
     text.resize(std::min(text.size(), text.find('\n')));
-    for (const std::string &lead : {"\"" + std::string(path) + "\"", std::string(path)}) {
+    for (const std::string &lead : {"\"" + path + "\"", path}) {
         std::size_t at = text.find(lead);
         if (at != std::string::npos) {
             text.replace(at, lead.size(), "the file");
@@ -391,7 +392,7 @@ glint_status decode_part(const glint_decode_request &request, ImageInput &input,
     answer.value_bytes = bytes_of(facts);
     if (!is_read) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
-                          cause_of(input, path).c_str());
+                          cause_of(input, request).c_str());
     }
     return GLINT_OK;
 }
@@ -420,7 +421,7 @@ bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
 glint_status check_jpeg(const glint_decode_request &request, glint_error *error)
 {
     std::vector<unsigned char> bytes(request.file_bytes);
-    std::FILE *file = std::fopen(request.path, "rbe");
+    std::FILE *file = std::fopen(opened_path(request).c_str(), "rbe");
     std::size_t length = file != nullptr ? std::fread(bytes.data(), 1, bytes.size(), file) : 0;
     if (file != nullptr) {
         std::fclose(file);
@@ -451,9 +452,9 @@ glint_status decode_picture(const glint_decode_request &request, Memory &memory,
     ImageSpec spec, wishes;
     // Colour and alpha as stored: premultiplying comes after linearising.
     wishes.attribute("oiio:UnassociatedAlpha", 1);
-    if (!input->open(path, spec, wishes)) {
+    if (!input->open(opened_path(request), spec, wishes)) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
-                          cause_of(*input, path).c_str());
+                          cause_of(*input, request).c_str());
     }
     const glint_status status = decode_part(request, *input, memory, answer, error);
     input->close();

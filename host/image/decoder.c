@@ -199,23 +199,30 @@ static glint_status await_ready(glint_error *error)
                       WIFEXITED(how) ? WEXITSTATUS(how) : -1);
 }
 
-// Sends the request and the two descriptors as one packet.
-static bool send_request(int socket, const glint_decode_request *request, const int given[2])
+// The descriptors that go with a request.
+typedef struct descriptors {
+    int files[GLINT_DECODE_DESCRIPTORS];
+    size_t count;
+} descriptors;
+
+// Sends the request and its descriptors as one packet.
+static bool send_request(int socket, const glint_decode_request *request, const descriptors *given)
 {
+    const size_t length = given->count * sizeof(int);
     union {
         struct cmsghdr header;
-        char bytes[CMSG_SPACE(2 * sizeof(int))];
+        char bytes[CMSG_SPACE(GLINT_DECODE_DESCRIPTORS * sizeof(int))];
     } control = {0};
     struct iovec packet = {(void *)request, sizeof *request};
     struct msghdr message = {.msg_iov = &packet,
                              .msg_iovlen = 1,
                              .msg_control = &control,
-                             .msg_controllen = sizeof control};
+                             .msg_controllen = CMSG_SPACE(length)};
     struct cmsghdr *rights = CMSG_FIRSTHDR(&message);
     rights->cmsg_level = SOL_SOCKET;
     rights->cmsg_type = SCM_RIGHTS;
-    rights->cmsg_len = CMSG_LEN(2 * sizeof(int));
-    memcpy(CMSG_DATA(rights), given, 2 * sizeof(int));
+    rights->cmsg_len = CMSG_LEN(length);
+    memcpy(CMSG_DATA(rights), given->files, length);
     ssize_t sent;
     do {
         sent = sendmsg(socket, &message, MSG_NOSIGNAL);
@@ -224,7 +231,7 @@ static bool send_request(int socket, const glint_decode_request *request, const 
 }
 
 // Under the lock. A decoder that is gone is started once more.
-static glint_status submit(const glint_decode_request *request, const int given[2],
+static glint_status submit(const glint_decode_request *request, const descriptors *given,
                            glint_error *error)
 {
     for (int attempt = 0; attempt < 2; attempt++) {
@@ -306,7 +313,8 @@ static glint_status take(const glint_decode_request *request, const glint_decode
     return GLINT_OK;
 }
 
-static glint_status ask(const glint_decode_request *request, glint_stored *stored,
+// `image` is a file with the image's bytes; −1: the decoder opens the path.
+static glint_status ask(const glint_decode_request *request, int image, glint_stored *stored,
                         glint_error *error)
 {
     int ends[2];
@@ -315,7 +323,8 @@ static glint_status ask(const glint_decode_request *request, glint_stored *store
                           request->path, strerror(errno));
     }
     pthread_mutex_lock(&decoder.lock);
-    glint_status status = submit(request, (const int[]){ends[1], stored->file}, error);
+    const descriptors given = {{ends[1], stored->file, image}, image < 0 ? 2 : 3};
+    glint_status status = submit(request, &given, error);
     pthread_mutex_unlock(&decoder.lock);
     close(ends[1]);
     glint_decode_answer *answer = malloc(sizeof *answer);
@@ -334,6 +343,30 @@ static glint_status ask(const glint_decode_request *request, glint_stored *store
 
 // ---- For callers --------------------------------------------------------------------------------
 
+static bool write_all(int file, const char *bytes, size_t count)
+{
+    while (count > 0) {
+        const ssize_t written = write(file, bytes, count);
+        if (written < 0 && errno != EINTR) {
+            return false;
+        }
+        bytes += written > 0 ? written : 0;
+        count -= written > 0 ? (size_t)written : 0;
+    }
+    return true;
+}
+
+// A file with the bytes of an image in memory; −1 where there is none to be had.
+static int open_bytes(const glint_image_source *source)
+{
+    const int file = memfd_create("glint image", MFD_CLOEXEC);
+    if (file >= 0 && !write_all(file, source->bytes, (size_t)source->size)) {
+        close(file);
+        return -1;
+    }
+    return file;
+}
+
 static glint_status run(glint_decode_request *request, const glint_image_source *source,
                         glint_stored *stored, glint_error *error)
 {
@@ -345,12 +378,17 @@ static glint_status run(glint_decode_request *request, const glint_image_source 
     request->file_bytes = source->size;
     request->threads = atomic_load(&threads_each);
     stored->file = memfd_create("glint picture", MFD_CLOEXEC);
-    if (stored->file < 0) {
+    const int image = source->bytes != NULL ? open_bytes(source) : -1;
+    if (stored->file < 0 || (source->bytes != NULL && image < 0)) {
         return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: no memory file to decode into: %s (try again)", source->path,
+                          "%s: no memory file to decode it with: %s (try again)", source->path,
                           strerror(errno));
     }
-    return ask(request, stored, error);
+    const glint_status status = ask(request, image, stored, error);
+    if (image >= 0) {
+        close(image);
+    }
+    return status;
 }
 
 glint_status glint_decoder_run_within(const glint_image_source *source, bool all_channels,

@@ -4,8 +4,9 @@
 //
 // glint starts the decoder once, and talks to it over a socket of packets. The decoder forks a
 // child for each file: no child has seen another file. With each request glint sends two
-// descriptors: a socket for the answer, and a memory file. The child puts the values into the
-// memory file, and answers. If the child dies, the decoder says how.
+// descriptors: a socket for the answer, and a memory file. A third is sent if the image lies in
+// memory: a file with its bytes. The child puts the values into the memory file, and answers. If
+// the child dies, the decoder says how.
 #ifndef GLINT_IMAGE_DECODING_H
 #define GLINT_IMAGE_DECODING_H
 
@@ -20,6 +21,7 @@ extern "C" {
 
 #define GLINT_DECODER_SOCKET 3 // the decoder's descriptor of the socket to glint
 #define GLINT_DECODE_PATH 4096
+#define GLINT_DECODE_DESCRIPTORS 3 // sent with a request, at most
 #define GLINT_PICTURE_CHANNELS_MAX 4096
 #define GLINT_DECODE_NAMES_MAX (UINT64_C(16) << 20) // bytes of channels' names
 
@@ -32,10 +34,11 @@ typedef struct glint_decode_limits {
 } glint_decode_limits;
 
 typedef struct glint_decode_request {
-    char path[GLINT_DECODE_PATH];
-    char plugin[16];     // OpenImageIO's name of the format
-    uint64_t file_bytes; // the file's size
+    char path[GLINT_DECODE_PATH]; // of an image in memory: its name for messages
+    char plugin[16];              // OpenImageIO's name of the format
+    uint64_t file_bytes;          // the file's size
     glint_decode_limits limits;
+    int32_t file;         // set by the decoder: the image in memory; −1: the path is read
     int32_t threads;      // 0: one for each core
     int32_t is_mesh;      // a mesh of Draco's in the memory file (mesh_decoding.h), no image
     int32_t all_channels; // an EXR's channels by name, instead of a picture

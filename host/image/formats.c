@@ -60,15 +60,12 @@ static const magic *magic_of(const char *start, size_t length)
     return NULL;
 }
 
-glint_status glint_image_find_source(const char *path, glint_image_source *source,
-                                     glint_error *error)
+// Sets the plugin by how the file starts.
+static glint_status recognise(const char *start, size_t length, glint_image_source *source,
+                              glint_error *error)
 {
-    *source = (glint_image_source){.path = path};
-    FILE *file;
-    TRY(glint_regular_file_open(path, &file, &source->size, error));
-    char start[16] = {0};
-    const magic *known = magic_of(start, fread(start, 1, sizeof start, file));
-    fclose(file);
+    const char *path = source->path;
+    const magic *known = magic_of(start, length);
     if (source->size == 0) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: is empty (make the file anew)", path);
     }
@@ -83,6 +80,27 @@ glint_status glint_image_find_source(const char *path, glint_image_source *sourc
     }
     source->plugin = known->plugin;
     return GLINT_OK;
+}
+
+#define START 16 // bytes that tell formats apart
+
+glint_status glint_image_find_source(const char *path, glint_image_source *source,
+                                     glint_error *error)
+{
+    *source = (glint_image_source){.path = path};
+    FILE *file;
+    TRY(glint_regular_file_open(path, &file, &source->size, error));
+    char start[START] = {0};
+    const size_t length = fread(start, 1, sizeof start, file);
+    fclose(file);
+    return recognise(start, length, source, error);
+}
+
+glint_status glint_image_find_source_in_memory(const char *name, const void *bytes, uint64_t size,
+                                               glint_image_source *source, glint_error *error)
+{
+    *source = (glint_image_source){.path = name, .size = size, .bytes = bytes};
+    return recognise(bytes, size < START ? (size_t)size : START, source, error);
 }
 
 // ---- What is written ----------------------------------------------------------------------------

@@ -10,17 +10,22 @@
 extern "C" {
 #endif
 
-// A file to be read, of one of the formats that are.
+// A file to be read, of one of the formats that are, or its bytes in memory.
 typedef struct glint_image_source {
-    const char *path;   // borrowed
+    const char *path;   // borrowed; of an image in memory: its name for messages
     const char *plugin; // OpenImageIO's name of the format
     uint64_t size;      // of the file, bytes
+    const void *bytes;  // [size], borrowed; NULL: the path is read
 } glint_image_source;
 
 // Finds out what the file at `path` is, by its content. Errors: GLINT_BAD_INPUT with the file's
 // name where it is no regular file, empty, or of no format that is read.
 glint_status glint_image_find_source(const char *path, glint_image_source *source,
                                      glint_error *error);
+
+// The same of a file's bytes. `name` stands for it in messages. Both must outlive the source.
+glint_status glint_image_find_source_in_memory(const char *name, const void *bytes, uint64_t size,
+                                               glint_image_source *source, glint_error *error);
 
 typedef enum glint_written_kind {
     GLINT_WRITTEN_EXR,
