@@ -13,6 +13,9 @@
     ARGUMENT(global const int *, numbers)                                                          \
     ARGUMENT(global const glint_material_record *, materials)                                      \
     ARGUMENT(global const glint_medium_record *, media)                                            \
+    ARGUMENT(global const float *, attributes)                                                     \
+    ARGUMENT(global const glint_texture_record *, textures)                                        \
+    ARGUMENT(global const ushort *, texels)                                                        \
     ARGUMENT(global const void *, environment)                                                     \
     ARGUMENT(global const float *, irradiance)                                                     \
     ARGUMENT(global float *, vertices)    /* shade_vertices writes them, the others read */        \

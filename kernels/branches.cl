@@ -30,16 +30,19 @@ typedef int pixels;
 
 typedef struct branch {
     scalar origin[3], direction[3], weight[3];
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     scalar width, spread; // see cone
 #endif
     lane_int from, media;
     int pixel, met, kind;
+#if GLINT_ALPHA
+    int passed;
+#endif
 } branch;
 
 // By which the host knows how much room a tile's branches take.
 typedef char branch_is_as_large_as_layout_h_says
-    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), GLINT_MIP_LEVELS) ? 1 : -1];
+    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA) ? 1 : -1];
 
 typedef struct branches {
     int next_count, waiting_count;
@@ -98,13 +101,16 @@ static inline void save_branch(const path *ray, const pixels *pixels, lanes_int 
     save3(b->origin, &ray->origin, lane);
     save3(b->direction, &ray->direction, lane);
     save3(b->weight, &ray->weight, lane);
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     b->width = LANE(ray->cone.width, lane);
     b->spread = LANE(ray->cone.spread, lane);
 #endif
     b->from = LANE_INT(ray->from, lane);
     b->media = LANE_INT(ray->media, lane);
     b->met = (int)LANE_INT(ray->met, lane);
+#if GLINT_ALPHA
+    b->passed = (int)LANE_INT(ray->passed, lane);
+#endif
     b->kind = (int)LANE_INT(kinds, lane);
     b->pixel = pixel_of(*pixels, lane);
 }
@@ -171,12 +177,15 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
         restore3(list[i].origin, &ray->origin, lane);
         restore3(list[i].direction, &ray->direction, lane);
         restore3(list[i].weight, &ray->weight, lane);
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
         LANE(ray->cone.width, lane) = list[i].width;
         LANE(ray->cone.spread, lane) = list[i].spread;
 #endif
         LANE_INT(ray->from, lane) = list[i].from;
         LANE_INT(ray->media, lane) = list[i].media;
+#if GLINT_ALPHA
+        LANE_INT(ray->passed, lane) = list[i].passed;
+#endif
         LANE_INT(ray->looked_up, lane) = max(list[i].kind - CUT_SHORT + 1, 0);
         LANE_INT(pixels[place / GLINT_WIDTH], lane) = list[i].pixel;
     }

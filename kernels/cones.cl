@@ -1,9 +1,10 @@
-// What of the environment a pixel sees: each ray carries a cone, how wide it is where the ray
+// What of the environment and of textures a pixel sees: each ray carries a cone, how wide it is where the ray
 // starts and how fast it widens, which surfaces change as lenses do in paraxial optics
 // (Akenine-Möller et al., Improved Shader and Texture Level of Detail Using Ray Cones, 2021). Both
 // numbers keep their sign past a focus. Where the cone ends, the environment is taken from the
 // levels whose texels are as wide.
-#if GLINT_MIP_LEVELS
+#define CARRIES_CONES (GLINT_MIP_LEVELS || GLINT_TEXTURES)
+#if CARRIES_CONES
 
 typedef struct cone {
     real width;  // across, stored units

@@ -20,7 +20,11 @@
     FEATURE(MIRROR, "metal reflects", GLINT_GEOMETRY, 0, IDLE)                                     \
     FEATURE(TINT, "metal colours what it reflects", GLINT_MIRROR, 0, IDLE)                         \
     FEATURE(GLASS, "light passes through transmitting surfaces", GLINT_GEOMETRY, 0, IDLE)          \
-    FEATURE(SPLIT, "a path may go on both ways: reflected and transmitted", GLINT_GLASS, 0, IDLE)  \
+    FEATURE(ALPHA, "surfaces may be there in part: light passes straight through the rest",        \
+            GLINT_INTERREFLECTION, GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION,     \
+            ACTIVE)                                                                                \
+    FEATURE(SPLIT, "a path may go on both ways: reflected and transmitted",                        \
+            GLINT_GLASS || GLINT_ALPHA, 0, IDLE)                                                   \
     FEATURE(SOLID, "light refracts into and out of solids by Snell's law", GLINT_GLASS, 0, IDLE)   \
     FEATURE(THIN_WALL, "light passes straight through walls without thickness", GLINT_GLASS, 0,    \
             IDLE)                                                                                  \
@@ -35,6 +39,13 @@
     FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, IDLE)             \
     FEATURE(UNLIT, "unlit surfaces end a path with their colour", GLINT_GEOMETRY, 0, IDLE)         \
     FEATURE(EMISSION, "surfaces emit", GLINT_GEOMETRY, 0, IDLE)                                    \
+    FEATURE(TEXTURES, "materials have textures", GLINT_GEOMETRY,                                   \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
+    FEATURE(SECOND_TEXCOORDS, "some textures have texture coordinates of their own",               \
+            GLINT_TEXTURES, 0, ACTIVE)                                                             \
+    FEATURE(NORMAL_MAPS, "textures bend normals", GLINT_TEXTURES, 0, ACTIVE)                       \
+    FEATURE(COLORED_VERTICES, "vertices have colours", GLINT_GEOMETRY,                             \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
     FEATURE(INTERREFLECTION, "paths go on to the surfaces that they meet next", GLINT_GEOMETRY, 0, \
             IDLE)                                                                                  \
     FEATURE(SUPERSAMPLING, "several samples a pixel", 1, 0, IDLE)                                  \

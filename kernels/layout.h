@@ -72,9 +72,20 @@
 #define GLINT_MATERIAL_UNLIT 4u  // the base colour, and the path ends
 #define GLINT_MATERIAL_BLEND 8u  // the lecture's blend: `blend` is the mirror's share
 #define GLINT_MATERIAL_GLOSS 16u // paint of roughness 0: reflects under its Fresnel term
+#define GLINT_MATERIAL_MASK 32u  // is there where its alpha is alpha_cutoff or more
+#define GLINT_MATERIAL_COVER 64u // its alpha is how much of it is there
+
+// Slots of a material's textures: glint_texture_slot of host/scene/texture.h.
+#define GLINT_SLOT_BASE_COLOR 0
+#define GLINT_SLOT_METALLIC_ROUGHNESS 1
+#define GLINT_SLOT_OCCLUSION 2
+#define GLINT_SLOT_NORMAL 3
+#define GLINT_SLOT_EMISSION 4
+#define GLINT_SLOT_TRANSMISSION 5
+#define GLINT_MATERIAL_TEXTURES 6
 
 typedef struct glint_material_record {
-    float base_color[4]; // linear R, G, B; 0
+    float base_color[4]; // linear R, G, B; A
     float emission[4];   // radiance R, G, B; 0
     float metallic;      // [0, 1]
     float transmission;  // [0, 1]
@@ -82,8 +93,35 @@ typedef struct glint_material_record {
     float blend;         // [0, 1], see GLINT_MATERIAL_BLEND
     unsigned int flags;  // GLINT_MATERIAL_…
     unsigned int medium; // of a solid: its place in the media, 1 or more; else 0
-    unsigned int unused[2];
+    float alpha_cutoff;  // see GLINT_MATERIAL_MASK
+    float normal_scale;  // of the normal texture
+    float occlusion_strength;
+    unsigned int unused;
+    int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
+
+// ---- Textures ----------------------------------------------------------------------------------
+// All texels stand in one array: [4] 16-bit whole numbers, R, G, B, A, linear, in 1/65535. A
+// texture's levels follow each other; each is rows of texels from the top. Level k is
+// max(1, width >> k) by max(1, height >> k).
+#define GLINT_TEXTURE_LEVELS 16  // at most, so that an image is 32768 wide and high at most
+#define GLINT_TEXTURE_SECOND 1u  // looked up by the second texture coordinates
+#define GLINT_TEXTURE_CLAMP_S 2u // else repeated, or mirrored
+#define GLINT_TEXTURE_CLAMP_T 4u
+#define GLINT_TEXTURE_MIRROR_S 8u
+#define GLINT_TEXTURE_MIRROR_T 16u
+#define GLINT_TEXTURE_MAGNIFIED_NEAREST 32u // where a texel covers a pixel or more
+#define GLINT_TEXTURE_MINIFIED_NEAREST 64u
+#define GLINT_TEXTURE_MIPS_NEAREST 128u // one level, not a blend of two
+
+typedef struct glint_texture_record {
+    unsigned int first[GLINT_TEXTURE_LEVELS]; // texels before each level
+    int width, height;                        // of level 0
+    int levels;                               // that are looked up
+    unsigned int flags;                       // GLINT_TEXTURE_…
+    float transform[6];                       // of u and v, see glint_texture_use
+    unsigned int unused[2];
+} glint_texture_record;
 
 // Medium 0 is empty space. Absorption is per stored unit of length, as an unevaluated sum of two
 // floats, so that double precision keeps what the host computed.
@@ -159,10 +197,11 @@ typedef struct glint_frame_record {
 
 // ---- Branches ----------------------------------------------------------------------------------
 // What a branch that waits takes (branches.cl, with GLINT_SPLIT), in bytes, where a number of the
-// precision takes `number`: eleven of these, two more with GLINT_MIP_LEVELS, and three ints;
-// rounded up to whole numbers.
-#define GLINT_BRANCH_BYTES(number, mip_levels)                                                     \
-    (((number)*11 + ((mip_levels) ? (number)*2 : 0) + 3 * 4 + (number)-1) / (number) * (number))
+// precision takes `number`: eleven of these, two more where rays carry cones, three ints, and one
+// more with GLINT_ALPHA; rounded up to whole numbers.
+#define GLINT_BRANCH_BYTES(number, cones, alpha)                                                   \
+    (((number)*11 + ((cones) ? (number)*2 : 0) + ((alpha) ? 16u : 12u) + (number)-1) / (number) *  \
+     (number))
 
 // ---- Layers ------------------------------------------------------------------------------------
 // With GLINT_DIAGNOSTICS: what became of a pixel's paths, [height][width]. The first three are of

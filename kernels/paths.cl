@@ -87,11 +87,14 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 #if GLINT_ABSORPTION
     ray.travelled = length * JOIN(frame->start[0], frame->start[1]);
 #endif
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     ray.cone = primary_cone(frame, inverse);
 #endif
     ray.from = int_of(-1);
     ray.met = int_of(0);
+#if GLINT_ALPHA
+    ray.passed = int_of(0);
+#endif
     ray.media = int_of(0);
     ray.looked_up = int_of(0);
     return ray;
@@ -135,11 +138,21 @@ static inline mask ended(const glint_frame_record *frame, real weight, lanes_int
 
 // Such a branch takes the environment along its direction; one that would not be traced anyway is
 // none of them.
+// How many surfaces that are there a path has met.
+static inline lanes_int surfaces_met(const path *ray)
+{
+#if GLINT_ALPHA
+    return ray->met - ray->passed;
+#else
+    return ray->met;
+#endif
+}
+
 static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
                               const pixels *pixels, tally *tally)
 {
     mask traced = branch->looked_up == (lane_int)0;
-    mask ends = ended(frame, largest3(branch->weight), branch->met, exists & traced, pixels, tally);
+    mask ends = ended(frame, largest3(branch->weight), surfaces_met(branch), exists & traced, pixels, tally);
     branch->looked_up = SELECT(ends, int_of(1), branch->looked_up);
 }
 
@@ -161,12 +174,15 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
 #if GLINT_ABSORPTION
     ray->travelled = SELECT(yes, branch->travelled, ray->travelled);
 #endif
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     ray->cone.width = SELECT(yes, branch->cone.width, ray->cone.width);
     ray->cone.spread = SELECT(yes, branch->cone.spread, ray->cone.spread);
 #endif
     ray->from = SELECT(yes, branch->from, ray->from);
     ray->met = SELECT(yes, branch->met, ray->met);
+#if GLINT_ALPHA
+    ray->passed = SELECT(yes, branch->passed, ray->passed);
+#endif
     ray->media = SELECT(yes, branch->media, ray->media);
     ray->looked_up = SELECT(yes, branch->looked_up, ray->looked_up);
 }
@@ -179,6 +195,10 @@ static inline void count_transmissions(const surface *s, mask transmits, tally *
     tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
 }
 
+#define TRANSMITS (GLINT_GLASS || GLINT_ALPHA)
+// Pixels may see the background past surfaces, and leave it out.
+#define SEES_THROUGH (GLINT_ALPHA && GLINT_TRANSPARENT)
+
 // The paths of some of a tile's pixels on their way.
 typedef struct paths {
     path ray[PATH_GROUPS];
@@ -187,6 +207,9 @@ typedef struct paths {
 #if GATHERS
     // Gathered on their way, without the environment, by the tile's groups of pixels.
     real3 radiance[PATH_GROUPS];
+#endif
+#if SEES_THROUGH
+    real uncovered[PATH_GROUPS]; // what of the background is seen past surfaces
 #endif
 #if GLINT_SPLIT
     branches branches;
@@ -208,6 +231,21 @@ static inline void gather(paths *all, int slot, real3 light, mask lit)
 #else
     real3 *sum = &all->radiance[slot];
     *sum = select3(lit, add(*sum, light), *sum);
+#endif
+}
+#endif
+
+#if SEES_THROUGH
+// As gather, of one number.
+static inline void uncover(paths *all, int slot, real share, mask seen)
+{
+#if GLINT_SPLIT
+    for (uint left = mask_bits(seen); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left), pixel = pixel_of(all->pixels[slot], lane);
+        LANE(all->uncovered[pixel / GLINT_WIDTH], pixel % GLINT_WIDTH) += LANE(share, lane);
+    }
+#else
+    all->uncovered[slot] += SELECT(seen, share, real_of(0));
 #endif
 }
 #endif
@@ -258,7 +296,7 @@ static inline void note_emission(terms *terms, const scene_buffers *scene, const
         media = ray->media;
         const real3 lit =
             scatter(scene, s, v, &media, real3_of(one, one, one), &media_lost).emitted;
-        note_terms(terms, pixels, met, s->normal, GLINT_TERM_IRRADIANCE,
+        note_terms(terms, pixels, met, s->lit_normal, GLINT_TERM_IRRADIANCE,
                    multiply(ray->weight, subtract(lit, emitted)));
     }
 }
@@ -272,7 +310,7 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
 {
     real3 irradiance = real3_of(real_of(0), real_of(0), real_of(0));
     if (NEEDS_IRRADIANCE) {
-        irradiance = find_irradiance(scene, turn_into_environment(frame, s->normal), met);
+        irradiance = find_irradiance(scene, turn_into_environment(frame, s->lit_normal), met);
     }
     mask media_lost;
     lanes_int media = ray->media;
@@ -294,6 +332,16 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 {
     path *ray = &all->ray[slot];
     surface s = find_surface(scene, ray, hit, triangles);
+#if GLINT_ALPHA
+    const mask there = met & (s.coverage > R(0.0));
+#else
+    const mask there = met;
+#endif
+    const lanes_int depth = surfaces_met(ray) + (lane_int)1;
+    tally->deepest = SELECT(there & (depth > tally->deepest), depth, tally->deepest);
+#if GLINT_DIAGNOSTICS
+    note_surfaces(tally->layers, &all->pixels[slot], there, depth);
+#endif
 #if SHADES_VERTICES
     const scattering out = scatter_from_corners(scene, frame, ray, &s, hit, met);
 #else
@@ -305,7 +353,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #if GLINT_TERMS && GATHERS
     note_emission(tally->terms, scene, &s, negate(ray->direction), ray, met, &all->pixels[slot]);
 #endif
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     const real width = width_after(&ray->cone, hit->t);
     const real spread = ray->cone.spread;
 #endif
@@ -313,22 +361,27 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
     reflected.weight = multiply(ray->weight, out.reflected_weight);
     reflected.media = out.media_reflected;
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     reflected.cone = leave_surface(width, spread, real_of(1), real_of(2), s.curvature);
 #endif
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, &all->pixels[slot], tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
-    if (!GLINT_GLASS) {
+    if (!TRANSMITS) {
         assign_path(ray, &reflected, reflects);
         return reflects;
     }
     path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
     transmitted.weight = multiply(ray->weight, out.transmitted_weight);
     transmitted.media = out.media_transmitted;
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     transmitted.cone = leave_surface(width, spread, out.eta, out.bend, s.curvature);
+#endif
+#if GLINT_ALPHA
+    const mask passes = (s.coverage < R(1.0)) &
+                        ((s.coverage == R(0.0)) | !HAS_FLAG(s, GLINT_MATERIAL_THIN));
+    transmitted.passed = SELECT(passes, ray->passed + (lane_int)1, ray->passed);
 #endif
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
     end_branch(frame, &transmitted, transmits, &all->pixels[slot], tally);
@@ -357,6 +410,9 @@ static inline void begin_paths(const glint_frame_record *frame, primary *first, 
     all->pixels[slot] = pixels_of_group(group);
 #if GATHERS
     all->radiance[slot] = real3_of(real_of(0), real_of(0), real_of(0));
+#endif
+#if SEES_THROUGH
+    all->uncovered[slot] = real_of(0);
 #endif
 }
 
@@ -393,6 +449,13 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     mask active = all->active[slot];
     mask met = active & (hit->place >= (lane_int)0);
     mask escaped = active & !met;
+#if SEES_THROUGH
+    const mask past = escaped & (all->ray[slot].met == all->ray[slot].passed);
+    if (first == 0) { // else nothing was there at all
+        uncover(all, slot, all->ray[slot].weight.x, past);
+    }
+    escaped = escaped & !past;
+#endif
     if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
         const path *ray = &all->ray[slot];
         const real3 direction = turn_into_environment(frame, environment_seen(frame, ray, first));
@@ -412,11 +475,6 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
         if (first != 0) {
             measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, hit);
         }
-        lanes_int depth = all->ray[slot].met + (lane_int)1;
-        tally->deepest = SELECT(met & (depth > tally->deepest), depth, tally->deepest);
-#if GLINT_DIAGNOSTICS
-        note_surfaces(tally->layers, &all->pixels[slot], met, depth);
-#endif
         active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);
     }
     all->active[slot] = active;

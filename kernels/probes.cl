@@ -56,11 +56,14 @@ static inline void probe_rays(global const scalar *in, size_t first, path *rays,
         ray->media = to_int_truncated(probe_load(in, packet, GLINT_PROBE_RAY, 7));
         ray->weight = real3_of(real_of(1), real_of(1), real_of(1));
         ray->met = int_of(0);
+#if GLINT_ALPHA
+        ray->passed = int_of(0);
+#endif
         ray->looked_up = int_of(0);
 #if GLINT_ABSORPTION
         ray->travelled = real_of(0);
 #endif
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
         ray->cone.width = ray->cone.spread = real_of(0);
 #endif
         active[SLOT(g)] = mask_all();

@@ -36,6 +36,7 @@ GLINT_FEATURES(CHECK)
 #include "traverse_tile.cl"
 #include "light.cl"
 #include "cones.cl"
+#include "textures.cl"
 #include "shade.cl"
 #include "scatter.cl"
 #include "branches.cl"
@@ -175,6 +176,9 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
             mask seen = GLINT_TRANSPARENT ? t->place[g] >= (lane_int)0 : mask_all();
             sum->color[g] = add(sum->color[g], all.radiance[SLOT(i)]);
             sum->alpha[g] += SELECT(seen, real_of(1), real_of(0));
+#if SEES_THROUGH
+            sum->alpha[g] -= all.uncovered[SLOT(i)];
+#endif
         }
 #endif
     }

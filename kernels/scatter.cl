@@ -85,6 +85,9 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
         out->reflected_weight = add(out->reflected_weight, real3_of(gloss, gloss, gloss));
         kept = SELECT(smooth, R(1.0) - reflectance, real_of(1));
     }
+#if GLINT_TEXTURES
+    irradiance = scale(irradiance, s->occlusion);
+#endif
     out->emitted = scale(multiply(s->base_color, irradiance), share * kept);
 }
 
@@ -99,6 +102,26 @@ static inline void scatter_blend(const surface *s, real3 irradiance, scattering 
     out->reflected_weight = select3(blended, mirrored, out->reflected_weight);
     out->transmitted_weight = select3(blended, zero, out->transmitted_weight);
 }
+
+#if GLINT_ALPHA
+// Rule 9: of a surface that is there in part only its share does what it does. The rest of the light
+// goes straight on, as it does through a thin wall.
+static inline void scatter_covered(const surface *s, real3 v, lanes_int media, scattering *out)
+{
+    const mask partly = s->coverage < R(1.0);
+    const real gone = SELECT(partly, R(1.0) - s->coverage, real_of(0));
+    const real left = SELECT(partly, s->coverage, real_of(1));
+    out->emitted = scale(out->emitted, left);
+    out->reflected_weight = scale(out->reflected_weight, left);
+    out->transmitted_weight =
+        add(scale(out->transmitted_weight, left), real3_of(gone, gone, gone));
+    out->transmitted = select3(partly, negate(v), out->transmitted);
+    out->media_transmitted = SELECT(partly, media, out->media_transmitted);
+    out->total_reflection = out->total_reflection & !partly;
+    out->eta = SELECT(partly, real_of(1), out->eta);
+    out->bend = SELECT(partly, real_of(0), out->bend);
+}
+#endif
 
 // `media` is the path's stack; a path that began inside the solid it meets has it put right.
 static inline scattering scatter(const scene_buffers *scene, const surface *s, real3 v,
@@ -124,6 +147,13 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     if (GLINT_GLASS) {
         scatter_glass(scene, s, v, glass, media, &result, media_lost);
     }
+    if (GLINT_ALPHA && !GLINT_GLASS) {
+        result.transmitted = negate(v);
+        result.media_transmitted = *media;
+        result.total_reflection = mask_none();
+        result.eta = real_of(1);
+        result.bend = real_of(0);
+    }
     result.media_reflected = *media;
     if (GLINT_PAINT) {
         scatter_paint(s, irradiance, dielectric - glass, &result);
@@ -140,5 +170,8 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
         result.reflected_weight = select3(unlit, zero, result.reflected_weight);
         result.transmitted_weight = select3(unlit, zero, result.transmitted_weight);
     }
+#if GLINT_ALPHA
+    scatter_covered(s, v, *media, &result);
+#endif
     return result;
 }

@@ -10,11 +10,14 @@ typedef struct path {
 #if GLINT_ABSORPTION
     real travelled; // the segment's length before its origin: primary rays start late
 #endif
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     cone cone;
 #endif
     lanes_int from;      // place of the triangle that the ray starts on, −1: none
     lanes_int met;       // surfaces met so far
+#if GLINT_ALPHA
+    lanes_int passed; // of these, those that were not there where the ray met them
+#endif
     lanes_int media;     // see media.cl
     lanes_int looked_up; // takes the environment along its direction, without being traced: 1 as
                          // it is cut short, ESCAPES as it meets nothing; else 0
@@ -25,14 +28,25 @@ typedef struct surface {
     real3 position;         // on the triangle, stored coordinates
     real offset;            // how far from it a ray must start, along the geometric normal
     real3 geometric_normal; // unit, towards the viewer
-    real3 normal;           // unit shading normal, n·v ≥ 0
+    real3 lit_normal;       // unit shading normal, of which light is received
+    real3 normal;           // the same with n·v ≥ 0
     real cosine;            // n·v
-#if GLINT_MIP_LEVELS
+#if CARRIES_CONES
     real curvature; // seen from the viewer's side: more than 0 where it is convex
 #endif
     mask outside; // the viewer is on the side from which the triangle winds left
     real3 base_color, emission;
     real metallic, transmission, ior, blend;
+#if GLINT_ALPHA
+    real coverage; // how much of the surface is there; its alpha until cover_surface
+    real alpha_cutoff;
+#endif
+#if GLINT_TEXTURES
+    real occlusion; // what is left of the irradiance
+#endif
+#if GLINT_NORMAL_MAPS
+    real3 bump; // the normal along tangent, bitangent and normal
+#endif
     lanes_int flags, medium;
 } surface;
 
@@ -179,16 +193,38 @@ static inline void place_on_triangle(const real3 vertices[3], const closest *hit
     s->offset = START_OFFSET * dot3(n, reach);
 }
 
+#if GLINT_NORMAL_MAPS
+// The normal that a texture bends: `n` is a unit vector. What is not there leaves it as it is.
+static inline real3 bent_normal(const scene_buffers *scene, const closest *hit, mask met, real3 n,
+                                real3 bump)
+{
+    const corner_values c = load_corners(scene, hit->place, met, TANGENTS_AT, 4);
+    const real3 sum = real3_of(value_of_corners(&c, 0, hit->b1, hit->b2),
+                               value_of_corners(&c, 1, hit->b1, hit->b2),
+                               value_of_corners(&c, 2, hit->b1, hit->b2));
+    // Corners that turn different ways have no bitangent between them.
+    const mask alike = (c.first[3] != R(0.0)) & (c.second_more[3] == R(0.0)) &
+                       (c.third_more[3] == R(0.0));
+    mask valid, sound;
+    const real3 tangent = normalized(sum, &valid);
+    const real3 bitangent = scale(cross3(n, tangent), c.first[3]);
+    const real3 bent = normalized(
+        scale_add(n, bump.z, scale_add(bitangent, bump.y, scale(tangent, bump.x))), &sound);
+    const mask flat = (bump.x == R(0.0)) & (bump.y == R(0.0));
+    return select3(met & alike & valid & sound & !flat, bent, n);
+}
+#endif
+
 // Rule 1: the side is the geometric normal's alone; both normals are turned to the viewer.
-static inline void orient_normals(const triangle *t, const path *ray, const closest *hit,
-                                  surface *s)
+static inline void orient_normals(const scene_buffers *scene, const triangle *t, const path *ray,
+                                  const closest *hit, surface *s)
 {
     real3 v = negate(ray->direction);
     real facing = dot3(s->geometric_normal, v);
     s->outside = facing > R(0.0);
     s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
-    s->normal = s->geometric_normal;
-#if GLINT_MIP_LEVELS
+    s->lit_normal = s->geometric_normal;
+#if CARRIES_CONES
     s->curvature = real_of(0);
 #endif
 #if GLINT_SMOOTH_NORMALS
@@ -198,12 +234,23 @@ static inline void orient_normals(const triangle *t, const path *ray, const clos
     real3 n = normalized(interpolate(normals, hit->b1, hit->b2), &valid);
     mask against = dot3(n, s->geometric_normal) < R(0.0);
     n = select3(against, negate(n), n);
-    s->normal = select3(given & valid, n, s->geometric_normal);
+    s->lit_normal = select3(given & valid, n, s->geometric_normal);
 #endif
-    real cosine = dot3(s->normal, v);
+#if GLINT_NORMAL_MAPS
+#if GLINT_SMOOTH_NORMALS
+    const mask turned_round = SELECT(given & valid, against, !s->outside);
+#else
+    const mask turned_round = !s->outside;
+#endif
+    // Textures bend the normal as the file has it.
+    const real3 own = select3(turned_round, negate(s->lit_normal), s->lit_normal);
+    const real3 bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
+    s->lit_normal = select3(turned_round, negate(bent), bent);
+#endif
+    real cosine = dot3(s->lit_normal, v);
     mask away = cosine < R(0.0);
-    s->normal = select3(away, negate(s->normal), s->normal);
-#if GLINT_MIP_LEVELS && GLINT_SMOOTH_NORMALS
+    s->normal = select3(away, negate(s->lit_normal), s->lit_normal);
+#if CARRIES_CONES && GLINT_SMOOTH_NORMALS
     // Flat where a vertex has no normal.
     const real curvature = curvature_of(t->vertices, normals);
     mask turned = dot3(interpolate(normals, hit->b1, hit->b2), s->normal) < R(0.0);
@@ -224,6 +271,10 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
         s->emission.y = SELECT(yes, real_of(m->emission[1]), s->emission.y);
         s->emission.z = SELECT(yes, real_of(m->emission[2]), s->emission.z);
     }
+#if GLINT_ALPHA
+    s->coverage = SELECT(yes, real_of(m->base_color[3]), s->coverage);
+    s->alpha_cutoff = SELECT(yes, real_of(m->alpha_cutoff), s->alpha_cutoff);
+#endif
     s->metallic = SELECT(yes, real_of(m->metallic), s->metallic);
     s->transmission = SELECT(yes, real_of(m->transmission), s->transmission);
     s->ior = SELECT(yes, real_of(m->ior), s->ior);
@@ -245,6 +296,128 @@ static inline void load_materials(const scene_buffers *scene, const triangle *t,
 #endif
 }
 
+#if GLINT_TEXTURES
+
+// What a material's textures say of the rays in `here`: it multiplies what the material says.
+static inline void take_texture(int slot, const texture_color *c, mask here,
+                                global const glint_material_record *m, surface *s)
+{
+    const real3 rgb = real3_of(c->r, c->g, c->b);
+    switch (slot) {
+    case GLINT_SLOT_BASE_COLOR:
+        s->base_color = select3(here, multiply(s->base_color, rgb), s->base_color);
+#if GLINT_ALPHA
+        s->coverage = SELECT(here, s->coverage * c->a, s->coverage);
+#endif
+        break;
+    case GLINT_SLOT_METALLIC_ROUGHNESS:
+        s->metallic = SELECT(here, s->metallic * c->b, s->metallic);
+        break;
+#if GLINT_NORMAL_MAPS
+    case GLINT_SLOT_NORMAL: {
+        const scalar across = R(2.0) * (scalar)m->normal_scale;
+        const real3 bump = real3_of(across * (c->r - R(0.5)), across * (c->g - R(0.5)),
+                                    R(2.0) * c->b - R(1.0));
+        s->bump = select3(here, bump, s->bump);
+        break;
+    }
+#endif
+    case GLINT_SLOT_OCCLUSION: {
+        const real left = fused(real_of(m->occlusion_strength), c->r - R(1.0), real_of(1));
+        s->occlusion = SELECT(here, left, s->occlusion);
+        break;
+    }
+    case GLINT_SLOT_EMISSION:
+        s->emission = select3(here, multiply(s->emission, rgb), s->emission);
+        break;
+    case GLINT_SLOT_TRANSMISSION:
+        s->transmission = SELECT(here, s->transmission * c->r, s->transmission);
+        break;
+    }
+}
+
+// Looks up the textures of one material. Slots that share one, as occlusion and metallic often do,
+// share its look-up.
+static inline void take_textures(const scene_buffers *scene, const texture_spot *spots, mask here,
+                                 global const glint_material_record *m, surface *s)
+{
+    int last = -1;
+    texture_color color;
+    for (int slot = 0; slot < GLINT_MATERIAL_TEXTURES; slot++) {
+        const int texture = m->textures[slot];
+        if (texture < 0) {
+            continue;
+        }
+        if (texture != last) {
+            global const glint_texture_record *t = scene->textures + texture;
+            const bool second = GLINT_SECOND_TEXCOORDS && (t->flags & GLINT_TEXTURE_SECOND);
+            color = look_up_texture(scene, t, &spots[second], here);
+            last = texture;
+        }
+        take_texture(slot, &color, here, m, s);
+    }
+}
+
+// What vertices and textures say of the surfaces that the rays in `met` meet.
+static inline void texture_surface(const scene_buffers *scene, const path *ray, const closest *hit,
+                                   const triangle *t, surface *s)
+{
+    const mask met = hit->place >= (lane_int)0;
+    s->occlusion = real_of(1);
+#if GLINT_NORMAL_MAPS
+    s->bump = real3_of(real_of(0), real_of(0), real_of(1));
+#endif
+    const ellipse seen = ellipse_on(t->vertices, s->geometric_normal, ray->direction,
+                                    fabs(width_after(&ray->cone, hit->t)));
+    texture_spot spots[1 + GLINT_SECOND_TEXCOORDS];
+    for (int set = 0; set <= GLINT_SECOND_TEXCOORDS; set++) {
+        const corner_values c =
+            load_corners(scene, hit->place, met, set * SECOND_TEXCOORDS_AT, 2);
+        spots[set] = spot_on(&c, &seen, hit->b1, hit->b2);
+    }
+    uint left = mask_bits(met);
+    while (left != 0) {
+        int material = 0;
+        mask here = met;
+#if GLINT_MANY_MATERIALS
+        here = met & next_alike(t->material, &left, &material);
+#else
+        left = 0;
+#endif
+        take_textures(scene, spots, here, scene->materials + material, s);
+    }
+}
+
+#endif
+
+#if GLINT_COLORED_VERTICES
+// Colours at vertices multiply the base colour, and their alpha its alpha.
+static inline void color_surface(const scene_buffers *scene, const closest *hit, surface *s)
+{
+    const mask met = hit->place >= (lane_int)0;
+    const corner_values c = load_corners(scene, hit->place, met, COLORS_AT, 4);
+    const real3 rgb = real3_of(value_of_corners(&c, 0, hit->b1, hit->b2),
+                               value_of_corners(&c, 1, hit->b1, hit->b2),
+                               value_of_corners(&c, 2, hit->b1, hit->b2));
+    s->base_color = select3(met, multiply(s->base_color, rgb), s->base_color);
+#if GLINT_ALPHA
+    const real alpha = value_of_corners(&c, 3, hit->b1, hit->b2);
+    s->coverage = SELECT(met, s->coverage * alpha, s->coverage);
+#endif
+}
+#endif
+
+#if GLINT_ALPHA
+// How much of the surface is there, from its alpha.
+static inline void cover_surface(surface *s)
+{
+    const real one = real_of(1), zero = real_of(0);
+    const real there = SELECT(s->coverage >= s->alpha_cutoff, one, zero);
+    s->coverage = SELECT(HAS_FLAG(*s, GLINT_MATERIAL_MASK), there,
+                         SELECT(HAS_FLAG(*s, GLINT_MATERIAL_COVER), s->coverage, one));
+}
+#endif
+
 static inline surface find_surface(const scene_buffers *scene, const path *ray, const closest *hit,
                                    const triangle *t)
 {
@@ -257,7 +430,16 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     if (HAS_PLACES) {
         place_on_triangle(vertices, hit, &s);
     }
-    orient_normals(t, ray, hit, &s);
     load_materials(scene, t, &s);
+#if GLINT_COLORED_VERTICES
+    color_surface(scene, hit, &s);
+#endif
+#if GLINT_TEXTURES
+    texture_surface(scene, ray, hit, t, &s);
+#endif
+#if GLINT_ALPHA
+    cover_surface(&s);
+#endif
+    orient_normals(scene, t, ray, hit, &s);
     return s;
 }

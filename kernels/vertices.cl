@@ -97,7 +97,7 @@ static inline surface surface_at_vertices(const scene_buffers *scene, real3 norm
                  (lane_int)1) != (lane_int)0;
     s.normal = select3(away, negate(normals), normals);
     s.normal = select3(is_zero3(normals), v, s.normal); // of a triangle without area
-    s.geometric_normal = s.normal;
+    s.geometric_normal = s.lit_normal = s.normal;
     s.cosine = SMALLER(fabs(dot3(s.normal, v)), real_of(1));
     set_material(&s, mask_all(), scene->materials + (GLINT_MANY_MATERIALS ? material : 0));
     return s;

@@ -159,15 +159,15 @@ static const char much_that_is_not_modelled[] = TETRAHEDRON_STORAGE
 
 static const char *const said_of_it[] = {
     ": 2 point and 2 line primitives are skipped",
-    "meshes[0].primitives[0] and 1 more: vertex colours (COLOR_0) are not modelled",
     "meshes[0].primitives[0] and 1 more: a skin does not move it, as it has no JOINTS_0",
     "nodes[1]: lights are not modelled",
     "nodes[1]: the rotation is no unit quaternion",
     "animations[0] \"spin\": the first of 2 animations is shown",
-    "materials[0] \"gold\": baseColorTexture: textures are not modelled yet, baseColorFactor",
-    "materials[1] \"lens\": transmissionTexture: textures are not modelled yet, transmissionF",
-    "materials[0] \"gold\" and 1 more: roughness above 0 on metal or glass is rendered smooth",
-    "materials[0] \"gold\": alphaMode MASK is not modelled",
+    "materials[0] \"gold\": baseColorTexture: it names no image of a kind that is read (PNG, JPEG, "
+    "WebP, DDS); the surface is rendered as grey paint",
+    "materials[1] \"lens\": transmissionTexture: it names no image of a kind that is read (PNG, "
+    "JPEG, WebP, DDS); the surface is rendered as grey paint",
+    "materials[0] \"gold\" and 1 more: roughness above 0 on paint: its reflection is left out",
     "materials[0] \"gold\": extras.glint.\"miror\" is unknown",
     "materials[1] \"lens\": KHR_materials_clearcoat is not modelled",
 };

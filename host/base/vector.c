@@ -56,6 +56,14 @@ glint_vec3 glint_mat4_point(const glint_mat4 *a, glint_vec3 p)
                         m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
 }
 
+glint_vec3 glint_mat4_direction(const glint_mat4 *a, glint_vec3 d)
+{
+    const double(*m)[4] = a->m;
+    return (glint_vec3){m[0][0] * d.x + m[0][1] * d.y + m[0][2] * d.z,
+                        m[1][0] * d.x + m[1][1] * d.y + m[1][2] * d.z,
+                        m[2][0] * d.x + m[2][1] * d.y + m[2][2] * d.z};
+}
+
 static glint_vec3 row3(const glint_mat4 *a, int row)
 {
     return (glint_vec3){a->m[row][0], a->m[row][1], a->m[row][2]};

@@ -61,6 +61,7 @@ extern const glint_mat4 glint_mat4_identity;
 
 glint_mat4 glint_mat4_multiply(const glint_mat4 *a, const glint_mat4 *b);
 glint_vec3 glint_mat4_point(const glint_mat4 *a, glint_vec3 p);
+glint_vec3 glint_mat4_direction(const glint_mat4 *a, glint_vec3 d); // without the translation
 
 // The determinant of the upper left 3 × 3.
 double glint_mat4_determinant3(const glint_mat4 *a);

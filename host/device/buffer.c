@@ -54,20 +54,33 @@ glint_status glint_buffer_create(const struct glint_device *device, const glint_
     return glint_check_opencl(error, device, content->what, code);
 }
 
-glint_status glint_buffer_hand_over(const struct glint_device *device, const glint_content *content,
-                                    void **data, glint_shared_buffer *shared, glint_error *error)
+static bool can_share(const struct glint_device *device, const glint_content *content)
 {
-    if (!device->capabilities.shares_memory || content->bytes < LEAST_BYTES) {
-        const glint_content copied = {content->what, content->bytes, *data};
-        return glint_buffer_create(device, &copied, &shared->buffer, error);
+    return device->capabilities.shares_memory && content->bytes >= LEAST_BYTES;
+}
+
+glint_status glint_buffer_share(const struct glint_device *device, const glint_content *content,
+                                cl_mem *buffer, glint_error *error)
+{
+    if (!can_share(device, content)) {
+        return glint_buffer_create(device, content, buffer, error);
     }
     TRY(check_size(device, content, error));
     cl_int code;
-    shared->buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
-                                    content->bytes, *data, &code);
-    TRY(glint_check_opencl(error, device, content->what, code));
-    shared->kept = *data;
-    *data = NULL;
+    *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
+                             content->bytes, (void *)content->data, &code);
+    return glint_check_opencl(error, device, content->what, code);
+}
+
+glint_status glint_buffer_hand_over(const struct glint_device *device, const glint_content *content,
+                                    void **data, glint_shared_buffer *shared, glint_error *error)
+{
+    const glint_content given = {content->what, content->bytes, *data};
+    TRY(glint_buffer_share(device, &given, &shared->buffer, error));
+    if (can_share(device, &given)) {
+        shared->kept = *data;
+        *data = NULL;
+    }
     return GLINT_OK;
 }
 

@@ -35,6 +35,12 @@ glint_status glint_buffer_hand_over(const struct glint_device *device, const gli
                                     void **data, glint_shared_buffer *shared, glint_error *error);
 void glint_shared_buffer_free(glint_shared_buffer *shared);
 
+// A buffer that holds content->data, which must stay unchanged as long as the buffer is there: a
+// copy or, on a device that shares the host's memory, the data itself, aligned to GLINT_ALIGNMENT.
+// For kernels that only read it. Errors likewise.
+glint_status glint_buffer_share(const struct glint_device *device, const glint_content *content,
+                                cl_mem *buffer, glint_error *error);
+
 // Makes *buffer large enough for the content and writes the data; one that is, is kept.
 glint_status glint_buffer_fit(const struct glint_device *device, const glint_content *content,
                               cl_mem *buffer, glint_error *error);

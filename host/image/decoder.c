@@ -422,7 +422,7 @@ glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits 
     request->is_mesh = 1;
     request->limits = *limits;
     request->threads = 1;
-    const glint_status status = ask(request, &stored, error);
+    const glint_status status = ask(request, -1, &stored, error);
     *index_bytes = stored.value_bytes;
     free(request);
     return status;

@@ -63,7 +63,7 @@ static inline void develop_each(const glint_stored_facts *facts, const meanings 
     const uint8_t *narrow = (const uint8_t *)from->codes;
     const size_t channels = (size_t)facts->channels;
     for (size_t p = 0; p < from->pixels; p++) {
-        float curved[4], straight[4];
+        float curved[4] = {0}, straight[4] = {0};
         for (size_t c = 0; c < channels; c++) {
             const size_t place = p * channels + c;
             const unsigned code = is_wide ? from->codes[place] : narrow[place];
@@ -119,7 +119,7 @@ static glint_status develop_floats(const glint_stored *stored, float *pixels, gl
     const size_t channels = (size_t)facts->channels, count = count_pixels(facts);
     TRY(glint_stored_read(stored, 0, pixels, stored->value_bytes, error));
     for (size_t p = 0; facts->is_unassociated != 0 && p < count; p++) {
-        float value[4];
+        float value[4] = {0};
         memcpy(value, pixels + p * channels, channels * sizeof *value);
         develop_pixel(facts, value, value, pixels + p * channels);
     }

@@ -38,6 +38,7 @@ typedef struct surface {
     int triangle, index; // of the triangle, of the material
     vector point;
     vector geometric; // n_g on the viewer's side
+    vector lit;       // n on n_g's side: what receives light
     vector normal;    // n, on the viewer's side: n·v ≥ 0
     vector viewer;    // v
     double cosine;    // n·v
@@ -115,6 +116,7 @@ static surface surface_at(const oracle_scene *scene, const oracle_hit *hit, vect
     s.normal = shading_normal(triangle, hit->barycentric, s.geometric);
     if (dot(s.normal, s.geometric) < 0.0)
         s.normal = scaled(s.normal, -1.0);
+    s.lit = s.normal;
     if (dot(s.normal, s.viewer) < 0.0)
         s.normal = scaled(s.normal, -1.0);
     s.cosine = fmin(fmax(dot(s.normal, s.viewer), 0.0), 1.0);
@@ -282,7 +284,7 @@ static void scatter(walk *w, const path *p, const surface *s)
         through = scaled(base, as_glass * (1.0 - glass.fresnel));
     }
     if (largest(matte) > 0.0)
-        add(w, times(p->weight, matte), environment(w->scene, w->scene->irradiance, s->normal));
+        add(w, times(p->weight, matte), environment(w->scene, w->scene->irradiance, s->lit));
     branch(w, p, s, mirror_direction(s), times(p->weight, reflected));
     if (as_glass > 0.0) {
         path beyond = *p;
@@ -297,7 +299,7 @@ static void blend(walk *w, const path *p, const surface *s)
     double m = s->material->mirror;
     if (m < 1.0) {
         vector matte = scaled(vector_of(s->material->base), 1.0 - m);
-        add(w, times(p->weight, matte), environment(w->scene, w->scene->irradiance, s->normal));
+        add(w, times(p->weight, matte), environment(w->scene, w->scene->irradiance, s->lit));
     }
     branch(w, p, s, mirror_direction(s), scaled(p->weight, m));
 }

@@ -21,9 +21,19 @@ void glint_device_scene_swap(glint_device_scene *s)
 static glint_status upload(glint_device_scene *s, const glint_scene *scene, glint_error *error)
 {
     const glint_prepared_scene *shown = &s->shown;
-    const glint_upload_inputs inputs = {
-        .device = s->device, .scene = scene, .bvh = &s->shown.tree, .plan = &shown->plan};
-    TRY(glint_geometry_upload(&inputs, &s->geometry, error));
+    glint_texture_table table;
+    TRY(glint_texture_table_make(scene, &table, error));
+    const glint_upload_inputs inputs = {.device = s->device,
+                                        .scene = scene,
+                                        .bvh = &s->shown.tree,
+                                        .plan = &shown->plan,
+                                        .textures = &table};
+    glint_status status = glint_geometry_upload(&inputs, &s->geometry, error);
+    if (status == GLINT_OK) {
+        status = glint_texture_memory_fill(s->device, scene, &table, &s->textures, error);
+    }
+    glint_texture_table_free(&table);
+    TRY(status);
     TRY(glint_owners_set(&s->owners, scene, error));
     s->space = glint_stored_space_of(scene);
     const size_t bytes = shown->bvh.cluster_count * glint_vertices_bytes(&shown->plan);
@@ -49,7 +59,8 @@ size_t glint_device_scene_bytes(const glint_device_scene *s)
     const glint_geometry_memory *g = &s->geometry;
     return glint_buffer_bytes(g->clusters.buffer) + glint_buffer_bytes(g->normals.buffer) +
            glint_buffer_bytes(g->numbers.buffer) + glint_buffer_bytes(g->materials) +
-           glint_buffer_bytes(g->media);
+           glint_buffer_bytes(g->media) + glint_buffer_bytes(g->attributes) +
+           glint_buffer_bytes(s->textures.texels);
 }
 
 size_t glint_device_scene_tree_bytes(const glint_device_scene *s)
@@ -60,6 +71,7 @@ size_t glint_device_scene_tree_bytes(const glint_device_scene *s)
 void glint_device_scene_free(glint_device_scene *s)
 {
     glint_geometry_memory_free(&s->geometry);
+    glint_texture_memory_free(&s->textures);
     glint_buffer_release(&s->vertices);
     glint_owners_free(&s->owners);
     glint_bvh_free(&s->shown.tree);

@@ -21,6 +21,7 @@ typedef struct glint_device_scene {
     glint_stored_space space;
     glint_owners owners;
     glint_geometry_memory geometry;
+    glint_texture_memory textures;
     cl_mem vertices; // what is found at them
     double upload_ms;
 } glint_device_scene;

@@ -86,7 +86,9 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
 static void limit_branches(glint_plan *plan)
 {
     const size_t branch = GLINT_BRANCH_BYTES(glint_plan_scalar_bytes(plan),
-                                             plan->features[GLINT_FEATURE_MIP_LEVELS].compiled);
+                                             plan->features[GLINT_FEATURE_MIP_LEVELS].compiled ||
+                                                 plan->features[GLINT_FEATURE_TEXTURES].compiled,
+                                             plan->features[GLINT_FEATURE_ALPHA].compiled);
     const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
     if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
         plan->tiles = false;

@@ -23,9 +23,10 @@
     LOBE(EMISSION, emission, "emission")
 
 typedef struct material_census {
-    size_t used;                         // materials in use
-    size_t needing[GLINT_FEATURE_COUNT]; // of these, for a lobe
-    size_t metal_and_glass;              // both at once
+    size_t used;                          // materials in use
+    size_t needing[GLINT_FEATURE_COUNT];  // of these, for a lobe
+    size_t metal_and_glass;               // both at once
+    size_t partly_there, partly_reflects; // by alpha; of these, those that reflect as well
 } material_census;
 
 static void count_material(const glint_material *material, material_census *census)
@@ -33,6 +34,9 @@ static void count_material(const glint_material *material, material_census *cens
     const glint_lobes lobes = glint_material_lobes(material);
     census->used++;
     census->metal_and_glass += lobes.metal && lobes.glass;
+    census->partly_there += lobes.masked || lobes.covers;
+    census->partly_reflects +=
+        lobes.covers && (lobes.metal || lobes.gloss || lobes.blend_mirror || lobes.glass);
 #define COUNT(feature, lobe, what) census->needing[GLINT_FEATURE_##feature] += lobes.lobe;
     LOBES(COUNT)
 #undef COUNT
@@ -105,12 +109,40 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
                      : "no coloured metal, glass or smooth paint");
     if (glass > 0 && exact) {
         decide_by_count(plan, GLINT_FEATURE_SPLIT, glass, c->used, "transmission and Fresnel");
+    } else if (c->partly_reflects > 0) {
+        decide_by_count(plan, GLINT_FEATURE_SPLIT, c->partly_reflects, c->used,
+                        "alpha that reflect");
     } else {
         decide_by_count(plan, GLINT_FEATURE_SPLIT, c->metal_and_glass, c->used,
                         "both metal and transmission");
     }
     if (!exact) {
         decide(plan, GLINT_FEATURE_GLOSS, false, "no Fresnel term was asked for");
+    }
+}
+
+// What vertices and textures say of materials. Where vertices are shaded only factors count.
+static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
+{
+    const glint_attributes *set = &in->scene->attribute_set;
+    const bool by_vertex = glint_plan_shades_vertices(plan);
+    const bool heeded = in->settings->output != GLINT_OUTPUT_HITS && !by_vertex;
+    const struct {
+        glint_feature feature;
+        bool is_there;
+        const char *what;
+    } attributes[] = {
+        {GLINT_FEATURE_TEXTURES, set->texcoords, "some material has textures"},
+        {GLINT_FEATURE_SECOND_TEXCOORDS, set->second_texcoords, "some texture uses TEXCOORD_1"},
+        {GLINT_FEATURE_NORMAL_MAPS, set->tangents, "some material has a normal texture"},
+        {GLINT_FEATURE_COLORED_VERTICES, set->colors, "some primitive has colours"},
+    };
+    for (size_t i = 0; i < sizeof attributes / sizeof *attributes; i++) {
+        decide(plan, attributes[i].feature, heeded && attributes[i].is_there, "%s",
+               !attributes[i].is_there ? "there are none"
+               : heeded                ? attributes[i].what
+               : by_vertex             ? "vertices are shaded, by the materials' factors alone"
+                                       : "hits alone are wanted");
     }
 }
 
@@ -176,8 +208,13 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
         TRY(take_census(in->scene, &census, error));
     }
     decide_materials(&census, plan);
+    if (glint_plan_shades_vertices(plan)) {
+        census.partly_there = census.partly_reflects = 0; // vertices are there or not
+    }
+    decide_by_count(plan, GLINT_FEATURE_ALPHA, census.partly_there, census.used, "alpha");
     decide_optics(&census, in->settings->fresnel, plan);
     decide_scene(in, plan);
+    decide_attributes(in, plan);
     decide_settings(in->settings, plan);
     return GLINT_OK;
 }
@@ -191,7 +228,8 @@ void glint_plan_decide_paths(glint_plan *plan)
                    : "not proved of this scene, with these settings");
 
     decide(plan, GLINT_FEATURE_INTERREFLECTION,
-           plan->features[GLINT_FEATURE_GEOMETRY].compiled && plan->depth > 1,
+           plan->features[GLINT_FEATURE_GEOMETRY].compiled &&
+               (plan->depth > 1 || plan->features[GLINT_FEATURE_ALPHA].compiled),
            plan->depth_is_exact  ? "depth %d is exact here"
            : plan->depth_is_auto ? "depth auto, %d at most"
                                  : "depth %d",

@@ -12,11 +12,18 @@
 #include <string.h>
 
 // Both compilers must lay the shared structs out alike: 32-bit scalars without gaps.
-_Static_assert(sizeof(glint_material_record) == 64, "glint_material_record has gaps");
+_Static_assert(sizeof(glint_material_record) == 96, "glint_material_record has gaps");
+_Static_assert(sizeof(glint_texture_record) == 112, "glint_texture_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
 _Static_assert(sizeof(glint_frame_record) == 12 * 32 + 27 * 4, "glint_frame_record has gaps");
+
+static size_t attribute_bytes(const glint_scene *scene)
+{
+    return scene->triangle_count * 3 * glint_attributes_stride(&scene->attribute_set) *
+           sizeof(float);
+}
 
 void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
                             glint_content contents[GLINT_GEOMETRY_CONTENTS])
@@ -30,6 +37,8 @@ void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
         {"the normals", clusters * normals, NULL},
         {"the triangles' numbers", clusters * GLINT_CLUSTER_LANES * sizeof(cl_int), NULL},
         {"the vertices", clusters * glint_vertices_bytes(plan), NULL},
+        {"the vertices' attributes", attribute_bytes(scene), NULL},
+        {"the textures", glint_textures_bytes(scene->textures), NULL},
     };
     memcpy(contents, found, sizeof found);
 }
@@ -64,7 +73,8 @@ static glint_status upload_tree(const glint_upload_inputs *in, glint_geometry_me
     return status;
 }
 
-static glint_material_record material_record(const glint_material *m, uint32_t *media)
+static glint_material_record
+material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS], uint32_t *media)
 {
     const glint_lobes lobes = glint_material_lobes(m);
     glint_material_record record = {
@@ -72,13 +82,19 @@ static glint_material_record material_record(const glint_material *m, uint32_t *
         .transmission = m->transmission,
         .ior = m->ior,
         .blend = lobes.blend ? m->mirror : 0,
-        .flags = (lobes.solid ? GLINT_MATERIAL_SOLID : 0) | (lobes.thin ? GLINT_MATERIAL_THIN : 0) |
-                 (lobes.unlit ? GLINT_MATERIAL_UNLIT : 0) |
-                 (lobes.blend ? GLINT_MATERIAL_BLEND : 0) |
-                 (lobes.gloss ? GLINT_MATERIAL_GLOSS : 0),
+        .flags =
+            (lobes.solid ? GLINT_MATERIAL_SOLID : 0) | (lobes.thin ? GLINT_MATERIAL_THIN : 0) |
+            (lobes.unlit ? GLINT_MATERIAL_UNLIT : 0) | (lobes.blend ? GLINT_MATERIAL_BLEND : 0) |
+            (lobes.gloss ? GLINT_MATERIAL_GLOSS : 0) | (lobes.masked ? GLINT_MATERIAL_MASK : 0) |
+            (lobes.covers ? GLINT_MATERIAL_COVER : 0),
         .medium = lobes.solid ? ++*media : 0,
+        .alpha_cutoff = m->alpha_cutoff,
+        .normal_scale = m->normal_scale,
+        .occlusion_strength = m->occlusion_strength,
     };
     memcpy(record.base_color, m->base_color, sizeof m->base_color);
+    record.base_color[3] = m->alpha;
+    memcpy(record.textures, textures, sizeof record.textures);
     if (lobes.emission) {
         memcpy(record.emission, m->emission, sizeof m->emission);
     }
@@ -119,7 +135,8 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
     media[0].ior = 1;
     for (size_t i = 0; i < count; i++) {
         uint32_t before = media_count;
-        materials[i] = material_record(&scene->materials[i], &media_count);
+        materials[i] =
+            material_record(&scene->materials[i], in->textures->of_material[i], &media_count);
         if (media_count > before) {
             media[media_count] = medium_record(&scene->materials[i], scene->unit);
         }
@@ -131,10 +148,13 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
     const glint_content contents[] = {
         {"the materials", (count + 1) * sizeof *materials, materials},
         {"the media", (media_count + 1) * sizeof *media, media},
+        {"the vertices' attributes", attribute_bytes(scene), scene->attributes},
     };
     TRY_OR(cleanup, status,
            glint_buffer_create(in->device, &contents[0], &memory->materials, error));
     TRY_OR(cleanup, status, glint_buffer_create(in->device, &contents[1], &memory->media, error));
+    TRY_OR(cleanup, status,
+           glint_buffer_create(in->device, &contents[2], &memory->attributes, error));
 cleanup:
     free(materials);
     free(media);
@@ -179,6 +199,7 @@ void glint_geometry_memory_free(glint_geometry_memory *memory)
     glint_shared_buffer_free(&memory->numbers);
     glint_buffer_release(&memory->materials);
     glint_buffer_release(&memory->media);
+    glint_buffer_release(&memory->attributes);
 }
 
 // The environment and its coarser levels. Of halfs the map's own texels need no copy in between.

@@ -7,13 +7,14 @@
 #include "device/buffer.h"
 #include "environment/environment.h"
 #include "render/plan.h"
+#include "render/textures.h"
 #include "scene/scene.h"
 
 // Zero is valid: no buffers. Each is described in kernels/layout.h; those that the plan does not
 // need are a few bytes long, as a kernel's arguments cannot be left out.
 typedef struct glint_geometry_memory {
     glint_shared_buffer nodes, clusters, normals, numbers; // the tree's arrays
-    cl_mem materials, media;
+    cl_mem materials, media, attributes;
 } glint_geometry_memory;
 
 // What is uploaded of a scene. Pointers are borrowed. A device that shares the host's memory takes
@@ -23,11 +24,12 @@ typedef struct glint_upload_inputs {
     const glint_scene *scene;
     glint_bvh *bvh;
     const glint_plan *plan;
+    const glint_texture_table *textures;
 } glint_upload_inputs;
 
 // What the scene takes on the device, for glint_contents_check: asked before the long work begins.
 // The tree is not built yet, so the least that its triangles can take is counted.
-#define GLINT_GEOMETRY_CONTENTS 4
+#define GLINT_GEOMETRY_CONTENTS 6
 void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
                             glint_content contents[GLINT_GEOMETRY_CONTENTS]);
 

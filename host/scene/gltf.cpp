@@ -1,8 +1,7 @@
 // The glTF loader, from the file to the scene: read, check, walk, flatten.
 // Whatever is thrown on the way ends here as a status.
 //
-// Limits: files of 4 GiB, buffers of 8 GiB, 2^27 triangles; textures are not applied, which is said
-// in the warnings.
+// Limits: files of 4 GiB, buffers of 8 GiB, 2^27 triangles.
 #include "scene/scene.h"
 
 #include "scene/gltf_check.hpp"
@@ -12,6 +11,7 @@
 #include "scene/gltf_meshopt.hpp"
 #include "scene/gltf_sweep.hpp"
 #include "scene/gltf_uri.hpp"
+#include "scene/gltf_used_materials.hpp"
 #include "scene/gltf_variants.hpp"
 
 #include <map>
@@ -135,54 +135,12 @@ void read_buffers(Load &load)
     }
 }
 
-// Whether a primitive names no material.
-bool uses_default_material(const Model &model)
-{
-    for (const tinygltf::Mesh &mesh : model.meshes) {
-        for (const tinygltf::Primitive &primitive : mesh.primitives) {
-            if (primitive.material < 0) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-// Looks for what the overrides name among all materials of the file: what triangles use may change
-// with time.
-void resolve_overrides(Load &load)
-{
-    const json &root = load.document.root;
-    const std::size_t count = objects_of(root, "materials").size();
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < count; i++) {
-        names.push_back(material_name(root, static_cast<std::ptrdiff_t>(i)));
-    }
-    std::vector<glint_material> materials;
-    for (std::size_t i = 0; i < count; i++) {
-        materials.push_back(read_material(root, static_cast<std::ptrdiff_t>(i)));
-        materials.back().name = names[i].empty() ? nullptr : names[i].data();
-    }
-    if (uses_default_material(load.model)) {
-        materials.push_back(read_material(root, -1));
-    }
-    glint_error error = {};
-    if (glint_material_overrides_resolve(&load.overrides, materials.data(), materials.size(),
-                                         &error) != GLINT_OK) {
-        throw refusal(error.message);
-    }
-}
-
 void open(const char *path, const glint_scene_options &options, glint_scene_source &source)
 {
     Load &load = source.load;
     read_document(path, load.document);
     check_document(load.document, load.model);
     choose_variant(options.variant, load.model);
-    if (options.overrides != nullptr) {
-        load.overrides = *options.overrides;
-        resolve_overrides(load);
-    }
     read_buffers(load);
     unpack_views(load.model);
     decode_draco(load.model);
@@ -190,6 +148,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     load.skins = read_skins(load.model);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);
     choose_nodes(load, options.scene);
+    read_used_materials(options, load);
     if (load.moves_triangles) {
         source.swept = sweep(load);
     }

@@ -6,6 +6,7 @@
 #include "scene/gltf_check_storage.hpp"
 #include "scene/gltf_extensions.hpp"
 #include "scene/gltf_material.hpp"
+#include "scene/gltf_texture.hpp"
 #include "scene/gltf_variants.hpp"
 
 namespace glint
@@ -60,30 +61,6 @@ void check_extensions(const json &root, Model &model)
     }
 }
 
-void check_images(const Document &document)
-{
-    const json &root = document.root;
-    const json &images = objects_of(root, "images");
-    std::size_t views = objects_of(root, "bufferViews").size();
-    for (std::size_t i = 0; i < images.size(); i++) {
-        Place place = (Place() / "images")[i];
-        const json *uri = member(images[i], "uri");
-        std::ptrdiff_t view = optional_index(images[i], place, "bufferView", views, "bufferView");
-        if (uri != nullptr) {
-            check_uri(document, text_of(*uri, place / "uri"), place / "uri");
-        } else if (view < 0 && optional_object(images[i], place, "extensions") == nullptr) {
-            refuse(place, "neither a uri nor a bufferView (an image needs one)");
-        }
-    }
-    const json &textures = objects_of(root, "textures");
-    std::size_t samplers = objects_of(root, "samplers").size();
-    for (std::size_t i = 0; i < textures.size(); i++) {
-        Place place = (Place() / "textures")[i];
-        optional_index(textures[i], place, "source", images.size(), "image");
-        optional_index(textures[i], place, "sampler", samplers, "sampler");
-    }
-}
-
 } // namespace
 
 void check_document(const Document &document, Model &model)
@@ -97,7 +74,7 @@ void check_document(const Document &document, Model &model)
     }
     check_extensions(document.root, model);
     check_storage(document, model);
-    check_images(document);
+    check_textures(document);
     check_materials(document.root);
     check_variants(document.root, model);
     check_meshes(document.root, model);

@@ -40,6 +40,21 @@ void check_indices(const json &source, const Place &primitive_place, const Model
     }
 }
 
+// Attributes that textures and colours need.
+void check_attribute(const std::string &name, const tinygltf::Accessor &accessor,
+                     const Place &place, const Model &model)
+{
+    if (name == "TEXCOORD_0" || name == "TEXCOORD_1") {
+        check_format(accessor, place, {TINYGLTF_TYPE_VEC2, true, true, model.quantized});
+    } else if (name == "TANGENT") {
+        check_format(accessor, place, {TINYGLTF_TYPE_VEC4, true, model.quantized, false});
+    } else if (name == "COLOR_0") {
+        const bool has_alpha = accessor.type == TINYGLTF_TYPE_VEC4;
+        check_format(accessor, place,
+                     {has_alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, true, true, false});
+    }
+}
+
 void check_attributes(const json &attributes, const Place &place, const Model &model,
                       tinygltf::Primitive &primitive)
 {
@@ -64,6 +79,8 @@ void check_attributes(const json &attributes, const Place &place, const Model &m
             check_format(accessor, attribute, {TINYGLTF_TYPE_VEC3, true, false, model.quantized});
         } else if (it.key() == "NORMAL") {
             check_format(accessor, attribute, {TINYGLTF_TYPE_VEC3, true, model.quantized, false});
+        } else {
+            check_attribute(it.key(), accessor, attribute, model);
         }
         primitive.attributes[it.key()] = static_cast<int>(index);
     }

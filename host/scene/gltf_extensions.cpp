@@ -17,14 +17,15 @@ struct Extension {
     const char *said; // where it stands in a used object; NULL: nothing, as nothing is missing
 };
 
-constexpr std::array<Extension, 13> extensions = {{
+constexpr std::array<Extension, 15> extensions = {{
     {"KHR_materials_transmission", Holder::material, true, nullptr},
     {"KHR_materials_ior", Holder::material, true, nullptr},
     {"KHR_materials_volume", Holder::material, true, nullptr},
     {"KHR_materials_emissive_strength", Holder::material, true, nullptr},
     {"KHR_materials_unlit", Holder::material, true, nullptr},
-    // Textures are not modelled, so neither is this wrong.
     {"KHR_texture_transform", Holder::texture, true, nullptr},
+    {"EXT_texture_webp", Holder::texture, true, nullptr},
+    {"MSFT_texture_dds", Holder::texture, true, nullptr},
     {"KHR_mesh_quantization", Holder::document, true, nullptr},
     {"EXT_meshopt_compression", Holder::document, true, nullptr},
     {"KHR_meshopt_compression", Holder::document, true, nullptr},

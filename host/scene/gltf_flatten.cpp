@@ -5,8 +5,9 @@
 
 #include "base/free_memory.h"
 #include "base/memory.h"
+#include "scene/gltf_attributes.hpp"
 #include "scene/gltf_bounds.hpp"
-#include "scene/gltf_material.hpp"
+#include "scene/tangents.h"
 
 #include <algorithm>
 #include <array>
@@ -154,7 +155,7 @@ void choose_frame(const Bounds &bounds, glint_scene &scene)
 class Writer
 {
   public:
-    Writer(const std::vector<Draw> &draws, glint_scene &scene) : draws_(draws), scene_(scene) {}
+    Writer(Load &load, glint_scene &scene) : load_(load), draws_(load.draws), scene_(scene) {}
 
     // `default_material` stands for the primitives that name none.
     void write(std::size_t triangles, bool with_normals, std::uint32_t default_material)
@@ -192,18 +193,23 @@ class Writer
 
     void allocate(std::size_t triangles, bool with_normals)
     {
-        check_memory(triangles, glint_scene_bytes(triangles, with_normals));
+        const std::size_t stride = glint_attributes_stride(&scene_.attribute_set);
+        check_memory(triangles, glint_scene_bytes(triangles, with_normals, &scene_.attribute_set));
         scene_.positions = static_cast<float *>(glint_allocate(triangles, 9 * sizeof(float)));
         scene_.normals = with_normals
                              ? static_cast<float *>(glint_allocate(triangles, 9 * sizeof(float)))
                              : nullptr;
+        scene_.attributes =
+            stride > 0 ? static_cast<float *>(glint_allocate(triangles, 3 * stride * sizeof(float)))
+                       : nullptr;
         scene_.material_of =
             static_cast<std::uint32_t *>(glint_allocate(triangles, sizeof(std::uint32_t)));
         // One more, as an instance is begun before it is known whether anything is left of it.
         scene_.instances = static_cast<glint_instance *>(
             glint_allocate(draws_.size() + 1, sizeof(glint_instance)));
         if (scene_.positions == nullptr || scene_.material_of == nullptr ||
-            scene_.instances == nullptr || (with_normals && scene_.normals == nullptr)) {
+            scene_.instances == nullptr || (with_normals && scene_.normals == nullptr) ||
+            (stride > 0 && scene_.attributes == nullptr)) {
             throw std::bad_alloc();
         }
     }
@@ -230,6 +236,13 @@ class Writer
             }
             if (draw.primitive->has_normals) {
                 store_normals(draw, triangle, turned);
+            }
+            if (scene_.attributes != nullptr) {
+                const std::size_t floats = 3 * glint_attributes_stride(&scene_.attribute_set);
+                const std::array<std::size_t, 3> corners = {triangle[0].vertex, triangle[1].vertex,
+                                                            triangle[2].vertex};
+                store_attributes(draw, corners, scene_.attribute_set, load_.tally,
+                                 scene_.attributes + floats * scene_.triangle_count);
             }
             scene_.material_of[scene_.triangle_count++] = material;
         }
@@ -282,6 +295,7 @@ class Writer
         scene_.high = world(high_);
     }
 
+    Load &load_;
     const std::vector<Draw> &draws_;
     glint_scene &scene_;
     std::array<float, 3> low_ = {INFINITY, INFINITY, INFINITY};
@@ -329,15 +343,12 @@ void keep_used_materials(Load &load, std::size_t default_material, glint_scene &
         }
         std::ptrdiff_t source = i == default_material ? -1 : static_cast<std::ptrdiff_t>(i);
         place[i] = static_cast<std::uint32_t>(scene.material_count);
+        const UsedMaterial &used_material = load.materials.at(source);
         glint_material &material = scene.materials[scene.material_count];
-        material = read_material(root, source);
+        material = used_material.material;
         material.name = copy_text(material_name(root, source));
         scene.material_count++;
-        if (glint_material_overrides_apply(&load.overrides, &material)) {
-            survey_override(material, load.tally);
-        } else {
-            survey_material(root, source, load.tally);
-        }
+        survey_material(root, source, used_material, load.tally);
     }
     for (std::size_t i = 0; i < scene.instance_count; i++) {
         scene.instances[i].material = place[scene.instances[i].material];
@@ -364,12 +375,17 @@ void flatten(Load &load, glint_scene &scene)
     deform(load.poses.deforming(), with_normals, load.tally);
     choose_frame(measure(load.draws), scene);
     std::size_t default_material = objects_of(load.document.root, "materials").size();
-    Writer(load.draws, scene)
+    scene.attribute_set = attributes_of(load);
+    Writer(load, scene)
         .write(triangles, with_normals, static_cast<std::uint32_t>(default_material));
     load.poses.clear(); // their memory is free while the scene is rendered
     load.draws.clear();
     name_nodes(load.model, scene);
     keep_used_materials(load, default_material, scene);
+    scene.textures = glint_textures_share(load.images.textures());
+    if (scene.attribute_set.tangents && !glint_scene_complete_tangents(&scene)) {
+        throw std::bad_alloc();
+    }
 }
 
 } // namespace glint

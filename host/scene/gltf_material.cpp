@@ -4,7 +4,7 @@
 
 #include "scene/gltf_extensions.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -14,25 +14,6 @@ namespace glint
 
 namespace
 {
-
-// A texture slot: what stands instead of what the texture says.
-struct Slot {
-    const char *holder; // NULL: the material itself, "KHR_…": the extension
-    const char *key;
-    const char *instead;
-};
-
-const std::array<Slot, 8> slots = {{
-    {"pbrMetallicRoughness", "baseColorTexture", "baseColorFactor alone is used"},
-    {"pbrMetallicRoughness", "metallicRoughnessTexture",
-     "metallicFactor and roughnessFactor alone are used"},
-    {nullptr, "normalTexture", "the mesh's own normals are used"},
-    {nullptr, "occlusionTexture", "nothing is darkened"},
-    {nullptr, "emissiveTexture", "emissiveFactor alone is used"},
-    {"KHR_materials_transmission", "transmissionTexture", "transmissionFactor alone is used"},
-    {"KHR_materials_volume", "thicknessTexture", "thicknessFactor alone is used"},
-    {"KHR_materials_ior", "iorTexture", "ior alone is used"},
-}};
 
 float factor(const json &object, const Place &place, const char *key, double fallback)
 {
@@ -56,7 +37,7 @@ float factor_from(const json &object, const Place &place, const char *key, doubl
     return static_cast<float>(value);
 }
 
-// The first three of `count` numbers in [0, 1].
+// `count` numbers in [0, 1].
 void color(const json &object, const Place &object_place, const char *key, std::size_t count,
            float *result)
 {
@@ -69,10 +50,7 @@ void color(const json &object, const Place &object_place, const char *key, std::
         refuse(place, "not an array of " + std::to_string(count) + " numbers");
     }
     for (std::size_t i = 0; i < count; i++) {
-        double value = number_within((*found)[i], place[i], 0, 1);
-        if (i < 3) {
-            result[i] = static_cast<float>(value);
-        }
+        result[i] = static_cast<float>(number_within((*found)[i], place[i], 0, 1));
     }
 }
 
@@ -83,36 +61,49 @@ const json *extension(const json &material, const Place &place, const char *name
                                  : optional_object(*extensions, place / "extensions", name);
 }
 
+bool is_extension(const char *holder)
+{
+    return std::strncmp(holder, "KHR_", 4) == 0;
+}
+
 // Where the slot's holder stands in the material; NULL where it is missing.
-const json *holder_of(const json &material, const Place &place, const Slot &slot)
+const json *holder_of(const json &material, const Place &place, const TextureSlot &slot)
 {
     if (slot.holder == nullptr) {
         return &material;
     }
-    return std::strncmp(slot.holder, "KHR_", 4) == 0
-               ? extension(material, place, slot.holder)
-               : optional_object(material, place, slot.holder);
+    return is_extension(slot.holder) ? extension(material, place, slot.holder)
+                                     : optional_object(material, place, slot.holder);
 }
 
-void check_textures(const json &root, const json &material, const Place &place)
+Place place_of(const Place &place, const TextureSlot &slot)
 {
-    std::size_t textures = objects_of(root, "textures").size();
-    for (const Slot &slot : slots) {
-        const json *holder = holder_of(material, place, slot);
-        if (holder == nullptr || member(*holder, slot.key) == nullptr) {
-            continue;
-        }
-        Place at = place;
-        if (slot.holder != nullptr) {
-            bool extends = std::strncmp(slot.holder, "KHR_", 4) == 0;
-            at = (extends ? place / "extensions" : place) / slot.holder;
-        }
-        const json &info = object_at(*holder, at, slot.key);
-        if (member(info, "index") == nullptr) {
-            refuse(at / slot.key / "index", "missing (glTF 2.0 requires it)");
-        }
-        index_of(info["index"], at / slot.key / "index", textures, "texture");
+    return slot.holder == nullptr      ? place
+           : is_extension(slot.holder) ? place / "extensions" / slot.holder
+                                       : place / slot.holder;
+}
+
+// Takes what a textureInfo says into the material.
+void take_texture(const json &root, const json &info, const TextureSlot &slot, UsedMaterial &read,
+                  Images &images)
+{
+    std::ptrdiff_t image = -1;
+    glint_texture_use use = read_texture_info(root, info, &image);
+    if (image < 0) {
+        read.missing.push_back({slot.slot, slot.key,
+                                "it names no image of a kind that is read (PNG, JPEG, WebP, DDS)"});
+        return;
     }
+    if (use.texcoord > 1) {
+        read.missing.push_back(
+            {slot.slot, slot.key,
+             "TEXCOORD_" + std::to_string(use.texcoord) + " is not read (use set 0 or 1)"});
+        return;
+    }
+    const bool is_coverage =
+        slot.slot == GLINT_TEXTURE_BASE_COLOR && read.material.alpha_mode != GLINT_ALPHA_OPAQUE;
+    use.image = images.number_of({static_cast<std::size_t>(image), slot.is_color, is_coverage});
+    read.material.textures[slot.slot] = use;
 }
 
 float read_ior(const json &object, const Place &place)
@@ -130,6 +121,33 @@ float read_ior(const json &object, const Place &place)
         refuse(place / "ior", shown(ior) + " is no index of refraction (1 or more; glass has 1.5)");
     }
     return static_cast<float>(ior);
+}
+
+// alphaMode and what belongs to it.
+void read_alpha(const json &material, const Place &place, glint_material &result)
+{
+    const std::string mode = optional_text(material, place, "alphaMode");
+    if (!mode.empty() && mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
+        refuse(place / "alphaMode", in_quotes(mode) + " is none (OPAQUE, MASK or BLEND)");
+    }
+    result.alpha_mode = mode == "MASK"    ? GLINT_ALPHA_MASK
+                        : mode == "BLEND" ? GLINT_ALPHA_BLEND
+                                          : GLINT_ALPHA_OPAQUE;
+    result.alpha_cutoff = factor_from(material, place, "alphaCutoff", 0, 0.5);
+}
+
+void read_texture_factors(const json &material, const Place &place, glint_material &result)
+{
+    if (const json *normal = optional_object(material, place, "normalTexture")) {
+        const json *scale = member(*normal, "scale");
+        if (scale != nullptr) {
+            result.normal_scale =
+                static_cast<float>(number_of(*scale, place / "normalTexture" / "scale"));
+        }
+    }
+    if (const json *occlusion = optional_object(material, place, "occlusionTexture")) {
+        result.occlusion_strength = factor(*occlusion, place / "occlusionTexture", "strength", 1);
+    }
 }
 
 void read_volume(const json &object, const Place &place, glint_material &result)
@@ -189,34 +207,96 @@ void read_extras(const json &material, const Place &place, glint_material &resul
     }
 }
 
-glint_material read(const json &root, const json &material, const Place &place)
+// glTF's default material.
+glint_material default_material()
 {
-    glint_material result = read_material(root, -1);
+    glint_material result = {};
+    for (int i = 0; i < 3; i++) {
+        result.base_color[i] = 1;
+        result.attenuation_color[i] = 1;
+    }
+    result.metallic = 1;
+    result.roughness = 1;
+    result.ior = 1.5F;
+    result.attenuation_distance = INFINITY;
+    result.mirror = -1;
+    result.alpha = 1;
+    result.alpha_cutoff = 0.5F;
+    result.normal_scale = 1;
+    result.occlusion_strength = 1;
+    return result;
+}
+
+// Without its textures.
+glint_material read_one(const json &material, const Place &place)
+{
+    glint_material result = default_material();
     if (const json *metal = optional_object(material, place, "pbrMetallicRoughness")) {
         Place at = place / "pbrMetallicRoughness";
-        color(*metal, at, "baseColorFactor", 4, result.base_color);
+        float rgba[4] = {1, 1, 1, 1};
+        color(*metal, at, "baseColorFactor", 4, rgba);
+        std::copy(rgba, rgba + 3, result.base_color);
+        result.alpha = rgba[3];
         result.metallic = factor(*metal, at, "metallicFactor", 1);
         result.roughness = factor(*metal, at, "roughnessFactor", 1);
     }
     color(material, place, "emissiveFactor", 3, result.emission);
+    read_alpha(material, place, result);
+    read_texture_factors(material, place, result);
     read_extensions(material, place, result);
     read_extras(material, place, result);
     return result;
 }
 
-const char *const rendered_smooth =
-    "roughness above 0 on metal or glass is rendered smooth for now";
-
-// materials[3] "gem"
-std::string named(std::size_t index, const std::string &name)
+void check_slots(const json &root, const json &material, const Place &place)
 {
-    return (Place() / "materials")[index].text() + (name.empty() ? "" : " " + in_quotes(name));
+    for (const TextureSlot &slot : texture_slots()) {
+        const json *holder = holder_of(material, place, slot);
+        if (holder != nullptr && member(*holder, slot.key) != nullptr) {
+            const Place at = place_of(place, slot);
+            check_texture_info(root, object_at(*holder, at, slot.key), at / slot.key);
+        }
+    }
 }
 
-bool shows_roughness(const glint_material &material)
+// Mid-grey paint, where nothing is known of a surface.
+void make_grey(glint_material &material)
 {
-    const glint_lobes lobes = glint_material_lobes(&material);
-    return material.roughness > 0 && (lobes.metal || lobes.glass);
+    std::fill(material.base_color, material.base_color + 3, 0.5F);
+    material.metallic = 0;
+    material.roughness = 1;
+    material.transmission = 0;
+    material.textures[GLINT_TEXTURE_BASE_COLOR] = {};
+    material.textures[GLINT_TEXTURE_METALLIC_ROUGHNESS] = {};
+    material.textures[GLINT_TEXTURE_TRANSMISSION] = {};
+}
+
+// What stands for a texture that cannot be shown. Returns what is said of it.
+const char *do_without(glint_texture_slot slot, glint_material &material)
+{
+    switch (slot) {
+    case GLINT_TEXTURE_NORMAL:
+        return "the mesh's own normals are used";
+    case GLINT_TEXTURE_OCCLUSION:
+        return "nothing is darkened";
+    case GLINT_TEXTURE_EMISSION:
+        std::fill(material.emission, material.emission + 3, 0.0F);
+        return "nothing is emitted";
+    default:
+        make_grey(material);
+        return "the surface is rendered as grey paint";
+    }
+}
+
+// materials[3] "gem"
+std::string where_is(const json &root, std::ptrdiff_t index)
+{
+    if (index < 0) {
+        return "the default material";
+    }
+    const std::string name = material_name(root, index);
+    return (Place() / "materials")[static_cast<std::size_t>(index)].text() +
+           (name.empty() ? "" : " " + in_quotes(name));
 }
 
 void survey_extras(const json &material, const std::string &where, Tally &tally)
@@ -245,38 +325,55 @@ void check_materials(const json &root)
         Place place = (Place() / "materials")[i];
         const json &material = materials[i];
         optional_text(material, place, "name");
-        std::string alpha = optional_text(material, place, "alphaMode");
-        if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND") {
-            refuse(place / "alphaMode", in_quotes(alpha) + " is none (OPAQUE, MASK or BLEND)");
-        }
-        factor_from(material, place, "alphaCutoff", 0, 0.5);
         optional_boolean(material, place, "doubleSided", false);
-        read(root, material, place);
-        check_textures(root, material, place);
+        read_one(material, place);
+        check_slots(root, material, place);
     }
 }
 
-glint_material read_material(const json &root, std::ptrdiff_t index)
+glint_material read_factors(const json &root, std::ptrdiff_t index)
 {
-    if (index >= 0) {
-        auto i = static_cast<std::size_t>(index);
-        glint_material result =
-            read(root, objects_of(root, "materials")[i], (Place() / "materials")[i]);
-        result.index = static_cast<int>(index);
-        return result;
-    }
-    glint_material result = {};
-    result.index = static_cast<int>(objects_of(root, "materials").size());
-    for (int i = 0; i < 3; i++) {
-        result.base_color[i] = 1;
-        result.attenuation_color[i] = 1;
-    }
-    result.metallic = 1;
-    result.roughness = 1;
-    result.ior = 1.5F;
-    result.attenuation_distance = INFINITY;
-    result.mirror = -1;
+    const json &materials = objects_of(root, "materials");
+    const auto i = static_cast<std::size_t>(index);
+    glint_material result =
+        index < 0 ? default_material() : read_one(materials[i], (Place() / "materials")[i]);
+    result.index = static_cast<int>(index < 0 ? materials.size() : i);
     return result;
+}
+
+UsedMaterial read_material(const json &root, std::ptrdiff_t index, Images &images)
+{
+    UsedMaterial read;
+    read.material = read_factors(root, index);
+    if (index < 0) {
+        return read;
+    }
+    const auto i = static_cast<std::size_t>(index);
+    const json &material = objects_of(root, "materials")[i];
+    for (const TextureSlot &slot : texture_slots()) {
+        const json *holder = holder_of(material, (Place() / "materials")[i], slot);
+        const json *info = holder == nullptr ? nullptr : member(*holder, slot.key);
+        if (info != nullptr) {
+            take_texture(root, *info, slot, read, images);
+        }
+    }
+    return read;
+}
+
+void settle_material(const json &root, std::ptrdiff_t index, const Images &images,
+                     UsedMaterial &used, Tally &tally)
+{
+    for (const TextureSlot &slot : texture_slots()) {
+        glint_texture_use &use = used.material.textures[slot.slot];
+        if (use.image != 0 && !images.fault(use.image).empty()) {
+            used.missing.push_back({slot.slot, slot.key, images.fault(use.image)});
+            use = {};
+        }
+    }
+    for (const MissingTexture &missing : used.missing) {
+        const std::string instead = do_without(missing.slot, used.material);
+        tally.add(missing.key + ": " + missing.why + "; " + instead, where_is(root, index));
+    }
 }
 
 std::string material_name(const json &root, std::ptrdiff_t index)
@@ -286,39 +383,24 @@ std::string material_name(const json &root, std::ptrdiff_t index)
                                      Place(), "name");
 }
 
-void survey_material(const json &root, std::ptrdiff_t index, Tally &tally)
+void survey_material(const json &root, std::ptrdiff_t index, const UsedMaterial &used, Tally &tally)
 {
-    if (index < 0) {
-        tally.add(rendered_smooth, "the default material");
-        return;
+    const std::string where = where_is(root, index);
+    const glint_lobes lobes = glint_material_lobes(&used.material);
+    const bool is_rough = used.material.roughness > 0;
+    if (is_rough && (lobes.metal || lobes.glass)) {
+        tally.add("roughness above 0 on metal or glass is rendered smooth for now", where);
     }
-    auto i = static_cast<std::size_t>(index);
-    Place place = (Place() / "materials")[i];
-    const json &material = objects_of(root, "materials")[i];
-    std::string where = named(i, material_name(root, index));
-    for (const Slot &slot : slots) {
-        const json *holder = holder_of(material, place, slot);
-        if (holder != nullptr && member(*holder, slot.key) != nullptr) {
-            tally.add(std::string(slot.key) + ": textures are not modelled yet, " + slot.instead,
-                      where);
-        }
+    if (is_rough && lobes.paint) {
+        tally.add("roughness above 0 on paint: its reflection is left out for now", where);
     }
-    if (shows_roughness(read_material(root, index))) {
-        tally.add(rendered_smooth, where);
+    if (lobes.solid && used.material.alpha_mode != GLINT_ALPHA_OPAQUE) {
+        tally.add("alphaMode counts for nothing in glass with a volume: it is all there", where);
     }
-    std::string alpha = optional_text(material, place, "alphaMode");
-    if (alpha == "MASK" || alpha == "BLEND") {
-        tally.add("alphaMode " + alpha + " is not modelled, the surface is rendered opaque", where);
-    }
-    survey_extensions(material, Holder::material, where, tally);
-    survey_extras(material, where, tally);
-}
-
-void survey_override(const glint_material &material, Tally &tally)
-{
-    if (shows_roughness(material)) {
-        tally.add(rendered_smooth, named(static_cast<std::size_t>(material.index),
-                                         material.name != nullptr ? material.name : ""));
+    if (index >= 0 && !used.is_replaced) {
+        const json &material = objects_of(root, "materials")[static_cast<std::size_t>(index)];
+        survey_extensions(material, Holder::material, where, tally);
+        survey_extras(material, where, tally);
     }
 }
 

@@ -117,6 +117,27 @@ void open_influences(const tinygltf::Primitive &source, Accessors &accessors, Pr
     }
 }
 
+// What textures and colours need.
+void open_attributes(const tinygltf::Primitive &source, const Model &model, Accessors &accessors,
+                     Primitive &primitive)
+{
+    auto open = [&](const char *name, Reader &reader) {
+        const auto found = source.attributes.find(name);
+        const bool is_there = found != source.attributes.end();
+        if (is_there) {
+            reader = accessors.reader(static_cast<std::size_t>(found->second));
+        }
+        return is_there;
+    };
+    primitive.has_tangents = open("TANGENT", primitive.tangents);
+    primitive.has_texcoords = {open("TEXCOORD_0", primitive.texcoords[0]),
+                               open("TEXCOORD_1", primitive.texcoords[1])};
+    if (open("COLOR_0", primitive.colors)) {
+        const auto accessor = static_cast<std::size_t>(source.attributes.at("COLOR_0"));
+        primitive.color_components = model.accessors[accessor].type == TINYGLTF_TYPE_VEC4 ? 4 : 3;
+    }
+}
+
 void count_triangles(Primitive &primitive, Tally &tally)
 {
     std::size_t corners =
@@ -158,6 +179,7 @@ Primitives prepare_primitives(const Model &model, Tally &tally)
                     primitive.has_normals = true;
                     primitive.normals = accessors.reader(static_cast<std::size_t>(normal->second));
                 }
+                open_attributes(source, model, accessors, primitive);
                 open_indices(source, accessors, primitive);
                 open_targets(source, accessors, primitive, tally);
                 open_influences(source, accessors, primitive);

@@ -19,7 +19,11 @@ struct Primitive {
     std::ptrdiff_t material = -1;
     std::size_t triangles = 0; // 0 for points and lines
     bool indexed = false, has_normals = false;
-    Reader positions, normals, indices;
+    bool has_tangents = false;
+    std::array<bool, 2> has_texcoords{};
+    std::size_t color_components = 0; // 3 or 4; 0: no colours
+    Reader positions, normals, indices, tangents, colors;
+    std::array<Reader, 2> texcoords;
     std::vector<MorphTarget> targets;
     std::vector<Influences> influences; // empty: no skin moves it
 

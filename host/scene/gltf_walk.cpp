@@ -156,10 +156,6 @@ void survey_primitive(Load &load, const Primitive &primitive)
     const json &source =
         objects_of(load.document.root, "meshes")[primitive.mesh]["primitives"][primitive.number];
     std::string where = primitive.place().text();
-    if (member(source["attributes"], "COLOR_0") != nullptr) {
-        load.tally.add("vertex colours (COLOR_0) are not modelled, baseColorFactor alone is used",
-                       where);
-    }
     survey_extensions(source, Holder::primitive, where, load.tally);
 }
 

@@ -3,6 +3,7 @@
 #define GLINT_SCENE_GLTF_WALK_HPP
 
 #include "scene/gltf_animation.hpp"
+#include "scene/gltf_material.hpp"
 #include "scene/gltf_pose.hpp"
 #include "scene/gltf_primitive.hpp"
 #include "scene/material_override.h"
@@ -37,7 +38,9 @@ struct Load {
     Model model;
     Primitives primitives;
     Clips clips;
-    glint_material_overrides overrides = {}; // resolved
+    Images images;
+    std::map<std::ptrdiff_t, UsedMaterial> materials; // −1: glTF's default one
+    glint_material_overrides overrides = {};          // resolved
     std::vector<Skin> skins;
     std::vector<Visit> visits;            // depth first: parents come before their children
     std::vector<std::ptrdiff_t> visit_of; // [node]; −1: not visited

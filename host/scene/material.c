@@ -14,7 +14,29 @@ static bool absorbs(const glint_material *m)
     return isfinite(m->attenuation_distance) && (left[0] < 1 || left[1] < 1 || left[2] < 1);
 }
 
-glint_lobes glint_material_lobes(const glint_material *m)
+bool glint_material_is_textured(const glint_material *m)
+{
+    for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
+        if (m->textures[slot].image != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool has_texture(const glint_material *m, glint_texture_slot slot)
+{
+    return m->textures[slot].image != 0;
+}
+
+// Whether alpha can be less than 1.
+static bool has_alpha(const glint_material *m)
+{
+    return m->alpha < 1 || m->has_vertex_colors || has_texture(m, GLINT_TEXTURE_BASE_COLOR);
+}
+
+// The lobes that share the light.
+static glint_lobes sharing_lobes(const glint_material *m)
 {
     glint_lobes lobes = {0};
     if (m->unlit) {
@@ -27,14 +49,28 @@ glint_lobes glint_material_lobes(const glint_material *m)
         lobes.blend_mirror = m->mirror > 0;
         return lobes;
     }
-    const bool dielectric = m->metallic < 1;
+    // A texture can only lower what it multiplies.
+    const bool dielectric = m->metallic < 1 || has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS);
+    const bool is_colored = !is_white(m->base_color) || m->has_vertex_colors ||
+                            has_texture(m, GLINT_TEXTURE_BASE_COLOR);
     lobes.metal = m->metallic > 0;
-    lobes.tint = lobes.metal && !is_white(m->base_color);
+    lobes.tint = lobes.metal && is_colored;
     lobes.glass = dielectric && m->transmission > 0;
     lobes.solid = lobes.glass && m->thickness > 0;
     lobes.absorption = lobes.solid && absorbs(m);
     lobes.thin = lobes.glass && !lobes.solid;
-    lobes.paint = dielectric && m->transmission < 1;
+    lobes.paint = dielectric && (m->transmission < 1 || has_texture(m, GLINT_TEXTURE_TRANSMISSION));
     lobes.gloss = lobes.paint && !(m->roughness > 0);
+    return lobes;
+}
+
+glint_lobes glint_material_lobes(const glint_material *m)
+{
+    glint_lobes lobes = sharing_lobes(m);
+    if (!lobes.solid) {
+        lobes.masked =
+            m->alpha_mode == GLINT_ALPHA_MASK && (has_alpha(m) || m->alpha < m->alpha_cutoff);
+        lobes.covers = m->alpha_mode == GLINT_ALPHA_BLEND && has_alpha(m);
+    }
     return lobes;
 }

@@ -2,11 +2,20 @@
 #ifndef GLINT_SCENE_MATERIAL_H
 #define GLINT_SCENE_MATERIAL_H
 
+#include "scene/texture.h"
+
 #include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+// What the alpha of a surface's base colour means: how much of it is there.
+typedef enum glint_alpha_mode {
+    GLINT_ALPHA_OPAQUE, // nothing: all of it
+    GLINT_ALPHA_MASK,   // all of it from alpha_cutoff on, else nothing
+    GLINT_ALPHA_BLEND,  // that share of it; the other light goes straight on
+} glint_alpha_mode;
 
 // glTF 2.0's factors, and the extensions that are modelled. Colours are linear Rec.709 in [0, 1].
 typedef struct glint_material {
@@ -24,6 +33,13 @@ typedef struct glint_material {
     float attenuation_color[3]; // what is left of white after attenuation_distance
     bool unlit;                 // KHR_materials_unlit
     float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
+    glint_alpha_mode alpha_mode;
+    float alpha;        // baseColorFactor's A, [0, 1]
+    float alpha_cutoff; // of GLINT_ALPHA_MASK
+    glint_texture_use textures[GLINT_TEXTURE_SLOTS];
+    float normal_scale;       // of x and y of the normal texture's normals
+    float occlusion_strength; // [0, 1]
+    bool has_vertex_colors;   // some of its triangles have colours at their vertices
 } glint_material;
 
 // The lobes that a material has: each is one way in which its surface sends light on. A lobe is
@@ -44,9 +60,14 @@ typedef struct glint_lobes {
     bool thin;       // a wall without thickness: light passes straight
     bool paint;      // is lit by the environment's irradiance
     bool gloss;      // and reflects, as it is smooth
+    // Beside all of these: some of the surface may not be there.
+    bool masked; // by alpha_cutoff
+    bool covers; // by its alpha; never of a solid, which is all there
 } glint_lobes;
 
 glint_lobes glint_material_lobes(const glint_material *material);
+
+bool glint_material_is_textured(const glint_material *material);
 
 #ifdef __cplusplus
 }

@@ -325,6 +325,7 @@ static void replace_material(glint_material *material, const struct preset *pres
     made.index = material->index;
     if (preset->keeps_color) {
         memcpy(made.base_color, material->base_color, sizeof made.base_color);
+        made.textures[GLINT_TEXTURE_BASE_COLOR] = material->textures[GLINT_TEXTURE_BASE_COLOR];
     }
     *material = made;
 }

@@ -24,6 +24,8 @@ void glint_scene_free(glint_scene *scene)
     free(scene->path);
     free(scene->positions);
     free(scene->normals);
+    free(scene->attributes);
+    glint_textures_release(scene->textures);
     free(scene->material_of);
     free(scene->materials);
     free(scene->nodes);

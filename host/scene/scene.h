@@ -21,6 +21,22 @@ typedef struct glint_node {
     int parent; // its index; −1 of a root
 } glint_node;
 
+// Which attributes the vertices have beside position and normal. They stand in this order.
+typedef struct glint_attributes {
+    bool texcoords;        // 2 floats: u, v of set 0
+    bool second_texcoords; // 2 floats: of set 1; only beside those of set 0
+    bool colors;           // 4 floats: linear R, G, B, and A; 1 where a vertex has none
+    bool tangents; // 4 floats: a unit vector in world space, and 1 or −1: the bitangent is
+                   // that times normal × tangent; 0 where there is none
+} glint_attributes;
+
+static inline size_t glint_attributes_stride(const glint_attributes *set)
+{
+    const int floats = (set->texcoords ? 2 : 0) + (set->second_texcoords ? 2 : 0) +
+                       (set->colors ? 4 : 0) + (set->tangents ? 4 : 0);
+    return (size_t)floats;
+}
+
 // A primitive as it was instantiated by a node: a run of at least one triangle.
 typedef struct glint_instance {
     const char *node; // the node's name, NULL where it has none; the scene's
@@ -47,6 +63,12 @@ typedef struct glint_scene {
                       // a vertex has none that is usable: the geometric normal serves there
     uint32_t *material_of; // [triangle_count], index into materials
 
+    // What vertices hold beside: per triangle three corners, each of glint_attributes_stride
+    // floats. NULL where there is nothing.
+    float *attributes; // owned
+    glint_attributes attribute_set;
+    glint_textures *textures; // that materials name; NULL: none. An owner of them
+
     size_t material_count;     // those that triangles use, in the order of the file; glTF's default
     glint_material *materials; // material stands last where a primitive names none
 
@@ -72,9 +94,11 @@ typedef struct glint_scene {
 } glint_scene;
 
 // Bytes of the arrays of so many triangles.
-static inline size_t glint_scene_bytes(size_t triangles, bool with_normals)
+static inline size_t glint_scene_bytes(size_t triangles, bool with_normals,
+                                       const glint_attributes *set)
 {
-    return triangles * (9 * sizeof(float) * (with_normals ? 2 : 1) + sizeof(uint32_t));
+    return triangles * (9 * sizeof(float) * (with_normals ? 2 : 1) +
+                        3 * sizeof(float) * glint_attributes_stride(set) + sizeof(uint32_t));
 }
 
 typedef struct glint_scene_options {
@@ -83,6 +107,7 @@ typedef struct glint_scene_options {
     const char *variant;   // which variant of the materials, by name or index; NULL: none, which is
                            // the plain materials
     const struct glint_material_overrides *overrides; // of its materials, copied; NULL: none
+    int texture_size; // textures are reduced to so many texels across at most; 0: they are not
 } glint_scene_options;
 
 // Loads .gltf or .glb as it is at the beginning of its animation. `options` and `warnings` may be

@@ -11,13 +11,17 @@
 typedef enum fate {
     FATE_ENDS,
     FATE_REFLECTED,
-    FATE_PASSES,   // straight through a thin wall, or reflected
-    FATE_REFRACTED // or reflected
+    FATE_PASSES,    // straight through a thin wall, or reflected
+    FATE_REFRACTED, // or reflected
+    FATE_UNKNOWN    // what is there in part lets paths pass, or not
 } fate;
 
 static fate fate_at(const glint_material *m)
 {
     const glint_lobes lobes = glint_material_lobes(m);
+    if (lobes.masked || lobes.covers) {
+        return FATE_UNKNOWN;
+    }
     if (lobes.glass) {
         return lobes.solid ? FATE_REFRACTED : FATE_PASSES;
     }
@@ -25,7 +29,7 @@ static fate fate_at(const glint_material *m)
 }
 
 typedef struct census {
-    size_t ends, reflected, passes, refracted; // triangles
+    size_t ends, reflected, passes, refracted, unknown; // triangles
 } census;
 
 static census take_census(const glint_scene *scene)
@@ -45,6 +49,9 @@ static census take_census(const glint_scene *scene)
             break;
         case FATE_REFRACTED:
             c.refracted += instance->triangle_count;
+            break;
+        case FATE_UNKNOWN:
+            c.unknown += instance->triangle_count;
             break;
         }
     }
@@ -156,7 +163,7 @@ bool glint_sight_wants_topology(const glint_scene *scene)
 {
     const census c = take_census(scene);
     return !scene->moves && c.reflected > 0 && c.passes == 0 && c.refracted == 0 &&
-           !is_flat(scene, false) && may_be_convex(scene, c.reflected);
+           c.unknown == 0 && !is_flat(scene, false) && may_be_convex(scene, c.reflected);
 }
 
 // The only surface at which paths go on, if it is one and proved convex.
@@ -196,6 +203,9 @@ glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *top
     const bool alone = c.ends == 0;
     if (scene->triangle_count == 0) {
         return not_proved("there is no surface");
+    }
+    if (c.unknown > 0) {
+        return not_proved("some surface is there in part: light passes, or not");
     }
     if (c.reflected + c.passes + c.refracted == 0) {
         glint_sight sight = {.depth = 1};

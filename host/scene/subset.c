@@ -163,6 +163,11 @@ static void drop(glint_scene *scene, const bool *is_marked, bool unwanted)
             memmove(scene->normals + 9 * triangles, scene->normals + 9 * from,
                     9 * count * sizeof *scene->normals);
         }
+        if (scene->attributes != NULL) {
+            const size_t floats = 3 * glint_attributes_stride(&scene->attribute_set);
+            memmove(scene->attributes + floats * triangles, scene->attributes + floats * from,
+                    floats * count * sizeof *scene->attributes);
+        }
         memmove(scene->material_of + triangles, scene->material_of + from,
                 count * sizeof *scene->material_of);
         instance.first_triangle = triangles;

@@ -364,7 +364,11 @@ int main(int argc, char **argv)
     folder = argv[4];
     const size_t seed_count = (size_t)(argc - 5);
     text *seeds = calloc(seed_count, sizeof *seeds), input = {.bytes = malloc(LONGEST)};
-    for (size_t i = 0; seeds != NULL && i < seed_count; i++) {
+    if (seeds == NULL || input.bytes == NULL) {
+        fputs("fuzz: not enough memory\n", stderr);
+        return 2;
+    }
+    for (size_t i = 0; i < seed_count; i++) {
         seeds[i] = read_seed(argv[5 + i]);
     }
     tallies sum = {0};

@@ -426,10 +426,11 @@ char *figure_text(const figure *f)
         write_skin(rest, sizeof rest, f, &s);
     }
     write_animation(rest, sizeof rest, f, &s);
-    append(all, sizeof all,
-           "%s,\"bufferViews\":[%s],\"accessors\":[%s],"
-           "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0}}],"
-           "\"extensionsUsed\":[\"KHR_mesh_quantization\"]",
-           rest, s.views, s.accessors);
+    append(
+        all, sizeof all,
+        "%s,\"bufferViews\":[%s],\"accessors\":[%s],"
+        "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0}}],"
+        "\"extensionsUsed\":[\"KHR_mesh_quantization\"]",
+        rest, s.views, s.accessors);
     return gltf_text(s.bytes, s.size, all);
 }

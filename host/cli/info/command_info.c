@@ -67,7 +67,8 @@ static void print_scene(const glint_scene *scene, const glint_topology *topology
            scene->instance_count, scene->material_count, scene->camera_count);
     if (scene->triangle_count > 0) {
         const double mib = 1 << 20;
-        const size_t bytes = glint_scene_bytes(scene->triangle_count, scene->normals != NULL);
+        const size_t bytes =
+            glint_scene_bytes(scene->triangle_count, scene->normals != NULL, &scene->attribute_set);
         printf("  memory: %.1f MiB, and up to %.1f MiB to build the tree\n", (double)bytes / mib,
                (double)(scene->triangle_count * GLINT_BVH_BYTES_WHILE_BUILT) / mib);
         printf("  bounds (%g, %g, %g) to (%g, %g, %g) m\n", scene->low.x, scene->low.y,

@@ -50,16 +50,48 @@ static void add_array(XXH3_state_t *state, const void *array, size_t size, size_
     }
 }
 
+static void add_texture_use(XXH3_state_t *state, const glint_texture_use *use)
+{
+    const double numbers[] = {
+        (double)use->image,  (double)use->texcoord,          (double)use->wrap_s,
+        (double)use->wrap_t, (double)use->magnified_nearest, (double)use->minified_nearest,
+        (double)use->mips};
+    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+    add_array(state, use->transform, sizeof *use->transform, 6);
+}
+
+static void add_textures(XXH3_state_t *state, const glint_textures *textures)
+{
+    for (size_t i = 0; textures != NULL && i < textures->count; i++) {
+        const double size[] = {textures->textures[i].width, textures->textures[i].height};
+        add_numbers(state, size, 2);
+    }
+    add_array(state, textures != NULL ? textures->texels : NULL, sizeof *textures->texels,
+              textures != NULL ? textures->texel_count : 0);
+}
+
 static void add_material(XXH3_state_t *state, const glint_material *m)
 {
-    const double numbers[] = {(double)m->metallic,     (double)m->roughness,
-                              (double)m->transmission, (double)m->ior,
-                              (double)m->thickness,    (double)m->attenuation_distance,
-                              m->unlit ? 1 : 0,        (double)m->mirror};
+    const double numbers[] = {(double)m->metallic,
+                              (double)m->roughness,
+                              (double)m->transmission,
+                              (double)m->ior,
+                              (double)m->thickness,
+                              (double)m->attenuation_distance,
+                              m->unlit ? 1 : 0,
+                              (double)m->mirror,
+                              (double)m->alpha_mode,
+                              (double)m->alpha,
+                              (double)m->alpha_cutoff,
+                              (double)m->normal_scale,
+                              (double)m->occlusion_strength};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
     add_array(state, m->base_color, sizeof *m->base_color, 3);
     add_array(state, m->emission, sizeof *m->emission, 3);
     add_array(state, m->attenuation_color, sizeof *m->attenuation_color, 3);
+    for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
+        add_texture_use(state, &m->textures[slot]);
+    }
 }
 
 // By what layers and manifests name it.
@@ -82,6 +114,10 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
     add_array(state, scene->positions, 9 * sizeof *scene->positions, scene->triangle_count);
     add_array(state, scene->normals, 9 * sizeof *scene->normals, scene->triangle_count);
     add_array(state, scene->material_of, sizeof *scene->material_of, scene->triangle_count);
+    add_array(state, scene->attributes,
+              3 * glint_attributes_stride(&scene->attribute_set) * sizeof *scene->attributes,
+              scene->triangle_count);
+    add_textures(state, scene->textures);
     for (size_t i = 0; i < scene->material_count; i++) {
         add_material(state, &scene->materials[i]);
     }

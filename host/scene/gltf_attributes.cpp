@@ -1,0 +1,103 @@
+// Texture coordinates, colours and tangents of vertices. See gltf_attributes.hpp.
+#include "scene/gltf_attributes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glint
+{
+
+namespace
+{
+
+// Returns where the next attribute goes.
+float *store_texcoords(const Primitive &primitive, std::size_t set, std::size_t vertex,
+                       Tally &tally, float *stored)
+{
+    std::array<double, 2> uv{};
+    if (primitive.has_texcoords[set]) {
+        primitive.texcoords[set].numbers(vertex, 2, uv.data());
+    }
+    for (std::size_t i = 0; i < 2; i++) {
+        stored[i] = static_cast<float>(uv[i]);
+        if (!std::isfinite(uv[i])) {
+            tally.add("texture coordinates that are not finite count as 0",
+                      primitive.place().text());
+            stored[i] = 0;
+        }
+    }
+    return stored + 2;
+}
+
+float *store_color(const Primitive &primitive, std::size_t vertex, Tally &tally, float *stored)
+{
+    std::array<double, 4> rgba = {1, 1, 1, 1};
+    primitive.colors.numbers(vertex, primitive.color_components, rgba.data());
+    for (std::size_t i = 0; i < 4; i++) {
+        if (std::isnan(rgba[i])) {
+            tally.add("colours that are no numbers count as 1", primitive.place().text());
+            rgba[i] = 1;
+        }
+        stored[i] = static_cast<float>(std::clamp(rgba[i], 0.0, 1.0));
+    }
+    return stored + 4;
+}
+
+// Zeros where the file has none, or none that is usable. Those of what is morphed or skinned do not
+// fit any more: they are computed anew.
+float *store_tangent(const Draw &draw, std::size_t vertex, float *stored)
+{
+    std::array<double, 4> t{};
+    if (draw.primitive->has_tangents && draw.shape == nullptr) {
+        draw.primitive->tangents.numbers(vertex, 4, t.data());
+    }
+    const glint_vec3 world =
+        glint_vec3_normalize(glint_mat4_direction(&draw.to_world, {t[0], t[1], t[2]}));
+    const bool is_usable = world.x != 0 || world.y != 0 || world.z != 0;
+    // A node that mirrors turns the bitangent round.
+    const bool is_mirrored = glint_mat4_determinant3(&draw.to_world) < 0;
+    stored[0] = static_cast<float>(world.x);
+    stored[1] = static_cast<float>(world.y);
+    stored[2] = static_cast<float>(world.z);
+    stored[3] = !is_usable ? 0.0F : (t[3] < 0) != is_mirrored ? -1.0F : 1.0F;
+    return stored + 4;
+}
+
+} // namespace
+
+glint_attributes attributes_of(const Load &load)
+{
+    glint_attributes set = {};
+    for (const auto &one : load.materials) {
+        for (const glint_texture_use &use : one.second.material.textures) {
+            set.texcoords = set.texcoords || use.image != 0;
+            set.second_texcoords = set.second_texcoords || (use.image != 0 && use.texcoord == 1);
+        }
+        set.tangents =
+            set.tangents || one.second.material.textures[GLINT_TEXTURE_NORMAL].image != 0;
+        set.colors = set.colors || one.second.material.has_vertex_colors;
+    }
+    return set;
+}
+
+void store_attributes(const Draw &draw, const std::array<std::size_t, 3> &corners,
+                      const glint_attributes &set, Tally &tally, float *stored)
+{
+    const Primitive &primitive = *draw.primitive;
+    for (const std::size_t vertex : corners) {
+        if (set.texcoords) {
+            stored = store_texcoords(primitive, 0, vertex, tally, stored);
+        }
+        if (set.second_texcoords) {
+            stored = store_texcoords(primitive, 1, vertex, tally, stored);
+        }
+        if (set.colors) {
+            stored = store_color(primitive, vertex, tally, stored);
+        }
+        if (set.tangents) {
+            stored = store_tangent(draw, vertex, stored);
+        }
+    }
+}
+
+} // namespace glint

@@ -1,0 +1,97 @@
+// The materials of what is drawn. See gltf_used_materials.hpp.
+#include "scene/gltf_used_materials.hpp"
+
+namespace glint
+{
+
+namespace
+{
+
+// Whether a primitive names no material.
+bool uses_default_material(const Model &model)
+{
+    for (const tinygltf::Mesh &mesh : model.meshes) {
+        for (const tinygltf::Primitive &primitive : mesh.primitives) {
+            if (primitive.material < 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Looks for what the overrides name among all materials of the file: what triangles use may change
+// with time.
+void resolve_overrides(Load &load)
+{
+    const json &root = load.document.root;
+    const std::size_t count = objects_of(root, "materials").size();
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count; i++) {
+        names.push_back(material_name(root, static_cast<std::ptrdiff_t>(i)));
+    }
+    std::vector<glint_material> materials;
+    for (std::size_t i = 0; i < count; i++) {
+        materials.push_back(read_factors(root, static_cast<std::ptrdiff_t>(i)));
+        materials.back().name = names[i].empty() ? nullptr : names[i].data();
+    }
+    if (uses_default_material(load.model)) {
+        materials.push_back(read_factors(root, -1));
+    }
+    glint_error error = {};
+    if (glint_material_overrides_resolve(&load.overrides, materials.data(), materials.size(),
+                                         &error) != GLINT_OK) {
+        throw refusal(error.message);
+    }
+}
+
+// The material, changed, in the order of its first use.
+UsedMaterial &use_material(Load &load, std::ptrdiff_t index)
+{
+    auto found = load.materials.find(index);
+    if (found == load.materials.end()) {
+        found = load.materials.emplace(index, read_material(load.document.root, index, load.images))
+                    .first;
+        UsedMaterial &used = found->second;
+        std::string name = material_name(load.document.root, index);
+        used.material.name = name.empty() ? nullptr : name.data();
+        used.is_replaced = glint_material_overrides_apply(&load.overrides, &used.material);
+        used.material.name = nullptr;
+        if (used.is_replaced) {
+            used.missing.clear();
+        }
+    }
+    return found->second;
+}
+
+} // namespace
+
+void read_used_materials(const glint_scene_options &options, Load &load)
+{
+    if (options.overrides != nullptr) {
+        load.overrides = *options.overrides;
+        resolve_overrides(load);
+    }
+    for (const Visit &visit : load.visits) {
+        const int mesh = load.model.nodes[visit.node].mesh;
+        if (mesh < 0) {
+            continue;
+        }
+        const auto m = static_cast<std::size_t>(mesh);
+        for (std::size_t p = load.primitives.first[m]; p < load.primitives.first[m + 1]; p++) {
+            const Primitive &primitive = load.primitives.all[p];
+            if (primitive.triangles > 0) {
+                UsedMaterial &used = use_material(load, primitive.material);
+                used.material.has_vertex_colors =
+                    used.material.has_vertex_colors ||
+                    (primitive.color_components > 0 && !used.is_replaced);
+            }
+        }
+    }
+    load.images.read(load.document, load.model, options.texture_size);
+    for (auto &one : load.materials) {
+        settle_material(load.document.root, one.first, load.images, one.second, load.tally);
+    }
+}
+
+} // namespace glint

@@ -1,0 +1,223 @@
+// Tangents of surfaces whose file has none. See tangents.h.
+#include "scene/tangents.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Corners of one instance that share one tangent: those with these values.
+typedef struct corner_key {
+    float position[3], normal[3], uv[2];
+    uint32_t instance;
+    int32_t turn; // 1 or −1: which way the triangle winds in the texture
+} corner_key;
+
+typedef struct shared_tangent {
+    corner_key key;
+    glint_vec3 sum;
+    bool is_taken;
+} shared_tangent;
+
+typedef struct tangents {
+    glint_scene *scene;
+    size_t stride, tangent_at; // floats of a corner; where its tangent begins
+    shared_tangent *table;     // a hash table, a power of two in size
+    size_t mask;
+} tangents;
+
+// A triangle's corners, and how its texture coordinates lie on it.
+typedef struct sheet {
+    glint_vec3 positions[3];
+    const float *uv[3];
+    glint_vec3 tangent; // unit, along u
+    int turn;           // as corner_key; 0: the texture coordinates span no area
+} sheet;
+
+static glint_vec3 vector_of(const float *p)
+{
+    return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+}
+
+static float *corner_attributes(const tangents *t, size_t triangle, int corner)
+{
+    return t->scene->attributes + (3 * triangle + (size_t)corner) * t->stride;
+}
+
+static float *tangent_of(const tangents *t, size_t triangle, int corner)
+{
+    return corner_attributes(t, triangle, corner) + t->tangent_at;
+}
+
+static const glint_texture_use *normal_texture(const tangents *t, size_t triangle)
+{
+    const glint_scene *scene = t->scene;
+    return &scene->materials[scene->material_of[triangle]].textures[GLINT_TEXTURE_NORMAL];
+}
+
+static bool is_wanted(const tangents *t, size_t triangle)
+{
+    return normal_texture(t, triangle)->image != 0 &&
+           (tangent_of(t, triangle, 0)[3] == 0 || tangent_of(t, triangle, 1)[3] == 0 ||
+            tangent_of(t, triangle, 2)[3] == 0);
+}
+
+static sheet sheet_of(const tangents *t, size_t triangle)
+{
+    const int at = normal_texture(t, triangle)->texcoord == 1 ? 2 : 0;
+    sheet s = {.turn = 0};
+    for (int c = 0; c < 3; c++) {
+        s.positions[c] = vector_of(t->scene->positions + 9 * triangle + 3 * c);
+        s.uv[c] = corner_attributes(t, triangle, c) + at;
+    }
+    const double u1 = (double)s.uv[1][0] - (double)s.uv[0][0];
+    const double v1 = (double)s.uv[1][1] - (double)s.uv[0][1];
+    const double u2 = (double)s.uv[2][0] - (double)s.uv[0][0];
+    const double v2 = (double)s.uv[2][1] - (double)s.uv[0][1];
+    const double area = u1 * v2 - u2 * v1;
+    const glint_vec3 along = glint_vec3_subtract(
+        glint_vec3_scale(glint_vec3_subtract(s.positions[1], s.positions[0]), v2),
+        glint_vec3_scale(glint_vec3_subtract(s.positions[2], s.positions[0]), v1));
+    s.tangent = glint_vec3_normalize(glint_vec3_scale(along, area < 0 ? -1 : 1));
+    s.turn = area == 0 || glint_vec3_length(s.tangent) == 0 ? 0 : area < 0 ? -1 : 1;
+    return s;
+}
+
+static glint_vec3 normal_at(const glint_scene *scene, size_t triangle, int corner, const sheet *s)
+{
+    const glint_vec3 geometric = glint_vec3_normalize(
+        glint_vec3_cross(glint_vec3_subtract(s->positions[1], s->positions[0]),
+                         glint_vec3_subtract(s->positions[2], s->positions[0])));
+    if (scene->normals == NULL) {
+        return geometric;
+    }
+    const glint_vec3 n = vector_of(scene->normals + 9 * triangle + 3 * corner);
+    return glint_vec3_length(n) > 0 ? n : geometric;
+}
+
+// `v` without what of it runs along the unit vector n, unit; 0 where nothing is left.
+static glint_vec3 in_plane(glint_vec3 v, glint_vec3 n)
+{
+    return glint_vec3_normalize(glint_vec3_subtract(v, glint_vec3_scale(n, glint_vec3_dot(v, n))));
+}
+
+// The angle at a corner, between the edges as they lie in the plane of its normal.
+static double angle_at(const sheet *s, int corner, glint_vec3 n)
+{
+    const glint_vec3 p = s->positions[corner];
+    const glint_vec3 a = in_plane(glint_vec3_subtract(s->positions[(corner + 1) % 3], p), n);
+    const glint_vec3 b = in_plane(glint_vec3_subtract(s->positions[(corner + 2) % 3], p), n);
+    return acos(fmax(-1, fmin(1, glint_vec3_dot(a, b))));
+}
+
+static uint32_t hash_of(const corner_key *key)
+{
+    uint32_t words[sizeof *key / sizeof(uint32_t)], hash = 2166136261u;
+    memcpy(words, key, sizeof words);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        hash = (hash ^ words[i]) * 0x9E3779B1u;
+        hash ^= hash >> 15;
+    }
+    return hash;
+}
+
+// The tangent that a corner shares, made where there is none yet.
+static shared_tangent *find(const tangents *t, const corner_key *key)
+{
+    size_t slot = hash_of(key) & t->mask;
+    while (t->table[slot].is_taken && memcmp(&t->table[slot].key, key, sizeof *key) != 0) {
+        slot = (slot + 1) & t->mask;
+    }
+    t->table[slot].is_taken = true;
+    t->table[slot].key = *key;
+    return &t->table[slot];
+}
+
+static corner_key key_of(const tangents *t, size_t triangle, int corner, uint32_t instance,
+                         const sheet *s)
+{
+    corner_key key = {.instance = instance, .turn = s->turn};
+    const glint_vec3 n = normal_at(t->scene, triangle, corner, s);
+    // + 0: −0 and 0 are one.
+    for (int k = 0; k < 3; k++) {
+        key.position[k] = t->scene->positions[9 * triangle + 3 * (size_t)corner + (size_t)k] + 0.0F;
+    }
+    key.normal[0] = (float)n.x + 0.0F;
+    key.normal[1] = (float)n.y + 0.0F;
+    key.normal[2] = (float)n.z + 0.0F;
+    key.uv[0] = s->uv[corner][0] + 0.0F;
+    key.uv[1] = s->uv[corner][1] + 0.0F;
+    return key;
+}
+
+static void add_triangle(const tangents *t, size_t triangle, uint32_t instance)
+{
+    const sheet s = sheet_of(t, triangle);
+    for (int c = 0; s.turn != 0 && c < 3; c++) {
+        const corner_key key = key_of(t, triangle, c, instance, &s);
+        const glint_vec3 n = normal_at(t->scene, triangle, c, &s);
+        shared_tangent *shared = find(t, &key);
+        shared->sum = glint_vec3_add(shared->sum,
+                                     glint_vec3_scale(in_plane(s.tangent, n), angle_at(&s, c, n)));
+    }
+}
+
+static void take_tangents(const tangents *t, size_t triangle, uint32_t instance)
+{
+    const sheet s = sheet_of(t, triangle);
+    for (int c = 0; c < 3; c++) {
+        float *stored = tangent_of(t, triangle, c);
+        glint_vec3 unit = {0, 0, 0};
+        if (s.turn != 0) {
+            const corner_key key = key_of(t, triangle, c, instance, &s);
+            unit = glint_vec3_normalize(find(t, &key)->sum);
+        }
+        stored[0] = (float)unit.x;
+        stored[1] = (float)unit.y;
+        stored[2] = (float)unit.z;
+        // MikkTSpace lets v rise upwards, and so does glTF's normal map: its green is up.
+        stored[3] = glint_vec3_length(unit) > 0 ? (float)-s.turn : 0;
+    }
+}
+
+static void for_each_wanted(const tangents *t,
+                            void (*work)(const tangents *t, size_t triangle, uint32_t instance))
+{
+    const glint_scene *scene = t->scene;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const glint_instance *instance = &scene->instances[i];
+        for (size_t k = 0; k < instance->triangle_count; k++) {
+            if (is_wanted(t, instance->first_triangle + k)) {
+                work(t, instance->first_triangle + k, (uint32_t)i);
+            }
+        }
+    }
+}
+
+bool glint_scene_complete_tangents(glint_scene *scene)
+{
+    tangents t = {.scene = scene, .stride = glint_attributes_stride(&scene->attribute_set)};
+    t.tangent_at = t.stride - 4;
+    size_t wanted = 0;
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        wanted += is_wanted(&t, i);
+    }
+    if (wanted == 0) {
+        return true;
+    }
+    size_t size = 16;
+    while (size < 6 * wanted) {
+        size *= 2;
+    }
+    t.table = glint_allocate(size, sizeof *t.table);
+    t.mask = size - 1;
+    if (t.table == NULL) {
+        return false;
+    }
+    for_each_wanted(&t, add_triangle);
+    for_each_wanted(&t, take_tangents);
+    free(t.table);
+    return true;
+}

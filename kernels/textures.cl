@@ -1,0 +1,258 @@
+// Textures: numbers that vertices hold, and look-ups of images by them (layout.h, "Textures").
+//
+// A pixel sees an ellipse of a surface: the cone of its ray (cones.cl), cut by the triangle's
+// plane. Its longer axis decides the level.
+
+// What corners hold, in the order of host/scene/scene.h's glint_attributes.
+#define SECOND_TEXCOORDS_AT 2
+#define COLORS_AT (2 * GLINT_TEXTURES + 2 * GLINT_SECOND_TEXCOORDS)
+#define TANGENTS_AT (COLORS_AT + 4 * GLINT_COLORED_VERTICES)
+#define CORNER_VALUES (TANGENTS_AT + 4 * GLINT_NORMAL_MAPS)
+
+#if CORNER_VALUES > 0
+
+// Some numbers of a triangle's first corner, and how much more the others hold.
+typedef struct corner_values {
+    real first[4], second_more[4], third_more[4];
+} corner_values;
+
+// `count` numbers from the place `at` of each corner on, for the rays in `met`.
+static inline corner_values load_corners(const scene_buffers *scene, lanes_int places, mask met,
+                                         int at, int count)
+{
+    corner_values c;
+    for (int i = 0; i < count; i++) {
+        c.first[i] = c.second_more[i] = c.third_more[i] = real_of(0);
+    }
+    for (uint left = mask_bits(met); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        const size_t number = (size_t)scene->numbers[LANE_INT(places, lane)];
+        global const float *values = scene->attributes + 3 * CORNER_VALUES * number + at;
+        for (int i = 0; i < count; i++) {
+            const scalar first = (scalar)values[i];
+            LANE(c.first[i], lane) = first;
+            LANE(c.second_more[i], lane) = (scalar)values[CORNER_VALUES + i] - first;
+            LANE(c.third_more[i], lane) = (scalar)values[2 * CORNER_VALUES + i] - first;
+        }
+    }
+    return c;
+}
+
+static inline real value_of_corners(const corner_values *c, int i, real b1, real b2)
+{
+    return fused(b2, c->third_more[i], fused(b1, c->second_more[i], c->first[i]));
+}
+
+#endif
+
+#if GLINT_TEXTURES
+
+// Where a ray meets a texture, in texture coordinates, and how they change along the two axes of
+// the ellipse that its pixel sees.
+typedef struct texture_spot {
+    real u, v, u_along, v_along, u_across, v_across;
+} texture_spot;
+
+// The axes of an ellipse on a triangle, as parts of its two edges from the first corner.
+typedef struct ellipse {
+    real along[2], across[2];
+} ellipse;
+
+// A vector in the triangle's plane as parts of its edges.
+static inline void in_edges(const real3 edges[2], real3 normal, real3 vector, real parts[2])
+{
+    const real area = dot3(cross3(edges[0], edges[1]), normal);
+    parts[0] = dot3(cross3(vector, edges[1]), normal) / area;
+    parts[1] = dot3(cross3(edges[0], vector), normal) / area;
+}
+
+// `width` is that of the cone where it meets the triangle; `normal` is the geometric one, a unit
+// vector.
+static inline ellipse ellipse_on(const real3 vertices[3], real3 normal, real3 direction, real width)
+{
+    const real3 edges[2] = {subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0])};
+    mask slants, valid;
+    real3 across = normalized(cross3(normal, direction), &slants);
+    across = select3(slants, across, normalized(edges[0], &valid));
+    const real3 along = cross3(across, normal);
+    const real cosine = LARGER(fabs(dot3(normal, direction)), real_of(R(1e-6)));
+    ellipse e;
+    in_edges(edges, normal, scale(along, width / cosine), e.along);
+    in_edges(edges, normal, scale(across, width), e.across);
+    return e;
+}
+
+static inline texture_spot spot_on(const corner_values *c, const ellipse *e, real b1, real b2)
+{
+    texture_spot s;
+    s.u = value_of_corners(c, 0, b1, b2);
+    s.v = value_of_corners(c, 1, b1, b2);
+    s.u_along = fused(e->along[1], c->third_more[0], e->along[0] * c->second_more[0]);
+    s.v_along = fused(e->along[1], c->third_more[1], e->along[0] * c->second_more[1]);
+    s.u_across = fused(e->across[1], c->third_more[0], e->across[0] * c->second_more[0]);
+    s.v_across = fused(e->across[1], c->third_more[1], e->across[0] * c->second_more[1]);
+    return s;
+}
+
+// The spot as KHR_texture_transform moves it.
+static inline texture_spot moved_spot(global const glint_texture_record *t, const texture_spot *s)
+{
+    const scalar uu = t->transform[0], uv = t->transform[1], vu = t->transform[3];
+    const scalar vv = t->transform[4];
+    texture_spot m;
+    m.u = fused(real_of(uu), s->u, fused(real_of(uv), s->v, real_of(t->transform[2])));
+    m.v = fused(real_of(vu), s->u, fused(real_of(vv), s->v, real_of(t->transform[5])));
+    m.u_along = fused(real_of(uu), s->u_along, uv * s->v_along);
+    m.v_along = fused(real_of(vu), s->u_along, vv * s->v_along);
+    m.u_across = fused(real_of(uu), s->u_across, uv * s->v_across);
+    m.v_across = fused(real_of(vu), s->u_across, vv * s->v_across);
+    return m;
+}
+
+// The square of the longer axis, in texels.
+static inline real longer_axis(global const glint_texture_record *t, const texture_spot *s)
+{
+    const scalar width = (scalar)t->width, height = (scalar)t->height;
+    const real x = s->u_along * width, y = s->v_along * height;
+    const real z = s->u_across * width, w = s->v_across * height;
+    const real along = fused(x, x, y * y), across = fused(z, z, w * w);
+    return LARGER(along, across);
+}
+
+// As choose_level: between powers of two log2 is taken to be linear. Sets which rays see a texel
+// magnified.
+static inline level_choice choose_texture_level(global const glint_texture_record *t,
+                                                const texture_spot *spot, mask *magnified)
+{
+    real texels = sqrt(longer_axis(t, spot));
+    *magnified = !(texels > R(1.0));
+    texels = SELECT(*magnified, real_of(1), texels); // NaN becomes 1
+    const real most = real_of((scalar)(1 << (t->levels - 1)));
+    texels = SMALLER(texels, most);
+    level_choice choice;
+    choice.level = exponent_of(texels);
+    choice.blend = texels * inverse_exponent(texels) - R(1.0);
+    if (t->flags & GLINT_TEXTURE_MIPS_NEAREST) {
+        const mask up = choice.blend >= R(0.5);
+        choice.level = SELECT(up, choice.level + (lane_int)1, choice.level);
+        choice.blend = real_of(0);
+    }
+    return choice;
+}
+
+// A coordinate in [0, 1].
+static inline real wrapped(real x, bool clamps, bool mirrors)
+{
+    x = SELECT(fabs(x) < R(1e9), x, real_of(0)); // NaN becomes 0
+    if (clamps) {
+        x = LARGER(x, real_of(0));
+        return SMALLER(x, real_of(1));
+    }
+    if (mirrors) {
+        x -= R(2.0) * floor(x * R(0.5));
+        return SELECT(x > R(1.0), R(2.0) - x, x);
+    }
+    return x - floor(x);
+}
+
+// Two texels of a row or column beside each other, and how far the point lies towards the second.
+typedef struct neighbours {
+    lanes_int first, second;
+    real share;
+} neighbours;
+
+static inline neighbours neighbours_at(real x, lanes_int size, bool repeats, mask nearest)
+{
+    const real at = fused(x, to_real(size), real_of(R(-0.5)));
+    neighbours n;
+    n.first = to_int_down(at);
+    n.share = at - to_real(n.first);
+    n.second = n.first + (lane_int)1;
+    const mask before = n.first < (lane_int)0, beyond = n.second >= size;
+    const lanes_int last = size - (lane_int)1;
+    n.first = SELECT(before, repeats ? last : int_of(0), n.first);
+    n.second = SELECT(beyond, repeats ? int_of(0) : last, n.second);
+    const real one = real_of(1), zero = real_of(0);
+    n.share = SELECT(nearest, SELECT(n.share >= R(0.5), one, zero), n.share);
+    return n;
+}
+
+// Four texels of a level.
+typedef struct texel_square {
+    neighbours across, down;
+    lanes_int width;
+} texel_square;
+
+static inline texel_square square_at(global const glint_texture_record *t, real u, real v,
+                                     lanes_int level, mask nearest)
+{
+    const lanes_int one = int_of(1);
+    const lanes_int height = max(int_of((lane_int)t->height) >> level, one);
+    const uint repeats_s = t->flags & (GLINT_TEXTURE_CLAMP_S | GLINT_TEXTURE_MIRROR_S);
+    const uint repeats_t = t->flags & (GLINT_TEXTURE_CLAMP_T | GLINT_TEXTURE_MIRROR_T);
+    texel_square square;
+    square.width = max(int_of((lane_int)t->width) >> level, one);
+    square.across = neighbours_at(u, square.width, repeats_s == 0, nearest);
+    square.down = neighbours_at(v, height, repeats_t == 0, nearest);
+    return square;
+}
+
+// A lane's mean of its four texels, in texels' units. `texels` are those of the level.
+static inline scalar4 mean_of_square(global const ushort *texels, const texel_square *s, int lane)
+{
+    const size_t width = (size_t)LANE_INT(s->width, lane);
+    const size_t left = (size_t)LANE_INT(s->across.first, lane);
+    const size_t right = (size_t)LANE_INT(s->across.second, lane);
+    const size_t upper = width * (size_t)LANE_INT(s->down.first, lane);
+    const size_t lower = width * (size_t)LANE_INT(s->down.second, lane);
+    const scalar4 share = (scalar4)LANE(s->across.share, lane);
+    scalar4 a = TO_SCALAR4(vload4(upper + left, texels));
+    scalar4 b = TO_SCALAR4(vload4(lower + left, texels));
+    a = fused(share, TO_SCALAR4(vload4(upper + right, texels)) - a, a);
+    b = fused(share, TO_SCALAR4(vload4(lower + right, texels)) - b, b);
+    return fused((scalar4)LANE(s->down.share, lane), b - a, a);
+}
+
+// What rays see of a texture: R, G, B, A.
+typedef struct texture_color {
+    real r, g, b, a;
+} texture_color;
+
+static inline texture_color look_up_texture(const scene_buffers *scene,
+                                            global const glint_texture_record *t,
+                                            const texture_spot *unmoved, mask wanted)
+{
+    const texture_spot spot = moved_spot(t, unmoved);
+    mask magnified;
+    const level_choice choice = choose_texture_level(t, &spot, &magnified);
+    const mask yes = mask_all(), no = mask_none();
+    const mask nearest =
+        SELECT(magnified, t->flags & GLINT_TEXTURE_MAGNIFIED_NEAREST ? yes : no,
+               t->flags & GLINT_TEXTURE_MINIFIED_NEAREST ? yes : no);
+    const real u = wrapped(spot.u, t->flags & GLINT_TEXTURE_CLAMP_S,
+                           t->flags & GLINT_TEXTURE_MIRROR_S);
+    const real v = wrapped(spot.v, t->flags & GLINT_TEXTURE_CLAMP_T,
+                           t->flags & GLINT_TEXTURE_MIRROR_T);
+    const texel_square fine = square_at(t, u, v, choice.level, nearest);
+    const texel_square coarse = square_at(t, u, v, choice.level + (lane_int)1, nearest);
+    texture_color color = {real_of(0), real_of(0), real_of(0), real_of(0)};
+    for (uint left = mask_bits(wanted); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left), level = (int)LANE_INT(choice.level, lane);
+        const scalar blend = LANE(choice.blend, lane);
+        scalar4 value =
+            mean_of_square(scene->texels + 4 * (size_t)t->first[level], &fine, lane);
+        if (blend > R(0.0)) {
+            const scalar4 next =
+                mean_of_square(scene->texels + 4 * (size_t)t->first[level + 1], &coarse, lane);
+            value = fused((scalar4)blend, next - value, value);
+        }
+        value *= R(1.0) / R(65535.0);
+        LANE(color.r, lane) = value.x;
+        LANE(color.g, lane) = value.y;
+        LANE(color.b, lane) = value.z;
+        LANE(color.a, lane) = value.w;
+    }
+    return color;
+}
+
+#endif
