@@ -17,12 +17,14 @@ struct Extension {
     const char *said; // where it stands in a used object; NULL: nothing, as nothing is missing
 };
 
-constexpr std::array<Extension, 15> extensions = {{
+constexpr std::array<Extension, 16> extensions = {{
     {"KHR_materials_transmission", Holder::material, true, nullptr},
     {"KHR_materials_ior", Holder::material, true, nullptr},
     {"KHR_materials_volume", Holder::material, true, nullptr},
     {"KHR_materials_emissive_strength", Holder::material, true, nullptr},
     {"KHR_materials_unlit", Holder::material, true, nullptr},
+    {"KHR_materials_pbrSpecularGlossiness", Holder::material, true,
+     "specular and glossiness are converted to metallic and roughness, without their texture"},
     {"KHR_texture_transform", Holder::texture, true, nullptr},
     {"EXT_texture_webp", Holder::texture, true, nullptr},
     {"MSFT_texture_dds", Holder::texture, true, nullptr},

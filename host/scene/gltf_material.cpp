@@ -15,6 +15,8 @@ namespace glint
 namespace
 {
 
+const char *const specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
+
 float factor(const json &object, const Place &place, const char *key, double fallback)
 {
     const json *found = member(object, key);
@@ -66,9 +68,13 @@ bool is_extension(const char *holder)
     return std::strncmp(holder, "KHR_", 4) == 0;
 }
 
-// Where the slot's holder stands in the material; NULL where it is missing.
+// Where the slot's holder stands in the material; NULL where it is missing, or does not count.
 const json *holder_of(const json &material, const Place &place, const TextureSlot &slot)
 {
+    if (slot.holder != nullptr && std::strcmp(slot.holder, "pbrMetallicRoughness") == 0 &&
+        extension(material, place, specular_glossiness) != nullptr) {
+        return nullptr;
+    }
     if (slot.holder == nullptr) {
         return &material;
     }
@@ -167,12 +173,56 @@ void read_volume(const json &object, const Place &place, glint_material &result)
     }
 }
 
+double brightness(const float rgb[3])
+{
+    return std::sqrt(0.299 * double(rgb[0]) * double(rgb[0]) +
+                     0.587 * double(rgb[1]) * double(rgb[1]) +
+                     0.114 * double(rgb[2]) * double(rgb[2]));
+}
+
+// How metallic a surface of this diffuse and specular brightness is: the m at which a base colour
+// b gives both, (1 − m) b and 0.04 (1 − m) + m b. `left` is what the specular colour leaves.
+double metallic_of(double diffuse, double specular, double left)
+{
+    constexpr double dielectric = 0.04;
+    if (specular < dielectric) {
+        return 0;
+    }
+    const double b = diffuse * left / (1 - dielectric) + specular - 2 * dielectric;
+    const double d = std::max(b * b - 4 * dielectric * (dielectric - specular), 0.0);
+    return std::clamp((std::sqrt(d) - b) / (2 * dielectric), 0.0, 1.0);
+}
+
+// KHR_materials_pbrSpecularGlossiness, converted as its specification's example does. It takes the
+// place of pbrMetallicRoughness.
+void read_specular_glossiness(const json &object, const Place &place, glint_material &result)
+{
+    float diffuse[4] = {1, 1, 1, 1}, specular[3] = {1, 1, 1};
+    color(object, place, "diffuseFactor", 4, diffuse);
+    color(object, place, "specularFactor", 3, specular);
+    const double left = 1 - double(std::max(specular[0], std::max(specular[1], specular[2])));
+    const double metallic = metallic_of(brightness(diffuse), brightness(specular), left);
+    for (int k = 0; k < 3; k++) {
+        const double of_paint = double(diffuse[k]) * left / 0.96 / std::max(1 - metallic, 1e-4);
+        const double of_metal =
+            (double(specular[k]) - 0.04 * (1 - metallic)) / std::max(metallic, 1e-4);
+        const double mixed = of_paint + metallic * metallic * (of_metal - of_paint);
+        result.base_color[k] = static_cast<float>(std::clamp(mixed, 0.0, 1.0));
+    }
+    result.metallic = static_cast<float>(metallic);
+    result.roughness = 1 - factor(object, place, "glossinessFactor", 1);
+    result.alpha = diffuse[3];
+}
+
 void read_extensions(const json &material, const Place &place, glint_material &result)
 {
     Place at = place / "extensions";
     if (const json *found = extension(material, place, "KHR_materials_transmission")) {
         result.transmission =
             factor(*found, at / "KHR_materials_transmission", "transmissionFactor", 0);
+    }
+    if (const json *found = extension(material, place, specular_glossiness)) {
+        read_specular_glossiness(*found, at / specular_glossiness, result);
     }
     if (const json *found = extension(material, place, "KHR_materials_ior")) {
         result.ior = read_ior(*found, at / "KHR_materials_ior");

@@ -277,9 +277,9 @@ void read_image_in_thread(std::size_t i, void *context)
 
 } // namespace
 
-const std::array<TextureSlot, 6> &texture_slots()
+const std::array<TextureSlot, 7> &texture_slots()
 {
-    static const std::array<TextureSlot, 6> slots = {{
+    static const std::array<TextureSlot, 7> slots = {{
         {"pbrMetallicRoughness", "baseColorTexture", GLINT_TEXTURE_BASE_COLOR, true},
         {"pbrMetallicRoughness", "metallicRoughnessTexture", GLINT_TEXTURE_METALLIC_ROUGHNESS,
          false},
@@ -287,6 +287,7 @@ const std::array<TextureSlot, 6> &texture_slots()
         {nullptr, "occlusionTexture", GLINT_TEXTURE_OCCLUSION, false},
         {nullptr, "emissiveTexture", GLINT_TEXTURE_EMISSION, true},
         {"KHR_materials_transmission", "transmissionTexture", GLINT_TEXTURE_TRANSMISSION, false},
+        {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", GLINT_TEXTURE_BASE_COLOR, true},
     }};
     return slots;
 }

@@ -9,6 +9,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *glint_texture_slot_name(glint_texture_slot slot)
+{
+    static const char *const names[] = {
+        [GLINT_TEXTURE_BASE_COLOR] = "base colour",
+        [GLINT_TEXTURE_METALLIC_ROUGHNESS] = "metallic and roughness",
+        [GLINT_TEXTURE_OCCLUSION] = "occlusion",
+        [GLINT_TEXTURE_NORMAL] = "normal",
+        [GLINT_TEXTURE_EMISSION] = "emission",
+        [GLINT_TEXTURE_TRANSMISSION] = "transmission",
+    };
+    return names[slot];
+}
+
 // ---- The image ----------------------------------------------------------------------------------
 
 // What codes mean, as 1/65535.

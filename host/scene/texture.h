@@ -27,6 +27,8 @@ typedef enum glint_texture_slot {
     GLINT_TEXTURE_SLOTS = GLINT_MATERIAL_TEXTURES
 } glint_texture_slot;
 
+const char *glint_texture_slot_name(glint_texture_slot slot); // "base colour"
+
 typedef enum glint_wrap {
     GLINT_WRAP_REPEAT,
     GLINT_WRAP_CLAMP,

@@ -134,6 +134,10 @@ const glint_option glint_input_options[] = {
              "Presets: " GLINT_MATERIAL_PRESETS ". Values: " GLINT_MATERIAL_VALUES
              ". It may be given several times.",
      .offset = OFFSET(overrides), .parse = glint_material_override_parse},
+    {GLINT_OPTION_INT, .name = "texture-size", .argument = "N",
+     .help = "Reduce textures to N texels across at most: they take less memory, and show less "
+             "from near.",
+     .fallback = "as they are", .minimum = 1, .maximum = 32768, .offset = OFFSET(texture_size)},
     {GLINT_OPTION_TEXT, .name = "only", .argument = "NODE,…",
      .help = "Leave all nodes out but these, with what hangs under them: names or indices, with "
              "commas between. Cameras and turntables stay those of the whole scene.",
@@ -230,6 +234,7 @@ static glint_status load_scene(const glint_input_request *request, glint_inputs 
     const glint_scene_options options = {.scene = request->scene_name,
                                          .animation = request->animation,
                                          .variant = request->variant,
+                                         .texture_size = request->texture_size,
                                          .overrides = &request->overrides};
     TRY(glint_scene_open(request->scene, &options, &inputs->source, error));
     inputs->motion = *glint_scene_motion(inputs->source);

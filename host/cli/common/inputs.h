@@ -22,6 +22,7 @@ typedef struct glint_input_request {
     const char *animation;
     const char *variant;
     glint_material_overrides overrides;
+    int texture_size;           // texels across at most; 0: textures are as they are
     const char *only, *without; // lists of nodes, see scene/subset.h
     bool is_for_render;         // set by the command: plates and captures are its business
     bool camera_may_wait; // likewise: of a scene that moves, one that has no direction at time

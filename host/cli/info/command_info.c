@@ -71,6 +71,11 @@ static void print_scene(const glint_scene *scene, const glint_topology *topology
             glint_scene_bytes(scene->triangle_count, scene->normals != NULL, &scene->attribute_set);
         printf("  memory: %.1f MiB, and up to %.1f MiB to build the tree\n", (double)bytes / mib,
                (double)(scene->triangle_count * GLINT_BVH_BYTES_WHILE_BUILT) / mib);
+        if (scene->textures != NULL) {
+            printf("  %zu texture images, %.1f MiB with their levels (--texture-size reduces "
+                   "them)\n",
+                   scene->textures->count, (double)glint_textures_bytes(scene->textures) / mib);
+        }
         printf("  bounds (%g, %g, %g) to (%g, %g, %g) m\n", scene->low.x, scene->low.y,
                scene->low.z, scene->high.x, scene->high.y, scene->high.z);
         printf("  %zu connected surfaces: %zu closed, %zu proved convex; %zu boundary edges\n",
@@ -88,6 +93,26 @@ static void print_motion(const glint_motion *motion)
                !motion->moves_cameras     ? "objects"
                : !motion->moves_triangles ? "cameras"
                                           : "objects and cameras");
+    }
+}
+
+static void print_maps(const glint_material *material)
+{
+    const char *before = "; textures: ";
+    for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
+        if (material->textures[slot].image != 0) {
+            printf("%s%s", before, glint_texture_slot_name((glint_texture_slot)slot));
+            before = ", ";
+        }
+    }
+    if (material->has_vertex_colors) {
+        printf("; colours at vertices");
+    }
+    const glint_lobes lobes = glint_material_lobes(material);
+    if (lobes.masked) {
+        printf("; alpha cut off at %g", (double)material->alpha_cutoff);
+    } else if (lobes.covers) {
+        printf("; alpha is coverage");
     }
 }
 
@@ -123,6 +148,7 @@ static void print_material(const glint_scene *scene, size_t index)
         printf(", emission (%g, %g, %g)", (double)material->emission[0],
                (double)material->emission[1], (double)material->emission[2]);
     }
+    print_maps(material);
     printf("\n");
 }
 

@@ -168,6 +168,18 @@ json_t *glint_json_settings(const glint_settings *settings)
     return object;
 }
 
+static json_t *textures_array(const glint_material *material)
+{
+    json_t *array = json_array();
+    for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
+        if (material->textures[slot].image != 0) {
+            json_array_append_new(array,
+                                  json_string(glint_texture_slot_name((glint_texture_slot)slot)));
+        }
+    }
+    return array;
+}
+
 static json_t *material_object(const glint_material *material)
 {
     json_t *object = json_object();
@@ -185,6 +197,10 @@ static json_t *material_object(const glint_material *material)
     glint_json_put_real(object, "attenuation_distance", (double)material->attenuation_distance);
     glint_json_put(object, "attenuation_color", color(material->attenuation_color));
     glint_json_put_flag(object, "unlit", material->unlit);
+    static const char *const modes[] = {"opaque", "mask", "blend"};
+    glint_json_put_text(object, "alpha_mode", modes[material->alpha_mode]);
+    glint_json_put(object, "textures", textures_array(material));
+    glint_json_put_flag(object, "vertex_colors", material->has_vertex_colors);
     glint_json_put(object, "mirror",
                    material->mirror < 0 ? json_null() : json_real((double)material->mirror));
     return object;
@@ -270,6 +286,9 @@ json_t *glint_json_scene(const glint_subject *subject, bool everything)
     glint_json_put_count(object, "material_count", scene->material_count);
     glint_json_put_count(object, "camera_count", scene->camera_count);
     glint_json_put_count(object, "degenerate_triangles", scene->degenerate_triangles);
+    glint_json_put_count(object, "texture_images",
+                         scene->textures != NULL ? scene->textures->count : 0);
+    glint_json_put_count(object, "texture_bytes", glint_textures_bytes(scene->textures));
     glint_json_put_count(object, "skipped_points", scene->skipped_points);
     glint_json_put_count(object, "skipped_lines", scene->skipped_lines);
     if (scene->triangle_count > 0) {
