@@ -7,7 +7,7 @@ if(NOT result EQUAL 0)
   message(FATAL_ERROR "the generator failed: ${result}")
 endif()
 
-set(kinds "*.gltf" "*.bin" "*.hdr")
+set(kinds "*.gltf" "*.bin" "*.hdr" "*.png")
 list(TRANSFORM kinds PREPEND ${FRESH}/ OUTPUT_VARIABLE fresh_kinds)
 list(TRANSFORM kinds PREPEND ${COMMITTED}/ OUTPUT_VARIABLE committed_kinds)
 file(GLOB fresh RELATIVE ${FRESH} ${fresh_kinds})

@@ -28,6 +28,7 @@ static const struct {
     {"shot", build_shot},
     {"water", build_water},
     {"worm", build_worm},
+    {"textures", build_textures},
 };
 
 static glint_status write_scenes(const char *folder, glint_error *error)

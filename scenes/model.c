@@ -12,6 +12,8 @@ void model_free(model *scene)
         free(f->bulge);
         free(f->normal_bulge);
         free(f->weights);
+        free(scene->geometries[i].coat.texcoords);
+        free(scene->geometries[i].coat.colors);
     }
     *scene = (model){0};
 }
@@ -38,6 +40,13 @@ int model_add_material(model *scene, const material *m)
     int index = next_index(scene, &scene->material_count);
     scene->materials[index] = *m;
     return index;
+}
+
+const picture *model_add_picture(model *scene, const picture *p)
+{
+    picture *added = &scene->pictures[next_index(scene, &scene->picture_count)];
+    *added = *p;
+    return added;
 }
 
 static node *add_node(model *scene, const char *name)

@@ -8,6 +8,22 @@
 
 #include <stdbool.h>
 
+// A square picture of 8 bits a channel, drawn texel by texel. Its file is SCENE_NAME.png.
+typedef struct picture {
+    const char *name;
+    int size;     // texels along a side
+    int channels; // 3, or 4 with alpha
+    bool sharp;   // texels keep their edges when they are magnified
+    // The values at a texel's centre as they are stored, 0 to 1: u to the right and v down, 0 to 1.
+    void (*draw)(double u, double v, double *value);
+} picture;
+
+// A picture on a surface. Zero is none.
+typedef struct texture {
+    const picture *shown;
+    double repeats[2]; // along u and v; 0: as the texture coordinates say
+} texture;
+
 // glTF 2.0's factors, linear Rec.709. Zero is valid: black matte metal-free paint of roughness 0.
 typedef struct material {
     const char *name;
@@ -23,6 +39,9 @@ typedef struct material {
     bool unlit;
     bool blend;    // the lecture's blend: `mirror` is written
     double mirror; // its share of reflection
+    texture base_color_map, metallic_roughness_map, normal_map, emission_map;
+    const char *alpha_mode; // "MASK" or "BLEND"; NULL: opaque
+    bool double_sided;
 } material;
 
 typedef struct node {
@@ -45,6 +64,12 @@ typedef struct flesh {
     int joints[FLESH_JOINTS];         // nodes that neither turn nor scale at rest
     glint_vec3 rest[FLESH_JOINTS];    // where the joints stand then, in the geometry's space
 } flesh;
+
+// What a geometry's vertices have beside position and normal. Zero is none. Freed with the model.
+typedef struct coat {
+    double (*texcoords)[2]; // [vertex_count]
+    double (*colors)[3];    // [vertex_count], linear
+} coat;
 
 typedef struct camera {
     const char *name;
@@ -71,15 +96,17 @@ typedef struct motion {
 // which model_check reports.
 typedef struct model {
     const char *name; // also the files' name
-    int geometry_count, material_count, node_count, camera_count, motion_count;
+    int geometry_count, material_count, node_count, camera_count, motion_count, picture_count;
     struct {
         const char *name;
         mesh mesh;
         flesh flesh;
+        coat coat;
     } geometries[MODEL_CAPACITY];
     material materials[MODEL_CAPACITY];
     node nodes[MODEL_CAPACITY];
     camera cameras[MODEL_CAPACITY];
+    picture pictures[MODEL_CAPACITY];
     motion motions[MODEL_CAPACITY]; // one clip
     const char *clip;               // its name
     bool overflow;
@@ -90,6 +117,9 @@ void model_free(model *scene);
 // A new empty mesh; its index is geometry_count − 1. The pointer stays valid.
 mesh *model_add_geometry(model *scene, const char *name);
 int model_add_material(model *scene, const material *m);
+
+// The pointer stays valid.
+const picture *model_add_picture(model *scene, const picture *p);
 
 // An empty node under a parent (−1: none), moved to (x, y, z) from there.
 node *model_add_joint(model *scene, const char *name, int parent, glint_vec3 position);

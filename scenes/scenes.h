@@ -31,6 +31,9 @@ void build_shot(model *scene);
 // A figure that bends and bulges (figures.c).
 void build_worm(model *scene);
 
+// Textures, vertex colours and alpha (textures.c).
+void build_textures(model *scene);
+
 // The labelled axis environment, 1024 × 512, lat-long (axes_map.c).
 glint_status draw_axes_map(glint_image *image, glint_error *error);
 

@@ -1,9 +1,11 @@
 // Writes a scene as glTF 2.0. See write_gltf.h.
 //
-// The binary file holds, for each geometry, its positions, its normals unless it is flat, and its
-// indices (16 bits wide where they suffice, padded to four bytes). A glTF mesh is a geometry in a
-// material, so nodes that share a shape share its bytes.
+// The binary file holds, for each geometry, its positions, its normals unless it is flat, its
+// indices (16 bits wide where they suffice, padded to four bytes), its flesh and its coat. A glTF
+// mesh is a geometry in a material, so nodes that share a shape share its bytes.
 #include "write_gltf.h"
+#include "write_material.h"
+#include "write_png.h"
 
 #include <errno.h>
 #include <jansson.h>
@@ -32,40 +34,20 @@ typedef struct gltf_writer {
         int bulge, normal_bulge, joints, weights, inverse_bind, skin;
     } flesh[MODEL_CAPACITY];
     int skin_count;
+    // Those of its coat; −1: none.
+    struct {
+        int texcoords, colors;
+    } coat[MODEL_CAPACITY];
     int mesh_of[MODEL_CAPACITY][MODEL_CAPACITY]; // [geometry][material]: mesh, −1: not yet
 } gltf_writer;
-
-// ---- Numbers -----------------------------------------------------------------------------------
-
-// Whole numbers are written without a fraction.
-static json_t *exact(double x)
-{
-    return x == floor(x) && fabs(x) < 1e9 ? json_integer((json_int_t)x) : json_real(x);
-}
-
-// Rounded to 10⁻⁹: what sin and cos leave of a zero would be written with an exponent, whose form
-// differs between versions of the JSON library.
-static json_t *number(double x)
-{
-    return exact(floor(x * 1e9 + 0.5) / 1e9);
-}
-
-static json_t *numbers(const double *values, int count)
-{
-    json_t *array = json_array();
-    for (int i = 0; i < count; i++) {
-        json_array_append_new(array, number(values[i]));
-    }
-    return array;
-}
 
 // Nine digits give a float back bit for bit: an accessor's bounds have to equal what they bound.
 static json_t *vector(glint_vec3 v)
 {
     json_t *array = json_array();
-    json_array_append_new(array, exact(v.x));
-    json_array_append_new(array, exact(v.y));
-    json_array_append_new(array, exact(v.z));
+    json_array_append_new(array, gltf_exact(v.x));
+    json_array_append_new(array, gltf_exact(v.y));
+    json_array_append_new(array, gltf_exact(v.z));
     return array;
 }
 
@@ -162,6 +144,25 @@ static int write_indices(gltf_writer *w, const mesh *m)
     return added;
 }
 
+static void put_values(gltf_writer *w, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        put_float(w, values[i]);
+    }
+}
+
+// Components by their number.
+static const char *const types[] = {NULL, "SCALAR", "VEC2", "VEC3", "VEC4"};
+
+// A vertex's own numbers: `components` of each.
+static int write_attribute(gltf_writer *w, const double *values, size_t count, int components)
+{
+    size_t start = w->offset;
+    put_values(w, values, count * (size_t)components);
+    return add_accessor(w, start, accessor(COMPONENT_FLOAT, count, types[components]),
+                        TARGET_VERTICES);
+}
+
 // A joint without weight is written as 0.
 static int write_joints(gltf_writer *w, const flesh *f, size_t count)
 {
@@ -172,17 +173,6 @@ static int write_joints(gltf_writer *w, const flesh *f, size_t count)
         }
     }
     return add_accessor(w, start, accessor(COMPONENT_UINT8, count, "VEC4"), TARGET_VERTICES);
-}
-
-static int write_weights(gltf_writer *w, const flesh *f, size_t count)
-{
-    size_t start = w->offset;
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < FLESH_JOINTS; k++) {
-            put_float(w, f->weights[i][k]);
-        }
-    }
-    return add_accessor(w, start, accessor(COMPONENT_FLOAT, count, "VEC4"), TARGET_VERTICES);
 }
 
 // Column by column. Joints at rest only stand elsewhere.
@@ -207,9 +197,19 @@ static void write_flesh(gltf_writer *w, int geometry)
     w->flesh[geometry].bulge = bulges ? write_vectors(w, f->bulge, count) : -1;
     w->flesh[geometry].normal_bulge = bulges ? write_vectors(w, f->normal_bulge, count) : -1;
     w->flesh[geometry].joints = is_skinned ? write_joints(w, f, count) : -1;
-    w->flesh[geometry].weights = is_skinned ? write_weights(w, f, count) : -1;
+    w->flesh[geometry].weights =
+        is_skinned ? write_attribute(w, f->weights[0], count, FLESH_JOINTS) : -1;
     w->flesh[geometry].inverse_bind = is_skinned ? write_inverse_bind(w, f) : -1;
     w->flesh[geometry].skin = is_skinned ? w->skin_count++ : -1;
+}
+
+static void write_coat(gltf_writer *w, int geometry)
+{
+    const coat *c = &w->scene->geometries[geometry].coat;
+    const size_t count = w->scene->geometries[geometry].mesh.vertex_count;
+    w->coat[geometry].texcoords =
+        c->texcoords != NULL ? write_attribute(w, c->texcoords[0], count, 2) : -1;
+    w->coat[geometry].colors = c->colors != NULL ? write_attribute(w, c->colors[0], count, 3) : -1;
 }
 
 static void write_geometries(gltf_writer *w)
@@ -220,6 +220,7 @@ static void write_geometries(gltf_writer *w)
         w->normal[i] = m->flat ? -1 : write_vectors(w, m->normals, m->vertex_count);
         w->index[i] = write_indices(w, m);
         write_flesh(w, i);
+        write_coat(w, i);
     }
 }
 
@@ -232,24 +233,16 @@ static int write_times(gltf_writer *w, const motion *m)
         put_float(w, m->times[i]);
     }
     json_t *times = accessor(COMPONENT_FLOAT, (size_t)m->key_count, "SCALAR");
-    json_object_set_new(times, "min", json_pack("[o]", exact((double)(float)m->times[0])));
+    json_object_set_new(times, "min", json_pack("[o]", gltf_exact((double)(float)m->times[0])));
     json_object_set_new(times, "max",
-                        json_pack("[o]", exact((double)(float)m->times[m->key_count - 1])));
+                        json_pack("[o]", gltf_exact((double)(float)m->times[m->key_count - 1])));
     return add_accessor(w, start, times, 0);
-}
-
-static void put_values(gltf_writer *w, const double *values, int count)
-{
-    for (int i = 0; i < count; i++) {
-        put_float(w, values[i]);
-    }
 }
 
 static int write_values(gltf_writer *w, const motion *m)
 {
-    static const char *const types[] = {NULL, "SCALAR", NULL, "VEC3", "VEC4"};
     const bool is_spline = strcmp(m->interpolation, "CUBICSPLINE") == 0;
-    const int count = motion_components(m);
+    const size_t count = (size_t)motion_components(m);
     size_t start = w->offset;
     for (int i = 0; i < m->key_count; i++) {
         if (is_spline) {
@@ -277,72 +270,6 @@ static void write_motions(gltf_writer *w)
     }
 }
 
-// ---- Materials ---------------------------------------------------------------------------------
-
-static json_t *material_extensions(const material *m, json_t *used)
-{
-    json_t *all = json_object();
-    if (m->transmission > 0) {
-        json_object_set_new(all, "KHR_materials_transmission",
-                            json_pack("{s:o}", "transmissionFactor", number(m->transmission)));
-    }
-    if (m->ior > 0) {
-        json_object_set_new(all, "KHR_materials_ior", json_pack("{s:o}", "ior", number(m->ior)));
-    }
-    if (m->thickness > 0) {
-        json_t *volume = json_pack("{s:o}", "thicknessFactor", number(m->thickness));
-        if (m->attenuation_distance > 0) {
-            json_object_set_new(volume, "attenuationDistance", number(m->attenuation_distance));
-            json_object_set_new(volume, "attenuationColor", numbers(m->attenuation_color, 3));
-        }
-        json_object_set_new(all, "KHR_materials_volume", volume);
-    }
-    if (m->emissive_strength > 0) {
-        json_object_set_new(all, "KHR_materials_emissive_strength",
-                            json_pack("{s:o}", "emissiveStrength", number(m->emissive_strength)));
-    }
-    if (m->unlit) {
-        json_object_set_new(all, "KHR_materials_unlit", json_object());
-    }
-    const char *name;
-    json_t *value;
-    json_object_foreach(all, name, value)
-    {
-        json_object_set_new(used, name, json_true());
-    }
-    return all;
-}
-
-// A member is written only where it says something: empty objects are dropped.
-static void set_unless_empty(json_t *object, const char *key, json_t *value)
-{
-    if (json_object_size(value) > 0) {
-        json_object_set(object, key, value);
-    }
-    json_decref(value);
-}
-
-static json_t *material_to_json(const material *m, json_t *used)
-{
-    json_t *factors = json_object();
-    double color[4] = {m->base_color[0], m->base_color[1], m->base_color[2], 1};
-    json_object_set_new(factors, "baseColorFactor", numbers(color, 4));
-    json_object_set_new(factors, "metallicFactor", number(m->metallic));
-    json_object_set_new(factors, "roughnessFactor", number(m->roughness));
-    json_t *object = json_object();
-    json_object_set_new(object, "name", json_string(m->name));
-    json_object_set_new(object, "pbrMetallicRoughness", factors);
-    if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0) {
-        json_object_set_new(object, "emissiveFactor", numbers(m->emission, 3));
-    }
-    set_unless_empty(object, "extensions", material_extensions(m, used));
-    if (m->blend) {
-        json_object_set_new(object, "extras",
-                            json_pack("{s:{s:o}}", "glint", "mirror", number(m->mirror)));
-    }
-    return object;
-}
-
 // ---- Nodes and cameras -------------------------------------------------------------------------
 
 static int find_or_add_mesh(gltf_writer *w, const node *n)
@@ -354,6 +281,12 @@ static int find_or_add_mesh(gltf_writer *w, const node *n)
     json_t *attributes = json_pack("{s:i}", "POSITION", w->position[n->geometry]);
     if (w->normal[n->geometry] >= 0) {
         json_object_set_new(attributes, "NORMAL", json_integer(w->normal[n->geometry]));
+    }
+    if (w->coat[n->geometry].texcoords >= 0) {
+        json_object_set_new(attributes, "TEXCOORD_0", json_integer(w->coat[n->geometry].texcoords));
+    }
+    if (w->coat[n->geometry].colors >= 0) {
+        json_object_set_new(attributes, "COLOR_0", json_integer(w->coat[n->geometry].colors));
     }
     if (w->flesh[n->geometry].skin >= 0) {
         json_object_set_new(attributes, "JOINTS_0", json_integer(w->flesh[n->geometry].joints));
@@ -396,13 +329,13 @@ static json_t *node_to_json(gltf_writer *w, const node *n)
     if (n->camera >= 0) {
         json_object_set_new(object, "camera", json_integer(n->camera));
     }
-    json_object_set_new(object, "translation", numbers(n->translation, 3));
+    json_object_set_new(object, "translation", gltf_numbers(n->translation, 3));
     if (n->rotation[3] != 1) {
-        json_object_set_new(object, "rotation", numbers(n->rotation, 4));
+        json_object_set_new(object, "rotation", gltf_numbers(n->rotation, 4));
     }
     if (n->scale > 0 && n->scale != 1) {
         json_object_set_new(object, "scale",
-                            numbers((const double[3]){n->scale, n->scale, n->scale}, 3));
+                            gltf_numbers((const double[3]){n->scale, n->scale, n->scale}, 3));
     }
     json_t *children = children_of(w->scene, (int)(n - w->scene->nodes));
     if (json_array_size(children) > 0) {
@@ -435,12 +368,12 @@ static json_t *camera_to_json(const camera *c)
 {
     if (c->orthographic) {
         return json_pack("{s:s, s:s, s:{s:o, s:o, s:o, s:i}}", "name", c->name, "type",
-                         "orthographic", "orthographic", "xmag", number(c->ymag * 16 / 9), "ymag",
-                         number(c->ymag), "znear", number(0.01), "zfar", 100);
+                         "orthographic", "orthographic", "xmag", gltf_number(c->ymag * 16 / 9),
+                         "ymag", gltf_number(c->ymag), "znear", gltf_number(0.01), "zfar", 100);
     }
     return json_pack("{s:s, s:s, s:{s:o, s:o, s:o}}", "name", c->name, "type", "perspective",
-                     "perspective", "aspectRatio", number(16.0 / 9), "yfov",
-                     number(c->yfov * GLINT_PI / 180), "znear", number(0.01));
+                     "perspective", "aspectRatio", gltf_number(16.0 / 9), "yfov",
+                     gltf_number(c->yfov * GLINT_PI / 180), "znear", gltf_number(0.01));
 }
 
 // ---- The file ----------------------------------------------------------------------------------
@@ -460,7 +393,7 @@ static json_t *scene_to_json(gltf_writer *w)
     json_t *cameras = json_array();
     json_t *roots = children_of(scene, -1);
     for (int i = 0; i < scene->material_count; i++) {
-        json_array_append_new(materials, material_to_json(&scene->materials[i], used));
+        json_array_append_new(materials, gltf_material(scene, &scene->materials[i], used));
     }
     for (int i = 0; i < scene->node_count; i++) {
         json_array_append_new(nodes, node_to_json(w, &scene->nodes[i]));
@@ -487,6 +420,7 @@ static json_t *scene_to_json(gltf_writer *w)
     json_object_set_new(file, "nodes", nodes);
     json_object_set_new(file, "cameras", cameras);
     json_object_set_new(file, "materials", materials);
+    gltf_add_textures(scene, file);
     json_object_set(file, "meshes", w->meshes);
     json_object_set(file, "accessors", w->accessors);
     json_object_set(file, "bufferViews", w->views);
@@ -499,6 +433,17 @@ static json_t *scene_to_json(gltf_writer *w)
                                       w->channels, "samplers", w->samplers));
     }
     return file;
+}
+
+static glint_status write_pictures(const model *scene, const char *folder, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    for (int i = 0; status == GLINT_OK && i < scene->picture_count; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s/%s_%s.png", folder, scene->name, scene->pictures[i].name);
+        status = write_png(&scene->pictures[i], path, error);
+    }
+    return status;
 }
 
 static glint_status write_json(gltf_writer *w, const char *path, glint_error *error)
@@ -549,6 +494,9 @@ glint_status write_gltf(const model *scene, const char *folder, glint_error *err
     } else {
         snprintf(path, sizeof path, "%s/%s.gltf", folder, scene->name);
         status = write_json(&w, path, error);
+    }
+    if (status == GLINT_OK) {
+        status = write_pictures(scene, folder, error);
     }
     json_decref(w.views);
     json_decref(w.accessors);

@@ -1,4 +1,4 @@
-// Writes a scene as glTF 2.0: NAME.gltf and, beside it, NAME.bin.
+// Writes a scene as glTF 2.0: NAME.gltf and, beside it, NAME.bin and a PNG for each picture.
 #ifndef GLINT_SCENES_WRITE_GLTF_H
 #define GLINT_SCENES_WRITE_GLTF_H
 
