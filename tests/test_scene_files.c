@@ -172,6 +172,16 @@ static const char *const said_of_it[] = {
     "materials[1] \"lens\": KHR_materials_clearcoat is not modelled",
 };
 
+static const struct {
+    const char *name;
+    glint_treatment treatment;
+} used_of_it[] = {
+    {"KHR_materials_clearcoat", GLINT_IGNORED}, {"roughness", GLINT_APPROXIMATED},
+    {"alphaMode MASK", GLINT_RENDERED},         {"COLOR_0", GLINT_RENDERED},
+    {"baseColorTexture", GLINT_IGNORED},        {"transmissionTexture", GLINT_IGNORED},
+    {"morph targets", GLINT_RENDERED},          {"points and lines", GLINT_IGNORED},
+};
+
 static void what_is_not_modelled_is_said_once(void **state)
 {
     char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, much_that_is_not_modelled);
@@ -188,6 +198,11 @@ static void what_is_not_modelled_is_said_once(void **state)
         }
     }
     assert_int_equal(warnings.count, count);
+    for (size_t i = 0; i < sizeof used_of_it / sizeof *used_of_it; i++) {
+        assert_string_equal(scene.usages[i].name, used_of_it[i].name);
+        assert_int_equal(scene.usages[i].treatment, used_of_it[i].treatment);
+    }
+    assert_int_equal(scene.usage_count, sizeof used_of_it / sizeof *used_of_it);
     assert_int_equal(scene.skipped_points, 2);
     assert_int_equal(scene.skipped_lines, 2);
     glint_scene_free(&scene);

@@ -11,6 +11,7 @@
 #include "scene/gltf_meshopt.hpp"
 #include "scene/gltf_sweep.hpp"
 #include "scene/gltf_uri.hpp"
+#include "scene/gltf_usage.hpp"
 #include "scene/gltf_used_materials.hpp"
 #include "scene/gltf_variants.hpp"
 
@@ -96,6 +97,7 @@ void fill(glint_scene_source &source, double time, glint_scene &scene)
     walk_scene(source.load, time, scene);
     flatten(source.load, scene);
     name_variants(source.load.model, scene);
+    list_usages(source.load, scene);
     scene.path = copy_text(source.load.document.path);
     scene.moves = source.load.moves_triangles;
     if (scene.moves) {

@@ -15,27 +15,29 @@ struct Extension {
     Holder holder;
     bool can_be_required;
     const char *said; // where it stands in a used object; NULL: nothing, as nothing is missing
+    glint_treatment treatment;
 };
 
 constexpr std::array<Extension, 16> extensions = {{
-    {"KHR_materials_transmission", Holder::material, true, nullptr},
-    {"KHR_materials_ior", Holder::material, true, nullptr},
-    {"KHR_materials_volume", Holder::material, true, nullptr},
-    {"KHR_materials_emissive_strength", Holder::material, true, nullptr},
-    {"KHR_materials_unlit", Holder::material, true, nullptr},
+    {"KHR_materials_transmission", Holder::material, true, nullptr, GLINT_RENDERED},
+    {"KHR_materials_ior", Holder::material, true, nullptr, GLINT_RENDERED},
+    {"KHR_materials_volume", Holder::material, true, nullptr, GLINT_RENDERED},
+    {"KHR_materials_emissive_strength", Holder::material, true, nullptr, GLINT_RENDERED},
+    {"KHR_materials_unlit", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_pbrSpecularGlossiness", Holder::material, true,
-     "specular and glossiness are converted to metallic and roughness, without their texture"},
-    {"KHR_texture_transform", Holder::texture, true, nullptr},
-    {"EXT_texture_webp", Holder::texture, true, nullptr},
-    {"MSFT_texture_dds", Holder::texture, true, nullptr},
-    {"KHR_mesh_quantization", Holder::document, true, nullptr},
-    {"EXT_meshopt_compression", Holder::document, true, nullptr},
-    {"KHR_meshopt_compression", Holder::document, true, nullptr},
-    {"EXT_mesh_gpu_instancing", Holder::node, true, nullptr},
-    {"KHR_lights_punctual", Holder::node, false,
-     "lights are not modelled, the environment alone gives light"},
-    {"KHR_materials_variants", Holder::primitive, true, nullptr},
-    {"KHR_draco_mesh_compression", Holder::primitive, true, nullptr},
+     "specular and glossiness are converted to metallic and roughness, without their texture",
+     GLINT_APPROXIMATED},
+    {"KHR_texture_transform", Holder::texture, true, nullptr, GLINT_RENDERED},
+    {"EXT_texture_webp", Holder::texture, true, nullptr, GLINT_RENDERED},
+    {"MSFT_texture_dds", Holder::texture, true, nullptr, GLINT_RENDERED},
+    {"KHR_mesh_quantization", Holder::document, true, nullptr, GLINT_RENDERED},
+    {"EXT_meshopt_compression", Holder::document, true, nullptr, GLINT_RENDERED},
+    {"KHR_meshopt_compression", Holder::document, true, nullptr, GLINT_RENDERED},
+    {"EXT_mesh_gpu_instancing", Holder::node, true, nullptr, GLINT_RENDERED},
+    {"KHR_lights_punctual", Holder::node, true,
+     "lights are not modelled, the environment alone gives light", GLINT_IGNORED},
+    {"KHR_materials_variants", Holder::primitive, true, nullptr, GLINT_RENDERED},
+    {"KHR_draco_mesh_compression", Holder::primitive, true, nullptr, GLINT_RENDERED},
 }};
 
 const char *shown_without(Holder holder)
@@ -57,6 +59,13 @@ bool can_be_required(const std::string &name)
     return std::any_of(extensions.begin(), extensions.end(), [&](const Extension &one) {
         return name == one.name && one.can_be_required;
     });
+}
+
+glint_treatment treatment_of(const std::string &name)
+{
+    const auto *known = std::find_if(extensions.begin(), extensions.end(),
+                                     [&](const Extension &one) { return name == one.name; });
+    return known == extensions.end() ? GLINT_IGNORED : known->treatment;
 }
 
 void survey_extensions(const json &object, Holder holder, const std::string &where, Tally &tally)

@@ -21,6 +21,10 @@ void glint_scene_free(glint_scene *scene)
         free(scene->variants[i]);
     }
     free(scene->variants);
+    for (size_t i = 0; i < scene->usage_count; i++) {
+        free(scene->usages[i].name);
+    }
+    free(scene->usages);
     free(scene->path);
     free(scene->positions);
     free(scene->normals);

@@ -45,6 +45,18 @@ typedef struct glint_instance {
     uint32_t material;
 } glint_instance;
 
+// What glint makes of something that a file uses.
+typedef enum glint_treatment {
+    GLINT_RENDERED,
+    GLINT_APPROXIMATED,
+    GLINT_IGNORED,
+} glint_treatment;
+
+typedef struct glint_usage {
+    char *name; // an extension, or a few words; owned
+    glint_treatment treatment;
+} glint_usage;
+
 // Stored positions are relative: world = origin + unit × stored, with `origin` near the bounds'
 // centre and `unit` a power of two such that stored coordinates lie within [−1, 1]; so neither a
 // mesh at 1e6 nor one of 1e−6 metres loses anything, and a scene scaled by a power of two gives the
@@ -77,6 +89,9 @@ typedef struct glint_scene {
 
     size_t instance_count;
     glint_instance *instances; // in the order of their triangles
+
+    size_t usage_count;
+    glint_usage *usages; // what the file uses of glTF; owned; none of a built-in scene
 
     size_t variant_count;
     char **variants; // names of the file's variants of its materials, owned

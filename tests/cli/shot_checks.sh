@@ -247,7 +247,7 @@ refuses 2 '--env-at: a capture has a place of its own' render "$spheres" -o out/
     --proxy sphere:9 --env-at 0,0,0
 refuses 2 '--env-at 1,2: x,y,z in metres' render "$spheres" -o out/a.exr --proxy sphere:9 --env-at 1,2
 refuses 2 'which is not inside the box from (1, 1, 1) to (2, 2, 2)' render "$spheres" -o out/a.exr --proxy 1,1,1,2,2,2
-refuses 2 '--proxy: --filter mip takes more than points' render "$spheres" -o out/a.exr --proxy sphere:9 --filter mip
+refuses 2 '--proxy: --filter mip takes more than points' render in/mirror_sphere.gltf -o out/a.exr --proxy sphere:9 --filter mip
 refuses 2 'no --surroundings are given' render "$spheres" -o out/a.exr --env capture:mirror --env-layout ball
 refuses 2 'only render captures' info "$spheres" --env capture:mirror
 refuses 2 'no --env is given' render "$spheres" -o out/a.exr --env-layout ball
@@ -323,6 +323,6 @@ refuses 3 'in/cut.exr' relight in/cut.exr -o out/a.exr
 refuses 5 'out/none' relight in/kept.exr -o out/none/a.exr
 refuses 2 '--directions: out/a.png is no EXR' render "${kept[@]:0:3}" -o out/a.png --directions 4
 refuses 2 '--directions' render "${kept[@]}" -o out/a.exr --directions 33
-refuses 2 '--filter mip' render "${kept[@]}" -o out/a.exr --directions 4 --filter mip
+refuses 2 '--filter mip' render in/mirror_sphere.gltf --size 64x48 -o out/a.exr --directions 4 --filter mip
 
 finish

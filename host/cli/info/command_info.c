@@ -169,6 +169,21 @@ static void print_lists(const glint_scene *scene)
     print_more(scene->instance_count);
 }
 
+static void print_usages(const glint_scene *scene)
+{
+    static const char *const treatments[] = {"rendered", "approximated", "ignored"};
+    if (scene->usage_count > 0) {
+        printf("\nWhat the file uses\n");
+    }
+    for (int treatment = GLINT_RENDERED; treatment <= GLINT_IGNORED; treatment++) {
+        for (size_t i = 0; i < scene->usage_count; i++) {
+            if ((int)scene->usages[i].treatment == treatment) {
+                printf("  %-13s %s\n", treatments[treatment], scene->usages[i].name);
+            }
+        }
+    }
+}
+
 static void print_variants(const glint_scene *scene)
 {
     if (scene->variant_count == 0) {
@@ -293,6 +308,7 @@ static void print_text(const glint_subject *subject, const glint_view_request *v
     print_scene(subject->scene, subject->topology);
     print_motion(subject->motion);
     print_lists(subject->scene);
+    print_usages(subject->scene);
     print_variants(subject->scene);
     print_cameras(subject->scene, view, subject->camera);
     print_environment(subject->environment);

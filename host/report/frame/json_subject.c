@@ -276,6 +276,19 @@ static json_t *overrides_list(const glint_material_overrides *overrides)
     return list;
 }
 
+static json_t *usages_list(const glint_scene *scene)
+{
+    static const char *const treatments[] = {"rendered", "approximated", "ignored"};
+    json_t *list = json_array();
+    for (size_t i = 0; i < scene->usage_count; i++) {
+        json_t *object = json_object();
+        glint_json_put_text(object, "name", scene->usages[i].name);
+        glint_json_put_text(object, "treatment", treatments[scene->usages[i].treatment]);
+        (void)json_array_append_new(list, object);
+    }
+    return list;
+}
+
 json_t *glint_json_scene(const glint_subject *subject, bool everything)
 {
     const glint_scene *scene = subject->scene;
@@ -297,6 +310,9 @@ json_t *glint_json_scene(const glint_subject *subject, bool everything)
     }
     glint_json_put(object, "variant", variant_name(scene, scene->variant - 1));
     glint_json_put(object, "material_overrides", overrides_list(subject->overrides));
+    if (everything) {
+        glint_json_put(object, "uses", usages_list(scene));
+    }
     if (everything && subject->topology != NULL) {
         glint_json_put(object, "topology", topology_object(subject->topology));
     }
