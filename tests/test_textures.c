@@ -134,14 +134,21 @@ static int wrap(int i, int size, int how)
     return i >= size ? period - 1 - i : i;
 }
 
-static void look_up_level(const picture *p, const sampler *s, int level, const double uv[2],
-                          bool nearest, double rgba[4])
+// How a level is looked up.
+typedef struct level_use {
+    int level;
+    bool nearest;
+} level_use;
+
+static void look_up_level(const picture *p, const sampler *s, level_use use, const double uv[2],
+                          double rgba[4])
 {
+    const int level = use.level;
     const int w = side(p->width, level), h = side(p->height, level);
     const double x = uv[0] * w - 0.5, y = uv[1] * h - 0.5;
     const int i = (int)floor(x), j = (int)floor(y);
     double right = x - i, down = y - j;
-    if (nearest) {
+    if (use.nearest) {
         right = right >= 0.5;
         down = down >= 0.5;
     }
@@ -172,9 +179,9 @@ static void look_up(const picture *p, const sampler *s, const double uv[2], doub
     }
     const bool nearest = magnified ? s->magnified_nearest : s->minified_nearest;
     double next[4];
-    look_up_level(p, s, level, uv, nearest, rgba);
+    look_up_level(p, s, (level_use){level, nearest}, uv, rgba);
     if (blend > 0) {
-        look_up_level(p, s, level + 1, uv, nearest, next);
+        look_up_level(p, s, (level_use){level + 1, nearest}, uv, next);
         for (int c = 0; c < 4; c++) {
             rgba[c] += blend * (next[c] - rgba[c]);
         }
@@ -239,11 +246,17 @@ static glint_scene load_plane(const char *folder, const char *format, ...)
     return load_rest(folder, &the_plane, sizeof the_plane, rest);
 }
 
-// Where the primary ray through a pixel's centre meets the plane; false where it does not. Sets how
-// long the way is, and the cosine against the plane's normal.
-static bool meet_plane(const glint_settings *settings, int column, int row, double at[2],
-                       double *length, double *cosine)
+// Where the primary ray through a pixel's centre meets the plane.
+typedef struct meeting {
+    double at[2];          // x and z
+    double length, cosine; // of the way; against the plane's normal
+    double slant;          // how long the ray is where it has come 1 forwards
+} meeting;
+
+// False where it does not.
+static bool meet_plane(const glint_settings *settings, int pixel, meeting *m)
 {
+    const int column = pixel % settings->width, row = pixel / settings->width;
     const double half = tan(YFOV / 2), turn = -2 * asin(0.19866933);
     const double x =
         (2 * (column + 0.5) / settings->width - 1) * half * settings->width / settings->height;
@@ -251,11 +264,9 @@ static bool meet_plane(const glint_settings *settings, int column, int row, doub
     const double d[3] = {x, y * cos(turn) + sin(turn), y * sin(turn) - cos(turn)};
     const double norm = sqrt(x * x + y * y + 1);
     const double t = -1.5 / d[1];
-    at[0] = t * d[0];
-    at[1] = 3 + t * d[2];
-    *length = t * norm;
-    *cosine = -d[1] / norm;
-    return t > 0 && fabs(at[0]) < 4 && at[1] < 2 && at[1] > -14;
+    *m = (meeting){
+        .at = {t * d[0], 3 + t * d[2]}, .length = t * norm, .cosine = -d[1] / norm, .slant = norm};
+    return t > 0 && fabs(m->at[0]) < 4 && m->at[1] < 2 && m->at[1] > -14;
 }
 
 // ---- Look-ups -----------------------------------------------------------------------------------
@@ -340,44 +351,50 @@ static bool is_clear(const lookup_case *c, const picture *p, const double uv[2],
     return true;
 }
 
-// The largest error of a frame's pixels, and how many were compared.
+// How many texels of the finest level a pixel sees along the longer axis of its ellipse. The axes
+// run across the ray's way, and along it.
+static double texels_seen(const lookup_case *c, const picture *p, const glint_settings *settings,
+                          const meeting *at)
+{
+    const double center[2] = {at->at[0], at->at[1] - 3}, far = hypot(center[0], center[1]);
+    // The width of the cone grows with the distance along the ray of the pixel's own length.
+    const double width = at->length * 2 * tan(YFOV / 2) / settings->height / at->slant;
+    const double *m = c->transform;
+    double longest = 0;
+    for (int axis = 0; axis < 2; axis++) {
+        const double e[2] = {axis ? center[0] / far : -center[1] / far,
+                             axis ? center[1] / far : center[0] / far};
+        const double size = (axis ? width / at->cosine : width) * (c->set ? -0.5 : 1);
+        const double du = size * e[0] / 4, dv = size * e[1] / 8;
+        longest = fmax(longest, hypot((m[0] * du + m[1] * dv) * p->width,
+                                      (m[3] * du + m[4] * dv) * p->height));
+    }
+    return longest;
+}
+
+static void moved_point(const lookup_case *c, const meeting *m, double uv[2])
+{
+    const double first[2] = {(m->at[0] + 4) / 4, (m->at[1] + 14) / 8};
+    const double u = c->set ? 1 - first[0] / 2 : first[0];
+    const double v = c->set ? 1 - first[1] / 2 : first[1];
+    const double *t = c->transform;
+    uv[0] = t[0] * u + t[1] * v + t[2];
+    uv[1] = t[3] * u + t[4] * v + t[5];
+}
+
+// The largest error of a frame's pixels; counts those that were compared.
 static double largest_error(const lookup_case *c, const picture *p, const test_frame *frame,
                             const glint_settings *settings, int *compared)
 {
     double worst = 0;
     for (int i = 0; i < settings->width * settings->height; i++) {
-        double at[2], length, cosine, rgba[4];
-        if (!meet_plane(settings, i % settings->width, i / settings->width, at, &length, &cosine)) {
+        meeting m;
+        if (!meet_plane(settings, i, &m)) {
             continue;
         }
-        const double first[2] = {(at[0] + 4) / 4, (at[1] + 14) / 8};
-        const double chosen[2] = {c->set ? 1 - first[0] / 2 : first[0],
-                                  c->set ? 1 - first[1] / 2 : first[1]};
-        const double *m = c->transform;
-        const double uv[2] = {m[0] * chosen[0] + m[1] * chosen[1] + m[2],
-                              m[3] * chosen[0] + m[4] * chosen[1] + m[5]};
-        // Axes of the ellipse in the plane: across the ray's way, and along it.
-        const double center[2] = {at[0], at[1] - 3}, far = hypot(center[0], center[1]);
-        const double spread = 2 * tan(YFOV / 2) / settings->height;
-        const double width = length * spread * length / length;
-        double longest = 0;
-        for (int axis = 0; axis < 2; axis++) {
-            const double e[2] = {axis ? center[0] / far : -center[1] / far,
-                                 axis ? center[1] / far : center[0] / far};
-            const double size = axis ? width / cosine : width;
-            const double scale = c->set ? -0.5 : 1;
-            const double du = scale * size * e[0] / 4, dv = scale * size * e[1] / 8;
-            longest = fmax(longest, hypot((m[0] * du + m[1] * dv) * p->width,
-                                          (m[3] * du + m[4] * dv) * p->height));
-        }
-        // The cone of a ray that is not the middle one: it widens with its unit direction.
-        const double slant = sqrt(
-            1 +
-            pow((2.0 * (i % settings->width + 0.5) / settings->width - 1) * tan(YFOV / 2) *
-                    settings->width / settings->height,
-                2) +
-            pow((1 - 2.0 * (i / settings->width + 0.5) / settings->height) * tan(YFOV / 2), 2));
-        const double texels = longest / slant;
+        double uv[2], rgba[4];
+        moved_point(c, &m, uv);
+        const double texels = texels_seen(c, p, settings, &m);
         if (!is_clear(c, p, uv, texels)) {
             continue;
         }
@@ -514,9 +531,9 @@ static void colors_of_vertices_multiply_the_base_color(void **state)
                                                            "\"baseColorFactor\":[1,0.5,1,1]}}]"),
                  &settings, &frame);
     for (int i = 0; i < 61 * 43; i++) {
-        double at[2], length, cosine;
-        if (meet_plane(&settings, i % 61, i / 61, at, &length, &cosine)) {
-            const double far = (2 - at[1]) / 16; // 0 in front
+        meeting m;
+        if (meet_plane(&settings, i, &m)) {
+            const double far = (2 - m.at[1]) / 16; // 0 in front
             const double expected[3] = {1 - far / 2, 0.25 + far / 4, 0.25};
             for (int k = 0; k < 3; k++) {
                 assert_true(fabs(frame.exact[4 * i + k] - expected[k]) < 2e-6);
@@ -552,11 +569,11 @@ static void bent_normals_turn_reflections(void **state)
         const double n[3] = {raw[0] / 2 / length, raw[2] / length, -raw[1] / 2 / length};
         int compared = 0;
         for (int i = 0; i < 61 * 43; i++) {
-            double at[2], way, cosine;
-            if (!meet_plane(&settings, i % 61, i / 61, at, &way, &cosine)) {
+            meeting m;
+            if (!meet_plane(&settings, i, &m)) {
                 continue;
             }
-            const double v[3] = {-at[0] / way, 1.5 / way, (3 - at[1]) / way};
+            const double v[3] = {-m.at[0] / m.length, 1.5 / m.length, (3 - m.at[1]) / m.length};
             const double along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
             double r[3];
             for (int k = 0; k < 3; k++) {

@@ -20,7 +20,7 @@ static unsigned flags_of(const glint_texture_use *use)
 
 static glint_texture_record record_of(const glint_textures *textures, const glint_texture_use *use)
 {
-    static const float identity[6] = {1, 0, 0, 0, 1, 0}, none[6] = {0};
+    static const float identity[6] = {1, 0, 0, 0, 1, 0};
     const glint_texture *texture = &textures->textures[use->image - 1];
     glint_texture_record record = {
         .width = texture->width,
@@ -31,16 +31,30 @@ static glint_texture_record record_of(const glint_textures *textures, const glin
     for (int level = 0; level < texture->levels; level++) {
         record.first[level] = (unsigned)texture->first[level];
     }
-    const bool is_moved = memcmp(use->transform, none, sizeof none) != 0;
+    bool is_moved = false;
+    for (int i = 0; i < 6; i++) {
+        is_moved = is_moved || use->transform[i] != 0;
+    }
     memcpy(record.transform, is_moved ? use->transform : identity, sizeof record.transform);
     return record;
+}
+
+// An image's place tells it from others.
+static bool is_same(const glint_texture_record *a, const glint_texture_record *b)
+{
+    for (int i = 0; i < 6; i++) {
+        if (a->transform[i] != b->transform[i]) {
+            return false;
+        }
+    }
+    return a->first[0] == b->first[0] && a->levels == b->levels && a->flags == b->flags;
 }
 
 // The place of a record among those that there are, where it is put if it is new.
 static int place_of(glint_texture_table *table, const glint_texture_record *record)
 {
     for (size_t i = 0; i < table->count; i++) {
-        if (memcmp(&table->records[i], record, sizeof *record) == 0) {
+        if (is_same(&table->records[i], record)) {
             return (int)i;
         }
     }

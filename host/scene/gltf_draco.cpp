@@ -75,9 +75,10 @@ Place place_of(const DracoPrimitive &one)
 
 std::uint64_t size_of(const tinygltf::Accessor &accessor)
 {
-    return static_cast<std::uint64_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+    const int bytes =
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+    const int count = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    return static_cast<std::uint64_t>(bytes) * static_cast<std::uint64_t>(count);
 }
 
 // The attribute of the job that fits, or −1.

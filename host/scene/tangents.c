@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Corners of one instance that share one tangent: those with these values.
+// What corners have in common that share one tangent: position, normal and texture coordinates as
+// bits, the instance, and which way the triangle winds in the texture.
+enum { KEY_FLOATS = 8, KEY_WORDS = KEY_FLOATS + 2 };
 typedef struct corner_key {
-    float position[3], normal[3], uv[2];
-    uint32_t instance;
-    int32_t turn; // 1 or −1: which way the triangle winds in the texture
+    uint32_t words[KEY_WORDS];
 } corner_key;
 
 typedef struct shared_tangent {
@@ -33,7 +33,7 @@ typedef struct sheet {
     glint_vec3 positions[3];
     const float *uv[3];
     glint_vec3 tangent; // unit, along u
-    int turn;           // as corner_key; 0: the texture coordinates span no area
+    int turn;           // 1 or −1: which way it winds in the texture; 0: it spans no area there
 } sheet;
 
 static glint_vec3 vector_of(const float *p)
@@ -114,10 +114,9 @@ static double angle_at(const sheet *s, int corner, glint_vec3 n)
 
 static uint32_t hash_of(const corner_key *key)
 {
-    uint32_t words[sizeof *key / sizeof(uint32_t)], hash = 2166136261u;
-    memcpy(words, key, sizeof words);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        hash = (hash ^ words[i]) * 0x9E3779B1u;
+    uint32_t hash = 2166136261u;
+    for (int i = 0; i < KEY_WORDS; i++) {
+        hash = (hash ^ key->words[i]) * 0x9E3779B1u;
         hash ^= hash >> 15;
     }
     return hash;
@@ -127,7 +126,8 @@ static uint32_t hash_of(const corner_key *key)
 static shared_tangent *find(const tangents *t, const corner_key *key)
 {
     size_t slot = hash_of(key) & t->mask;
-    while (t->table[slot].is_taken && memcmp(&t->table[slot].key, key, sizeof *key) != 0) {
+    while (t->table[slot].is_taken &&
+           memcmp(t->table[slot].key.words, key->words, sizeof key->words) != 0) {
         slot = (slot + 1) & t->mask;
     }
     t->table[slot].is_taken = true;
@@ -138,17 +138,17 @@ static shared_tangent *find(const tangents *t, const corner_key *key)
 static corner_key key_of(const tangents *t, size_t triangle, int corner, uint32_t instance,
                          const sheet *s)
 {
-    corner_key key = {.instance = instance, .turn = s->turn};
+    const float *p = t->scene->positions + 9 * triangle + 3 * (size_t)corner;
     const glint_vec3 n = normal_at(t->scene, triangle, corner, s);
-    // + 0: −0 and 0 are one.
-    for (int k = 0; k < 3; k++) {
-        key.position[k] = t->scene->positions[9 * triangle + 3 * (size_t)corner + (size_t)k] + 0.0F;
+    float values[KEY_FLOATS] = {
+        p[0], p[1], p[2], (float)n.x, (float)n.y, (float)n.z, s->uv[corner][0], s->uv[corner][1]};
+    corner_key key;
+    for (int i = 0; i < KEY_FLOATS; i++) {
+        values[i] += 0.0F; // −0 and 0 are one
     }
-    key.normal[0] = (float)n.x + 0.0F;
-    key.normal[1] = (float)n.y + 0.0F;
-    key.normal[2] = (float)n.z + 0.0F;
-    key.uv[0] = s->uv[corner][0] + 0.0F;
-    key.uv[1] = s->uv[corner][1] + 0.0F;
+    memcpy(key.words, values, sizeof values);
+    key.words[KEY_FLOATS] = instance;
+    key.words[KEY_FLOATS + 1] = s->turn > 0;
     return key;
 }
 

@@ -107,16 +107,22 @@ static cover cover_of(int texel, int coarse, int fine)
     return c;
 }
 
+// What a texel covers of the finer level, whose rows are `width` long.
+typedef struct window {
+    const uint16_t (*fine)[4];
+    int width;
+    cover across, down;
+} window;
+
 // The mean of what a texel covers. With `is_coverage` R, G and B are weighted by A.
-static void average(const uint16_t (*fine)[4], int width, const cover *across, const cover *down,
-                    bool is_coverage, uint16_t texel[4])
+static void average(const window *w, bool is_coverage, uint16_t texel[4])
 {
     float sum[4] = {0}, weighted[3] = {0};
-    for (int j = 0; j < down->count; j++) {
-        for (int i = 0; i < across->count; i++) {
-            const uint16_t *from =
-                fine[(size_t)(down->first + j) * (size_t)width + (size_t)(across->first + i)];
-            const float share = across->share[i] * down->share[j];
+    for (int j = 0; j < w->down.count; j++) {
+        for (int i = 0; i < w->across.count; i++) {
+            const size_t row = (size_t)(w->down.first + j) * (size_t)w->width;
+            const uint16_t *from = w->fine[row + (size_t)(w->across.first + i)];
+            const float share = w->across.share[i] * w->down.share[j];
             for (int c = 0; c < 4; c++) {
                 sum[c] += share * (float)from[c];
             }
@@ -141,12 +147,12 @@ static void fill_level(const uint16_t (*fine)[4], const int size[2], bool is_cov
                        uint16_t (*coarse)[4])
 {
     const int width = half_of(size[0]), height = half_of(size[1]);
+    window w = {.fine = fine, .width = size[0]};
     for (int y = 0; y < height; y++) {
-        const cover down = cover_of(y, height, size[1]);
+        w.down = cover_of(y, height, size[1]);
         for (int x = 0; x < width; x++) {
-            const cover across = cover_of(x, width, size[0]);
-            average(fine, size[0], &across, &down, is_coverage,
-                    coarse[(size_t)y * (size_t)width + (size_t)x]);
+            w.across = cover_of(x, width, size[0]);
+            average(&w, is_coverage, coarse[(size_t)y * (size_t)width + (size_t)x]);
         }
     }
 }
