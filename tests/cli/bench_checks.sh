@@ -17,7 +17,7 @@ no_temporaries() {
 # shellcheck disable=SC2046 # lists of words
 check 'bench --help tells every option' help_mentions bench allow-large-images seconds rounds no-check error no-sampling \
     list html json baseline margin env env-layout ball-circle ball-distance ball-fov env-flip camera eye look-at up fov elevation fit \
-    animation variant material only without scene $(settings_of environment size frame device) device kernel-dir help
+    animation variant material texture-size only without scene $(settings_of environment size frame device) device kernel-dir help
 check 'and its own default size' grep -q '\[1920x1080;' help.txt
 run --help
 check 'glint --help lists it' grep -q '^  bench ' stdout

@@ -59,7 +59,7 @@ mkdir in/folder.gltf in/empty
 
 # ---- help ---------------------------------------------------------------------------------------
 
-inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera eye look-at up fov elevation fit animation variant material only without scene allow-large-images device help'
+inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera eye look-at up fov elevation fit animation variant material texture-size only without scene allow-large-images device help'
 # shellcheck disable=SC2046,SC2086 # lists of words
 {
     check 'render --help tells every option' help_mentions render $inputs output exposure tone compression \

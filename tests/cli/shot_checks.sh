@@ -16,7 +16,7 @@ cp "$scenes"/mirror_sphere.* "$scenes"/clockwork.* in/
 # shellcheck disable=SC2046 # lists of words
 check 'capture --help tells every option' help_mentions capture allow-large-images at around to size exposure \
     compression frames fps progress env env-layout ball-circle ball-distance ball-fov env-flip \
-    animation variant material only without scene $(settings_of environment frame device) device kernel-dir help
+    animation variant material texture-size only without scene $(settings_of environment frame device) device kernel-dir help
 run --help
 check 'glint --help lists it' grep -q '^  capture ' stdout
 cp "$scenes"/lecture_example_2.* in/
