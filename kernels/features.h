@@ -42,8 +42,9 @@
     FEATURE(TEXTURES, "materials have textures", GLINT_GEOMETRY,                                   \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
     FEATURE(SECOND_TEXCOORDS, "some textures have texture coordinates of their own",               \
-            GLINT_TEXTURES, 0, ACTIVE)                                                             \
-    FEATURE(NORMAL_MAPS, "textures bend normals", GLINT_TEXTURES, 0, ACTIVE)                       \
+            GLINT_TEXTURES, GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)    \
+    FEATURE(NORMAL_MAPS, "textures bend normals", GLINT_TEXTURES,                                  \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
     FEATURE(COLORED_VERTICES, "vertices have colours", GLINT_GEOMETRY,                             \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
     FEATURE(INTERREFLECTION, "paths go on to the surfaces that they meet next", GLINT_GEOMETRY, 0, \

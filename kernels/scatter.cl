@@ -147,13 +147,13 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     if (GLINT_GLASS) {
         scatter_glass(scene, s, v, glass, media, &result, media_lost);
     }
-    if (GLINT_ALPHA && !GLINT_GLASS) {
-        result.transmitted = negate(v);
-        result.media_transmitted = *media;
-        result.total_reflection = mask_none();
-        result.eta = real_of(1);
-        result.bend = real_of(0);
-    }
+#if GLINT_ALPHA && !GLINT_GLASS
+    result.transmitted = negate(v);
+    result.media_transmitted = *media;
+    result.total_reflection = mask_none();
+    result.eta = real_of(1);
+    result.bend = real_of(0);
+#endif
     result.media_reflected = *media;
     if (GLINT_PAINT) {
         scatter_paint(s, irradiance, dielectric - glass, &result);

@@ -45,7 +45,9 @@ static void write_chunk(FILE *file, const char *type, const unsigned char *data,
     set_word(checksum, ~continue_crc(continue_crc(0xffffffffu, type, 4), data, count));
     fwrite(length, 1, 4, file);
     fwrite(type, 1, 4, file);
-    fwrite(data, 1, count, file);
+    if (count > 0) {
+        fwrite(data, 1, count, file);
+    }
     fwrite(checksum, 1, 4, file);
 }
 

@@ -27,9 +27,10 @@ typedef struct sheet {
 
 static sheet make_sheet(void)
 {
-    sheet made;
+    sheet made = {0};
     for (int i = 0; i < VERTICES; i++) {
-        const float x = (float)(i % SIDE), y = (float)(i / SIDE);
+        const int row = i / SIDE;
+        const float x = (float)(i % SIDE), y = (float)row;
         const float slope = 0.3f * cosf(0.7f * x), length = sqrtf(1 + slope * slope);
         memcpy(made.positions[i], (float[]){x / 3, y / 7, 0.3f / 0.7f * sinf(0.7f * x)}, 12);
         memcpy(made.normals[i], (float[]){-slope / length, 0, 1 / length}, 12);

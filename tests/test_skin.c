@@ -58,7 +58,7 @@ static glint_scene scene_at(glint_scene_source *source, double time)
 
 static double world(const glint_scene *scene, size_t number)
 {
-    const double *origin = &scene->origin.x;
+    const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
     return origin[number % 3] + scene->unit * (double)scene->positions[number];
 }
 
@@ -388,9 +388,11 @@ static void bounds_are_those_of_the_whole_clip(void **state)
         glint_scene scene = scene_at(source, i * 0.6);
         glint_vec3 shown_low, shown_high;
         glint_scene_shown_bounds(&scene, &shown_low, &shown_high);
+        const double shown[6] = {shown_low.x,  shown_low.y,  shown_low.z,
+                                 shown_high.x, shown_high.y, shown_high.z};
         for (int k = 0; k < 3; k++) {
-            assert_true(fabs((&shown_low.x)[k] - low[k]) < 1e-12 * 10);
-            assert_true(fabs((&shown_high.x)[k] - high[k]) < 1e-12 * 10);
+            assert_true(fabs(shown[k] - low[k]) < 1e-12 * 10);
+            assert_true(fabs(shown[3 + k] - high[k]) < 1e-12 * 10);
         }
         glint_scene_free(&scene);
     }

@@ -45,13 +45,14 @@ void check_attribute(const std::string &name, const tinygltf::Accessor &accessor
                      const Place &place, const Model &model)
 {
     if (name == "TEXCOORD_0" || name == "TEXCOORD_1") {
-        check_format(accessor, place, {TINYGLTF_TYPE_VEC2, true, true, model.quantized});
+        check_format(accessor, place, {TINYGLTF_TYPE_VEC2, true, false, model.quantized, true});
     } else if (name == "TANGENT") {
         check_format(accessor, place, {TINYGLTF_TYPE_VEC4, true, model.quantized, false});
     } else if (name == "COLOR_0") {
         const bool has_alpha = accessor.type == TINYGLTF_TYPE_VEC4;
-        check_format(accessor, place,
-                     {has_alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, true, true, false});
+        check_format(
+            accessor, place,
+            {has_alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, true, false, false, true});
     }
 }
 

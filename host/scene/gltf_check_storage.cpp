@@ -319,7 +319,7 @@ void check_format(const tinygltf::Accessor &accessor, const Place &place, const 
     good = good || (format.quantized && component >= 5120 && component <= 5123);
     if (!good || accessor.type != format.type) {
         std::string wanted = std::string(type_name(format.type)) + " of floats (5126)";
-        if (format.normalized_ints || format.quantized) {
+        if (format.normalized_ints || format.quantized || format.unsigned_ints) {
             wanted += ", bytes or shorts";
         }
         refuse(place, "the accessor holds " + std::string(type_name(accessor.type)) +

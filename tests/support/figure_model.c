@@ -196,7 +196,7 @@ static int vertex_at(const figure *f, double time, int vertex, double position[3
 
 figure_triangle figure_triangle_at(const figure *f, double time, int triangle)
 {
-    figure_triangle result, straight;
+    figure_triangle result = {0}, straight = {0};
     int sum = 0;
     for (int corner = 0; corner < 3; corner++) {
         sum += vertex_at(f, time, f->indices[triangle][corner], straight.positions[corner],
