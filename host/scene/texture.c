@@ -279,8 +279,10 @@ glint_status glint_textures_join(glint_texture_levels *images, size_t count,
         for (int k = 0; k < texture->levels; k++) {
             texture->first[k] += all->texel_count;
         }
-        memcpy(all->texels + all->texel_count, images[i].texels,
-               images[i].texel_count * sizeof *all->texels);
+        if (images[i].texels != NULL) { // else it could not be read
+            memcpy(all->texels + all->texel_count, images[i].texels,
+                   images[i].texel_count * sizeof *all->texels);
+        }
         all->texel_count += images[i].texel_count;
         free(images[i].texels);
         images[i] = (glint_texture_levels){0};
