@@ -1,0 +1,299 @@
+// What each of a material's textures does, and colours and alpha of vertices: a texture of one
+// value is a factor of that value; bent normals and layers of planes have closed forms. And what
+// stands in for textures that cannot be read.
+#include "support/bridge.h"
+#include "support/gltf_text.h"
+#include "support/render.h"
+#include "support/scratch.h"
+#include "support/textured_plane.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// ---- Slots --------------------------------------------------------------------------------------
+
+static void write_texel(const char *name, int r, int g, int b, int a)
+{
+    const unsigned char texel[1][4] = {
+        {(unsigned char)r, (unsigned char)g, (unsigned char)b, (unsigned char)a}};
+    write_codes(name, (const int[]){1, 1}, texel);
+}
+
+typedef struct slot_case {
+    const char *textured, *plain; // members of the material
+} slot_case;
+
+#define TEXTURE "{\"index\":0}"
+// The texel is (51, 102, 204, 255): data 0.2, 0.4, 0.8; colour 0.0331, 0.1329, 0.6038.
+#define COLOR "0.033104766570885055,0.13286832155381798,0.603827338855338"
+
+static const slot_case slots[] = {
+    {"\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorTexture\":" TEXTURE "}",
+     "\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorFactor\":[" COLOR ",1]}"},
+    {"\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"metallicRoughnessTexture\":" TEXTURE "}",
+     "\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"metallicFactor\":0.8}"},
+    {"\"emissiveFactor\":[1,0.5,1],\"emissiveTexture\":" TEXTURE,
+     "\"emissiveFactor\":[0.033104766570885055,0.06643416077690899,0.603827338855338]"},
+    {"\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"occlusionTexture\":{\"index\":0,"
+     "\"strength\":0.5}",
+     "\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorFactor\":[0.6,0.6,0.6,1]}"},
+    {"\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{"
+     "\"KHR_materials_transmission\":{\"transmissionFactor\":0.5,\"transmissionTexture\":" TEXTURE
+     "}}",
+     "\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{"
+     "\"KHR_materials_transmission\":{\"transmissionFactor\":0.1}}"},
+    // A normal that stands upright bends nothing.
+    {"\"pbrMetallicRoughness\":{\"roughnessFactor\":0},\"normalTexture\":{\"index\":1,"
+     "\"scale\":0}",
+     "\"pbrMetallicRoughness\":{\"roughnessFactor\":0}"},
+};
+
+static double largest_difference(const test_frame *a, const test_frame *b, int pixels)
+{
+    double worst = 0;
+    for (int i = 0; i < 4 * pixels; i++) {
+        worst = fmax(worst, fabs(a->exact[i] - b->exact[i]) / (1 + fabs(b->exact[i])));
+    }
+    return worst;
+}
+
+static void render_plane(glint_scene scene, const glint_settings *settings, test_frame *frame)
+{
+    test_render(&scene, test_studio(), NULL, settings, frame);
+    glint_scene_free(&scene);
+}
+
+static void a_texture_of_one_value_is_a_factor(void **state)
+{
+    write_texel("a.png", 51, 102, 204, 255);
+    write_texel("b.png", 128, 128, 255, 255);
+    const glint_settings settings = test_small_frame(2);
+    for (size_t i = 0; i < sizeof slots / sizeof *slots; i++) {
+        test_frame textured, plain;
+        render_plane(
+            textured_plane_load(*state,
+                                MESH("") "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"b.png\"}],"
+                                         "\"textures\":[{\"source\":0},{\"source\":1}],"
+                                         "\"materials\":[{%s}]",
+                                slots[i].textured),
+            &settings, &textured);
+        render_plane(textured_plane_load(*state, MESH("") "\"materials\":[{%s}]", slots[i].plain),
+                     &settings, &plain);
+        const double worst = largest_difference(&textured, &plain, 61 * 43);
+        // Texels are rounded to 1/65535, and factors to floats.
+        if (!(worst < 2e-5)) {
+            fail_msg("slot %zu: %g", i, worst);
+        }
+        test_frame_free(&textured);
+        test_frame_free(&plain);
+    }
+}
+
+static void colors_of_vertices_multiply_the_base_color(void **state)
+{
+    const glint_settings settings = test_small_frame(1);
+    test_frame frame;
+    render_plane(textured_plane_load(*state,
+                                     MESH(",\"COLOR_0\":5") "\"materials\":[{" UNLIT
+                                                            ",\"pbrMetallicRoughness\":{"
+                                                            "\"baseColorFactor\":[1,0.5,1,1]}}]"),
+                 &settings, &frame);
+    for (int i = 0; i < 61 * 43; i++) {
+        meeting m;
+        if (textured_plane_meet(&settings, i, &m)) {
+            const double far = (2 - m.at[1]) / 16; // 0 in front
+            const double expected[3] = {1 - far / 2, 0.25 + far / 4, 0.25};
+            for (int k = 0; k < 3; k++) {
+                assert_true(fabs(frame.exact[4 * i + k] - expected[k]) < 2e-6);
+            }
+        }
+    }
+    test_frame_free(&frame);
+}
+
+// ---- Normals ------------------------------------------------------------------------------------
+
+// The direction that a mirror shows whose normal is bent by (x, y) of a normal texture.
+static void bent_normals_turn_reflections(void **state)
+{
+    write_texel("n.png", 178, 89, 230, 255); // x = 0.396, y = −0.302, z = 0.804
+    const double raw[3] = {2 * 178 / 255.0 - 1, 2 * 89 / 255.0 - 1, 2 * 230 / 255.0 - 1};
+    glint_environment directions;
+    bridge_direction_environment(32, &directions);
+    static const char *const tangents[] = {",\"TANGENT\":4", ""}; // of the file; as computed
+    for (int from_file = 0; from_file < 2; from_file++) {
+        glint_scene scene = textured_plane_load(
+            *state,
+            "\"meshes\":[{\"primitives\":[{\"indices\":6,\"material\":0,\"attributes\":{"
+            "\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2%s}}]}],\"images\":[{\"uri\":\"n.png\"}],"
+            "\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":{"
+            "\"roughnessFactor\":0},\"normalTexture\":{\"index\":0,\"scale\":0.5}}]",
+            tangents[from_file]);
+        glint_settings settings = test_small_frame(1);
+        test_frame frame;
+        test_render(&scene, &directions, NULL, &settings, &frame);
+        // Tangent +x, bitangent where v falls: −z, normal +y.
+        const double length = sqrt(raw[0] * raw[0] / 4 + raw[1] * raw[1] / 4 + raw[2] * raw[2]);
+        const double n[3] = {raw[0] / 2 / length, raw[2] / length, -raw[1] / 2 / length};
+        int compared = 0;
+        for (int i = 0; i < 61 * 43; i++) {
+            meeting m;
+            if (!textured_plane_meet(&settings, i, &m)) {
+                continue;
+            }
+            const double v[3] = {-m.at[0] / m.length, 1.5 / m.length, (3 - m.at[1]) / m.length};
+            const double along = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
+            double r[3];
+            for (int k = 0; k < 3; k++) {
+                r[k] = 2 * along * n[k] - v[k];
+            }
+            if (along < 0 || r[1] < 0) {
+                continue; // folded, which tests/test_frame.c judges
+            }
+            for (int k = 0; k < 3; k++) {
+                // Within what 32 texels a face make of a direction.
+                assert_true(fabs(frame.exact[4 * i + k] - (0.5 + 0.5 * r[k])) < 2e-3);
+            }
+            compared++;
+        }
+        assert_true(compared > 500);
+        test_frame_free(&frame);
+        glint_scene_free(&scene);
+    }
+    glint_environment_free(&directions);
+}
+
+// ---- Alpha --------------------------------------------------------------------------------------
+
+// A second plane a little under the first, which glows; the first is there in part.
+#define TWO_PLANES(material)                                                                       \
+    "\"meshes\":[{\"primitives\":[{\"indices\":6,\"material\":0,\"attributes\":{\"POSITION\":0,"   \
+    "\"TEXCOORD_0\":2}}]},{\"primitives\":[{\"indices\":6,\"material\":1,\"attributes\":{"         \
+    "\"POSITION\":0}}]}],\"materials\":[{" material "},{" UNLIT                                    \
+    ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0.25,1,1]}}]"
+
+static glint_scene load_two(const char *folder, const char *material, bool with_second)
+{
+    char rest[6000];
+    snprintf(rest, sizeof rest, PLANE TWO_PLANES("%s"), material);
+    char *nodes = strstr(rest, "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},");
+    assert_non_null(nodes);
+    char tail[6000];
+    snprintf(tail, sizeof tail, "%s", strstr(nodes, "{\"camera\":0"));
+    sprintf(nodes, "\"scenes\":[{\"nodes\":[0,1%s]}],\"nodes\":[{\"mesh\":0},",
+            with_second ? ",2" : "");
+    char *end = strstr(tail, "}],");
+    assert_non_null(end);
+    const size_t used = strlen(rest);
+    snprintf(rest + used, sizeof rest - used, "%.*s},{\"mesh\":1,\"translation\":[0,-0.25,0]}%s",
+             (int)(end - tail), tail, end + 1);
+    return load_rest(folder, &the_plane, sizeof the_plane, rest);
+}
+
+typedef struct alpha_case {
+    const char *material;
+    double share; // of the first plane, unlit (1, 0.5, 0)
+} alpha_case;
+
+#define RED(alpha) UNLIT ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,0," alpha "]}"
+
+static const alpha_case alphas[] = {
+    {RED("0.25"), 1},
+    {RED("0.25") ",\"alphaMode\":\"BLEND\"", 0.25},
+    {RED("0") ",\"alphaMode\":\"BLEND\"", 0},
+    {RED("0.25") ",\"alphaMode\":\"MASK\"", 0},
+    {RED("0.5") ",\"alphaMode\":\"MASK\"", 1},
+    {RED("0.25") ",\"alphaMode\":\"MASK\",\"alphaCutoff\":0.2", 1},
+    {RED("1") ",\"alphaMode\":\"MASK\",\"alphaCutoff\":1.5", 0},
+};
+
+// A pixel of the near part, where both planes are seen.
+enum { NEAR_PIXEL = 61 * 33 + 30 };
+
+static void what_is_there_in_part_lets_light_pass(void **state)
+{
+    for (size_t i = 0; i < sizeof alphas / sizeof *alphas; i++) {
+        for (int depth = 1; depth < 3; depth++) {
+            const glint_settings settings = test_small_frame(depth);
+            test_frame frame;
+            render_plane(load_two(*state, alphas[i].material, true), &settings, &frame);
+            const double share = alphas[i].share;
+            const double expected[3] = {share, share * 0.5 + (1 - share) * 0.25, 1 - share};
+            for (int k = 0; k < 3; k++) {
+                if (!(fabs(frame.exact[4 * NEAR_PIXEL + k] - expected[k]) < 1e-6)) {
+                    fail_msg("case %zu, depth %d: %g, not %g", i, depth,
+                             frame.exact[4 * NEAR_PIXEL + k], expected[k]);
+                }
+            }
+            test_frame_free(&frame);
+        }
+    }
+}
+
+static void alpha_is_kept_where_the_background_is_left_out(void **state)
+{
+    for (size_t i = 0; i < sizeof alphas / sizeof *alphas; i++) {
+        glint_settings settings = test_small_frame(0);
+        settings.transparent = true;
+        test_frame frame;
+        render_plane(load_two(*state, alphas[i].material, false), &settings, &frame);
+        const double share = alphas[i].share;
+        const double expected[4] = {share, share * 0.5, 0, share};
+        for (int k = 0; k < 4; k++) {
+            if (!(fabs(frame.exact[4 * NEAR_PIXEL + k] - expected[k]) < 1e-6)) {
+                fail_msg("case %zu, channel %d: %g, not %g", i, k, frame.exact[4 * NEAR_PIXEL + k],
+                         expected[k]);
+            }
+        }
+        assert_true(frame.exact[3] == 0); // above the horizon
+        test_frame_free(&frame);
+    }
+}
+
+// ---- What is refused, and what stands in --------------------------------------------------------
+
+static void unreadable_textures_become_grey_paint(void **state)
+{
+    scratch_write("broken.png", "\x89PNG\r\n\x1a\nnothing more", -1);
+    static const char *const images[] = {"broken.png", "missing.png"};
+    for (int i = 0; i < 2; i++) {
+        char rest[6000];
+        snprintf(rest, sizeof rest,
+                 PLANE MESH("") "\"images\":[{\"uri\":\"%s\"}],\"textures\":[{\"source\":0}],"
+                                "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":"
+                                "{\"index\":0}}}]",
+                 images[i]);
+        char *text = gltf_text(&the_plane, sizeof the_plane, rest);
+        glint_scene scene;
+        glint_warnings warnings = {0};
+        glint_error error = {0};
+        assert_int_equal(load_text(*state, text, &scene, &warnings, &error), GLINT_OK);
+        assert_true(any_warning_has(&warnings, "materials[0]: baseColorTexture: images[0] \""));
+        assert_true(any_warning_has(&warnings, "; the surface is rendered as grey paint"));
+        assert_true(scene.materials[0].metallic == 0 && scene.materials[0].base_color[1] == 0.5F);
+        assert_int_equal(scene.materials[0].textures[GLINT_TEXTURE_BASE_COLOR].image, 0);
+        glint_scene_free(&scene);
+        glint_warnings_free(&warnings);
+        free(text);
+    }
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_setup, scratch_teardown)
+    const struct CMUnitTest tests[] = {
+        TEST(a_texture_of_one_value_is_a_factor),
+        TEST(colors_of_vertices_multiply_the_base_color),
+        TEST(bent_normals_turn_reflections),
+        TEST(what_is_there_in_part_lets_light_pass),
+        TEST(alpha_is_kept_where_the_background_is_left_out),
+        TEST(unreadable_textures_become_grey_paint),
+    };
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
