@@ -1,6 +1,7 @@
 // What each of a material's textures does, and colours and alpha of vertices: a texture of one
 // value is a factor of that value; bent normals and layers of planes have closed forms. And what
 // stands in for textures that cannot be read.
+#include "scene/material_override.h"
 #include "support/bridge.h"
 #include "support/gltf_text.h"
 #include "support/render.h"
@@ -284,6 +285,27 @@ static void unreadable_textures_become_grey_paint(void **state)
     }
 }
 
+static void images_of_replaced_materials_are_not_read(void **state)
+{
+    write_texel("a.png", 51, 102, 204, 255);
+    glint_scene plain = textured_plane_load(
+        *state, MESH("") "\"images\":[{\"uri\":\"a.png\"}],\"textures\":[{\"source\":0}],"
+                         "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":"
+                         "{\"index\":0}}}]");
+    assert_int_equal(plain.textures->count, 1);
+    glint_material_overrides overrides = {0};
+    const glint_option option = {.name = "material"};
+    assert_int_equal(glint_material_override_parse(&option, "*=glass", &overrides, NULL), GLINT_OK);
+    glint_scene replaced;
+    assert_int_equal(glint_scene_load(plain.path, &(glint_scene_options){.overrides = &overrides},
+                                      &replaced, NULL, NULL),
+                     GLINT_OK);
+    assert_null(replaced.textures);
+    assert_null(replaced.attributes);
+    glint_scene_free(&plain);
+    glint_scene_free(&replaced);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_setup, scratch_teardown)
@@ -294,6 +316,7 @@ int main(void)
         TEST(what_is_there_in_part_lets_light_pass),
         TEST(alpha_is_kept_where_the_background_is_left_out),
         TEST(unreadable_textures_become_grey_paint),
+        TEST(images_of_replaced_materials_are_not_read),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

@@ -379,12 +379,14 @@ static glint_status run(glint_decode_request *request, const glint_image_source 
     request->threads = atomic_load(&threads_each);
     stored->file = memfd_create("glint picture", MFD_CLOEXEC);
     const int image = source->bytes != NULL ? open_bytes(source) : -1;
+    glint_status status;
     if (stored->file < 0 || (source->bytes != NULL && image < 0)) {
-        return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: no memory file to decode it with: %s (try again)", source->path,
-                          strerror(errno));
+        status = glint_fail(error, GLINT_BAD_INPUT,
+                            "%s: no memory file to decode it with: %s (try again)", source->path,
+                            strerror(errno));
+    } else {
+        status = ask(request, image, stored, error);
     }
-    const glint_status status = ask(request, image, stored, error);
     if (image >= 0) {
         close(image);
     }

@@ -5,6 +5,7 @@
 #include "scene/gltf_extensions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -89,9 +90,8 @@ Place place_of(const Place &place, const TextureSlot &slot)
                                        : place / slot.holder;
 }
 
-// Takes what a textureInfo says into the material.
-void take_texture(const json &root, const json &info, const TextureSlot &slot, UsedMaterial &read,
-                  Images &images)
+// Takes what a textureInfo says into the material, with the place of the image in the file.
+void take_texture(const json &root, const json &info, const TextureSlot &slot, UsedMaterial &read)
 {
     std::ptrdiff_t image = -1;
     glint_texture_use use = read_texture_info(root, info, &image);
@@ -106,9 +106,7 @@ void take_texture(const json &root, const json &info, const TextureSlot &slot, U
              "TEXCOORD_" + std::to_string(use.texcoord) + " is not read (use set 0 or 1)"});
         return;
     }
-    const bool is_coverage =
-        slot.slot == GLINT_TEXTURE_BASE_COLOR && read.material.alpha_mode != GLINT_ALPHA_OPAQUE;
-    use.image = images.number_of({static_cast<std::size_t>(image), slot.is_color, is_coverage});
+    use.image = static_cast<std::uint32_t>(image) + 1;
     read.material.textures[slot.slot] = use;
 }
 
@@ -147,8 +145,8 @@ void read_texture_factors(const json &material, const Place &place, glint_materi
     if (const json *normal = optional_object(material, place, "normalTexture")) {
         const json *scale = member(*normal, "scale");
         if (scale != nullptr) {
-            result.normal_scale =
-                static_cast<float>(number_of(*scale, place / "normalTexture" / "scale"));
+            result.normal_scale = static_cast<float>(
+                number_within(*scale, place / "normalTexture" / "scale", -FLT_MAX, FLT_MAX));
         }
     }
     if (const json *occlusion = optional_object(material, place, "occlusionTexture")) {
@@ -391,7 +389,7 @@ glint_material read_factors(const json &root, std::ptrdiff_t index)
     return result;
 }
 
-UsedMaterial read_material(const json &root, std::ptrdiff_t index, Images &images)
+UsedMaterial read_material(const json &root, std::ptrdiff_t index)
 {
     UsedMaterial read;
     read.material = read_factors(root, index);
@@ -404,10 +402,24 @@ UsedMaterial read_material(const json &root, std::ptrdiff_t index, Images &image
         const json *holder = holder_of(material, (Place() / "materials")[i], slot);
         const json *info = holder == nullptr ? nullptr : member(*holder, slot.key);
         if (info != nullptr) {
-            take_texture(root, *info, slot, read, images);
+            take_texture(root, *info, slot, read);
         }
     }
     return read;
+}
+
+void note_images(UsedMaterial &used, Images &images)
+{
+    std::array<bool, GLINT_TEXTURE_SLOTS> is_noted{};
+    for (const TextureSlot &slot : texture_slots()) {
+        glint_texture_use &use = used.material.textures[slot.slot];
+        if (use.image != 0 && !is_noted[slot.slot]) {
+            const bool is_coverage = slot.slot == GLINT_TEXTURE_BASE_COLOR &&
+                                     used.material.alpha_mode != GLINT_ALPHA_OPAQUE;
+            use.image = images.number_of({use.image - 1, slot.is_color, is_coverage});
+            is_noted[slot.slot] = true;
+        }
+    }
 }
 
 void settle_material(const json &root, std::ptrdiff_t index, const Images &images,

@@ -29,8 +29,11 @@ struct UsedMaterial {
 // The factors of a material of a checked document; of glTF's default material for −1.
 glint_material read_factors(const json &root, std::ptrdiff_t index);
 
-// The same with its textures, whose images are noted.
-UsedMaterial read_material(const json &root, std::ptrdiff_t index, Images &images);
+// The same with its textures: `image` of each is 1 + its place in the file's images.
+UsedMaterial read_material(const json &root, std::ptrdiff_t index);
+
+// Notes the images of the textures that are left, and sets `image` of each to its number there.
+void note_images(UsedMaterial &used, Images &images);
 
 // Once the images are read: puts something else in the place of textures that cannot be shown, and
 // says so.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cfloat>
 #include <cmath>
 #include <cstring>
 
@@ -126,10 +127,10 @@ void read_transform(const json &object, const Place &place, float transform[6])
     const double rows[6] = {c * scale[0],  s * scale[1], offset[0],
                             -s * scale[0], c * scale[1], offset[1]};
     for (int i = 0; i < 6; i++) {
-        transform[i] = static_cast<float>(rows[i]);
-        if (!std::isfinite(transform[i])) {
+        if (!(std::fabs(rows[i]) <= FLT_MAX)) {
             refuse(place, "does not fit into floats (use smaller numbers)");
         }
+        transform[i] = static_cast<float>(rows[i]);
     }
 }
 

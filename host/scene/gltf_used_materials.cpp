@@ -50,8 +50,7 @@ UsedMaterial &use_material(Load &load, std::ptrdiff_t index)
 {
     auto found = load.materials.find(index);
     if (found == load.materials.end()) {
-        found = load.materials.emplace(index, read_material(load.document.root, index, load.images))
-                    .first;
+        found = load.materials.emplace(index, read_material(load.document.root, index)).first;
         UsedMaterial &used = found->second;
         std::string name = material_name(load.document.root, index);
         used.material.name = name.empty() ? nullptr : name.data();
@@ -60,6 +59,7 @@ UsedMaterial &use_material(Load &load, std::ptrdiff_t index)
         if (used.is_replaced) {
             used.missing.clear();
         }
+        note_images(used, load.images);
     }
     return found->second;
 }

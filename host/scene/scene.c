@@ -6,6 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *glint_treatment_name(glint_treatment treatment)
+{
+    static const char *const names[] = {
+        [GLINT_RENDERED] = "rendered",
+        [GLINT_APPROXIMATED] = "approximated",
+        [GLINT_IGNORED] = "ignored",
+    };
+    return names[treatment];
+}
+
 void glint_scene_free(glint_scene *scene)
 {
     for (size_t i = 0; i < scene->material_count; i++) {

@@ -52,6 +52,8 @@ typedef enum glint_treatment {
     GLINT_IGNORED,
 } glint_treatment;
 
+const char *glint_treatment_name(glint_treatment treatment); // "rendered"
+
 typedef struct glint_usage {
     char *name; // an extension, or a few words; owned
     glint_treatment treatment;

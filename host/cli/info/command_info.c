@@ -171,14 +171,14 @@ static void print_lists(const glint_scene *scene)
 
 static void print_usages(const glint_scene *scene)
 {
-    static const char *const treatments[] = {"rendered", "approximated", "ignored"};
     if (scene->usage_count > 0) {
         printf("\nWhat the file uses\n");
     }
     for (int treatment = GLINT_RENDERED; treatment <= GLINT_IGNORED; treatment++) {
         for (size_t i = 0; i < scene->usage_count; i++) {
             if ((int)scene->usages[i].treatment == treatment) {
-                printf("  %-13s %s\n", treatments[treatment], scene->usages[i].name);
+                printf("  %-13s %s\n", glint_treatment_name(scene->usages[i].treatment),
+                       scene->usages[i].name);
             }
         }
     }

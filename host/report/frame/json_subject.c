@@ -278,12 +278,11 @@ static json_t *overrides_list(const glint_material_overrides *overrides)
 
 static json_t *usages_list(const glint_scene *scene)
 {
-    static const char *const treatments[] = {"rendered", "approximated", "ignored"};
     json_t *list = json_array();
     for (size_t i = 0; i < scene->usage_count; i++) {
         json_t *object = json_object();
         glint_json_put_text(object, "name", scene->usages[i].name);
-        glint_json_put_text(object, "treatment", treatments[scene->usages[i].treatment]);
+        glint_json_put_text(object, "treatment", glint_treatment_name(scene->usages[i].treatment));
         (void)json_array_append_new(list, object);
     }
     return list;
