@@ -393,6 +393,33 @@ static void every_lie_is_named(void **state)
     free(text);
 }
 
+// A file that two buffers name is read once, for both.
+static void packed_views_may_name_any_buffer_of_a_file(void **state)
+{
+    const sheet made = make_sheet();
+    pack packed = {.extension = "EXT_meshopt_compression"};
+    pack_vertices(&packed, made.positions, VERTICES, 12, NULL);
+    pack_vertices(&packed, made.normals, VERTICES, 12, NULL);
+    pack_indices(&packed, &made, true, 4);
+    char *text = text_of(*state, &packed, SHEET(FLOAT_NORMALS, 5125));
+    char *first = strstr(text, "{\"buffer\":0,\"byteOffset\":0");
+    char *end = strstr(text, "}],\"bufferViews\"");
+    assert_non_null(first);
+    assert_non_null(end);
+    first[strlen("{\"buffer\":")] = '2';
+    char changed[16384];
+    snprintf(changed, sizeof changed, "%.*s},{\"byteLength\":%zu,\"uri\":\"packed.bin\"%s",
+             (int)(end - text), text, packed.length, end);
+    glint_scene scene;
+    glint_error error = {0};
+    if (load_text(*state, changed, &scene, NULL, &error) != GLINT_OK) {
+        fail_msg("%s", error.message);
+    }
+    assert_int_equal(scene.triangle_count, INDICES / 3);
+    glint_scene_free(&scene);
+    free(text);
+}
+
 // More elements than the packed bytes can hold are refused before there is memory for them.
 static void small_files_cannot_unpack_the_world(void **state)
 {
@@ -455,6 +482,7 @@ int main(void)
         cmocka_unit_test(filters_err_by_their_quantum),
         cmocka_unit_test(quaternions_are_unpacked),
         cmocka_unit_test(every_lie_is_named),
+        cmocka_unit_test(packed_views_may_name_any_buffer_of_a_file),
         cmocka_unit_test(small_files_cannot_unpack_the_world),
         cmocka_unit_test(damaged_bytes_are_refused_or_read),
     };

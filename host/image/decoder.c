@@ -131,7 +131,7 @@ static glint_status start(glint_error *error)
     char path[PATH_MAX];
     if (!find_program(path)) {
         return glint_fail(error, GLINT_BAD_INPUT,
-                          PROGRAM ": the decoder of images is not there (install glint anew)");
+                          PROGRAM ": the decoder is not there (install glint anew)");
     }
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -181,7 +181,7 @@ static glint_status await_ready(glint_error *error)
 {
     glint_decode_answer *answer = malloc(sizeof *answer);
     if (answer == NULL) {
-        return glint_fail_memory(error, "an image");
+        return glint_fail_memory(error, "a file's decoder");
     }
     if (!decoder.is_ready) {
         decoder.is_ready = receive(decoder.socket, -1, answer) &&
@@ -287,12 +287,17 @@ static bool is_credible(const glint_decode_request *request, const glint_decode_
            answer->name_bytes <= GLINT_DECODE_NAMES_MAX;
 }
 
+static const char *what_is_decoded(const glint_decode_request *request)
+{
+    return request->is_mesh ? "a mesh" : "an image";
+}
+
 static glint_status take(const glint_decode_request *request, const glint_decode_answer *answer,
                          glint_stored *stored, glint_error *error)
 {
     if (answer->kind == GLINT_DECODED && answer->status == GLINT_OUT_OF_MEMORY) {
         if (request->limits.memory_bytes == 0) {
-            return glint_fail_memory(error, "an image");
+            return glint_fail_memory(error, what_is_decoded(request));
         }
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: takes more than %" PRIu64 " MiB to decode (it is damaged; or %s)",
@@ -329,7 +334,7 @@ static glint_status ask(const glint_decode_request *request, int image, glint_st
     close(ends[1]);
     glint_decode_answer *answer = malloc(sizeof *answer);
     if (status == GLINT_OK && answer == NULL) {
-        status = glint_fail_memory(error, "an image");
+        status = glint_fail_memory(error, what_is_decoded(request));
     } else if (status == GLINT_OK) {
         const uint32_t seconds = request->limits.seconds;
         const int patience = seconds > 0 ? (int)(seconds + PATIENCE_SECONDS) * 1000 : -1;

@@ -35,8 +35,11 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
 // What a file of this size may cost, unless the limits are lifted.
 glint_decode_limits glint_decoder_limits(uint64_t file_bytes);
 
-// Decodes a mesh that stands in the memory file `file` (mesh_decoding.h). `name` stands for it in
-// messages. Sets the bytes of its indices, which the caller must not believe.
+// Decodes a mesh that stands in the memory file `file` (mesh_decoding.h), which stays the caller's.
+// `name` stands for it in messages. *index_bytes gets the bytes of its 32-bit indices, from
+// index_offset on; 0 on an error. A mesh can break the process that decodes it, so the caller must
+// check the number against index_room, and all indices. Errors: GLINT_BAD_INPUT with the name,
+// GLINT_OUT_OF_MEMORY.
 glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits *limits, int file,
                                     uint64_t *index_bytes, glint_error *error);
 

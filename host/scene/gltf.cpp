@@ -135,6 +135,9 @@ void read_buffers(Load &load)
     for (tinygltf::BufferView &view : load.model.bufferViews) {
         view.buffer = stand_in[static_cast<std::size_t>(view.buffer)];
     }
+    for (PackedView &packed : load.model.packed) {
+        packed.buffer = static_cast<std::size_t>(stand_in[packed.buffer]);
+    }
 }
 
 void open(const char *path, const glint_scene_options &options, glint_scene_source &source)

@@ -88,11 +88,7 @@ std::vector<double> check_rotation(const json &node, const Place &place)
 
 void check_instancing(const json &node, const Place &node_place, const Model &model)
 {
-    const json *extensions = optional_object(node, node_place, "extensions");
-    const json *instancing =
-        extensions == nullptr
-            ? nullptr
-            : optional_object(*extensions, node_place / "extensions", "EXT_mesh_gpu_instancing");
+    const json *instancing = extension_of(node, node_place, "EXT_mesh_gpu_instancing");
     if (instancing == nullptr) {
         return;
     }

@@ -114,10 +114,10 @@ void add_attributes(Model &model, const DracoPrimitive &one, Packed &packed)
         const auto index = static_cast<std::size_t>(primitive.attributes.at(name));
         const tinygltf::Accessor &accessor = model.accessors[index];
         if (accessor.count != packed.job.vertex_count) {
-            refuse(place_of(one), counted(accessor.count, "vertex") + " of bufferViews[" +
-                                      std::to_string(packed.view) + "], and elsewhere " +
-                                      std::to_string(packed.job.vertex_count) +
-                                      " of the same (the file is damaged)");
+            refuse(place_of(one),
+                   "an accessor of " + counted(accessor.count, "element") +
+                       ", and another of bufferViews[" + std::to_string(packed.view) + "] has " +
+                       std::to_string(packed.job.vertex_count) + " (the file is damaged)");
         }
         if (find_attribute(packed.job, id, accessor) >= 0) {
             continue;
@@ -152,9 +152,9 @@ void add_user(Model &model, std::size_t user, Packed &packed)
         packed.job.is_exact = !is_strip;
         packed.job.index_offset = reserve(packed, room, sizeof(std::uint32_t), place_of(one));
     } else if (room != packed.job.index_room || packed.job.is_exact == is_strip) {
-        refuse(place_of(one), counted(corners, "indice") + " of bufferViews[" +
-                                  std::to_string(one.view) +
-                                  "], which another primitive counts otherwise");
+        refuse(place_of(one), counted(corners, "corner") +
+                                  ", and another primitive has another number of bufferViews[" +
+                                  std::to_string(one.view) + "] (the file is damaged)");
     }
     add_attributes(model, one, packed);
     packed.users.push_back(user);
@@ -163,9 +163,9 @@ void add_user(Model &model, std::size_t user, Packed &packed)
 // Before any memory is taken.
 void check_total(const Model &model, const std::vector<Packed> &all)
 {
-    std::uint64_t there = 0, results = 0;
+    const std::uint64_t there = buffer_bytes(model); // views may overlap
+    std::uint64_t results = 0;
     for (const Packed &one : all) {
-        there += model.bufferViews[one.view].byteLength;
         results = std::min(results + one.result_bytes, largest_whole); // each is below
     }
     const std::uint64_t most =
@@ -263,8 +263,9 @@ std::vector<unsigned char> decode(const Model &model, Packed &packed)
     const std::uint64_t size = packed.result_offset + packed.result_bytes;
     glint_decode_limits limits = {};
     limits.picture_bytes = size;
-    limits.memory_bytes = memory_bytes + size + memory_each_index * packed.job.index_room +
-                          memory_each_result * packed.result_bytes;
+    limits.memory_bytes = std::min(memory_bytes + size + memory_each_index * packed.job.index_room +
+                                       memory_each_result * packed.result_bytes,
+                                   memory_bytes + glint_free_memory());
     limits.cpu_seconds = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(cpu_seconds_of(packed.result_bytes), 86400));
     limits.seconds = static_cast<std::uint32_t>(
@@ -363,13 +364,11 @@ bool add_ids(const json &attributes, const Place &place, Model &model, DracoPrim
 
 void check_draco(const json &source, const Place &place, Model &model)
 {
-    const json *all = optional_object(source, place, "extensions");
-    const json *found = all != nullptr ? member(*all, extension_name) : nullptr;
+    const json *found = extension_of(source, place, extension_name);
     if (found == nullptr) {
         return;
     }
     const Place at = place / "extensions" / extension_name;
-    expect_object(*found, at);
     DracoPrimitive one;
     one.mesh = model.meshes.size() - 1;
     one.number = model.meshes.back().primitives.size() - 1;
@@ -396,10 +395,13 @@ void check_draco(const json &source, const Place &place, Model &model)
 
 void decode_draco(Model &model)
 {
-    std::map<std::size_t, std::size_t> by_view;
+    // Views of the same bytes are one.
+    std::map<std::tuple<int, std::size_t, std::size_t>, std::size_t> by_bytes;
     std::vector<Packed> all;
     for (std::size_t i = 0; i < model.draco.size(); i++) {
-        const auto entry = by_view.try_emplace(model.draco[i].view, all.size());
+        const tinygltf::BufferView &view = model.bufferViews[model.draco[i].view];
+        const auto entry =
+            by_bytes.try_emplace({view.buffer, view.byteOffset, view.byteLength}, all.size());
         if (entry.second) {
             all.emplace_back();
         }

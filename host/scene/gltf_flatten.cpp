@@ -14,6 +14,7 @@
 #include <cfloat>
 #include <cmath>
 #include <new>
+#include <set>
 
 namespace glint
 {
@@ -364,15 +365,21 @@ void flatten(Load &load, glint_scene &scene)
 {
     std::size_t triangles = 0;
     bool with_normals = false;
+    std::set<const Shape *> drawn; // hidden ones cost nothing
     for (const Draw &draw : load.draws) {
         triangles += draw.primitive->triangles; // 2^22 draws of 2^33 at most
+        drawn.insert(draw.shape);
         with_normals = with_normals || draw.primitive->has_normals;
     }
     if (triangles > most_triangles) {
         throw refusal(std::to_string(triangles) + " triangles are more than the " +
                       std::to_string(most_triangles) + " that fit (split the scene)");
     }
-    deform(load.poses.deforming(), with_normals, load.tally);
+    std::vector<Shape *> shapes = load.poses.deforming();
+    shapes.erase(std::remove_if(shapes.begin(), shapes.end(),
+                                [&](const Shape *shape) { return drawn.count(shape) == 0; }),
+                 shapes.end());
+    deform(shapes, with_normals, load.tally);
     choose_frame(measure(load.draws), scene);
     std::size_t default_material = objects_of(load.document.root, "materials").size();
     scene.attribute_set = attributes_of(load);

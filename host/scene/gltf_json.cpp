@@ -199,6 +199,13 @@ const json &objects_of(const json &root, const char *key)
     return found == nullptr ? nothing : *found;
 }
 
+const json *extension_of(const json &object, const Place &place, const char *name)
+{
+    const json *extensions = optional_object(object, place, "extensions");
+    return extensions == nullptr ? nullptr
+                                 : optional_object(*extensions, place / "extensions", name);
+}
+
 std::string text_of(const json &value, const Place &place)
 {
     if (!value.is_string()) {

@@ -57,13 +57,6 @@ void color(const json &object, const Place &object_place, const char *key, std::
     }
 }
 
-const json *extension(const json &material, const Place &place, const char *name)
-{
-    const json *extensions = optional_object(material, place, "extensions");
-    return extensions == nullptr ? nullptr
-                                 : optional_object(*extensions, place / "extensions", name);
-}
-
 bool is_extension(const char *holder)
 {
     return std::strncmp(holder, "KHR_", 4) == 0;
@@ -73,13 +66,13 @@ bool is_extension(const char *holder)
 const json *holder_of(const json &material, const Place &place, const TextureSlot &slot)
 {
     if (slot.holder != nullptr && std::strcmp(slot.holder, "pbrMetallicRoughness") == 0 &&
-        extension(material, place, specular_glossiness) != nullptr) {
+        extension_of(material, place, specular_glossiness) != nullptr) {
         return nullptr;
     }
     if (slot.holder == nullptr) {
         return &material;
     }
-    return is_extension(slot.holder) ? extension(material, place, slot.holder)
+    return is_extension(slot.holder) ? extension_of(material, place, slot.holder)
                                      : optional_object(material, place, slot.holder);
 }
 
@@ -215,27 +208,27 @@ void read_specular_glossiness(const json &object, const Place &place, glint_mate
 void read_extensions(const json &material, const Place &place, glint_material &result)
 {
     Place at = place / "extensions";
-    if (const json *found = extension(material, place, "KHR_materials_transmission")) {
+    if (const json *found = extension_of(material, place, "KHR_materials_transmission")) {
         result.transmission =
             factor(*found, at / "KHR_materials_transmission", "transmissionFactor", 0);
     }
-    if (const json *found = extension(material, place, specular_glossiness)) {
+    if (const json *found = extension_of(material, place, specular_glossiness)) {
         read_specular_glossiness(*found, at / specular_glossiness, result);
     }
-    if (const json *found = extension(material, place, "KHR_materials_ior")) {
+    if (const json *found = extension_of(material, place, "KHR_materials_ior")) {
         result.ior = read_ior(*found, at / "KHR_materials_ior");
     }
-    if (const json *found = extension(material, place, "KHR_materials_volume")) {
+    if (const json *found = extension_of(material, place, "KHR_materials_volume")) {
         read_volume(*found, at / "KHR_materials_volume", result);
     }
-    if (const json *found = extension(material, place, "KHR_materials_emissive_strength")) {
+    if (const json *found = extension_of(material, place, "KHR_materials_emissive_strength")) {
         float strength =
             factor_from(*found, at / "KHR_materials_emissive_strength", "emissiveStrength", 0, 1);
         for (float &component : result.emission) {
             component *= strength;
         }
     }
-    result.unlit = extension(material, place, "KHR_materials_unlit") != nullptr;
+    result.unlit = extension_of(material, place, "KHR_materials_unlit") != nullptr;
 }
 
 // The lecture's blend: extras {"glint": {"mirror": m}}. Other programs' extras can be anything.

@@ -31,11 +31,9 @@ struct Extension {
 
 Extension find_extension(const json &holder, const Place &place)
 {
-    const json *all = optional_object(holder, place, "extensions");
     for (const char *name : extension_names) {
-        const json *found = all != nullptr ? member(*all, name) : nullptr;
+        const json *found = extension_of(holder, place, name);
         if (found != nullptr) {
-            expect_object(*found, place / "extensions" / name);
             return {found, place / "extensions" / name};
         }
     }
@@ -219,10 +217,7 @@ void unpack(const PackedView &packed, const unsigned char *from, std::vector<uns
 // Views may share packed bytes, but not so that a small file fills the memory.
 void check_total(const Model &model, std::uint64_t unpacked)
 {
-    std::uint64_t there = 0;
-    for (const tinygltf::Buffer &buffer : model.buffers) {
-        there += buffer.data.size();
-    }
+    const std::uint64_t there = buffer_bytes(model);
     if (unpacked / most_bytes_each > there) {
         refuse(Place() / "bufferViews", counted(unpacked, "unpacked byte") + " cannot stand in " +
                                             counted(there, "byte") +
@@ -283,10 +278,11 @@ void unpack_views(Model &model)
         check_packed_bytes(one, model.buffers[one.buffer].data.data() + one.offset);
         std::vector<std::size_t> &same = views[{one.buffer, one.offset, one.length, one.stride,
                                                 one.count, one.mode, one.filter}];
-        unpacked += same.empty() ? one.count * one.stride : 0;
+        // Neither is above 2^61: the first is cut, the second within most_bytes_each of a length.
+        unpacked = std::min(unpacked, largest_whole) + (same.empty() ? one.count * one.stride : 0);
         same.push_back(i);
-        check_total(model, unpacked);
     }
+    check_total(model, unpacked);
     for (const auto &entry : views) {
         const PackedView &one = model.packed[entry.second[0]];
         std::vector<unsigned char> bytes;

@@ -65,6 +65,16 @@ struct Model : tinygltf::Model {
     std::vector<std::size_t> target_counts; // of each mesh's morph targets: the most of a primitive
 };
 
+// Bytes of all buffers that are there.
+inline std::uint64_t buffer_bytes(const Model &model)
+{
+    std::uint64_t sum = 0;
+    for (const tinygltf::Buffer &buffer : model.buffers) {
+        sum += buffer.data.size();
+    }
+    return sum;
+}
+
 } // namespace glint
 
 #endif

@@ -86,6 +86,15 @@ void open_targets(const tinygltf::Primitive &source, Accessors &accessors, Primi
 {
     for (const auto &target : source.targets) {
         MorphTarget &opened = primitive.targets.emplace_back();
+        for (const auto &moved : target) {
+            const bool is_read =
+                std::any_of(morph_rows.begin(), morph_rows.end(),
+                            [&](const MorphRow &row) { return moved.first == row.name; });
+            if (!is_read && moved.first != "TANGENT") { // tangents follow from the others
+                tally.add("a morph target moves " + moved.first + ", which is left out",
+                          primitive.place().text());
+            }
+        }
         for (std::size_t row = 0; row < morph_rows.size(); row++) {
             const char *name = morph_rows[row].name;
             const auto found = target.find(name);

@@ -22,13 +22,6 @@ const char *const transform_name = "KHR_texture_transform";
 // have `source` as well, for programs that read no such images.
 const std::array<const char *, 2> sources = {"EXT_texture_webp", "MSFT_texture_dds"};
 
-const json *extension_of(const json &object, const Place &place, const char *name)
-{
-    const json *extensions = optional_object(object, place, "extensions");
-    return extensions == nullptr ? nullptr
-                                 : optional_object(*extensions, place / "extensions", name);
-}
-
 void check_image(const Document &document, const json &image, const Place &place)
 {
     const json *uri = member(image, "uri");

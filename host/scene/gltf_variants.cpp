@@ -15,14 +15,6 @@ namespace
 
 const char *const name_of_extension = "KHR_materials_variants";
 
-const json *extension_of(const json &object, const Place &place)
-{
-    const json *extensions = optional_object(object, place, "extensions");
-    return extensions == nullptr
-               ? nullptr
-               : optional_object(*extensions, place / "extensions", name_of_extension);
-}
-
 void check_mapping(const json &root, const json &mapping, const Place &place, const Model &model,
                    VariantMaterials &found)
 {
@@ -48,7 +40,7 @@ void check_mapping(const json &root, const json &mapping, const Place &place, co
 
 void check_variants(const json &root, Model &model)
 {
-    const json *extension = extension_of(root, Place());
+    const json *extension = extension_of(root, Place(), name_of_extension);
     if (extension == nullptr) {
         return;
     }
@@ -69,7 +61,7 @@ VariantMaterials check_variant_mappings(const json &root, const json &primitive,
                                         const Model &model)
 {
     VariantMaterials found;
-    const json *extension = extension_of(primitive, place);
+    const json *extension = extension_of(primitive, place, name_of_extension);
     if (extension != nullptr) {
         const Place at = place / "extensions" / name_of_extension;
         const json &mappings = array_at(*extension, at, "mappings");
