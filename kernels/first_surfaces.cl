@@ -28,7 +28,7 @@ static inline void note_group(layers *l, const scene_buffers *scene,
     closest hit = no_hit();
     measure_hits(image, triangles.vertices, first.x, first.y, first.length, met, &hit);
     const surface s = find_surface(scene, &ray, &hit, &triangles);
-    // Along the axis of view, which the rays' directions reach 1 along before they are unit vectors.
+    // Along the axis of view: there directions come 1 far before they are unit vectors.
     const real depth = hit.t / first.length + JOIN(frame->start[0], frame->start[1]);
     const real metres = depth * (scalar)frame->unit;
     for (uint left = mask_bits(met); left != 0; left &= left - 1) {

@@ -6,7 +6,7 @@
 typedef struct layers {
     glint_layers_record of_pixel[TILE_PIXELS];
     scalar heaviest[TILE_PIXELS]; // weight of the look-up whose face is noted, 0: none yet
-    bool is_middle;               // the sample at hand is the one that the surface and the face are of
+    bool is_middle;               // this sample gives the first surface and the face
 } layers;
 
 static inline void begin_layers(layers *l)

@@ -46,6 +46,12 @@ static void depth_is_an_old_name_of_surfaces(void **state)
 
 // ---- Numbers -----------------------------------------------------------------------------------
 
+static void the_array_of_channels_has_room_for_all(void **state)
+{
+    (void)state;
+    assert_int_equal(glint_layers_channels(GLINT_AOV_VALID), GLINT_AOV_CHANNELS);
+}
+
 static void triangles_find_their_owners(void **state)
 {
     (void)state;
@@ -134,6 +140,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depth_is_an_old_name_of_surfaces),
+        cmocka_unit_test(the_array_of_channels_has_room_for_all),
         cmocka_unit_test(triangles_find_their_owners),
         cmocka_unit_test(manifests_name_what_is_there),
         cmocka_unit_test(layers_of_surfaces_keep_the_bits_of_what_is_proved),

@@ -285,6 +285,62 @@ static void unreadable_textures_become_grey_paint(void **state)
     }
 }
 
+// Loads a plane's file again, with an override.
+static glint_scene load_overridden(const char *path, const char *text, glint_warnings *warnings)
+{
+    glint_material_overrides overrides = {0};
+    const glint_option option = {.name = "material"};
+    assert_int_equal(glint_material_override_parse(&option, text, &overrides, NULL), GLINT_OK);
+    glint_scene scene;
+    assert_int_equal(glint_scene_load(path, &(glint_scene_options){.overrides = &overrides}, &scene,
+                                      warnings, NULL),
+                     GLINT_OK);
+    return scene;
+}
+
+#define COLORED(material)                                                                          \
+    "{\"indices\":6,\"material\":" #material ",\"attributes\":{\"POSITION\":0,\"COLOR_0\":5}}"
+
+// Both materials have colours at vertices. A preset that is white takes those of its own away; one
+// whose colour is the file's keeps them.
+static void presets_take_colors_of_vertices_away_or_keep_them(void **state)
+{
+    glint_scene plain =
+        textured_plane_load(*state, "\"meshes\":[{\"primitives\":[" COLORED(0) "," COLORED(
+                                        1) "]}],\"materials\":[{\"name\":\"a\"},{\"name\":\"b\"}]");
+    glint_scene glass = load_overridden(plain.path, "a=glass", NULL);
+    glint_scene paint = load_overridden(plain.path, "a=paint", NULL);
+    assert_int_equal(plain.triangle_count, 4);
+    assert_int_equal(glint_attributes_stride(&plain.attribute_set), 4);
+    for (int i = 0; i < 2 * 3 * 4; i++) {
+        assert_true(glass.attributes[i] == 1);
+        assert_true(paint.attributes[i] == plain.attributes[i]);
+        assert_true(glass.attributes[24 + i] == plain.attributes[24 + i]);
+    }
+    assert_false(glass.materials[0].has_vertex_colors);
+    assert_true(paint.materials[0].has_vertex_colors && glass.materials[1].has_vertex_colors);
+    glint_scene_free(&plain);
+    glint_scene_free(&glass);
+    glint_scene_free(&paint);
+}
+
+static void presets_stay_where_the_color_texture_cannot_be_read(void **state)
+{
+    glint_scene plain = textured_plane_load(
+        *state, MESH("") "\"images\":[{\"uri\":\"none.png\"}],\"textures\":[{\"source\":0}],"
+                         "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":"
+                         "{\"index\":0},\"baseColorFactor\":[1,0.25,0.5,1]}}]");
+    glint_warnings warnings = {0};
+    glint_scene metal = load_overridden(plain.path, "*=metal", &warnings);
+    assert_true(any_warning_has(&warnings, "; the colour's factor alone is used"));
+    assert_true(metal.materials[0].metallic == 1 && metal.materials[0].roughness == 0);
+    assert_true(metal.materials[0].base_color[1] == 0.25F);
+    assert_int_equal(metal.materials[0].textures[GLINT_TEXTURE_BASE_COLOR].image, 0);
+    glint_warnings_free(&warnings);
+    glint_scene_free(&plain);
+    glint_scene_free(&metal);
+}
+
 static void images_of_replaced_materials_are_not_read(void **state)
 {
     write_texel("a.png", 51, 102, 204, 255);
@@ -317,6 +373,8 @@ int main(void)
         TEST(alpha_is_kept_where_the_background_is_left_out),
         TEST(unreadable_textures_become_grey_paint),
         TEST(images_of_replaced_materials_are_not_read),
+        TEST(presets_take_colors_of_vertices_away_or_keep_them),
+        TEST(presets_stay_where_the_color_texture_cannot_be_read),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

@@ -36,8 +36,8 @@ json_t *glint_json_truncation(const glint_truncation *truncation);
 json_t *glint_json_summary(const glint_summary *summary);
 // Where no pixel was compared, the figures are null.
 json_t *glint_json_metrics(const glint_metrics *metrics);
-// Counts and bounds; with `everything` also the topology, if the subject has one, the materials,
-// their variants, the instances and the cameras.
+// Counts, bounds, the variant and overrides; with `everything` also what the file uses, the
+// topology, if the subject has one, the materials, their variants, the instances and the cameras.
 json_t *glint_json_scene(const glint_subject *subject, bool everything);
 
 // The value at the end of the names in `path`, "frames.kernel.median"; NULL where there is none. Of
@@ -51,9 +51,8 @@ const char *glint_json_text_at(const json_t *root, const char *path);
 // GLINT_OUTPUT_FAILED.
 glint_status glint_json_write(const char *path, json_t *root, glint_error *error);
 
-// Reads a file that holds one value, in which no object has two members of one
-// name. The caller releases *root. Errors:
-// GLINT_BAD_INPUT with the file's name, and the line where one is at fault.
+// Reads a file that holds one value, in which no object has two members of one name. The caller
+// releases *root. Errors: GLINT_BAD_INPUT with the file's name, and the line where one is at fault.
 glint_status glint_json_read(const char *path, json_t **root, glint_error *error);
 
 // As json_dumps, with escapes for all that a terminal should not get.

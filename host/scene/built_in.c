@@ -41,8 +41,7 @@ typedef struct recipe {
 #define DEGREES (GLINT_PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-// What glTF 2.0 and its extensions give a material that says nothing, as far as it is not 0.
-#define CLEAR .ior = 1.5F, .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}
+#define CLEAR GLINT_MATERIAL_CLEAR
 #define NO_BLEND .mirror = (-1)
 
 static const glint_material silver[] = {

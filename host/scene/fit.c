@@ -82,7 +82,10 @@ void glint_camera_fit(const glint_fit *fit, glint_camera *camera)
     const double width = (most[RIGHT_EDGE] + most[LEFT_EDGE]) / 2 / fit->aspect;
     const double height = (most[UPPER_EDGE] + most[LOWER_EDGE]) / 2;
     const double larger = fmax(width, height);
-    if (!(larger > 0) || !isfinite(larger) || !isfinite(radius)) {
+    // No points; or, in parallel light, all behind each other. (In perspective `larger` is below 0
+    // where the nearest point alone says how near the camera may come.)
+    if (!isfinite(larger) || !isfinite(radius) || !isfinite(most[NEAREST]) ||
+        (camera->orthographic && !(larger > 0))) {
         return;
     }
     double distance = most[NEAREST] + radius; // before the centre

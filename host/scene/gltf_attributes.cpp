@@ -29,13 +29,16 @@ float *store_texcoords(const Primitive &primitive, std::size_t set, std::size_t 
     return stored + 2;
 }
 
-float *store_color(const Primitive &primitive, std::size_t vertex, Tally &tally, float *stored)
+// 1 where the material has none: an override may have taken them away.
+float *store_color(Load &load, const Primitive &primitive, std::size_t vertex, float *stored)
 {
     std::array<double, 4> rgba = {1, 1, 1, 1};
-    primitive.colors.numbers(vertex, primitive.color_components, rgba.data());
+    if (load.materials.at(primitive.material).material.has_vertex_colors) {
+        primitive.colors.numbers(vertex, primitive.color_components, rgba.data());
+    }
     for (std::size_t i = 0; i < 4; i++) {
         if (std::isnan(rgba[i])) {
-            tally.add("colours that are no numbers count as 1", primitive.place().text());
+            load.tally.add("colours that are no numbers count as 1", primitive.place().text());
             rgba[i] = 1;
         }
         stored[i] = static_cast<float>(std::clamp(rgba[i], 0.0, 1.0));
@@ -80,19 +83,19 @@ glint_attributes attributes_of(const Load &load)
     return set;
 }
 
-void store_attributes(const Draw &draw, const std::array<std::size_t, 3> &corners,
-                      const glint_attributes &set, Tally &tally, float *stored)
+void store_attributes(Load &load, const Draw &draw, const std::array<std::size_t, 3> &corners,
+                      const glint_attributes &set, float *stored)
 {
     const Primitive &primitive = *draw.primitive;
     for (const std::size_t vertex : corners) {
         if (set.texcoords) {
-            stored = store_texcoords(primitive, 0, vertex, tally, stored);
+            stored = store_texcoords(primitive, 0, vertex, load.tally, stored);
         }
         if (set.second_texcoords) {
-            stored = store_texcoords(primitive, 1, vertex, tally, stored);
+            stored = store_texcoords(primitive, 1, vertex, load.tally, stored);
         }
         if (set.colors) {
-            stored = store_color(primitive, vertex, tally, stored);
+            stored = store_color(load, primitive, vertex, stored);
         }
         if (set.tangents) {
             stored = store_tangent(draw, vertex, stored);

@@ -10,10 +10,10 @@ namespace glint
 // Which attributes the materials in use need of what is drawn.
 glint_attributes attributes_of(const Load &load);
 
-// Stores the attributes of a triangle with these vertices, [3][stride] floats. Values that are not
-// finite are replaced, and named in the tally.
-void store_attributes(const Draw &draw, const std::array<std::size_t, 3> &corners,
-                      const glint_attributes &set, Tally &tally, float *stored);
+// Stores the attributes of a triangle with these vertices as scene.attribute_set has them, [3]
+// [stride] floats. Values that are not finite are replaced, and named in the tally.
+void store_attributes(Load &load, const Draw &draw, const std::array<std::size_t, 3> &corners,
+                      const glint_attributes &set, float *stored);
 
 } // namespace glint
 

@@ -242,7 +242,7 @@ class Writer
                 const std::size_t floats = 3 * glint_attributes_stride(&scene_.attribute_set);
                 const std::array<std::size_t, 3> corners = {triangle[0].vertex, triangle[1].vertex,
                                                             triangle[2].vertex};
-                store_attributes(draw, corners, scene_.attribute_set, load_.tally,
+                store_attributes(load_, draw, corners, scene_.attribute_set,
                                  scene_.attributes + floats * scene_.triangle_count);
             }
             scene_.material_of[scene_.triangle_count++] = material;

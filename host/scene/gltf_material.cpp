@@ -248,30 +248,10 @@ void read_extras(const json &material, const Place &place, glint_material &resul
     }
 }
 
-// glTF's default material.
-glint_material default_material()
-{
-    glint_material result = {};
-    for (int i = 0; i < 3; i++) {
-        result.base_color[i] = 1;
-        result.attenuation_color[i] = 1;
-    }
-    result.metallic = 1;
-    result.roughness = 1;
-    result.ior = 1.5F;
-    result.attenuation_distance = INFINITY;
-    result.mirror = -1;
-    result.alpha = 1;
-    result.alpha_cutoff = 0.5F;
-    result.normal_scale = 1;
-    result.occlusion_strength = 1;
-    return result;
-}
-
 // Without its textures.
 glint_material read_one(const json &material, const Place &place)
 {
-    glint_material result = default_material();
+    glint_material result = glint_material_default;
     if (const json *metal = optional_object(material, place, "pbrMetallicRoughness")) {
         Place at = place / "pbrMetallicRoughness";
         float rgba[4] = {1, 1, 1, 1};
@@ -313,8 +293,12 @@ void make_grey(glint_material &material)
 }
 
 // What stands for a texture that cannot be shown. Returns what is said of it.
-const char *do_without(glint_texture_slot slot, glint_material &material)
+const char *do_without(glint_texture_slot slot, UsedMaterial &used)
 {
+    glint_material &material = used.material;
+    if (used.is_replaced) {
+        return "the colour's factor alone is used"; // of textures a preset keeps that one
+    }
     switch (slot) {
     case GLINT_TEXTURE_NORMAL:
         return "the mesh's own normals are used";
@@ -377,7 +361,7 @@ glint_material read_factors(const json &root, std::ptrdiff_t index)
     const json &materials = objects_of(root, "materials");
     const auto i = static_cast<std::size_t>(index);
     glint_material result =
-        index < 0 ? default_material() : read_one(materials[i], (Place() / "materials")[i]);
+        index < 0 ? glint_material_default : read_one(materials[i], (Place() / "materials")[i]);
     result.index = static_cast<int>(index < 0 ? materials.size() : i);
     return result;
 }
@@ -426,7 +410,10 @@ void settle_material(const json &root, std::ptrdiff_t index, const Images &image
         }
     }
     for (const MissingTexture &missing : used.missing) {
-        const std::string instead = do_without(missing.slot, used.material);
+        if (used.is_replaced && missing.slot != GLINT_TEXTURE_BASE_COLOR) {
+            continue;
+        }
+        const std::string instead = do_without(missing.slot, used);
         tally.add(missing.key + ": " + missing.why + "; " + instead, where_is(root, index));
     }
 }

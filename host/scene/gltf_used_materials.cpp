@@ -45,23 +45,38 @@ void resolve_overrides(Load &load)
     }
 }
 
-// The material, changed, in the order of its first use.
-UsedMaterial &use_material(Load &load, std::ptrdiff_t index)
+// Reads the materials of what is drawn, and notes which have colours at vertices.
+void read_materials(Load &load)
 {
-    auto found = load.materials.find(index);
-    if (found == load.materials.end()) {
-        found = load.materials.emplace(index, read_material(load.document.root, index)).first;
-        UsedMaterial &used = found->second;
-        std::string name = material_name(load.document.root, index);
-        used.material.name = name.empty() ? nullptr : name.data();
-        used.is_replaced = glint_material_overrides_apply(&load.overrides, &used.material);
-        used.material.name = nullptr;
-        if (used.is_replaced) {
-            used.missing.clear();
+    for (const Visit &visit : load.visits) {
+        const int mesh = load.model.nodes[visit.node].mesh;
+        if (mesh < 0) {
+            continue;
         }
-        note_images(used, load.images);
+        const auto m = static_cast<std::size_t>(mesh);
+        for (std::size_t p = load.primitives.first[m]; p < load.primitives.first[m + 1]; p++) {
+            const Primitive &primitive = load.primitives.all[p];
+            if (primitive.triangles == 0) {
+                continue;
+            }
+            auto found = load.materials.find(primitive.material);
+            if (found == load.materials.end()) {
+                const UsedMaterial read = read_material(load.document.root, primitive.material);
+                found = load.materials.emplace(primitive.material, read).first;
+            }
+            glint_material &material = found->second.material;
+            material.has_vertex_colors =
+                material.has_vertex_colors || primitive.color_components > 0;
+        }
     }
-    return found->second;
+}
+
+void override_material(const Load &load, std::ptrdiff_t index, UsedMaterial &used)
+{
+    std::string name = material_name(load.document.root, index);
+    used.material.name = name.empty() ? nullptr : name.data();
+    used.is_replaced = glint_material_overrides_apply(&load.overrides, &used.material);
+    used.material.name = nullptr;
 }
 
 } // namespace
@@ -72,21 +87,10 @@ void read_used_materials(const glint_scene_options &options, Load &load)
         load.overrides = *options.overrides;
         resolve_overrides(load);
     }
-    for (const Visit &visit : load.visits) {
-        const int mesh = load.model.nodes[visit.node].mesh;
-        if (mesh < 0) {
-            continue;
-        }
-        const auto m = static_cast<std::size_t>(mesh);
-        for (std::size_t p = load.primitives.first[m]; p < load.primitives.first[m + 1]; p++) {
-            const Primitive &primitive = load.primitives.all[p];
-            if (primitive.triangles > 0) {
-                UsedMaterial &used = use_material(load, primitive.material);
-                used.material.has_vertex_colors =
-                    used.material.has_vertex_colors ||
-                    (primitive.color_components > 0 && !used.is_replaced);
-            }
-        }
+    read_materials(load);
+    for (auto &one : load.materials) {
+        override_material(load, one.first, one.second);
+        note_images(one.second, load.images);
     }
     load.images.read(load.document, load.model, options.texture_size);
     for (auto &one : load.materials) {

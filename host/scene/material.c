@@ -3,6 +3,12 @@
 
 #include <math.h>
 
+const glint_material glint_material_default = {GLINT_MATERIAL_CLEAR,   .base_color = {1, 1, 1},
+                                               .metallic = 1,          .roughness = 1,
+                                               .mirror = -1,           .alpha = 1,
+                                               .alpha_cutoff = 0.5F,   .normal_scale = 1,
+                                               .occlusion_strength = 1};
+
 static bool is_white(const float color[3])
 {
     return color[0] == 1 && color[1] == 1 && color[2] == 1;

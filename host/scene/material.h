@@ -4,6 +4,7 @@
 
 #include "scene/texture.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus
@@ -41,6 +42,13 @@ typedef struct glint_material {
     float occlusion_strength; // [0, 1]
     bool has_vertex_colors;   // some of its triangles have colours at their vertices
 } glint_material;
+
+// What glTF 2.0 and its extensions give a material that says nothing of glass, for initialisers.
+#define GLINT_MATERIAL_CLEAR                                                                       \
+    .ior = 1.5F, .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}
+
+// glTF's default material: rough, white metal.
+extern const glint_material glint_material_default;
 
 // The lobes that a material has: each is one way in which its surface sends light on. A lobe is
 // there if its share of the light is above 0. ARCHITECTURE.md, "Light transport", has the rules and

@@ -11,8 +11,7 @@
 
 // ---- The tables --------------------------------------------------------------------------------
 
-#define CLEAR .ior = 1.5F, .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}
-#define OPAQUE CLEAR, .mirror = (-1)
+#define OPAQUE GLINT_MATERIAL_CLEAR, .mirror = (-1)
 #define SOLID(n)                                                                                   \
     .base_color = {1, 1, 1}, .transmission = 1, .thickness = 1, .ior = (n),                        \
     .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}, .mirror = (-1)
@@ -184,6 +183,10 @@ static glint_status take_items(const char *option, glint_material_override *made
     for (const char *at = begin; at != NULL;) {
         char item[128];
         const char *end = end_of_item(at);
+        if (end - at >= (ptrdiff_t)sizeof item) {
+            return glint_fail(error, GLINT_USAGE, "--%s %.60s: one of its values is too long",
+                              option, made->text);
+        }
         snprintf(item, sizeof item, "%.*s", (int)(end - at), at);
         char *equals = strchr(item, '=');
         if (equals == NULL) {
@@ -325,6 +328,7 @@ static void replace_material(glint_material *material, const struct preset *pres
     made.index = material->index;
     if (preset->keeps_color) {
         memcpy(made.base_color, material->base_color, sizeof made.base_color);
+        made.has_vertex_colors = material->has_vertex_colors;
         made.textures[GLINT_TEXTURE_BASE_COLOR] = material->textures[GLINT_TEXTURE_BASE_COLOR];
     }
     *material = made;
