@@ -247,6 +247,32 @@ static void a_spike_does_not_touch_the_eye(void **state)
     assert_near(camera.eye.x, 0, 1e-9);
 }
 
+// Seen along (1, 1, 1) the middle of this triangle's box lies behind its corners, so that at wide
+// angles no edge is touched: the nearest corner alone says how near the camera may come.
+static void wide_angles_move_the_camera_as_well(void **state)
+{
+    (void)state;
+    float corners[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const glint_scene scene = {.unit = 1, .positions = corners, .triangle_count = 1};
+    for (int degrees = 100; degrees < 180; degrees += 10) {
+        glint_camera camera = {.yfov = degrees * 3.14159265358979 / 180};
+        assert_true(glint_camera_look((glint_vec3){9, 9, 9}, (glint_vec3){0, 0, 0},
+                                      (glint_vec3){0, 1, 0}, &camera));
+        const glint_fit fit = {.scene = &scene, .low = {0, 0, 0}, .high = {1, 1, 1}, .aspect = 1};
+        glint_camera_fit(&fit, &camera);
+        shown all = nothing;
+        for (int k = 0; k < 3; k++) {
+            show(&camera, 1,
+                 (glint_vec3){(double)corners[3 * k], (double)corners[3 * k + 1],
+                              (double)corners[3 * k + 2]},
+                 &all);
+        }
+        const double most = fmax(fmax(-all.left, all.right), fmax(-all.low, all.high));
+        assert_true(all.nearest > 0 && most <= 1 + 1e-9);
+        assert_true(camera.eye.x < 2); // it was moved
+    }
+}
+
 static void without_points_the_camera_stays(void **state)
 {
     (void)state;
@@ -276,6 +302,7 @@ int main(void)
         cmocka_unit_test(what_moves_is_fitted_by_the_corners_of_its_box),
         cmocka_unit_test(what_turns_fits_in_every_position),
         cmocka_unit_test(a_spike_does_not_touch_the_eye),
+        cmocka_unit_test(wide_angles_move_the_camera_as_well),
         cmocka_unit_test(without_points_the_camera_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
