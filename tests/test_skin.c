@@ -349,6 +349,38 @@ static void what_means_nothing_is_refused(void **state)
     }
 }
 
+// The numbers in a file of a few lines may ask for hours of adding zeros.
+static void more_work_than_minutes_is_refused(void **state)
+{
+    enum { TARGETS = 1100 };
+    static const char head[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"accessors\":[{\"componentType\":5126,\"count\":16777215,\"type\":\"VEC3\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[";
+    const size_t most = sizeof head + TARGETS * sizeof "{\"POSITION\":0},1," + 64;
+    char *text = malloc(most);
+    assert_non_null(text);
+    size_t length = (size_t)snprintf(text, most, "%s", head);
+    for (int i = 0; i < TARGETS; i++) {
+        length +=
+            (size_t)snprintf(text + length, most - length, "%s{\"POSITION\":0}", i > 0 ? "," : "");
+    }
+    length += (size_t)snprintf(text + length, most - length, "]}],\"weights\":[");
+    for (int i = 0; i < TARGETS; i++) {
+        length += (size_t)snprintf(text + length, most - length, i > 0 ? ",1" : "1");
+    }
+    length += (size_t)snprintf(text + length, most - length, "]}]}");
+    assert_true(length < most);
+    glint_scene scene;
+    glint_error error = {0};
+    assert_int_equal(load_text(*state, text, &scene, NULL, &error), GLINT_BAD_INPUT);
+    if (strstr(error.message, "its skins and morph targets move 1.84") == NULL) {
+        fail_msg("%s", error.message);
+    }
+    glint_error_free(&error);
+    free(text);
+}
+
 // A joint's number does not matter where its weight is 0.
 static void joints_without_weight_may_be_any(void **state)
 {
@@ -417,6 +449,7 @@ int main(void)
         cmocka_unit_test(weights_are_normalised_with_a_warning),
         cmocka_unit_test(vertices_without_a_weight_follow_the_first_joint_that_they_name),
         cmocka_unit_test(what_means_nothing_is_refused),
+        cmocka_unit_test(more_work_than_minutes_is_refused),
         cmocka_unit_test(joints_without_weight_may_be_any),
         cmocka_unit_test(bounds_are_those_of_the_whole_clip),
     };

@@ -1,6 +1,7 @@
 // Animations of a glTF file. See gltf_animation.hpp.
 #include "scene/gltf_animation.hpp"
 
+#include "base/free_memory.h"
 #include "scene/gltf_accessor.hpp"
 #include "scene/gltf_check_storage.hpp"
 
@@ -194,7 +195,18 @@ struct Reading {
     const Model &model;
     Clips &clips;
     Tally &tally;
+    std::uint64_t left; // bytes of memory that further curves may take
 };
+
+// Many channels may share a sampler, and each has its curve.
+void take_memory(Reading &reading, std::uint64_t bytes)
+{
+    if (bytes > reading.left) {
+        throw shortage("its animations take more memory than is free (leave some out: "
+                       "--animation)");
+    }
+    reading.left -= bytes;
+}
 
 void read_channel(Reading &reading, const json &animation, const Place &place, std::size_t number)
 {
@@ -223,6 +235,13 @@ void read_channel(Reading &reading, const json &animation, const Place &place, s
         return;
     }
     auto sampler = channel["sampler"].get<std::size_t>();
+    const json &source = animation["samplers"][sampler];
+    const std::size_t numbers = reading.model.accessors[source["input"].get<std::size_t>()].count +
+                                reading.model.accessors[source["output"].get<std::size_t>()].count *
+                                    (property == weights    ? 1
+                                     : property == rotation ? 4
+                                                            : 3);
+    take_memory(reading, numbers * sizeof(double));
     Curve curve = read_curve(reading.model, animation["samplers"][sampler],
                              (place / "samplers")[sampler], property,
                              property == weights    ? targets
@@ -260,7 +279,7 @@ Clips read_clips(const Document &document, const Model &model, const char *name,
 {
     const json &animations = objects_of(document.root, "animations");
     Clips clips;
-    Reading reading{document, model, clips, tally};
+    Reading reading{document, model, clips, tally, glint_free_memory()};
     if (name != nullptr && std::strcmp(name, "none") == 0) {
         return clips;
     }

@@ -361,6 +361,14 @@ void keep_used_materials(Load &load, std::size_t default_material, glint_scene &
 
 } // namespace
 
+void check_triangle_count(std::size_t triangles)
+{
+    if (triangles > most_triangles) {
+        throw refusal(std::to_string(triangles) + " triangles are more than the " +
+                      std::to_string(most_triangles) + " that fit (split the scene)");
+    }
+}
+
 void flatten(Load &load, glint_scene &scene)
 {
     std::size_t triangles = 0;
@@ -371,10 +379,7 @@ void flatten(Load &load, glint_scene &scene)
         drawn.insert(draw.shape);
         with_normals = with_normals || draw.primitive->has_normals;
     }
-    if (triangles > most_triangles) {
-        throw refusal(std::to_string(triangles) + " triangles are more than the " +
-                      std::to_string(most_triangles) + " that fit (split the scene)");
-    }
+    check_triangle_count(triangles);
     std::vector<Shape *> shapes = load.poses.deforming();
     shapes.erase(std::remove_if(shapes.begin(), shapes.end(),
                                 [&](const Shape *shape) { return drawn.count(shape) == 0; }),

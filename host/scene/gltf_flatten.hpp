@@ -7,6 +7,9 @@
 namespace glint
 {
 
+// Refuses more triangles than a scene may have.
+void check_triangle_count(std::size_t triangles);
+
 // Fills all of the scene but its path, cameras and skipped counts.
 void flatten(Load &load, glint_scene &scene);
 

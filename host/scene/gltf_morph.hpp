@@ -49,6 +49,16 @@ class Morph
         return !parts_[attribute].empty();
     }
 
+    // Targets that count, of all attributes.
+    std::size_t part_count() const
+    {
+        std::size_t sum = 0;
+        for (const std::vector<Part> &parts : parts_) {
+            sum += parts.size();
+        }
+        return sum;
+    }
+
     // Adds to the components of a vertex. Allocates nothing.
     void add(MorphAttribute attribute, std::size_t vertex, double *components) const;
 

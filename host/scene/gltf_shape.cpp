@@ -59,12 +59,21 @@ bool has_met(const Task &task, Weighting weighting)
     return task.met[static_cast<std::size_t>(weighting)];
 }
 
+// Some minutes of one core.
+constexpr double most_cost = 0x1p34;
+
 void check_memory(const std::vector<Shape *> &shapes, bool with_normals)
 {
     const std::size_t bytes = sizeof(glint_vec3) * (with_normals ? 2 : 1) + 1;
     std::size_t elements = 0;
+    double cost = 0;
     for (const Shape *shape : shapes) {
         elements += shape->element_count();
+        cost += shape->cost();
+    }
+    if (cost > most_cost) {
+        throw refusal("its skins and morph targets move " + shown(cost) +
+                      " vectors a frame, more than " + shown(most_cost) + " (split the scene)");
     }
     if (elements > glint_free_memory() / bytes) {
         throw shortage(counted(elements, "vertex") + " of skins and morph targets do not fit into "

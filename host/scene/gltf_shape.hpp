@@ -61,6 +61,12 @@ class Shape
     {
         return is_per_corner_ ? 3 * primitive_->triangles : primitive_->positions.count();
     }
+    // About how many vectors deform() reads and adds.
+    double cost() const
+    {
+        const std::size_t each = 1 + morph_.part_count() + 4 * primitive_->influences.size();
+        return static_cast<double>(element_count()) * static_cast<double>(each);
+    }
     const Primitive &primitive() const
     {
         return *primitive_;

@@ -1,6 +1,8 @@
 // Bounds over time. See gltf_sweep.hpp.
 #include "scene/gltf_sweep.hpp"
 
+#include "scene/gltf_flatten.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -18,10 +20,12 @@ namespace
 constexpr int sweep_steps = 64;
 constexpr std::size_t most_sweep_keys = 4096;
 
-// Deforming takes longer, about 120 ns a vertex of four joints. So many vertices over all times
-// take two seconds of one core; meshes of more are looked at less often.
-constexpr std::size_t most_deformed_vertices = std::size_t{1} << 24;
-constexpr std::size_t fewest_deformed_times = 17;
+// Deforming takes longer, about 120 ns a vertex of four joints, which is a cost of 5. So much over
+// all times takes two seconds of one core; what costs more is looked at less often.
+constexpr double most_deforming = 5 * 0x1p24;
+// Boxes of instances that move, over all times: some seconds.
+constexpr double most_moving = 0x1p26;
+constexpr double fewest_times = 17;
 
 std::vector<double> sweep_times(const Clips &clips)
 {
@@ -78,27 +82,31 @@ struct Drawing {
     std::vector<glint_mat4> instances; // relative to the node; empty: the node alone
 };
 
+// Before anything takes time: what is to be drawn may be too much.
 std::vector<Drawing> drawings_of(const Load &load)
 {
     std::vector<Drawing> drawings;
-    std::size_t drawn = 0;
+    std::size_t drawn = 0, triangles = 0;
     for (std::size_t i = 0; i < load.visits.size(); i++) {
         const std::size_t node = load.visits[i].node;
         if (!load.visits[i].is_shown || load.model.nodes[node].mesh < 0) {
             continue;
         }
         const auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
-        const auto begin = load.primitives.all.begin();
-        const auto drawable =
-            std::count_if(begin + std::ptrdiff_t(load.primitives.first[mesh]),
-                          begin + std::ptrdiff_t(load.primitives.first[mesh + 1]),
-                          [](const Primitive &primitive) { return primitive.triangles > 0; });
+        std::size_t drawable = 0, each = 0;
+        for (std::size_t p = load.primitives.first[mesh]; p < load.primitives.first[mesh + 1];
+             p++) {
+            each += load.primitives.all[p].triangles;
+            drawable += load.primitives.all[p].triangles > 0 ? 1 : 0;
+        }
         if (drawable > 0) {
             drawings.push_back({i, instances_of(load, node, drawn)});
-            drawn += static_cast<std::size_t>(drawable) *
-                     std::max<std::size_t>(drawings.back().instances.size(), 1);
+            const std::size_t copies = std::max<std::size_t>(drawings.back().instances.size(), 1);
+            drawn += drawable * copies;
+            triangles += each * copies;
         }
     }
+    check_triangle_count(triangles);
     return drawings;
 }
 
@@ -112,9 +120,7 @@ class Sweeper
         for (std::size_t i = 0; i < load.visits.size(); i++) {
             placed_.push_back(place_node(load, i, 0, placed_));
         }
-        for (const Primitive &primitive : load.primitives.all) {
-            boxes_.push_back(box_of(primitive, nullptr));
-        }
+        boxes_.resize(load.primitives.all.size());
     }
 
     // Where nodes that move stand at a time.
@@ -127,9 +133,8 @@ class Sweeper
         }
     }
 
-    // Deforms the meshes of drawings as they are at the time of place(). Returns how many vertices
-    // that took.
-    std::size_t pose(const std::vector<const Drawing *> &drawings, double time)
+    // Deforms the meshes of drawings as they are at the time of place(). Returns what that cost.
+    double pose(const std::vector<const Drawing *> &drawings, double time)
     {
         shape_boxes_.clear();
         poses_.begin(source_, time, placed_);
@@ -138,12 +143,12 @@ class Sweeper
         }
         const std::vector<Shape *> shapes = poses_.deforming();
         deform(shapes, false, said_elsewhere_);
-        std::size_t vertices = 0;
+        double cost = 0;
         for (const Shape *shape : shapes) {
             shape_boxes_[shape] = box_of(shape->primitive(), shape);
-            vertices += shape->element_count();
+            cost += shape->cost();
         }
-        return vertices;
+        return cost;
     }
 
     // By drawings that were posed, where they stand at the time of place().
@@ -160,6 +165,15 @@ class Sweeper
     }
 
   private:
+    // Found when it is first needed.
+    const Bounds &box_as_filed(std::size_t primitive)
+    {
+        if (boxes_[primitive].is_empty()) {
+            boxes_[primitive] = box_of(load_.primitives.all[primitive], nullptr);
+        }
+        return boxes_[primitive];
+    }
+
     void grow_by(const Drawing &drawing)
     {
         const tinygltf::Node &node = load_.model.nodes[load_.visits[drawing.visit].node];
@@ -173,7 +187,7 @@ class Sweeper
             if (stand.is_hidden || load_.primitives.all[i].triangles == 0) {
                 continue;
             }
-            const Bounds &box = deforms ? shape_boxes_.at(shape) : boxes_[i];
+            const Bounds &box = deforms ? shape_boxes_.at(shape) : box_as_filed(i);
             for (const glint_mat4 &instance : drawing.instances) {
                 grow_by_box(glint_mat4_multiply(&stand.to_world, &instance), box, all_);
             }
@@ -193,12 +207,13 @@ class Sweeper
     Bounds all_;
 };
 
-// Of the times that meshes of so many vertices can be deformed at: evenly chosen, with the ends.
-std::vector<double> affordable(std::vector<double> times, std::size_t vertices)
+// Of the times those that may be looked at where each costs so much, and `all` may be spent:
+// evenly chosen, with the ends.
+std::vector<double> affordable(std::vector<double> times, double each, double all)
 {
     std::sort(times.begin(), times.end());
-    const std::size_t most = std::max(fewest_deformed_times,
-                                      most_deformed_vertices / std::max<std::size_t>(vertices, 1));
+    const double count = std::max(fewest_times, all / std::max(each, 1.0));
+    const auto most = static_cast<std::size_t>(std::min(count, double(times.size())));
     if (times.size() <= most) {
         return times;
     }
@@ -230,14 +245,18 @@ Bounds sweep(const Load &load)
     Sweeper sweeper(load);
     sweeper.pose(rigid, 0);
     sweeper.grow(still);
-    for (double time : times) {
+    double boxes = 0;
+    for (const Drawing *drawing : moving) {
+        boxes += double(std::max<std::size_t>(drawing->instances.size(), 1));
+    }
+    for (double time : affordable(times, boxes, most_moving)) {
         sweeper.place(time);
         sweeper.grow(moving);
     }
     if (!deforming.empty()) {
         sweeper.place(0);
-        const std::size_t vertices = sweeper.pose(deforming, 0);
-        for (double time : affordable(times, vertices)) {
+        const double cost = sweeper.pose(deforming, 0);
+        for (double time : affordable(times, cost, most_deforming)) {
             sweeper.place(time);
             sweeper.pose(deforming, time);
             sweeper.grow(deforming);
