@@ -3,7 +3,8 @@
 // Where single precision may decide otherwise than double (a ray within rounding of an edge, of the
 // critical angle, of the least weight), the oracle says so by its margins; such a pixel may flip,
 // and flips are rare: at most 0.2% of pixels at depth 1, 1% at depth 8 may differ by more than
-// 0.001. All other pixels must agree.
+// 0.001. All other pixels must agree. So may pixels near a place where a texture jumps from texel
+// to texel or alpha decides.
 #include "environment/irradiance.h"
 #include "support/bridge.h"
 #include "support/render.h"
@@ -28,17 +29,19 @@
 typedef struct agreement_bounds {
     int edge;                 // of the environment's cube
     double margin, tolerance; // see near_a_decision; of a radiance between 0 and 1
-    bool stored_irradiance;   // the oracle takes the map that the kernels take, not the sum
+    bool stored;              // the oracle takes what the device gets: the map of the irradiance,
+                              // and the textures' levels; else it computes both itself
 } agreement_bounds;
 
 typedef struct agreement {
     size_t pixels, different, unexplained, nonfinite;
-    double largest; // difference among pixels that keep the margins
+    double largest, squares; // difference among pixels that keep the margins; sum of all squares
 } agreement;
 
 static bool near_a_decision(const oracle_report *report, double margin)
 {
-    return report->edge < margin || report->critical < margin || report->threshold < margin;
+    return report->edge < margin || report->critical < margin || report->threshold < margin ||
+           report->jump < margin;
 }
 
 // A look-up this near to a tie between two faces of the cube, in components of its direction, may
@@ -66,6 +69,7 @@ static agreement compare(const bridge *b, const oracle_view *view, const test_fr
             const double allowed =
                 tied ? fmax(bounds->tolerance, TIE_JUMP(bounds->edge)) : bounds->tolerance;
             a.pixels++;
+            a.squares += difference * difference;
             a.different += difference <= bounds->tolerance ? 0 : 1;
             if (!near_a_decision(&report, bounds->margin)) {
                 a.largest = tied ? a.largest : fmax(a.largest, difference);
@@ -87,20 +91,23 @@ static agreement render_and_compare(const char *name, const glint_settings *sett
     test_render(&scene, &environment, NULL, settings, &frame);
     bridge *b = bridge_create(&scene, &environment);
     glint_cube irradiance = {0};
-    if (bounds->stored_irradiance) {
+    if (bounds->stored) {
         assert_int_equal(
             glint_irradiance_map(&environment.radiance, GLINT_IRRADIANCE_EDGE, &irradiance, NULL),
             GLINT_OK);
         bridge_use_irradiance_map(b, &irradiance);
+    } else if (scene.textures != NULL) {
+        bridge_read_textures(b, &scene);
     }
     glint_camera camera;
     assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
     const oracle_view view = bridge_view(&camera, settings);
     const agreement a = compare(b, &view, &frame, bounds);
     print_message("%-20s %s depth %d: %zu of %zu pixels differ by more than %g, largest %.2g where "
-                  "no decision is near\n",
+                  "no decision is near, RMS of all %.2g\n",
                   name, settings->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
-                  settings->depth, a.different, a.pixels, bounds->tolerance, a.largest);
+                  settings->depth, a.different, a.pixels, bounds->tolerance, a.largest,
+                  sqrt(a.squares / (double)a.pixels));
     assert_int_equal(a.nonfinite, 0);
     assert_int_equal(a.unexplained, 0);
     bridge_free(b);
@@ -114,7 +121,7 @@ static agreement render_and_compare(const char *name, const glint_settings *sett
 static const char *const scene_names[] = {
     "mirror_sphere",     "glass_sphere",   "glass_slab", "prism",        "nested_glass",
     "thin_wall",         "absorption_box", "materials",  "orthographic", "facing_mirrors",
-    "lecture_example_2", "axes",           "gallery",
+    "lecture_example_2", "axes",           "gallery",    "textures",
 };
 #define SCENE_COUNT (sizeof scene_names / sizeof *scene_names)
 
@@ -163,11 +170,11 @@ static void without_fresnel_the_device_agrees_with_the_oracle(void **state)
     check_depth(3, GLINT_FRESNEL_NONE, 0.01);
 }
 
-// Double precision leaves rounding alone, once the oracle takes the stored irradiance map too: 10⁻⁹
-// for every pixel of every scene that no decision is near, and the jump between two faces of the
-// cube where a look-up ties between them. A decision is near where the oracle's margin is 10⁻⁹,
-// millions of rounding errors, as eight curved surfaces may make of one; six pixels of a frame may
-// be such.
+// Double precision leaves rounding alone, once the oracle takes the stored irradiance map and
+// texels too: 10⁻⁹ for every pixel of every scene that no decision is near, and the jump between
+// two faces of the cube where a look-up ties between them. A decision is near where the oracle's
+// margin is 10⁻⁹, millions of rounding errors, as eight curved surfaces may make of one; six pixels
+// of a frame may be such.
 static void in_double_precision_only_rounding_is_left(void **state)
 {
     (void)state;

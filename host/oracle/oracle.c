@@ -2,6 +2,7 @@
 // transport") counts them.
 #include "oracle/oracle.h"
 #include "oracle/hit.h"
+#include "oracle/surface.h"
 #include "oracle/vector.h"
 
 #include <string.h>
@@ -14,6 +15,10 @@ const oracle_material oracle_material_default = {
     .attenuation = {1.0, 1.0, 1.0},
     .attenuation_distance = INFINITY,
     .mirror = -1.0,
+    .alpha = 1.0,
+    .alpha_cutoff = 0.5,
+    .normal_scale = 1.0,
+    .occlusion_strength = 1.0,
 };
 
 // Rule 5: the solids that a path is inside, by material, innermost last. A path meets at most
@@ -27,38 +32,27 @@ typedef struct path {
     vector origin, direction; // of the ray to be traced
     vector weight;            // what radiance along it counts for in the sample
     media inside;
+    cone cone;        // where the ray starts
     int left;         // triangle that it leaves, or −1
-    int met;          // surfaces met so far
+    int met;          // surfaces met so far, but for those that were not there
     double travelled; // length of the path so far
 } path;
-
-// A surface where a path has met it.
-typedef struct surface {
-    const oracle_material *material;
-    int triangle, index; // of the triangle, of the material
-    vector point;
-    vector geometric; // n_g on the viewer's side
-    vector lit;       // n on n_g's side: what receives light
-    vector normal;    // n, on the viewer's side: n·v ≥ 0
-    vector viewer;    // v
-    double cosine;    // n·v
-    bool front;       // met from outside
-} surface;
 
 typedef struct walk {
     const oracle_scene *scene;
     const oracle_view *view;
     oracle_report *report;
-    vector radiance; // sum so far
-    int depth;       // N
+    vector radiance;  // sum so far
+    double uncovered; // weight of what met no surface at all, where the view is transparent
+    int depth;        // N
 } walk;
 
-static void follow(walk *w, const path *p, bool *met);
+static void follow(walk *w, const path *p);
 
 static void report_clear(oracle_report *report)
 {
-    *report =
-        (oracle_report){.edge = ORACLE_EDGE_REACH, .critical = INFINITY, .threshold = INFINITY};
+    *report = (oracle_report){
+        .edge = ORACLE_EDGE_REACH, .critical = INFINITY, .threshold = INFINITY, .jump = INFINITY};
 }
 
 // E′(d) = E(R(−angle) d), R(a) the right-handed turn about +Y by a.
@@ -81,47 +75,16 @@ static void add(walk *w, vector weight, vector radiance)
     w->radiance = plus(w->radiance, times(weight, radiance));
 }
 
-// Rules 1 and 2.
-
-// n before it is put on the viewer's side: interpolated and made unit, n_g where it can't be.
-static vector shading_normal(const oracle_triangle *triangle, const double barycentric[3],
-                             vector geometric)
+// What a path takes along its direction where it ends; rule 9 where it has met nothing.
+static void escape(walk *w, const path *p, vector direction, vector weight)
 {
-    vector sum = {{0.0, 0.0, 0.0}};
-    for (int i = 0; i < 3; i++) {
-        vector n = vector_of(triangle->normal[i]);
-        if (largest_magnitude(n) == 0.0)
-            return geometric;
-        sum = plus(sum, scaled(n, barycentric[i]));
-    }
-    vector n = unit(sum);
-    return isfinite(n.at[0] + n.at[1] + n.at[2]) ? n : geometric;
+    if (w->view->transparent && p->met == 0)
+        w->uncovered += largest(weight);
+    else
+        add(w, weight, environment(w->scene, w->scene->radiance, direction));
 }
 
-static surface surface_at(const oracle_scene *scene, const oracle_hit *hit, vector direction)
-{
-    const oracle_triangle *triangle = &scene->triangles[hit->triangle];
-    vector corners[3];
-    surface s = {.triangle = hit->triangle, .index = triangle->material};
-    s.material = &scene->materials[s.index];
-    // By the vertices' weights, not by origin + distance·direction: exact in the plane.
-    for (int i = 0; i < 3; i++) {
-        corners[i] = vector_of(triangle->position[i]);
-        s.point = plus(s.point, scaled(corners[i], hit->barycentric[i]));
-    }
-    s.viewer = scaled(direction, -1.0);
-    vector winding = unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])));
-    s.front = dot(winding, s.viewer) > 0.0;
-    s.geometric = s.front ? winding : scaled(winding, -1.0);
-    s.normal = shading_normal(triangle, hit->barycentric, s.geometric);
-    if (dot(s.normal, s.geometric) < 0.0)
-        s.normal = scaled(s.normal, -1.0);
-    s.lit = s.normal;
-    if (dot(s.normal, s.viewer) < 0.0)
-        s.normal = scaled(s.normal, -1.0);
-    s.cosine = fmin(fmax(dot(s.normal, s.viewer), 0.0), 1.0);
-    return s;
-}
+// Rule 2.
 
 // q ← q − 2(q·n_g)n_g where q ends on the wrong side: `side` is +1 for reflected directions,
 // −1 for refracted ones.
@@ -139,12 +102,6 @@ static vector mirror_direction(const surface *s)
 }
 
 // Rule 5.
-
-static bool is_solid(const oracle_material *m)
-{
-    return !m->unlit && m->mirror < 0.0 && m->metallic < 1.0 && m->transmission > 0.0 &&
-           m->thickness > 0.0;
-}
 
 static double top_ior(const oracle_scene *scene, const media *inside)
 {
@@ -174,7 +131,7 @@ static void media_leave(media *inside, int material)
 // while inside none means that the path began inside that solid.
 static void absorb(const oracle_scene *scene, path *p, const surface *s, double distance)
 {
-    if (p->inside.count == 0 && !s->front && is_solid(s->material))
+    if (p->inside.count == 0 && !s->front && oracle_is_solid(s->material))
         media_enter(&p->inside, s->index);
     if (p->inside.count == 0)
         return;
@@ -182,6 +139,15 @@ static void absorb(const oracle_scene *scene, path *p, const surface *s, double 
     for (int i = 0; i < 3; i++)
         p->weight.at[i] *=
             oracle_transmittance(m->attenuation[i], m->attenuation_distance, distance);
+}
+
+// What leaves a surface: the path, with its cone. `scaled` is what becomes of the spread by itself,
+// `bend` how much the ray turns for each turn of the normal.
+static path leaving(const path *here, const surface *s, double by_itself, double bend)
+{
+    path next = *here;
+    next.cone.spread = by_itself * next.cone.spread + bend * s->curvature * next.cone.width;
+    return next;
 }
 
 // Rule 7: the end, or on to the next surface.
@@ -200,7 +166,7 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
         report->truncated_by_depth += by_depth ? share : 0.0;
         report->truncated_by_weight += by_depth ? 0.0 : share;
         report->exhausted = report->exhausted || exhausted;
-        add(w, weight, environment(w->scene, w->scene->radiance, direction));
+        escape(w, from, direction, weight);
         return;
     }
     path next = *from;
@@ -208,28 +174,28 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
     next.direction = direction;
     next.weight = weight;
     next.left = s->triangle;
-    follow(w, &next, NULL);
+    follow(w, &next);
 }
 
 // Rule 4: what glass does with light that meets it, F and the way through.
 typedef struct interface {
     double fresnel;
     vector through; // t, where fresnel < 1
-    media beyond;   // the media on the other side
+    path beyond;    // what goes through: with the media on the other side
 } interface;
 
 static interface interface_at(walk *w, const path *p, const surface *s)
 {
-    interface glass = {.beyond = p->inside};
+    interface glass = {.beyond = *p};
     double ior_here = 1.0, ior_there = s->material->ior; // a thin wall, from both sides
-    bool solid = is_solid(s->material);
+    bool solid = oracle_is_solid(s->material);
     if (solid && s->front) {
         ior_here = top_ior(w->scene, &p->inside);
-        media_enter(&glass.beyond, s->index);
+        media_enter(&glass.beyond.inside, s->index);
     } else if (solid) {
         ior_here = top_ior(w->scene, &p->inside);
-        media_leave(&glass.beyond, s->index);
-        ior_there = top_ior(w->scene, &glass.beyond);
+        media_leave(&glass.beyond.inside, s->index);
+        ior_there = top_ior(w->scene, &glass.beyond.inside);
     }
     double eta = ior_here / ior_there;
     glass.fresnel = w->view->no_fresnel ? 0.0 : oracle_fresnel(s->cosine, ior_here, ior_there);
@@ -243,70 +209,104 @@ static interface interface_at(walk *w, const path *p, const surface *s)
         glass.fresnel = 1.0;
         w->report->total_reflections++;
     }
+    double bend = eta * s->cosine + dot(glass.through, s->normal); // η cos θi − cos θt
+    glass.beyond = leaving(&glass.beyond, s, eta, bend);
     glass.through = folded(glass.through, s->geometric, -1.0);
     return glass;
 }
 
 // Rule 3: F0 + (1 − F0)(1 − n·v)⁵.
-static vector schlick(const walk *w, const oracle_material *m, double cosine)
+static vector schlick(const walk *w, const surface *s)
 {
-    vector f = vector_of(m->base);
+    vector f = s->base;
     if (w->view->no_fresnel)
         return f;
     for (int i = 0; i < 3; i++)
-        f.at[i] = m->base[i] + (1.0 - m->base[i]) * pow(1.0 - cosine, 5.0);
+        f.at[i] += (1.0 - f.at[i]) * pow(1.0 - s->cosine, 5.0);
     return f;
 }
 
+// E(n)/π, as the occlusion leaves it.
+static vector irradiance(const walk *w, const surface *s)
+{
+    return scaled(environment(w->scene, w->scene->irradiance, s->lit), s->occlusion);
+}
+
+// The reflected branch.
+static void reflect(walk *w, const path *p, const surface *s, vector weight)
+{
+    path back = leaving(p, s, 1.0, 2.0);
+    branch(w, &back, s, mirror_direction(s), weight);
+}
+
+// Rule 9: the light that goes straight on past what is not there. It has not met the surface.
+static void pass(walk *w, const path *p, const surface *s, vector weight)
+{
+    path past = *p;
+    past.met--;
+    branch(w, &past, s, scaled(s->viewer, -1.0), weight);
+}
+
 // Rules 3, 4 and 6, mixed: metallic first, then transmission. The reflected parts share one
-// direction and so are one branch.
-static void scatter(walk *w, const path *p, const surface *s)
+// direction and so are one branch; so are what a thin wall transmits and what passes it (`past`).
+static void scatter(walk *w, const path *p, const surface *s, vector past)
 {
     const oracle_material *m = s->material;
-    vector base = vector_of(m->base);
-    double as_metal = m->metallic;
-    double as_glass = (1.0 - m->metallic) * m->transmission;
-    double as_paint = (1.0 - m->metallic) * (1.0 - m->transmission);
-    vector reflected = scaled(schlick(w, m, s->cosine), as_metal);
-    vector matte = {{0.0, 0.0, 0.0}}, through = matte;
-    interface glass = {0};
+    double as_metal = s->coverage * s->metallic;
+    double as_glass = s->coverage * (1.0 - s->metallic) * s->transmission;
+    double as_paint = s->coverage * (1.0 - s->metallic) * (1.0 - s->transmission);
+    vector reflected = scaled(schlick(w, s), as_metal);
+    vector matte = {{0.0, 0.0, 0.0}}, through = past;
+    interface glass = {.through = scaled(s->viewer, -1.0), .beyond = *p};
 
     if (as_paint > 0.0) {
         bool smooth = !(m->roughness > 0.0) && !w->view->no_fresnel;
         double f = smooth ? oracle_fresnel(s->cosine, 1.0, m->ior) : 0.0;
         reflected = plus(reflected, (vector){{as_paint * f, as_paint * f, as_paint * f}});
-        matte = scaled(base, as_paint * (1.0 - f));
+        matte = scaled(s->base, as_paint * (1.0 - f));
     }
     if (as_glass > 0.0) {
         glass = interface_at(w, p, s);
         double f = as_glass * glass.fresnel;
         reflected = plus(reflected, (vector){{f, f, f}});
-        through = scaled(base, as_glass * (1.0 - glass.fresnel));
+        through = plus(past, scaled(s->base, as_glass * (1.0 - glass.fresnel)));
     }
     if (largest(matte) > 0.0)
-        add(w, times(p->weight, matte), environment(w->scene, w->scene->irradiance, s->lit));
-    branch(w, p, s, mirror_direction(s), times(p->weight, reflected));
-    if (as_glass > 0.0) {
-        path beyond = *p;
-        beyond.inside = glass.beyond;
-        branch(w, &beyond, s, glass.through, times(p->weight, through));
-    }
+        add(w, times(p->weight, matte), irradiance(w, s));
+    reflect(w, p, s, times(p->weight, reflected));
+    branch(w, &glass.beyond, s, glass.through, times(p->weight, through));
 }
 
 // The lecture's blend: (1 − m)·base·irradiance/π + m·L(r).
 static void blend(walk *w, const path *p, const surface *s)
 {
     double m = s->material->mirror;
-    if (m < 1.0) {
-        vector matte = scaled(vector_of(s->material->base), 1.0 - m);
-        add(w, times(p->weight, matte), environment(w->scene, w->scene->irradiance, s->lit));
-    }
-    branch(w, p, s, mirror_direction(s), scaled(p->weight, m));
+    if (m < 1.0)
+        add(w, times(p->weight, scaled(s->base, s->coverage * (1.0 - m))), irradiance(w, s));
+    reflect(w, p, s, scaled(p->weight, s->coverage * m));
 }
 
-// Traces a path's ray and goes on from the surface that it meets. `met`, where given, says whether
-// there is one.
-static void follow(walk *w, const path *p, bool *met)
+// What a surface does with the light of a path that has met it.
+static void meet(walk *w, const path *p, const surface *s)
+{
+    double gone = 1.0 - s->coverage;
+    vector none = {{0.0, 0.0, 0.0}}, past = {{gone, gone, gone}};
+    bool together = oracle_is_thin(s->material) && s->coverage > 0.0;
+    if (s->material->unlit) {
+        add(w, scaled(p->weight, s->coverage), s->base);
+    } else {
+        add(w, scaled(p->weight, s->coverage), s->emission);
+        if (s->material->mirror >= 0.0)
+            blend(w, p, s);
+        else
+            scatter(w, p, s, together ? past : none);
+    }
+    if (!together)
+        pass(w, p, s, times(p->weight, past));
+}
+
+// Traces a path's ray and goes on from the surface that it meets.
+static void follow(walk *w, const path *p)
 {
     oracle_ray ray = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     vector_store(p->origin, ray.origin);
@@ -318,39 +318,42 @@ static void follow(walk *w, const path *p, bool *met)
         query q = oracle_query_from(w->scene, &ray, p->left);
         report->edge = fmin(report->edge, oracle_ray_edge(w->scene, q, p->travelled, hit.distance));
     }
-    if (met)
-        *met = hit.triangle >= 0;
     if (hit.triangle < 0) {
-        add(w, p->weight, environment(w->scene, w->scene->radiance, p->direction));
+        escape(w, p, p->direction, p->weight);
         return;
     }
 
-    surface s = surface_at(w->scene, &hit, p->direction);
     path here = *p;
-    here.met++;
     here.travelled += hit.distance;
-    report->surfaces++;
-    report->deepest = here.met > report->deepest ? here.met : report->deepest;
-    absorb(w->scene, &here, &s, hit.distance);
-    if (largest(here.weight) == 0.0)
-        return;
-    if (s.material->unlit) {
-        add(w, here.weight, vector_of(s.material->base));
-        return;
+    here.cone.width += here.cone.spread * hit.distance;
+    arrival by = {p->direction, here.cone.width, here.travelled};
+    surface s = oracle_surface_at(w->scene, &hit, &by);
+    report->jump = fmin(report->jump, s.jump);
+    here.met++;
+    if (s.coverage > 0.0) {
+        report->surfaces++;
+        report->deepest = here.met > report->deepest ? here.met : report->deepest;
     }
-    add(w, here.weight, vector_of(s.material->emission));
-    if (s.material->mirror >= 0.0)
-        blend(w, &here, &s);
-    else
-        scatter(w, &here, &s);
+    absorb(w->scene, &here, &s, hit.distance);
+    if (largest(here.weight) > 0.0)
+        meet(w, &here, &s);
 }
 
-bool oracle_radiance(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
-                     double rgb[3], oracle_report *report)
+// The cone of a primary ray: as wide, at every distance, as neighbouring samples are apart.
+static cone primary_cone(const oracle_view *view, vector direction)
 {
-    oracle_report ignored = {0};
-    report = report ? report : &ignored;
-    report_clear(report);
+    if (view->height <= 0)
+        return (cone){0.0, 0.0};
+    double apart = (view->yfov == 0.0 ? 2.0 * view->ymag : 2.0 * tan(0.5 * view->yfov)) /
+                   view->height / (view->samples > 0 ? view->samples : 1);
+    if (view->yfov == 0.0)
+        return (cone){apart, 0.0};
+    return (cone){0.0, -apart * dot(direction, vector_of(view->back))};
+}
+
+static walk walk_along(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
+                       oracle_report *report)
+{
     bool cut = view->depth <= 0 || view->depth > ORACLE_DEPTH_LIMIT;
     walk w = {.scene = scene, .view = view, .report = report};
     w.depth = cut ? ORACLE_DEPTH_LIMIT : view->depth;
@@ -358,10 +361,19 @@ bool oracle_radiance(const oracle_scene *scene, const oracle_view *view, const o
                     .direction = unit(vector_of(ray->direction)),
                     .weight = {{1.0, 1.0, 1.0}},
                     .left = -1};
-    bool met = false;
-    follow(&w, &primary, &met);
+    primary.cone = primary_cone(view, primary.direction);
+    report_clear(report);
+    follow(&w, &primary);
+    return w;
+}
+
+bool oracle_radiance(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
+                     double rgb[3], oracle_report *report)
+{
+    oracle_report ignored;
+    walk w = walk_along(scene, view, ray, report ? report : &ignored);
     vector_store(w.radiance, rgb);
-    return met;
+    return w.report->surfaces > 0;
 }
 
 oracle_ray oracle_primary_ray(const oracle_view *view, const double position[2])
@@ -382,11 +394,11 @@ oracle_ray oracle_primary_ray(const oracle_view *view, const double position[2])
 void oracle_sample(const oracle_scene *scene, const oracle_view *view, const double position[2],
                    double rgba[4], oracle_report *report)
 {
+    oracle_report ignored;
     oracle_ray ray = oracle_primary_ray(view, position);
-    bool met = oracle_radiance(scene, view, &ray, rgba, report);
-    rgba[3] = 1.0;
-    if (!met && view->transparent)
-        memset(rgba, 0, 4 * sizeof(double));
+    walk w = walk_along(scene, view, &ray, report ? report : &ignored);
+    vector_store(w.radiance, rgba);
+    rgba[3] = 1.0 - w.uncovered;
 }
 
 static void report_add(oracle_report *sum, const oracle_report *sample, double share)
@@ -401,6 +413,7 @@ static void report_add(oracle_report *sum, const oracle_report *sample, double s
     sum->edge = fmin(sum->edge, sample->edge);
     sum->critical = fmin(sum->critical, sample->critical);
     sum->threshold = fmin(sum->threshold, sample->threshold);
+    sum->jump = fmin(sum->jump, sample->jump);
 }
 
 void oracle_pixel(const oracle_scene *scene, const oracle_view *view, const int pixel[2],

@@ -3,10 +3,12 @@
 // the rest of host/.
 //
 // Limits: plain C, one thread; the Fresnel tree is followed by recursion. No allocation, except
-// in oracle_tree_create. Everything is in world space: right-handed, +Y up, metres; colours are
-// linear RGB.
+// in oracle_tree_create and oracle_image_create. Everything is in world space: right-handed, +Y up,
+// metres; colours are linear RGB.
 #ifndef GLINT_ORACLE_ORACLE_H
 #define GLINT_ORACLE_ORACLE_H
+
+#include "oracle/texture.h"
 
 #include <stdbool.h>
 
@@ -27,6 +29,27 @@ typedef struct oracle_triangle {
     int material;
 } oracle_triangle;
 
+// What a corner of a triangle holds beside.
+typedef struct oracle_corner {
+    double texcoord[2][2]; // [set][u, v]
+    double color[4];       // multiplies the base colour and its alpha
+    double tangent[4];     // unit; and ±1: the bitangent is that times normal × tangent; 0: none
+} oracle_corner;
+
+// What textures are for: by which their values multiply a factor, if not said otherwise.
+typedef enum oracle_role {
+    ORACLE_BASE,         // R, G, B the base colour, A the alpha
+    ORACLE_METALLIC,     // B
+    ORACLE_NORMAL,       // R, G, B are a normal's components along tangent, bitangent and normal
+    ORACLE_OCCLUSION,    // R: what is left of the irradiance
+    ORACLE_EMISSION,     // R, G, B
+    ORACLE_TRANSMISSION, // R
+    ORACLE_ROLES
+} oracle_role;
+
+// What the alpha of the base colour means.
+typedef enum oracle_alpha { ORACLE_OPAQUE, ORACLE_MASK, ORACLE_BLEND } oracle_alpha;
+
 typedef struct oracle_material {
     double base[3]; // base colour factor
     double metallic, roughness;
@@ -37,9 +60,13 @@ typedef struct oracle_material {
     double attenuation_distance; // metres; INFINITY: clear
     bool unlit;
     double mirror; // the lecture's blend, in [0, 1]; < 0: not asked for
+    oracle_alpha alpha_mode;
+    double alpha, alpha_cutoff; // of the base colour; of ORACLE_MASK
+    oracle_texture texture[ORACLE_ROLES];
+    double normal_scale, occlusion_strength;
 } oracle_material;
 
-// White, rough 0, metallic 0, opaque, ior 1.5, clear, no blend: smooth white paint.
+// White, rough 0, metallic 0, opaque, ior 1.5, clear, no blend, no textures: smooth white paint.
 extern const oracle_material oracle_material_default;
 
 // Light by direction. `direction` is a unit vector in world space, away from the surface.
@@ -50,6 +77,7 @@ typedef struct oracle_tree oracle_tree;
 typedef struct oracle_scene {
     const oracle_triangle *triangles; // borrowed, as all pointers here
     int triangle_count;
+    const oracle_corner (*corners)[3]; // of each triangle; NULL: white, and texture coordinates 0
     const oracle_material *materials;
     oracle_light radiance;       // E(d)
     oracle_light irradiance;     // E(n)/π: cosine-weighted mean of the radiance about n
@@ -68,7 +96,7 @@ typedef struct oracle_view {
     int depth;         // N: surfaces that a path may meet; 0 means ORACLE_DEPTH_LIMIT
     double min_weight; // a branch whose largest component is less takes E at once
     bool no_fresnel;   // metal reflects its base, glass only where it reflects all, paint nothing
-    bool transparent;  // primary misses are (0, 0, 0, 0)
+    bool transparent;  // what meets nothing is left out, and of alpha
     bool edges;        // measure oracle_report.edge, at about twice the time
 } oracle_view;
 
@@ -97,6 +125,8 @@ typedef struct oracle_report {
     double edge;     // least (distance from ray to a triangle's edge)/(path length), ≤ EDGE_REACH
     double critical; // least |1 − η²(1 − cos²θi)| over glass surfaces
     double threshold; // least |weight/min_weight − 1| over branches that were judged by it
+    double jump; // least (distance from ray to where a texture jumps or ALPHA_MASK decides)/(path
+                 // length), or relative change of a cone's width that takes another filter
 } oracle_report;
 
 // Renders pixel (i, j), counted from the top left: premultiplied RGB and alpha. `report` may be
@@ -113,7 +143,8 @@ void oracle_sample(const oracle_scene *scene, const oracle_view *view, const dou
 oracle_ray oracle_primary_ray(const oracle_view *view, const double position[2]);
 
 // Radiance that arrives along a ray, followed by the view's depth and min_weight; true if it met a
-// surface. The direction is made unit. `report` may be NULL.
+// surface that is there. With a transparent view it lacks what is seen past surfaces. The cone is
+// that of the view's pixels. The direction is made unit. `report` may be NULL.
 bool oracle_radiance(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
                      double rgb[3], oracle_report *report);
 

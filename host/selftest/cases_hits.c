@@ -158,12 +158,12 @@ cleanup:
 static glint_status trace_by_oracle(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
                                     oracle_hit *wanted, size_t count)
 {
-    oracle_scene judge;
-    TRY(judge_begin(scene, &judge, t->error));
+    judge j;
+    TRY(judge_begin(scene, &j, t->error));
     for (size_t i = 0; i < count; i++) {
-        wanted[i] = judge_ray(&judge, &rays[i]);
+        wanted[i] = judge_ray(&j.scene, &rays[i]);
     }
-    judge_end(&judge);
+    judge_end(&j);
     return GLINT_OK;
 }
 

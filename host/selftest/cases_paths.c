@@ -300,19 +300,19 @@ static glint_status compare_with_oracle(trial *t, int triangles, const glint_set
     const oracle_view view = judge_view(&camera, settings);
     trial_picture picture;
     glint_scene scene = {0};
-    oracle_scene judge = {0};
+    judge j = {0};
     glint_status status;
     TRY_OR(cleanup, status, tiny_picture(t, triangles, BEFORE, settings, &picture));
     TRY_OR(cleanup, status, small_scene(t, triangles, BEFORE, &scene));
-    TRY_OR(cleanup, status, judge_begin(&scene, &judge, t->error));
+    TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
     for (int p = 0; p < picture.width * picture.height; p++) {
-        const int wanted = judge_pixel(&judge, &view, p % picture.width, p / picture.width);
+        const int wanted = judge_pixel(&j.scene, &view, p % picture.width, p / picture.width);
         measure_event(others, picture.values[4 * p + 3] != wanted,
                       "%d triangles, pixel %d: %d expected, %g seen", triangles, p, wanted,
                       picture.values[4 * p + 3]);
     }
 cleanup:
-    judge_end(&judge);
+    judge_end(&j);
     glint_scene_free(&scene);
     trial_picture_free(&picture);
     return status;

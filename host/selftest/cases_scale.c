@@ -22,7 +22,7 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const watch
     const int *size = view->size;
     const double last = view->last;
     glint_environment environment;
-    oracle_scene judge = {0};
+    judge j = {0};
     trial_picture picture = {0};
     glint_settings settings = trial_settings(t);
     settings.width = size[0];
@@ -30,13 +30,13 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const watch
     settings.output = GLINT_OUTPUT_HITS;
     glint_status status;
     TRY_OR(cleanup, status, trial_uniform_environment(1, &environment, t->error));
-    TRY_OR(cleanup, status, judge_begin(scene, &judge, t->error));
+    TRY_OR(cleanup, status, judge_begin(scene, &j, t->error));
     const glint_renderer_inputs inputs = trial_inputs(t, scene, &environment, &settings);
     TRY_OR(cleanup, status, trial_frame(t, &inputs, view->camera, &picture));
     const oracle_view judged = judge_view(view->camera, &settings);
     for (int i = 0; i < size[0] * size[1]; i++) {
         const int column = i % size[0], row = i / size[0];
-        const double wanted = fmin(judge_pixel(&judge, &judged, column, row), last);
+        const double wanted = fmin(judge_pixel(&j.scene, &judged, column, row), last);
         const double number = picture.values[4 * i + 3];
         const double found = number > last ? last : number; // NaN stays NaN
         measure_event(others, found != wanted, "pixel (%d, %d): triangle %g expected, %g found",
@@ -44,7 +44,7 @@ static glint_status compare_hits(trial *t, const glint_scene *scene, const watch
     }
 cleanup:
     trial_picture_free(&picture);
-    judge_end(&judge);
+    judge_end(&j);
     glint_environment_free(&environment);
     return status;
 }

@@ -1,47 +1,200 @@
 // The oracle as the self-test asks it. See judge.h.
 #include "selftest/judge.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-glint_status judge_begin(const glint_scene *scene, oracle_scene *judge, glint_error *error)
+// ---- Scenes -------------------------------------------------------------------------------------
+
+static void copy_triangle(const glint_scene *scene, size_t i, oracle_triangle *t)
 {
-    static const oracle_material plain = {.metallic = 1};
     const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
-    oracle_triangle *triangles = calloc(scene->triangle_count + 1, sizeof *triangles);
-    *judge = (oracle_scene){
-        .triangles = triangles, .triangle_count = (int)scene->triangle_count, .materials = &plain};
-    for (size_t i = 0; triangles != NULL && i < 9 * scene->triangle_count; i++) {
-        triangles[i / 9].position[i / 3 % 3][i % 3] =
-            origin[i % 3] + scene->unit * (double)scene->positions[i];
+    for (size_t v = 0; v < 9; v++) {
+        t->position[v / 3][v % 3] =
+            origin[v % 3] + scene->unit * (double)scene->positions[9 * i + v];
+        t->normal[v / 3][v % 3] = scene->normals != NULL ? (double)scene->normals[9 * i + v] : 0;
     }
-    if (triangles != NULL) {
-        judge->tree = oracle_tree_create(triangles, judge->triangle_count);
-    }
-    return judge->tree != NULL ? GLINT_OK : glint_fail_memory(error, "a self-test");
+    t->material = (int)scene->material_of[i];
 }
 
-void judge_end(oracle_scene *judge)
+static const float *copy_numbers(const float *from, size_t count, double *to)
 {
-    oracle_tree_free((oracle_tree *)(uintptr_t)judge->tree);
-    free((void *)(uintptr_t)judge->triangles);
-    *judge = (oracle_scene){0};
+    for (size_t i = 0; i < count; i++) {
+        to[i] = (double)from[i];
+    }
+    return from + count;
 }
 
-oracle_hit judge_ray(const oracle_scene *judge, const glint_probe_ray *ray)
+// Returns where the next corner's attributes stand.
+static const float *copy_corner(const glint_attributes *set, const float *from,
+                                oracle_corner *corner)
+{
+    *corner = (oracle_corner){.color = {1, 1, 1, 1}};
+    from = copy_numbers(from, set->texcoords ? 2 : 0, corner->texcoord[0]);
+    from = copy_numbers(from, set->second_texcoords ? 2 : 0, corner->texcoord[1]);
+    from = copy_numbers(from, set->colors ? 4 : 0, corner->color);
+    return copy_numbers(from, set->tangents ? 4 : 0, corner->tangent);
+}
+
+static bool copy_image(const glint_textures *textures, size_t number, oracle_image *image)
+{
+    const glint_texture *t = &textures->textures[number];
+    if (!oracle_image_create(t->width, t->height, image)) {
+        return false;
+    }
+    for (int level = 0; level < t->levels; level++) { // 0 where it could not be read
+        const size_t count = (size_t)oracle_image_side(t->width, level) *
+                             (size_t)oracle_image_side(t->height, level);
+        for (size_t i = 0; i < 4 * count; i++) {
+            const size_t texel = i / 4, c = i % 4;
+            image->texels[level][texel][c] = textures->texels[t->first[level] + texel][c] / 65535.0;
+        }
+    }
+    return true;
+}
+
+static oracle_texture texture_of(const glint_texture_use *use, const oracle_image *images)
+{
+    static const oracle_wrap wraps[] = {[GLINT_WRAP_REPEAT] = ORACLE_REPEAT,
+                                        [GLINT_WRAP_CLAMP] = ORACLE_CLAMP,
+                                        [GLINT_WRAP_MIRROR] = ORACLE_MIRROR};
+    static const oracle_mips mips[] = {[GLINT_MIP_LINEAR] = ORACLE_MIPS_LINEAR,
+                                       [GLINT_MIP_NEAREST] = ORACLE_MIPS_NEAREST,
+                                       [GLINT_MIP_NONE] = ORACLE_MIPS_NONE};
+    oracle_texture t = {.image = use->image != 0 ? &images[use->image - 1] : NULL,
+                        .set = use->texcoord,
+                        .wrap = {wraps[use->wrap_s], wraps[use->wrap_t]},
+                        .magnified_nearest = use->magnified_nearest,
+                        .minified_nearest = use->minified_nearest,
+                        .mips = mips[use->mips]};
+    bool moves = false;
+    for (int i = 0; i < 6; i++) {
+        t.transform[i / 3][i % 3] = (double)use->transform[i];
+        moves = moves || use->transform[i] != 0;
+    }
+    if (!moves) {
+        t.transform[0][0] = t.transform[1][1] = 1;
+    }
+    return t;
+}
+
+static oracle_material material_of(const glint_material *m, const oracle_image *images)
+{
+    static const glint_texture_slot slots[] = {
+        [ORACLE_BASE] = GLINT_TEXTURE_BASE_COLOR,
+        [ORACLE_METALLIC] = GLINT_TEXTURE_METALLIC_ROUGHNESS,
+        [ORACLE_NORMAL] = GLINT_TEXTURE_NORMAL,
+        [ORACLE_OCCLUSION] = GLINT_TEXTURE_OCCLUSION,
+        [ORACLE_EMISSION] = GLINT_TEXTURE_EMISSION,
+        [ORACLE_TRANSMISSION] = GLINT_TEXTURE_TRANSMISSION,
+    };
+    static const oracle_alpha modes[] = {[GLINT_ALPHA_OPAQUE] = ORACLE_OPAQUE,
+                                         [GLINT_ALPHA_MASK] = ORACLE_MASK,
+                                         [GLINT_ALPHA_BLEND] = ORACLE_BLEND};
+    oracle_material o = {
+        .metallic = (double)m->metallic,
+        .roughness = (double)m->roughness,
+        .transmission = (double)m->transmission,
+        .ior = (double)m->ior,
+        .thickness = (double)m->thickness,
+        .attenuation_distance = (double)m->attenuation_distance,
+        .unlit = m->unlit,
+        .mirror = (double)m->mirror,
+        .alpha_mode = modes[m->alpha_mode],
+        .alpha = (double)m->alpha,
+        .alpha_cutoff = (double)m->alpha_cutoff,
+        .normal_scale = (double)m->normal_scale,
+        .occlusion_strength = (double)m->occlusion_strength,
+    };
+    copy_numbers(m->base_color, 3, o.base);
+    copy_numbers(m->emission, 3, o.emission);
+    copy_numbers(m->attenuation_color, 3, o.attenuation);
+    for (int role = 0; role < ORACLE_ROLES; role++) {
+        o.texture[role] = texture_of(&m->textures[slots[role]], images);
+    }
+    return o;
+}
+
+static bool make_room(const glint_scene *scene, judge *j)
+{
+    j->image_count = scene->textures != NULL ? scene->textures->count : 0;
+    j->triangles = calloc(scene->triangle_count + 1, sizeof *j->triangles);
+    j->materials = calloc(scene->material_count + 1, sizeof *j->materials);
+    j->images = calloc(j->image_count + 1, sizeof *j->images);
+    if (scene->attributes != NULL) {
+        j->corners = calloc(scene->triangle_count + 1, sizeof *j->corners);
+    }
+    bool complete = j->triangles != NULL && j->materials != NULL && j->images != NULL &&
+                    (j->corners != NULL || scene->attributes == NULL);
+    for (size_t i = 0; complete && i < j->image_count; i++) {
+        complete = copy_image(scene->textures, i, &j->images[i]);
+    }
+    return complete;
+}
+
+static void copy_scene(const glint_scene *scene, judge *j)
+{
+    const float *attributes = scene->attributes;
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        copy_triangle(scene, i, &j->triangles[i]);
+        for (int k = 0; attributes != NULL && k < 3; k++) {
+            attributes = copy_corner(&scene->attribute_set, attributes, &j->corners[i][k]);
+        }
+    }
+    for (size_t i = 0; i < scene->material_count; i++) {
+        j->materials[i] = material_of(&scene->materials[i], j->images);
+    }
+}
+
+glint_status judge_begin(const glint_scene *scene, judge *j, glint_error *error)
+{
+    *j = (judge){0};
+    if (!make_room(scene, j)) {
+        judge_end(j);
+        return glint_fail_memory(error, "a self-test");
+    }
+    copy_scene(scene, j);
+    j->tree = oracle_tree_create(j->triangles, (int)scene->triangle_count);
+    if (j->tree == NULL) {
+        judge_end(j);
+        return glint_fail_memory(error, "a self-test");
+    }
+    j->scene = (oracle_scene){.triangles = j->triangles,
+                              .triangle_count = (int)scene->triangle_count,
+                              .corners = (const oracle_corner(*)[3])j->corners,
+                              .materials = j->materials,
+                              .tree = j->tree};
+    return GLINT_OK;
+}
+
+void judge_end(judge *j)
+{
+    for (size_t i = 0; j->images != NULL && i < j->image_count; i++) {
+        oracle_image_free(&j->images[i]);
+    }
+    oracle_tree_free(j->tree);
+    free(j->triangles);
+    free(j->corners);
+    free(j->materials);
+    free(j->images);
+    *j = (judge){0};
+}
+
+// ---- Rays ---------------------------------------------------------------------------------------
+
+oracle_hit judge_ray(const oracle_scene *scene, const glint_probe_ray *ray)
 {
     oracle_ray r;
     memcpy(r.origin, ray->origin, sizeof r.origin);
     memcpy(r.direction, ray->direction, sizeof r.direction);
-    return oracle_closest_hit(judge, &r, -1);
+    return oracle_closest_hit(scene, &r, -1);
 }
 
-int judge_pixel(const oracle_scene *judge, const oracle_view *view, int column, int row)
+int judge_pixel(const oracle_scene *scene, const oracle_view *view, int column, int row)
 {
     const double at[2] = {column + 0.5, row + 0.5};
     const oracle_ray ray = oracle_primary_ray(view, at);
-    return oracle_closest_hit(judge, &ray, -1).triangle;
+    return oracle_closest_hit(scene, &ray, -1).triangle;
 }
 
 static void copy_vector(glint_vec3 from, double to[3])

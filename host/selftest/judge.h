@@ -7,15 +7,26 @@
 #include "render/probe.h"
 #include "scene/scene.h"
 
-// The scene's triangles in metres, all white mirrors, for closest hits alone. Borrows nothing.
-glint_status judge_begin(const glint_scene *scene, oracle_scene *judge, glint_error *error);
-void judge_end(oracle_scene *judge); // a zeroed one is allowed
+// A scene as the oracle takes it, in metres: data is copied, and no code of the renderer that is
+// judged is called. Textures are the levels that the device gets. Zero is valid: nothing.
+typedef struct judge {
+    oracle_scene scene; // what light there is, its user says
+    oracle_triangle *triangles;
+    oracle_corner (*corners)[3];
+    oracle_material *materials;
+    size_t image_count;
+    oracle_image *images;
+    oracle_tree *tree;
+} judge;
+
+glint_status judge_begin(const glint_scene *scene, judge *j, glint_error *error);
+void judge_end(judge *j); // a zeroed one is allowed
 
 // The closest hit of a ray in metres.
-oracle_hit judge_ray(const oracle_scene *judge, const glint_probe_ray *ray);
+oracle_hit judge_ray(const oracle_scene *scene, const glint_probe_ray *ray);
 
 // The triangle that the middle of a pixel shows; −1: none.
-int judge_pixel(const oracle_scene *judge, const oracle_view *view, int column, int row);
+int judge_pixel(const oracle_scene *scene, const oracle_view *view, int column, int row);
 
 oracle_view judge_view(const glint_camera *camera, const glint_settings *settings);
 

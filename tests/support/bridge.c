@@ -3,6 +3,7 @@
 
 #include "kernels/layout.h"
 #include "selftest/judge.h"
+#include "support/file_textures.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -15,9 +16,8 @@
 #include <cmocka.h>
 
 struct bridge {
-    oracle_scene scene;
-    oracle_triangle *triangles;
-    oracle_material *materials;
+    judge judge;                  // the scene, with the light
+    file_textures *textures;      // NULL: those of the judge
     const glint_cube *cube, *map; // radiance; irradiance, or NULL
     // Every texel as a vector: its direction, and its colour times its solid angle over π.
     double (*directions)[3], (*weighted)[3];
@@ -126,73 +126,33 @@ static void weigh_texels(bridge *b)
     }
 }
 
-static oracle_material convert_material(const glint_material *m)
-{
-    oracle_material o = oracle_material_default;
-    for (int k = 0; k < 3; k++) {
-        o.base[k] = (double)m->base_color[k];
-        o.emission[k] = (double)m->emission[k];
-        o.attenuation[k] = (double)m->attenuation_color[k];
-    }
-    o.metallic = (double)m->metallic;
-    o.roughness = (double)m->roughness;
-    o.transmission = (double)m->transmission;
-    o.ior = (double)m->ior;
-    o.thickness = (double)m->thickness;
-    o.attenuation_distance = (double)m->attenuation_distance;
-    o.unlit = m->unlit;
-    o.mirror = (double)m->mirror;
-    return o;
-}
-
-static void convert_triangle(const glint_scene *scene, size_t i, oracle_triangle *t)
-{
-    const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
-    for (size_t v = 0; v < 9; v++) {
-        t->position[v / 3][v % 3] =
-            origin[v % 3] + scene->unit * (double)scene->positions[9 * i + v];
-        t->normal[v / 3][v % 3] = scene->normals != NULL ? (double)scene->normals[9 * i + v] : 0;
-    }
-    t->material = (int)scene->material_of[i];
-}
-
 bridge *bridge_create(const glint_scene *scene, const glint_environment *environment)
 {
     bridge *b = calloc(1, sizeof *b);
     assert_non_null(b);
     b->cube = &environment->radiance;
-    b->triangles = calloc(scene->triangle_count + 1, sizeof *b->triangles);
-    b->materials = calloc(scene->material_count + 1, sizeof *b->materials);
-    assert_non_null(b->triangles);
-    assert_non_null(b->materials);
-    for (size_t i = 0; i < scene->triangle_count; i++) {
-        convert_triangle(scene, i, &b->triangles[i]);
-    }
-    for (size_t i = 0; i < scene->material_count; i++) {
-        b->materials[i] = convert_material(&scene->materials[i]);
-    }
+    assert_int_equal(judge_begin(scene, &b->judge, NULL), GLINT_OK);
     weigh_texels(b);
     b->tie = malloc(sizeof *b->tie);
     assert_non_null(b->tie);
     *b->tie = INFINITY;
-    int count = (int)scene->triangle_count;
-    b->scene = (oracle_scene){
-        .triangles = b->triangles,
-        .triangle_count = count,
-        .materials = b->materials,
-        .radiance = look_up_radiance,
-        .irradiance = find_irradiance,
-        .context = b,
-        .tree = count > 0 ? oracle_tree_create(b->triangles, count) : NULL,
-    };
+    b->judge.scene.radiance = look_up_radiance;
+    b->judge.scene.irradiance = find_irradiance;
+    b->judge.scene.context = b;
     return b;
+}
+
+void bridge_read_textures(bridge *b, const glint_scene *scene)
+{
+    b->textures = file_textures_read(scene, b->judge.materials);
 }
 
 void bridge_free(bridge *b)
 {
-    oracle_tree_free((oracle_tree *)(uintptr_t)b->scene.tree);
-    free(b->triangles);
-    free(b->materials);
+    if (b->textures != NULL) {
+        file_textures_free(b->textures);
+    }
+    judge_end(&b->judge);
     free(b->directions);
     free(b->weighted);
     free(b->tie);
@@ -201,7 +161,7 @@ void bridge_free(bridge *b)
 
 const oracle_scene *bridge_scene(const bridge *b)
 {
-    return &b->scene;
+    return &b->judge.scene;
 }
 
 void bridge_use_irradiance_map(bridge *b, const glint_cube *map)

@@ -18,6 +18,10 @@ void bridge_free(bridge *b);
 
 const oracle_scene *bridge_scene(const bridge *b);
 
+// Reads the textures from the scene's file anew (file_textures.h), and does not take the levels
+// that the device gets.
+void bridge_read_textures(bridge *b, const glint_scene *scene);
+
 // Takes irradiance from a map, bilinear, as the kernels do, and not as the plain sum. Borrows it.
 void bridge_use_irradiance_map(bridge *b, const glint_cube *map);
 

@@ -1,0 +1,45 @@
+// Between the oracle's own files: a surface where a path meets it.
+#ifndef GLINT_ORACLE_SURFACE_H
+#define GLINT_ORACLE_SURFACE_H
+
+#include "oracle/oracle.h"
+#include "oracle/vector.h"
+
+// What a pixel sees about a path: how wide it is, and how much wider it gets per unit of length.
+// Both keep their sign past a focus.
+typedef struct cone {
+    double width, spread;
+} cone;
+
+typedef struct surface {
+    const oracle_material *material; // its factors
+    int triangle, index;             // of the triangle, of the material
+    vector point;
+    vector geometric; // n_g on the viewer's side
+    vector lit;       // n: what receives light
+    vector normal;    // n, on the viewer's side: n·v ≥ 0
+    vector viewer;    // v
+    double cosine;    // n·v
+    bool front;       // met from outside
+    double curvature; // how fast normals turn along the triangle, > 0 where the viewer's side is
+                      // convex; 0 where a vertex has none
+    // The factors, as textures and the vertices' colours change them.
+    vector base, emission;
+    double metallic, transmission, occlusion, coverage;
+    double jump; // see oracle_report
+} surface;
+
+// How a path arrives: its direction, its cone where it meets the surface, and its whole length.
+typedef struct arrival {
+    vector direction;
+    double width, travelled;
+} arrival;
+
+surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, const arrival *by);
+
+// Whether its mesh bounds a solid; whether it is a wall of glass without thickness. Textures do not
+// count.
+bool oracle_is_solid(const oracle_material *m);
+bool oracle_is_thin(const oracle_material *m);
+
+#endif

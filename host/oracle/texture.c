@@ -1,0 +1,194 @@
+// Levels of images, and look-ups in them. See texture.h.
+#include "oracle/texture.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+int oracle_image_side(int size, int level)
+{
+    return size >> level > 1 ? size >> level : 1;
+}
+
+bool oracle_image_create(int width, int height, oracle_image *image)
+{
+    *image = (oracle_image){.width = width, .height = height};
+    size_t first[ORACLE_LEVELS], count = 0;
+    int w = 0, h = 0;
+    while (image->levels < ORACLE_LEVELS && (w != 1 || h != 1)) {
+        first[image->levels] = count;
+        w = oracle_image_side(width, image->levels);
+        h = oracle_image_side(height, image->levels++);
+        count += (size_t)w * (size_t)h;
+    }
+    double(*all)[4] = calloc(count, sizeof *all);
+    for (int level = 0; all && level < image->levels; level++)
+        image->texels[level] = all + first[level];
+    return all != NULL;
+}
+
+void oracle_image_free(oracle_image *image)
+{
+    free(image->texels[0]);
+    *image = (oracle_image){0};
+}
+
+// How much of [i, i + 1] lies within [low, high].
+static double overlap(int i, double low, double high)
+{
+    return fmax(0.0, fmin(i + 1, high) - fmax(i, low));
+}
+
+// The mean of what texel (x, y) of a level covers of the level before.
+static void average(const oracle_image *image, int level, const int at[2], bool coverage,
+                    double mean[4])
+{
+    int w = oracle_image_side(image->width, level - 1);
+    int h = oracle_image_side(image->height, level - 1);
+    double across = (double)w / oracle_image_side(image->width, level);
+    double down = (double)h / oracle_image_side(image->height, level);
+    double low[2] = {at[0] * across, at[1] * down};
+    double high[2] = {(at[0] + 1) * across, (at[1] + 1) * down};
+    double area = 0.0, plain[4] = {0.0}, weighted[3] = {0.0};
+    for (int y = (int)low[1]; y < h && y < high[1]; y++) {
+        for (int x = (int)low[0]; x < w && x < high[0]; x++) {
+            const double *texel = image->texels[level - 1][(size_t)y * (size_t)w + (size_t)x];
+            double share = overlap(x, low[0], high[0]) * overlap(y, low[1], high[1]);
+            area += share;
+            for (int c = 0; c < 4; c++)
+                plain[c] += share * texel[c];
+            for (int c = 0; c < 3; c++)
+                weighted[c] += share * texel[3] * texel[c];
+        }
+    }
+    for (int c = 0; c < 4; c++)
+        mean[c] = c < 3 && coverage && plain[3] > 0.0 ? weighted[c] / plain[3] : plain[c] / area;
+}
+
+void oracle_image_average(oracle_image *image, bool coverage)
+{
+    for (int level = 1; level < image->levels; level++) {
+        int w = oracle_image_side(image->width, level);
+        int h = oracle_image_side(image->height, level);
+        for (int i = 0; i < w * h; i++)
+            average(image, level, (int[]){i % w, i / w}, coverage, image->texels[level][i]);
+    }
+}
+
+// A texel's number in a row or column, from any whole number.
+static int wrapped(double i, int size, oracle_wrap how)
+{
+    if (how == ORACLE_CLAMP)
+        return (int)fmin(fmax(i, 0.0), size - 1.0);
+    double period = how == ORACLE_MIRROR ? 2.0 * size : size;
+    i -= period * floor(i / period);
+    return (int)(i >= size ? period - 1.0 - i : i);
+}
+
+// One level at (u, v): adds `share` times the mean of four texels, or of the nearest.
+typedef struct use {
+    int level;
+    bool nearest;
+    double share;
+} use;
+
+static void look_up_level(const oracle_texture *t, const use *of, const double uv[2],
+                          double rgba[4])
+{
+    int size[2] = {oracle_image_side(t->image->width, of->level),
+                   oracle_image_side(t->image->height, of->level)};
+    double first[2], beyond[2];
+    for (int k = 0; k < 2; k++) {
+        double x = uv[k] * size[k] - 0.5;
+        first[k] = floor(x);
+        beyond[k] = x - first[k];
+        if (of->nearest)
+            beyond[k] = beyond[k] >= 0.5 ? 1.0 : 0.0;
+    }
+    for (int corner = 0; corner < 4; corner++) {
+        double share = of->share;
+        int at[2];
+        for (int k = 0; k < 2; k++) {
+            int step = corner >> k & 1;
+            share *= step ? beyond[k] : 1.0 - beyond[k];
+            at[k] = wrapped(first[k] + step, size[k], t->wrap[k]);
+        }
+        const double *texel =
+            t->image->texels[of->level][(size_t)at[1] * (size_t)size[0] + (size_t)at[0]];
+        for (int c = 0; c < 4; c++)
+            rgba[c] += share * texel[c];
+    }
+}
+
+// How far u and v, transformed, are from the border of a texel of a level, as a distance aside.
+static double nearest_border(const oracle_texture *t, int level, const double uv[2],
+                             const double speed[2])
+{
+    double least = INFINITY;
+    for (int k = 0; k < 2; k++) {
+        int size = oracle_image_side(k == 0 ? t->image->width : t->image->height, level);
+        double x = uv[k] * size;
+        if (speed[k] > 0.0)
+            least = fmin(least, fabs(x - round(x)) / (speed[k] * size));
+    }
+    return least;
+}
+
+// Which levels, by how many texels of the first the longer axis of what the pixel sees covers.
+typedef struct choice {
+    use fine, coarse;
+    double turn;
+} choice;
+
+static choice choose(const oracle_texture *t, double texels)
+{
+    bool magnified = !(texels > 1.0);
+    bool nearest = magnified ? t->magnified_nearest : t->minified_nearest;
+    int last = t->mips == ORACLE_MIPS_NONE ? 0 : t->image->levels - 1;
+    choice c = {.turn = INFINITY};
+    if (t->magnified_nearest != t->minified_nearest)
+        c.turn = fabs(texels - 1.0);
+    double within = fmin(fmax(texels, 1.0), ldexp(1.0, last));
+    int level = (int)floor(log2(within));
+    double blend = within / ldexp(1.0, level) - 1.0;
+    if (t->mips == ORACLE_MIPS_NEAREST) {
+        if (level < last)
+            c.turn = fmin(c.turn, fabs((1.0 + blend) / 1.5 - 1.0));
+        level += blend >= 0.5;
+        blend = 0.0;
+    }
+    c.fine = (use){level, nearest, 1.0 - blend};
+    c.coarse = (use){blend > 0.0 ? level + 1 : level, nearest, blend};
+    return c;
+}
+
+oracle_glance oracle_look_up(const oracle_texture *t, const oracle_spot *spot)
+{
+    double uv[2], speed[2], longest = 0.0;
+    int size[2] = {t->image->width, t->image->height};
+    double moved[2][2]; // [axis][u, v], in texels
+    for (int k = 0; k < 2; k++) {
+        const double *row = t->transform[k];
+        uv[k] = row[0] * spot->at[0] + row[1] * spot->at[1] + row[2];
+        double part[2];
+        for (int axis = 0; axis < 2; axis++) {
+            part[axis] = row[0] * spot->moved[axis][0] + row[1] * spot->moved[axis][1];
+            moved[axis][k] = part[axis] * size[k];
+        }
+        speed[k] = hypot(part[0], part[1]);
+    }
+    for (int axis = 0; axis < 2; axis++)
+        longest = fmax(longest, fabs(spot->width) * hypot(moved[axis][0], moved[axis][1]));
+
+    choice c = choose(t, longest);
+    oracle_glance glance = {.jump = INFINITY, .turn = c.turn};
+    look_up_level(t, &c.fine, uv, glance.rgba);
+    look_up_level(t, &c.coarse, uv, glance.rgba);
+    if (c.fine.nearest) {
+        glance.jump = nearest_border(t, c.fine.level, uv, speed);
+        glance.jump = fmin(glance.jump, nearest_border(t, c.coarse.level, uv, speed));
+    } else {
+        for (int k = 0; k < 2; k++)
+            glance.slope += speed[k] * oracle_image_side(size[k], c.fine.level);
+    }
+    return glance;
+}
