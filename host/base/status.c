@@ -70,6 +70,16 @@ void glint_warn(glint_warnings *warnings, const char *format, ...)
     warnings->texts[warnings->count++] = copy;
 }
 
+void glint_warning_extend(glint_warnings *warnings, size_t number, const char *more)
+{
+    const size_t length = strlen(warnings->texts[number]), added = strlen(more) + 1;
+    char *text = realloc(warnings->texts[number], length + added);
+    if (text != NULL) {
+        memcpy(text + length, more, added);
+        warnings->texts[number] = text;
+    }
+}
+
 void glint_warnings_free(glint_warnings *warnings)
 {
     for (size_t i = 0; i < warnings->count; i++) {

@@ -90,6 +90,9 @@ typedef struct glint_warnings {
 void glint_warn(glint_warnings *warnings, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+// Adds to the end of a text that is there, if there is memory.
+void glint_warning_extend(glint_warnings *warnings, size_t number, const char *more);
+
 void glint_warnings_free(glint_warnings *warnings);
 
 #ifdef __cplusplus

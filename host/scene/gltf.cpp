@@ -28,16 +28,19 @@ namespace glint
 namespace
 {
 
-void report(const Load &load, const glint_scene &scene, glint_warnings *warnings)
+void report(const Load &load, glint_scene &scene, glint_warnings *warnings)
 {
     const char *path = load.document.path.c_str();
+    for (std::size_t i = 0; i < scene.material_count; i++) {
+        scene.materials[i].warnings = load.tally.lines_about(scene.materials[i].index);
+    }
+    load.tally.report(path, warnings);
     if (scene.skipped_points + scene.skipped_lines > 0) {
         glint_warn(warnings,
                    "%s: %zu point and %zu line primitives are skipped (only triangles are "
                    "rendered)",
                    path, scene.skipped_points, scene.skipped_lines);
     }
-    load.tally.report(path, warnings);
     glint_material_overrides_warn(&load.overrides, scene.materials, scene.material_count, path,
                                   warnings);
     if (scene.triangle_count == 0) {

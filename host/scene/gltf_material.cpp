@@ -402,6 +402,7 @@ void note_images(UsedMaterial &used, Images &images)
 void settle_material(const json &root, std::ptrdiff_t index, const Images &images,
                      UsedMaterial &used, Tally &tally)
 {
+    const Tally::About about(tally, used.material.index);
     for (const TextureSlot &slot : texture_slots()) {
         glint_texture_use &use = used.material.textures[slot.slot];
         if (use.image != 0 && !images.fault(use.image).empty()) {
@@ -427,6 +428,7 @@ std::string material_name(const json &root, std::ptrdiff_t index)
 
 void survey_material(const json &root, std::ptrdiff_t index, const UsedMaterial &used, Tally &tally)
 {
+    const Tally::About about(tally, used.material.index);
     const std::string where = where_is(root, index);
     const glint_lobes lobes = glint_material_lobes(&used.material);
     const bool is_rough = used.material.roughness > 0;

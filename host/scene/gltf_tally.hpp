@@ -5,6 +5,7 @@
 #include "base/status.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -15,6 +16,25 @@ namespace glint
 class Tally
 {
   public:
+    // What is added while this lives concerns a material, by its index in the file.
+    class About
+    {
+      public:
+        About(Tally &tally, int material) : tally_(tally)
+        {
+            tally_.material_ = material;
+        }
+        ~About()
+        {
+            tally_.material_ = -1;
+        }
+        About(const About &) = delete;
+        About &operator=(const About &) = delete;
+
+      private:
+        Tally &tally_;
+    };
+
     // `text` says what was found and what is done about it; `where` is kept of the first only.
     void add(const std::string &text, const std::string &where)
     {
@@ -23,6 +43,16 @@ class Tally
             entries_.push_back({text, where, 0});
         }
         entries_[added.first->second].count++;
+        if (material_ >= 0 && added.first->second < 64) {
+            lines_about_[material_] |= std::uint64_t{1} << added.first->second;
+        }
+    }
+
+    // Of the first 64 lines of report(), those that concern a material: bit i for line i.
+    std::uint64_t lines_about(int material) const
+    {
+        auto found = lines_about_.find(material);
+        return found == lines_about_.end() ? 0 : found->second;
     }
 
     // One line each, in the order in which they were first added.
@@ -43,6 +73,8 @@ class Tally
     };
     std::vector<Entry> entries_;
     std::unordered_map<std::string, std::size_t> index_of_;
+    int material_ = -1;
+    std::unordered_map<int, std::uint64_t> lines_about_;
 };
 
 } // namespace glint

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -41,6 +42,7 @@ typedef struct glint_material {
     float normal_scale;       // of x and y of the normal texture's normals
     float occlusion_strength; // [0, 1]
     bool has_vertex_colors;   // some of its triangles have colours at their vertices
+    uint64_t warnings; // that loading gave first: bit i is set if the i-th concerns this material
 } glint_material;
 
 // What glTF 2.0 and its extensions give a material that says nothing of glass, for initialisers.

@@ -360,6 +360,9 @@ check 'also across its two names' test -s out/x.png -a ! -e out/y.png
 clean
 run render in/rough.gltf --size 8x8 -o out/x.png --progress none
 check 'a warning is said once' test "$(grep -c '^glint: warning: .*rough' stderr)" -eq 1
+check 'with its share of the picture' grep -q 'rough.* ([1-9][0-9]*% of the picture)$' stderr
+run render in/rough.gltf --eye 0,0,9 --look-at 0,0,99 --size 8x8 -o out/x.png --progress none
+check 'also where that is nothing' grep -q 'rough.* (not in view)$' stderr
 clean
 run render in/mirror.gltf --size 8x8 -o out/x.exr --exposure 1 --progress none
 check 'an exposure that is left out is said' grep -q 'warning: .*exposure' stderr

@@ -2,11 +2,14 @@
 #include "cli/common/inputs.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "image/decoder.h"
 #include "scene/built_in.h"
+#include "scene/shares.h"
 #include "scene/subset.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -248,6 +251,44 @@ static glint_status load_scene(const glint_input_request *request, glint_inputs 
     return status;
 }
 
+static void say_share(double share, glint_warnings *warnings, size_t number)
+{
+    char text[64] = " (less than 1% of the picture)";
+    if (share >= 0.01) {
+        snprintf(text, sizeof text, " (%.0f%% of the picture)", 100 * share);
+    } else if (share <= 0) {
+        snprintf(text, sizeof text, " (not in view)");
+    }
+    glint_warning_extend(warnings, number, text);
+}
+
+// Adds to warnings about materials how much of the picture they concern.
+static void say_shares(const glint_scene *scene, const glint_viewpoint *viewpoint,
+                       glint_warnings *warnings)
+{
+    uint64_t about = 0;
+    for (size_t m = 0; m < scene->material_count; m++) {
+        about |= scene->materials[m].warnings;
+    }
+    if (about == 0 || viewpoint->camera.is_lost || warnings->lost > 0) {
+        return;
+    }
+    double *shares = glint_allocate(scene->material_count, sizeof *shares);
+    if (shares != NULL &&
+        glint_material_shares(scene, &viewpoint->camera, viewpoint->aspect, shares)) {
+        for (size_t i = 0; i < warnings->count && i < 64; i++) {
+            double share = 0;
+            for (size_t m = 0; m < scene->material_count; m++) {
+                share += (scene->materials[m].warnings >> i & 1) != 0 ? shares[m] : 0;
+            }
+            if ((about >> i & 1) != 0) {
+                say_share(share, warnings, i);
+            }
+        }
+    }
+    free(shares);
+}
+
 static bool has_lost_camera(const glint_scene *scene)
 {
     bool is_lost = false;
@@ -289,8 +330,10 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
     glint_progress_phase(display, "load_scene", "loading the scene");
     TRY(load_scene(request, inputs, error));
     inputs->scene_ms = glint_progress_elapsed(display) - begun;
-    return glint_inputs_stage(request, inputs->source != NULL, &inputs->scene, &inputs->viewpoint,
-                              error);
+    TRY(glint_inputs_stage(request, inputs->source != NULL, &inputs->scene, &inputs->viewpoint,
+                           error));
+    say_shares(&inputs->scene, &inputs->viewpoint, &inputs->warnings);
+    return GLINT_OK;
 }
 
 glint_status glint_inputs_load_environment(const glint_input_request *request,
