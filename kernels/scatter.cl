@@ -85,9 +85,6 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
         out->reflected_weight = add(out->reflected_weight, real3_of(gloss, gloss, gloss));
         kept = SELECT(smooth, R(1.0) - reflectance, real_of(1));
     }
-#if GLINT_TEXTURES
-    irradiance = scale(irradiance, s->occlusion);
-#endif
     out->emitted = scale(multiply(s->base_color, irradiance), share * kept);
 }
 
@@ -155,6 +152,9 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     result.bend = real_of(0);
 #endif
     result.media_reflected = *media;
+#if GLINT_TEXTURES
+    irradiance = scale(irradiance, s->occlusion);
+#endif
     if (GLINT_PAINT) {
         scatter_paint(s, irradiance, dielectric - glass, &result);
     }

@@ -44,6 +44,10 @@ static const slot_case slots[] = {
     {"\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"occlusionTexture\":{\"index\":0,"
      "\"strength\":0.5}",
      "\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorFactor\":[0.6,0.6,0.6,1]}"},
+    {"\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extras\":{\"glint\":{\"mirror\":0.25}},"
+     "\"occlusionTexture\":{\"index\":0,\"strength\":0.5}",
+     "\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"baseColorFactor\":[0.6,0.6,0.6,1]},"
+     "\"extras\":{\"glint\":{\"mirror\":0.25}}"},
     {"\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{"
      "\"KHR_materials_transmission\":{\"transmissionFactor\":0.5,\"transmissionTexture\":" TEXTURE
      "}}",
