@@ -24,11 +24,6 @@ static oracle_ray falling(double degrees, double from_x, double from_y)
     return (oracle_ray){{from_x, from_y, 0.1}, {sin(a), -cos(a), 0.0}};
 }
 
-static double normal_fresnel(double ior)
-{
-    return (ior - 1.0) / (ior + 1.0) * ((ior - 1.0) / (ior + 1.0));
-}
-
 static void fresnel_meets_its_closed_forms(void **state)
 {
     (void)state;

@@ -45,10 +45,10 @@ static void find_axes(place *p, vector direction)
             p->moved[axis][k] = dot(axes[axis], dual[k]) / dot(p->edges[k], dual[k]);
 }
 
-// A number that the corners hold, here.
-static double here(const place *p, double first, double second, double third)
+// A number that the corners hold, here; exactly that which all three hold.
+static double here(const place *p, const double of[3])
 {
-    return p->weights[0] * first + p->weights[1] * second + p->weights[2] * third;
+    return of[0] + p->weights[1] * (of[1] - of[0]) + p->weights[2] * (of[2] - of[0]);
 }
 
 // How it changes along an axis.
@@ -64,7 +64,7 @@ static oracle_spot spot_of(const place *p, int set, double width)
         double of[3];
         for (int i = 0; i < 3; i++)
             of[i] = p->corners ? p->corners[i].texcoord[set][k] : 0.0;
-        spot.at[k] = here(p, of[0], of[1], of[2]);
+        spot.at[k] = here(p, of);
         for (int axis = 0; axis < 2; axis++)
             spot.moved[axis][k] = change(p, axis, of);
     }
@@ -107,7 +107,7 @@ static void take_colors(const place *p, double rgba[4], double *slope)
         double of[3];
         for (int i = 0; i < 3; i++)
             of[i] = p->corners ? p->corners[i].color[c] : 1.0;
-        rgba[c] = here(p, of[0], of[1], of[2]);
+        rgba[c] = here(p, of);
         *slope = fabs(change(p, 0, of)) + fabs(change(p, 1, of));
     }
 }

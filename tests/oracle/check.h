@@ -96,6 +96,12 @@ static inline oracle_material glass_of(double ior, double thickness)
     return m;
 }
 
+// What an interface reflects of light that meets it straight.
+static inline double normal_fresnel(double ior)
+{
+    return (ior - 1.0) / (ior + 1.0) * ((ior - 1.0) / (ior + 1.0));
+}
+
 static inline oracle_material blend_of(double mirror)
 {
     oracle_material m = oracle_material_default;
