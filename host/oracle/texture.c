@@ -12,7 +12,7 @@ int oracle_image_side(int size, int level)
 bool oracle_image_create(int width, int height, oracle_image *image)
 {
     *image = (oracle_image){.width = width, .height = height};
-    size_t first[ORACLE_LEVELS], count = 0;
+    size_t first[ORACLE_LEVELS] = {0}, count = 0;
     int w = 0, h = 0;
     while (image->levels < ORACLE_LEVELS && (w != 1 || h != 1)) {
         first[image->levels] = count;

@@ -1,0 +1,378 @@
+// Hard cases of what surfaces hold: textures of all roles and samplers, bent normals, colours and
+// alpha of vertices, seen at once, in mirrors and through glass. The oracle judges.
+#include "base/memory.h"
+#include "selftest/judge.h"
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// What the room is made of, in place of the materials that shapes have.
+enum {
+    FLOOR,  // matte paint: base colour, occlusion by the second texture coordinates
+    WALL,   // glossy paint: colours of vertices, emission
+    MIRROR, // tinted metal that is paint in places, with bent normals
+    BALL,   // tinted metal, textured
+    LEAVES, // MASK by a texture's alpha
+    EVEN,   // MASK with just the cutoff's alpha
+    VEIL,   // BLEND by the vertices' alpha, glossy
+    PANE,   // thin glass, BLEND by a texture's alpha, which transmits in places
+    SLAB,   // solid glass, which transmits in places
+    SHEEN,  // the lecture's blend, with occlusion
+    SIGN,   // unlit, BLEND
+    MATERIALS
+};
+
+// ---- Images -------------------------------------------------------------------------------------
+
+enum { IMAGES = 3, COVERAGE_IMAGE = 1 };
+static const int image_sizes[IMAGES][2] = {{16, 16}, {12, 8}, {9, 5}};
+
+// Texels that differ from their neighbours by a few parts in ten, in another way in each channel.
+static double texel(int image, int x, int y, int channel)
+{
+    const double w = image_sizes[image][0], h = image_sizes[image][1];
+    const double wave = sin(2 * GLINT_PI * (x * (1 + channel) / w + 0.13 * image)) *
+                        cos(2 * GLINT_PI * (y * (1 + channel % 2) / h + 0.31 * channel));
+    return 0.6 + 0.4 * wave;
+}
+
+static glint_status fill_image(int number, glint_texture_levels *levels, glint_error *error)
+{
+    oracle_image image;
+    if (!oracle_image_create(image_sizes[number][0], image_sizes[number][1], &image)) {
+        return glint_fail_memory(error, "a self-test");
+    }
+    for (int i = 0; i < image.width * image.height; i++) {
+        for (int c = 0; c < 4; c++) {
+            image.texels[0][i][c] = texel(number, i % image.width, i / image.width, c);
+        }
+    }
+    oracle_image_average(&image, number == COVERAGE_IMAGE);
+    glint_texture *t = &levels->texture;
+    *t = (glint_texture){.width = image.width, .height = image.height, .levels = image.levels};
+    for (int level = 0; level < image.levels; level++) {
+        t->first[level] = levels->texel_count;
+        levels->texel_count += (size_t)oracle_image_side(image.width, level) *
+                               (size_t)oracle_image_side(image.height, level);
+    }
+    levels->texels = glint_allocate_unset(levels->texel_count, sizeof *levels->texels);
+    for (size_t i = 0; levels->texels != NULL && i < 4 * levels->texel_count; i++) {
+        // The levels stand one after the other in the oracle's image, too.
+        levels->texels[i / 4][i % 4] = (uint16_t)lround(image.texels[0][i / 4][i % 4] * 65535);
+    }
+    oracle_image_free(&image);
+    return levels->texels != NULL ? GLINT_OK : glint_fail_memory(error, "a self-test");
+}
+
+static glint_status add_images(glint_scene *scene, glint_error *error)
+{
+    glint_texture_levels levels[IMAGES] = {0};
+    glint_status status;
+    for (int i = 0; i < IMAGES; i++) {
+        TRY_OR(cleanup, status, fill_image(i, &levels[i], error));
+    }
+    TRY_OR(cleanup, status, glint_textures_join(levels, IMAGES, &scene->textures, error));
+cleanup:
+    for (int i = 0; i < IMAGES; i++) {
+        free(levels[i].texels);
+    }
+    return status;
+}
+
+// ---- Materials ----------------------------------------------------------------------------------
+
+// The `variant` goes through the samplers: 3 × 3 ways to wrap, 2 × 2 × 3 filters.
+static glint_texture_use use_of(int image, int variant)
+{
+    glint_texture_use use = {.image = (uint32_t)image + 1,
+                             .texcoord = variant / 2 % 2,
+                             .wrap_s = (glint_wrap)(variant % 3),
+                             .wrap_t = (glint_wrap)((variant / 3 + variant) % 3),
+                             .magnified_nearest = variant % 5 == 1,
+                             .minified_nearest = variant % 5 == 3,
+                             .mips = (glint_mip_choice)(variant / 2 % 3)};
+    const double angle = 0.4 * variant, c = cos(angle), s = sin(angle);
+    const double transform[6] = {0.9 * c, 1.2 * s, 0.3, -0.9 * s, 1.2 * c, -0.2};
+    for (int i = 0; variant % 4 != 0 && i < 6; i++) {
+        use.transform[i] = (float)transform[i];
+    }
+    return use;
+}
+
+// What is not said of a material: white paint, smooth.
+static void set_material(glint_material *m, const float color[3], float metallic, float alpha)
+{
+    *m = (glint_material){GLINT_MATERIAL_CLEAR,
+                          .metallic = metallic,
+                          .mirror = -1,
+                          .alpha = alpha,
+                          .alpha_cutoff = 0.5F,
+                          .normal_scale = 0.4F,
+                          .occlusion_strength = 0.75F};
+    memcpy(m->base_color, color, sizeof m->base_color);
+}
+
+static void add_factors(glint_material *m)
+{
+    static const float colors[MATERIALS][3] = {
+        {0.9F, 0.8F, 0.7F}, {0.7F, 0.6F, 0.9F}, {0.9F, 0.7F, 0.5F},   {0.6F, 0.8F, 0.9F},
+        {0.3F, 0.8F, 0.2F}, {0.8F, 0.2F, 0.2F}, {0.9F, 0.9F, 0.4F},   {0.8F, 0.9F, 0.9F},
+        {0.9F, 1, 0.9F},    {0.4F, 0.5F, 0.8F}, {0.95F, 0.35F, 0.15F}};
+    static const float metallic[MATERIALS] = {[MIRROR] = 0.9F, [BALL] = 1};
+    static const float alpha[MATERIALS] = {1, 1, 1, 1, 0.85F, 0.5F, 0.9F, 0.9F, 1, 1, 0.6F};
+    for (int i = 0; i < MATERIALS; i++) {
+        set_material(&m[i], colors[i], metallic[i], alpha[i]);
+        m[i].has_vertex_colors = true;
+    }
+    m[FLOOR].roughness = m[LEAVES].roughness = 1;
+    m[LEAVES].alpha_mode = m[EVEN].alpha_mode = GLINT_ALPHA_MASK;
+    m[VEIL].alpha_mode = m[PANE].alpha_mode = m[SIGN].alpha_mode = GLINT_ALPHA_BLEND;
+    m[PANE].transmission = m[SLAB].transmission = 0.9F;
+    m[SLAB].thickness = 1;
+    m[SHEEN].mirror = 0.4F;
+    m[SIGN].unlit = true;
+    for (int k = 0; k < 3; k++) {
+        m[WALL].emission[k] = 0.5F + 0.25F * (float)k;
+    }
+}
+
+static void add_textures(glint_material *m, int variant)
+{
+    static const struct {
+        int material;
+        glint_texture_slot slot;
+        int image;
+    } uses[] = {
+        {FLOOR, GLINT_TEXTURE_BASE_COLOR, 0},
+        {FLOOR, GLINT_TEXTURE_OCCLUSION, 2},
+        {WALL, GLINT_TEXTURE_EMISSION, 2},
+        {MIRROR, GLINT_TEXTURE_METALLIC_ROUGHNESS, 0},
+        {MIRROR, GLINT_TEXTURE_NORMAL, 2},
+        {BALL, GLINT_TEXTURE_BASE_COLOR, 2},
+        {LEAVES, GLINT_TEXTURE_BASE_COLOR, COVERAGE_IMAGE},
+        {PANE, GLINT_TEXTURE_BASE_COLOR, COVERAGE_IMAGE},
+        {PANE, GLINT_TEXTURE_TRANSMISSION, 0},
+        {SLAB, GLINT_TEXTURE_TRANSMISSION, 2},
+        {SHEEN, GLINT_TEXTURE_OCCLUSION, 0},
+    };
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        m[uses[i].material].textures[uses[i].slot] = use_of(uses[i].image, variant + (int)i);
+    }
+}
+
+// ---- The room -----------------------------------------------------------------------------------
+
+// A sheet from one corner to the opposite one, in a plane across one axis, seen from its upper end.
+static void add_sheet(shape *s, const double low[3], const double high[3], int material)
+{
+    const int axis = low[0] == high[0] ? 0 : low[1] == high[1] ? 1 : 2;
+    const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    static const int around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    double corners[4][3];
+    for (int k = 0; k < 4; k++) {
+        corners[k][axis] = low[axis];
+        corners[k][first] = around[k][0] ? high[first] : low[first];
+        corners[k][second] = around[k][1] ? high[second] : low[second];
+    }
+    shape_add_quad(s, (const double(*)[3])corners, (shape_material)material);
+}
+
+static void add_room(shape *s)
+{
+    static const struct {
+        double low[3], high[3];
+        int material;
+    } sheets[] = {
+        {{-0.9, -0.6, -0.9}, {0.9, -0.6, 0.8}, FLOOR},
+        {{-0.9, -0.6, -0.9}, {0.9, 0.7, -0.9}, WALL},
+        {{-0.9, -0.6, -0.9}, {-0.9, 0.7, 0.6}, MIRROR},
+        {{-0.65, -0.6, -0.35}, {-0.1, 0.2, -0.35}, LEAVES},
+        {{-0.05, -0.6, -0.45}, {0.1, 0.3, -0.45}, EVEN},
+        {{-0.2, 0.15, -0.25}, {0.55, 0.55, -0.25}, VEIL},
+        {{0.2, -0.55, 0.2}, {0.75, 0.3, 0.2}, PANE},
+        {{0.3, 0.65, -0.3}, {0.8, 0.95, -0.3}, VEIL}, // before the open sky
+        {{0.72, -0.6, -0.7}, {0.72, 0.5, -0.1}, SHEEN},
+        {{-0.75, 0.3, -0.5}, {-0.3, 0.6, -0.5}, SIGN},
+    };
+    static const double middle[3] = {0.4, -0.25, -0.5}, lens[3] = {0.4, 0.4, 0.4};
+    static const double low[3] = {-0.5, -0.3, 0.25}, high[3] = {-0.05, 0.45, 0.4};
+    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++) {
+        add_sheet(s, sheets[i].low, sheets[i].high, sheets[i].material);
+    }
+    shape_add_ball(s, &(shape_ball){middle, 0.3, 3, (shape_material)BALL, true, NULL});
+    shape_add_ball(s, &(shape_ball){lens, 0.15, 3, (shape_material)SLAB, true, NULL});
+    shape_add_box(s, &(shape_box){low, high, 1, (shape_material)SLAB, false});
+}
+
+enum { CORNER = 12 }; // numbers, in the order of glint_attributes
+
+// A unit vector in the plane of the normal, which may be 0.
+static void make_tangent(const float *normal, double tangent[3])
+{
+    static const double toward[3] = {0.2, 0.3, 0.9};
+    double along = 0, squares = 0;
+    for (int k = 0; k < 3; k++) {
+        along += toward[k] * (double)normal[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        tangent[k] = toward[k] - along * (double)normal[k];
+        squares += tangent[k] * tangent[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        tangent[k] /= sqrt(squares);
+    }
+}
+
+static void fill_corner(const glint_scene *scene, size_t corner, float *stored)
+{
+    const float *p = scene->positions + 3 * corner;
+    const double x = (double)p[0], y = (double)p[1], z = (double)p[2];
+    const bool is_even = scene->material_of[corner / 3] == EVEN;
+    double values[CORNER] = {1.3 * x + 0.4 * y + 0.2 * z,
+                             0.3 * x - 1.1 * y + 1.4 * z,
+                             0.8 * y - 1.2 * z + 0.5,
+                             1.5 * x + 0.3 * y - 0.4 * z,
+                             0.75 + 0.25 * x,
+                             0.75 - 0.25 * y,
+                             0.75 + 0.25 * z,
+                             is_even ? 1 : 0.6 + 0.3 * x - 0.2 * y};
+    make_tangent(scene->normals + 3 * corner, values + 8);
+    values[11] = corner / 3 % 2 == 0 ? 1 : -1; // the bitangent's side
+    for (int i = 0; i < CORNER; i++) {
+        stored[i] = (float)values[i];
+    }
+}
+
+static glint_status add_attributes(glint_scene *scene, glint_error *error)
+{
+    scene->attribute_set = (glint_attributes){true, true, true, true};
+    const size_t corners = 3 * scene->triangle_count;
+    scene->attributes = glint_allocate(CORNER * corners, sizeof *scene->attributes);
+    if (scene->attributes == NULL) {
+        return glint_fail_memory(error, "a self-test");
+    }
+    for (size_t i = 0; i < corners; i++) {
+        fill_corner(scene, i, scene->attributes + CORNER * i);
+    }
+    return GLINT_OK;
+}
+
+static glint_status make_room(int variant, glint_scene *scene, glint_error *error)
+{
+    shape s = shape_begin();
+    add_room(&s);
+    TRY(shape_end(&s, scene, error));
+    free(scene->materials);
+    scene->material_count = MATERIALS;
+    scene->materials = glint_allocate(MATERIALS, sizeof *scene->materials);
+    if (scene->materials == NULL) {
+        return glint_fail_memory(error, "a self-test");
+    }
+    add_factors(scene->materials);
+    add_textures(scene->materials, variant);
+    TRY(add_images(scene, error));
+    return add_attributes(scene, error);
+}
+
+// ---- Judging ------------------------------------------------------------------------------------
+
+static void uniform_light(const void *context, const double direction[3], double rgb[3])
+{
+    (void)direction;
+    rgb[0] = rgb[1] = rgb[2] = *(const double *)context;
+}
+
+typedef struct surface_measures {
+    glint_measure *errors, *undecided;
+} surface_measures;
+
+// Pixels that come this near to an edge, to the critical angle, or to where a texture or alpha
+// jumps may show the other side of it: as rounding of some u grows by what curved surfaces bend.
+#define MARGIN 1024
+
+// What rounding makes of a colour on the way there. The map of the irradiance holds floats.
+#define ROUNDING(u) (4096 * (u) + 0x1p-23)
+
+static void measure_pixels(trial *t, const oracle_scene *scene, const oracle_view *view,
+                           const trial_picture *picture, const surface_measures *of)
+{
+    for (int p = 0; p < picture->width * picture->height; p++) {
+        const int pixel[2] = {p % picture->width, p / picture->width};
+        double expected[4];
+        oracle_report report;
+        oracle_pixel(scene, view, pixel, expected, &report);
+        const double near = fmin(fmin(report.edge, report.critical), report.jump);
+        const bool undecided = near < MARGIN * t->u;
+        measure_event(of->undecided, undecided, "pixel (%d, %d)", pixel[0], pixel[1]);
+        for (int k = 0; !undecided && k < 4; k++) {
+            measure_value(of->errors, picture->values[4 * p + k], expected[k], ROUNDING(t->u),
+                          "depth %d, pixel (%d, %d), value %d", view->depth, pixel[0], pixel[1], k);
+        }
+    }
+}
+
+static glint_status measure_room(trial *t, int variant, int depth, bool transparent,
+                                 const surface_measures *of)
+{
+    static const double eye[3] = {0.25, 0.2, 2.1}, target[3] = {-0.05, -0.05, 0};
+    static const double light = 0.75;
+    glint_scene scene = {0};
+    glint_environment environment = {0};
+    trial_picture picture = {0};
+    judge j = {0};
+    glint_settings settings = trial_settings(t);
+    settings.depth = depth;
+    settings.transparent = transparent;
+    const glint_camera camera = shape_camera(eye, target, 0.85, 0);
+    glint_status status;
+    TRY_OR(cleanup, status, make_room(variant, &scene, t->error));
+    TRY_OR(cleanup, status, trial_uniform_environment((float)light, &environment, t->error));
+    const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
+    TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
+    TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
+    j.scene.radiance = j.scene.irradiance = uniform_light;
+    j.scene.context = &light;
+    oracle_view view = judge_view(&camera, &settings);
+    view.depth = depth;
+    view.transparent = transparent;
+    view.edges = true;
+    measure_pixels(t, &j.scene, &view, &picture, of);
+cleanup:
+    judge_end(&j);
+    trial_picture_free(&picture);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// Curved surfaces spread errors: behind them colours may err by four times as much.
+static glint_status dressed_room(trial *t)
+{
+    static const struct {
+        int depth;
+        const char *what;
+        double bound;
+    } frames[] = {{1, "depth 1: beside the oracle's colours", 1},
+                  {4, "depth 4: beside the oracle's colours", 4}};
+    for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+        const surface_measures of = {
+            trial_error(t, frames[i].what, "4096 u + 2⁻²³", frames[i].bound),
+            trial_share(t, "pixels that rounding decides", 0.05),
+        };
+        for (int variant = 0; variant < 12; variant++) {
+            TRY(measure_room(t, variant, frames[i].depth, variant % 2 == 1, &of));
+        }
+    }
+    return GLINT_OK;
+}
+
+const trial_case surface_cases[] = {
+    {"dressed_room",
+     "textures, colours and alpha, seen at once, in mirrors and through glass: the oracle's "
+     "colours",
+     dressed_room},
+    {0},
+};
