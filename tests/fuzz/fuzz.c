@@ -2,10 +2,10 @@
 //
 //   fuzz TARGET SECONDS SEED FOLDER [FILE…]
 //
-// TARGET is gltf, options, images or texts. Inputs are mutations of the FILEs (of command lines for
-// options). Each stands in FOLDER before it is read: when the process dies, the input is there. The
-// parent of the image decoder must live; its children may die, and are counted. Exit status 0: all
-// inputs were read or refused. The same seed gives the same inputs.
+// TARGET is gltf, textures, options, images or texts. Inputs are mutations of the FILEs (of command
+// lines for options). Each stands in FOLDER before it is read: when the process dies, the input is
+// there. The parent of the image decoder must live; its children may die, and are counted. Exit
+// status 0: all inputs were read or refused. The same seed gives the same inputs.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "environment/environment.h"
@@ -181,12 +181,19 @@ static void write_input(const char *name, const text *t)
     }
 }
 
+static void count_death(tallies *sum, const char *message)
+{
+    sum->deaths +=
+        strstr(message, "the decoder failed") != NULL || strstr(message, " to decode (") != NULL;
+}
+
 static void count(tallies *sum, glint_status status, glint_error *error)
 {
     sum->accepted += status == GLINT_OK;
     sum->refused += status != GLINT_OK;
-    sum->deaths += status != GLINT_OK && (strstr(error->message, "the decoder failed") != NULL ||
-                                          strstr(error->message, " to decode (") != NULL);
+    if (status != GLINT_OK) {
+        count_death(sum, error->message);
+    }
     glint_error_free(error);
 }
 
@@ -214,27 +221,56 @@ static void pack(text *glb, const text *t)
     }
 }
 
-static void try_gltf(const text *t, tallies *sum)
+// Reads FOLDER/input.gltf.
+static void load_scene(tallies *sum)
 {
-    static char bytes[LONGEST + 64];
-    text glb = {.bytes = bytes};
-    if (below(3) == 0) {
-        pack(&glb, t);
-        t = &glb;
-    }
     glint_scene scene = {0};
     glint_topology topology = {0};
     glint_warnings warnings = {0};
     glint_error error = {0};
-    write_input("input.gltf", t);
     glint_status status = glint_scene_load(place("input.gltf"), NULL, &scene, &warnings, &error);
     if (status == GLINT_OK && scene.triangle_count < 100000) {
         status = glint_topology_find(&scene, &topology, &error);
         glint_topology_free(&topology);
     }
+    for (size_t i = 0; i < warnings.count; i++) {
+        count_death(sum, warnings.texts[i]);
+    }
     glint_scene_free(&scene);
     glint_warnings_free(&warnings);
     count(sum, status, &error);
+}
+
+static void try_gltf(const text *t, tallies *sum)
+{
+    static char bytes[LONGEST + 64];
+    text glb = {.bytes = bytes};
+    if (below(3) == 0 && t->length > 0 && t->bytes[0] == '{') {
+        pack(&glb, t);
+        t = &glb;
+    }
+    write_input("input.gltf", t);
+    load_scene(sum);
+}
+
+// An image as the texture of a triangle, in all roles.
+static void try_textures(const text *t, tallies *sum)
+{
+    static char gltf[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},"
+        "\"material\":0}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+        "\"type\":\"VEC3\"},{\"bufferView\":0,\"byteOffset\":8,\"componentType\":5126,\"count\":3,"
+        "\"type\":\"VEC2\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}],\"images\":[{\"uri\":"
+        "\"input.image\"}],\"textures\":[{\"source\":0}],\"materials\":[{\"alphaMode\":\"BLEND\","
+        "\"normalTexture\":{\"index\":0},\"pbrMetallicRoughness\":{\"baseColorTexture\":"
+        "{\"index\":0}}}]}";
+    const text file = {gltf, sizeof gltf - 1};
+    write_input("input.gltf", &file);
+    write_input("input.image", t);
+    load_scene(sum);
 }
 
 static void try_images(const text *t, tallies *sum)
@@ -332,7 +368,9 @@ static const struct {
     const char *name;
     void (*attempt)(const text *t, tallies *sum);
 } targets[] = {
-    {"gltf", try_gltf}, {"options", try_options}, {"images", try_images}, {"texts", try_texts}};
+    {"gltf", try_gltf},     {"textures", try_textures}, {"options", try_options},
+    {"images", try_images}, {"texts", try_texts},
+};
 
 // ---- The run ------------------------------------------------------------------------------------
 
@@ -356,7 +394,7 @@ int main(int argc, char **argv)
         target++;
     }
     if (argc < 6 || target == COUNT(targets)) {
-        fprintf(stderr, "fuzz gltf|options|images|texts SECONDS SEED FOLDER FILE…\n");
+        fprintf(stderr, "fuzz gltf|textures|options|images|texts SECONDS SEED FOLDER FILE…\n");
         return 2;
     }
     const double seconds = atof(argv[2]);
@@ -379,8 +417,8 @@ int main(int argc, char **argv)
         mutate(&input);
         targets[target].attempt(&input, &sum);
     }
-    printf("%s: %" PRIu64 " inputs: %" PRIu64 " read, %" PRIu64 " refused, %" PRIu64
-           " of them where the decoder died\n",
+    printf("%s: %" PRIu64 " inputs: %" PRIu64 " read, %" PRIu64
+           " refused; the decoder died %" PRIu64 " times\n",
            argv[1], sum.inputs, sum.accepted, sum.refused, sum.deaths);
     for (size_t i = 0; i < seed_count; i++) {
         free(seeds[i].bytes);

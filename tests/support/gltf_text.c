@@ -22,13 +22,31 @@ const char *folder_path(const char *folder, const char *name)
     return path;
 }
 
-const char *write_bytes(const char *folder, const char *name, const void *bytes, size_t size)
+static void write_file(const char *path, const void *bytes, size_t size)
 {
-    const char *path = folder_path(folder, name);
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
+}
+
+// What the fuzzer starts from: every file under a name of its own.
+static void keep_copy(const char *name, const void *bytes, size_t size)
+{
+    static int count;
+    const char *kept = getenv("GLINT_TESTS_KEEP");
+    char path[8192];
+    if (kept != NULL) {
+        snprintf(path, sizeof path, "%s.%d.%s", kept, count++, name);
+        write_file(path, bytes, size);
+    }
+}
+
+const char *write_bytes(const char *folder, const char *name, const void *bytes, size_t size)
+{
+    const char *path = folder_path(folder, name);
+    write_file(path, bytes, size);
+    keep_copy(name, bytes, size);
     return path;
 }
 

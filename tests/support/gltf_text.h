@@ -12,7 +12,8 @@
 // The path of a file in the folder; the text lasts until the next call.
 const char *folder_path(const char *folder, const char *name);
 
-// Writes folder/name and returns its path. A failure fails the test.
+// Writes folder/name and returns its path. A failure fails the test. The environment's
+// GLINT_TESTS_KEEP is a path that begins the names of copies, which stay.
 const char *write_bytes(const char *folder, const char *name, const void *bytes, size_t size);
 
 // A glTF text with the bytes as buffers[0] and `rest`, members of the top level: "\"nodes\":[…],…".
