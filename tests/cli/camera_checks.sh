@@ -35,6 +35,9 @@ write_scene '[0, 1, 2]' '' >in/seen.gltf
 write_scene '[0]' '' >in/unseen.gltf
 write_scene '[0]' '"animations": [{"samplers": [{"input": 1, "output": 2}],
    "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],' >in/moving.gltf
+# A camera that moves alone.
+write_scene '[0, 1, 2]' '"animations": [{"samplers": [{"input": 1, "output": 2}],
+   "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],' >in/panned.gltf
 
 # A number of the camera that glint info uses, to 1e-6.
 camera_is() { # WANTED KEY[,KEY] ARGUMENT…
@@ -133,6 +136,9 @@ check '--fit: its width' camera_is 1.7777778 ymag in/seen.gltf --camera flat --f
 check '--fit with --fov' camera_is 1 eye,2 in/seen.gltf --fov 90 --fit
 check '--fit: what moves fits all the time' camera_is 2 eye,0 in/moving.gltf --eye 0,0,9 --look-at 0,0,0 --fit
 check '--fit: and its width' camera_is 1.6875 eye,2 in/moving.gltf --eye 0,0,9 --look-at 0,0,0 --fov 90 --fit
+"$glint" info in/seen.gltf --size 160x90 --eye 3,3,3 --look-at 0,0,0 --fit --json >info.json
+check '--fit: by its shape where only the camera moves' camera_is "$("$json_get" info.json camera eye 2)" eye,2 \
+    in/panned.gltf --eye 3,3,3 --look-at 0,0,0 --fit
 # In front of the triangle, from the direction (0.4, 0.3, 1); a little further away than with --fit.
 check 'a file without cameras: its direction' camera_is 0.8944272 back,2 in/unseen.gltf
 check 'a file without cameras: fitted, with a margin' eye_is_further 1.02 1.08 in/unseen.gltf --size 160x90

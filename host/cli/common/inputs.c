@@ -298,12 +298,14 @@ static bool has_lost_camera(const glint_scene *scene)
     return is_lost;
 }
 
-glint_status glint_inputs_stage(const glint_input_request *request, bool moves, glint_scene *scene,
+glint_status glint_inputs_stage(const glint_input_request *request,
+                                const glint_scene_source *source, glint_scene *scene,
                                 glint_viewpoint *viewpoint, glint_error *error)
 {
     const glint_settings *settings = &request->settings;
-    *viewpoint = (glint_viewpoint){.aspect = (double)settings->width / (double)settings->height,
-                                   .moves = moves};
+    *viewpoint =
+        (glint_viewpoint){.aspect = (double)settings->width / (double)settings->height,
+                          .moves = source != NULL && glint_scene_motion(source)->moves_triangles};
     glint_viewpoint_measure(scene, viewpoint);
     glint_status status = glint_viewpoint_find(&request->view, scene, viewpoint, error);
     if (status == GLINT_BAD_INPUT && request->camera_may_wait && has_lost_camera(scene)) {
@@ -330,8 +332,7 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
     glint_progress_phase(display, "load_scene", "loading the scene");
     TRY(load_scene(request, inputs, error));
     inputs->scene_ms = glint_progress_elapsed(display) - begun;
-    TRY(glint_inputs_stage(request, inputs->source != NULL, &inputs->scene, &inputs->viewpoint,
-                           error));
+    TRY(glint_inputs_stage(request, inputs->source, &inputs->scene, &inputs->viewpoint, error));
     say_shares(&inputs->scene, &inputs->viewpoint, &inputs->warnings);
     return GLINT_OK;
 }

@@ -114,9 +114,10 @@ void glint_input_request_default(glint_input_request *request);
 // GLINT_BAD_INPUT where --kernel-dir is no folder.
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
 
-// Finds the viewpoint, and takes away the nodes that are not to be there. `moves`: something of the
-// scene does, over time. Errors: as glint_viewpoint_find and glint_scene_remove_nodes.
-glint_status glint_inputs_stage(const glint_input_request *request, bool moves, glint_scene *scene,
+// Finds the viewpoint, and takes away the nodes that are not to be there. source: NULL where
+// nothing moves. Errors: as glint_viewpoint_find and glint_scene_remove_nodes.
+glint_status glint_inputs_stage(const glint_input_request *request,
+                                const glint_scene_source *source, glint_scene *scene,
                                 glint_viewpoint *viewpoint, glint_error *error);
 
 // What was loaded. Zero is valid and empty.

@@ -93,7 +93,7 @@ typedef struct glint_viewpoint {
     glint_vec3 low, high; // the shown bounds (metres, world space); low > high of an empty scene
     glint_vec3 centre;    // of the bounds: what a turntable turns about
     double aspect;        // of the frame: its width over its height
-    bool moves;           // something of the scene does, over time
+    bool moves;           // some triangles do, over time
 } glint_viewpoint;
 
 // Sets the bounds and the centre, before nodes are taken away. aspect and moves must be set.

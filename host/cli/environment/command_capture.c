@@ -107,8 +107,8 @@ static glint_status set_time(capture *work, double time, glint_error *error)
     }
     glint_scene_free(&inputs->scene);
     TRY(glint_scene_at(inputs->source, time, &inputs->scene, NULL, error));
-    TRY(glint_inputs_stage(&work->request->inputs, true, &inputs->scene, &inputs->viewpoint,
-                           error));
+    TRY(glint_inputs_stage(&work->request->inputs, inputs->source, &inputs->scene,
+                           &inputs->viewpoint, error));
     TRY(find_place(work, error));
     if (work->renderer != NULL) {
         TRY(glint_renderer_set_scene(work->renderer, &inputs->scene, error));

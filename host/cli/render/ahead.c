@@ -9,7 +9,7 @@ glint_status render_pose_load(const glint_input_request *request, glint_scene_so
     const double begun = glint_now_ms();
     glint_status status = glint_scene_at(source, pose->time, &pose->scene, NULL, error);
     if (status == GLINT_OK) {
-        status = glint_inputs_stage(request, true, &pose->scene, &pose->viewpoint, error);
+        status = glint_inputs_stage(request, source, &pose->scene, &pose->viewpoint, error);
     }
     if (status == GLINT_OK) {
         status = glint_fingerprint_scene(&pose->scene, &pose->is, error);

@@ -22,7 +22,7 @@ static glint_status load_scene(const render_stage *stage, glint_progress_display
     if (stage->inputs.source != NULL) {
         glint_viewpoint unused;
         TRY(glint_scene_at(stage->inputs.source, stage->time, scene, NULL, error));
-        return glint_inputs_stage(&request, true, scene, &unused, error);
+        return glint_inputs_stage(&request, stage->inputs.source, scene, &unused, error);
     }
     glint_inputs inputs;
     glint_status status = glint_inputs_load_scene(&request, display, &inputs, error);
