@@ -229,6 +229,7 @@ struct Work {
     const Model *model;
     const std::vector<ImageUse> *uses;
     int largest;
+    int threads; // of each image
     std::vector<glint_texture_levels> levels;
     std::vector<std::string> faults;
     bool is_short = false; // of memory
@@ -241,6 +242,7 @@ void read_image(Work &work, std::size_t i)
     glint_texture_request request = {};
     request.is_color = use.is_color;
     request.is_coverage = use.is_coverage;
+    request.threads = work.threads;
     glint_error error = {};
     const std::string &called = data.path.empty() ? data.name : data.path;
     glint_status status =
@@ -347,7 +349,9 @@ std::uint32_t Images::number_of(const ImageUse &use)
 
 void Images::read(const Document &document, const Model &model, int largest)
 {
-    Work work = {&document, &model, &uses_, largest, {}, {}, false};
+    const int cores = glint_usable_cores(), images = static_cast<int>(uses_.size());
+    Work work = {&document, &model, &uses_, largest, std::max(1, cores / std::max(1, images)),
+                 {},        {},     false};
     work.levels.resize(uses_.size());
     work.faults.resize(uses_.size());
     glint_parallel_for(uses_.size(), read_image_in_thread, &work);

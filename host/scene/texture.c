@@ -2,10 +2,8 @@
 #include "scene/texture.h"
 
 #include "base/memory.h"
-#include "image/color.h"
-#include "image/decoder.h"
+#include "scene/texture_levels.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,168 +20,7 @@ const char *glint_texture_slot_name(glint_texture_slot slot)
     return names[slot];
 }
 
-// ---- The image ----------------------------------------------------------------------------------
-
-// What codes mean, as 1/65535.
-typedef struct meanings {
-    uint16_t *of_color, *of_alpha; // [code]
-} meanings;
-
-static glint_status make_meanings(int code_bits, bool is_color, meanings *of, glint_error *error)
-{
-    const size_t count = code_bits == 16 ? 65536 : 256;
-    of->of_color = glint_allocate_unset(count, 2 * sizeof *of->of_color);
-    if (of->of_color == NULL) {
-        return glint_fail_memory(error, "a texture");
-    }
-    of->of_alpha = of->of_color + count;
-    for (size_t code = 0; code < count; code++) {
-        const double value = (double)code / (double)(count - 1);
-        const double linear = is_color ? (double)glint_srgb_to_linear((float)value) : value;
-        of->of_color[code] = (uint16_t)lround(linear * 65535);
-        of->of_alpha[code] = (uint16_t)lround(value * 65535);
-    }
-    return GLINT_OK;
-}
-
-// One pixel of 1 to 4 channels; grey is repeated.
-static void spread(const meanings *of, const unsigned *codes, int channels, uint16_t texel[4])
-{
-    const bool is_grey = channels <= 2, has_alpha = channels == 2 || channels == 4;
-    for (int c = 0; c < 3; c++) {
-        texel[c] = of->of_color[codes[is_grey ? 0 : c]];
-    }
-    texel[3] = has_alpha ? of->of_alpha[codes[channels - 1]] : UINT16_MAX;
-}
-
-// Sets level 0 row by row.
-static glint_status spread_rows(const glint_stored *stored, const meanings *of,
-                                uint16_t (*texels)[4], glint_error *error)
-{
-    const glint_stored_facts *facts = &stored->facts;
-    const size_t channels = (size_t)facts->channels, width = (size_t)facts->width;
-    const size_t bytes = width * channels * (size_t)(facts->code_bits / 8);
-    uint8_t *row = glint_allocate_unset(bytes, 1);
-    if (row == NULL) {
-        return glint_fail_memory(error, "a texture");
-    }
-    const uint16_t *wide = (const uint16_t *)(const void *)row;
-    glint_status status = GLINT_OK;
-    for (size_t y = 0; y < (size_t)facts->height; y++) {
-        TRY_OR(cleanup, status, glint_stored_read(stored, y * bytes, row, bytes, error));
-        for (size_t x = 0; x < width; x++) {
-            unsigned codes[4] = {0};
-            for (size_t c = 0; c < channels; c++) {
-                codes[c] = facts->code_bits == 16 ? wide[x * channels + c] : row[x * channels + c];
-            }
-            spread(of, codes, facts->channels, texels[y * width + x]);
-        }
-    }
-cleanup:
-    free(row);
-    return status;
-}
-
-// ---- Levels -------------------------------------------------------------------------------------
-
-// Which texels of the finer level a texel of the coarser one covers along one axis, and how much of
-// each: of an even number two, of an odd one up to three, as half of it is rounded down.
-typedef struct cover {
-    int first, count;
-    float share[3]; // sum 1
-} cover;
-
-static cover cover_of(int texel, int coarse, int fine)
-{
-    const double low = (double)texel * fine / coarse, high = (double)(texel + 1) * fine / coarse;
-    cover c = {.first = (int)low};
-    for (int i = 0; i < 3 && c.first + i < fine; i++) {
-        const double from = fmax(low, c.first + i), to = fmin(high, c.first + i + 1);
-        if (to > from) {
-            c.share[i] = (float)((to - from) / (high - low));
-            c.count = i + 1;
-        }
-    }
-    return c;
-}
-
-// What a texel covers of the finer level, whose rows are `width` long.
-typedef struct window {
-    const uint16_t (*fine)[4];
-    int width;
-    cover across, down;
-} window;
-
-// The mean of what a texel covers. With `is_coverage` R, G and B are weighted by A.
-static void average(const window *w, bool is_coverage, uint16_t texel[4])
-{
-    float sum[4] = {0}, weighted[3] = {0};
-    for (int j = 0; j < w->down.count; j++) {
-        for (int i = 0; i < w->across.count; i++) {
-            const size_t row = (size_t)(w->down.first + j) * (size_t)w->width;
-            const uint16_t *from = w->fine[row + (size_t)(w->across.first + i)];
-            const float share = w->across.share[i] * w->down.share[j];
-            for (int c = 0; c < 4; c++) {
-                sum[c] += share * (float)from[c];
-            }
-            for (int c = 0; is_coverage && c < 3; c++) {
-                weighted[c] += share * (float)from[3] * (float)from[c];
-            }
-        }
-    }
-    for (int c = 0; c < 3; c++) {
-        const float value = is_coverage && sum[3] > 0 ? weighted[c] / sum[3] : sum[c];
-        texel[c] = (uint16_t)lrintf(fminf(value, UINT16_MAX));
-    }
-    texel[3] = (uint16_t)lrintf(fminf(sum[3], UINT16_MAX));
-}
-
-static int half_of(int size)
-{
-    return size > 1 ? size / 2 : 1;
-}
-
-static void fill_level(const uint16_t (*fine)[4], const int size[2], bool is_coverage,
-                       uint16_t (*coarse)[4])
-{
-    const int width = half_of(size[0]), height = half_of(size[1]);
-    window w = {.fine = fine, .width = size[0]};
-    for (int y = 0; y < height; y++) {
-        w.down = cover_of(y, height, size[1]);
-        for (int x = 0; x < width; x++) {
-            w.across = cover_of(x, width, size[0]);
-            average(&w, is_coverage, coarse[(size_t)y * (size_t)width + (size_t)x]);
-        }
-    }
-}
-
-// Sets sizes and places of all levels; returns the number of texels.
-static size_t plan_levels(int width, int height, glint_texture *texture)
-{
-    *texture = (glint_texture){.width = width, .height = height};
-    size_t count = 0;
-    for (;;) {
-        texture->first[texture->levels++] = count;
-        count += (size_t)width * (size_t)height;
-        if (width == 1 && height == 1) {
-            return count;
-        }
-        width = half_of(width);
-        height = half_of(height);
-    }
-}
-
-static void fill_levels(bool is_coverage, glint_texture_levels *levels)
-{
-    const glint_texture *t = &levels->texture;
-    int size[2] = {t->width, t->height};
-    for (int level = 1; level < t->levels; level++) {
-        fill_level((const uint16_t(*)[4])levels->texels + t->first[level - 1], size, is_coverage,
-                   levels->texels + t->first[level]);
-        size[0] = half_of(size[0]);
-        size[1] = half_of(size[1]);
-    }
-}
+// ---- An image -----------------------------------------------------------------------------------
 
 // Leaves out the levels that are too large.
 static void drop_large_levels(int largest, glint_texture_levels *levels)
@@ -191,8 +28,8 @@ static void drop_large_levels(int largest, glint_texture_levels *levels)
     glint_texture *t = &levels->texture;
     int dropped = 0;
     while (largest > 0 && (t->width > largest || t->height > largest)) {
-        t->width = half_of(t->width);
-        t->height = half_of(t->height);
+        t->width = t->width > 1 ? t->width / 2 : 1;
+        t->height = t->height > 1 ? t->height / 2 : 1;
         dropped++;
     }
     if (dropped == 0) {
@@ -207,7 +44,7 @@ static void drop_large_levels(int largest, glint_texture_levels *levels)
     }
 }
 
-static glint_status fill(const glint_texture_request *request, const glint_stored *stored,
+static glint_status make(const glint_texture_request *request, const glint_stored *stored,
                          glint_texture_levels *levels, glint_error *error)
 {
     const glint_stored_facts *facts = &stored->facts;
@@ -224,16 +61,7 @@ static glint_status fill(const glint_texture_request *request, const glint_store
                           "smaller)",
                           request->source.path, facts->width, facts->height, most, most);
     }
-    levels->texel_count = plan_levels(facts->width, facts->height, &levels->texture);
-    levels->texels = glint_allocate_unset(levels->texel_count, sizeof *levels->texels);
-    if (levels->texels == NULL) {
-        return glint_fail_memory(error, "a texture");
-    }
-    meanings of;
-    TRY(make_meanings(facts->code_bits, request->is_color, &of, error));
-    const glint_status status = spread_rows(stored, &of, levels->texels, error);
-    free(of.of_color);
-    return status;
+    return glint_texture_levels_make(request, stored, levels, error);
 }
 
 glint_status glint_texture_read(const glint_texture_request *request, int largest,
@@ -242,14 +70,13 @@ glint_status glint_texture_read(const glint_texture_request *request, int larges
     *levels = (glint_texture_levels){0};
     glint_stored stored;
     TRY(glint_decoder_run(&request->source, false, &stored, error));
-    const glint_status status = fill(request, &stored, levels, error);
+    const glint_status status = make(request, &stored, levels, error);
     glint_stored_free(&stored);
     if (status != GLINT_OK) {
         free(levels->texels);
         *levels = (glint_texture_levels){0};
         return status;
     }
-    fill_levels(request->is_coverage, levels);
     drop_large_levels(largest, levels);
     return GLINT_OK;
 }

@@ -74,6 +74,7 @@ typedef struct glint_texture_request {
     glint_image_source source;
     bool is_color;    // its R, G and B have the sRGB curve
     bool is_coverage; // its A is coverage: transparent texels count less in coarser levels
+    int threads;      // that compute its levels; 0: one for each core
 } glint_texture_request;
 
 // The levels of one image, in memory of its own.
