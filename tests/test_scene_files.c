@@ -155,12 +155,13 @@ static const char much_that_is_not_modelled[] = TETRAHEDRON_STORAGE
     "\"extras\":{\"glint\":{\"miror\":1}}},"
     "{\"name\":\"lens\",\"extensions\":{\"KHR_materials_clearcoat\":{},"
     "\"KHR_materials_transmission\":{\"transmissionTexture\":{\"index\":0}}}}],"
+    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\"}]}},"
     "\"extensionsUsed\":[\"KHR_materials_clearcoat\"]";
 
 static const char *const said_of_it[] = {
     ": 2 point and 2 line primitives are skipped",
     "meshes[0].primitives[0] and 1 more: a skin does not move it, as it has no JOINTS_0",
-    "nodes[1]: lights are not modelled",
+    "nodes[1]: lights have no size",
     "nodes[1]: the rotation is no unit quaternion",
     "animations[0] \"spin\": the first of 2 animations is shown",
     "materials[0] \"gold\": baseColorTexture: it names no image of a kind that is read",

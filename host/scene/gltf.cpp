@@ -160,7 +160,8 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     if (load.moves_triangles) {
         source.swept = sweep(load);
     }
-    source.motion = {load.moves_triangles, load.moves_cameras, load.clips.duration,
+    source.motion = {load.moves_triangles, load.moves_cameras, load.moves_lights,
+                     load.clips.duration,
                      load.clips.name.empty() ? nullptr : load.clips.name.c_str()};
 }
 

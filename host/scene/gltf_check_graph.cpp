@@ -2,6 +2,7 @@
 // graph of 40 nodes can have 2^40 paths, and a chain can be 50,000 deep. See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_check_storage.hpp"
+#include "scene/gltf_lights.hpp"
 #include "scene/gltf_morph.hpp"
 #include "scene/gltf_skin.hpp"
 
@@ -203,6 +204,7 @@ void check_nodes(const json &root, Model &model)
     for (std::size_t i = 0; i < nodes.size(); i++) {
         Place place = (Place() / "nodes")[i];
         tinygltf::Node &node = model.nodes.emplace_back(check_node(root, nodes[i], place, model));
+        model.light_of.push_back(check_node_light(nodes[i], place, model));
         const json &children = optional_array(nodes[i], place, "children");
         for (std::size_t c = 0; c < children.size(); c++) {
             Place child = (place / "children")[c];
@@ -299,6 +301,7 @@ void check_cameras(const json &root, Model &model)
 void check_graph(const json &root, Model &model)
 {
     check_cameras(root, model);
+    check_lights(root, model);
     check_skins(root, model);
     check_nodes(root, model);
     check_scenes(root, model);

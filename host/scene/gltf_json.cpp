@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <new>
 
 namespace glint
 {
@@ -204,6 +206,18 @@ const json *extension_of(const json &object, const Place &place, const char *nam
     const json *extensions = optional_object(object, place, "extensions");
     return extensions == nullptr ? nullptr
                                  : optional_object(*extensions, place / "extensions", name);
+}
+
+char *copy_text(const std::string &text)
+{
+    if (text.empty()) {
+        return nullptr;
+    }
+    char *copy = strdup(text.c_str());
+    if (copy == nullptr) {
+        throw std::bad_alloc();
+    }
+    return copy;
 }
 
 std::string text_of(const json &value, const Place &place)

@@ -85,6 +85,9 @@ const json *optional_object(const json &object, const Place &place, const char *
 // An object's extension; NULL where it has none of that name. Refuses one that is no object.
 const json *extension_of(const json &object, const Place &place, const char *name);
 
+// A malloc'd copy; NULL for an empty text.
+char *copy_text(const std::string &text);
+
 std::string text_of(const json &value, const Place &place);
 std::string optional_text(const json &object, const Place &place, const char *key);
 bool optional_boolean(const json &object, const Place &place, const char *key, bool fallback);

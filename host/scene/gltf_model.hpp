@@ -62,6 +62,7 @@ struct Model : tinygltf::Model {
     std::vector<std::string> variants; // the names of the file's variants of materials
     std::ptrdiff_t variant = -1;       // the chosen one; −1: the plain materials
     std::vector<MappedPrimitive> mapped;
+    std::vector<int> light_of;              // of each node, its punctual light; −1: none
     std::vector<std::size_t> target_counts; // of each mesh's morph targets: the most of a primitive
 };
 

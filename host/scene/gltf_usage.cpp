@@ -107,7 +107,7 @@ void list_usages(const Load &load, glint_scene &scene)
     if (scene.skipped_points + scene.skipped_lines > 0) {
         usages.add("points and lines", GLINT_IGNORED);
     }
-    if (load.moves_triangles || load.moves_cameras) {
+    if (load.moves_triangles || load.moves_cameras || load.moves_lights) {
         usages.add("animation", GLINT_RENDERED);
     }
     usages.move_to(scene);

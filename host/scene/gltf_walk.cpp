@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/gltf_extensions.hpp"
+#include "scene/gltf_lights.hpp"
 
 #include <algorithm>
 #include <array>
@@ -364,7 +365,7 @@ bool places_any(const Load &load, const tinygltf::Node &node)
                                         [](const Primitive &p) { return p.influences.empty(); });
 }
 
-// Which meshes and cameras the clip moves, once all visits are known.
+// Which meshes, cameras and lights the clip moves, once all visits are known.
 void survey_motion(Load &load)
 {
     std::vector<char> skin_moves;
@@ -378,6 +379,8 @@ void survey_motion(Load &load)
         }
         const tinygltf::Node &node = load.model.nodes[visit.node];
         load.moves_cameras = load.moves_cameras || (visit.moves && node.camera >= 0);
+        load.moves_lights =
+            load.moves_lights || (visit.moves && load.model.light_of[visit.node] >= 0);
         if (node.mesh >= 0) {
             visit.deforms =
                 weights_move(load.clips, visit.node) ||
@@ -389,18 +392,6 @@ void survey_motion(Load &load)
 }
 
 } // namespace
-
-char *copy_text(const std::string &text)
-{
-    if (text.empty()) {
-        return nullptr;
-    }
-    char *copy = strdup(text.c_str());
-    if (copy == nullptr) {
-        throw std::bad_alloc();
-    }
-    return copy;
-}
 
 PoseSource pose_source(const Load &load)
 {
@@ -469,12 +460,16 @@ void walk_scene(Load &load, double time, glint_scene &scene)
         placed.push_back(place_node(load, i, time, placed));
     }
     load.poses.begin(pose_source(load), time, placed);
+    allocate_lights(load, scene);
     for (std::size_t i = 0; i < load.visits.size() && load.visits[i].is_shown; i++) {
         const std::size_t index = load.visits[i].node;
         const tinygltf::Node &node = load.model.nodes[index];
         survey_node(load, index);
         if (node.camera >= 0) {
             add_camera(load, index, placed[i], cameras);
+        }
+        if (load.model.light_of[index] >= 0) {
+            add_light(load, index, placed[i], scene);
         }
         if (node.mesh >= 0) {
             draw_mesh(load, index, placed[i], scene);

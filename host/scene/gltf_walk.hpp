@@ -46,7 +46,8 @@ struct Load {
     std::vector<std::ptrdiff_t> visit_of; // [node]; −1: not visited
     Poses poses;                          // of the draws
     std::vector<Draw> draws;
-    bool moves_triangles = false, moves_cameras = false; // over time, some of those that are drawn
+    // Over time, some of those that are shown.
+    bool moves_triangles = false, moves_cameras = false, moves_lights = false;
     Tally tally;
 };
 
@@ -64,11 +65,9 @@ PoseSource pose_source(const Load &load);
 // more than fit, where `drawn` primitives are drawn already. The node must have a mesh.
 std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::size_t drawn);
 
-// Fills load.draws, scene.cameras and the counts of what is skipped, as they are at `time`.
+// Fills load.draws, scene.cameras, scene.lights and the counts of what is skipped, as they are at
+// `time`.
 void walk_scene(Load &load, double time, glint_scene &scene);
-
-// A malloc'd copy; NULL for an empty text.
-char *copy_text(const std::string &text);
 
 } // namespace glint
 

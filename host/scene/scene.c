@@ -16,6 +16,16 @@ const char *glint_treatment_name(glint_treatment treatment)
     return names[treatment];
 }
 
+const char *glint_punctual_kind_name(glint_punctual_kind kind)
+{
+    static const char *const names[] = {
+        [GLINT_PUNCTUAL_POINT] = "point",
+        [GLINT_PUNCTUAL_SPOT] = "spot",
+        [GLINT_PUNCTUAL_DIRECTIONAL] = "directional",
+    };
+    return names[kind];
+}
+
 void glint_scene_free(glint_scene *scene)
 {
     for (size_t i = 0; i < scene->material_count; i++) {
@@ -26,6 +36,9 @@ void glint_scene_free(glint_scene *scene)
     }
     for (size_t i = 0; i < scene->camera_count; i++) {
         free(scene->cameras[i].name);
+    }
+    for (size_t i = 0; i < scene->light_count; i++) {
+        free(scene->lights[i].name);
     }
     for (size_t i = 0; i < scene->variant_count; i++) {
         free(scene->variants[i]);
@@ -45,6 +58,7 @@ void glint_scene_free(glint_scene *scene)
     free(scene->nodes);
     free(scene->instances);
     free(scene->cameras);
+    free(scene->lights);
     *scene = (glint_scene){0};
 }
 

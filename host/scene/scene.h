@@ -5,6 +5,7 @@
 #include "base/status.h"
 #include "base/vector.h"
 #include "scene/camera.h"
+#include "scene/lights.h"
 #include "scene/material.h"
 
 #include <stdbool.h>
@@ -102,6 +103,9 @@ typedef struct glint_scene {
     size_t camera_count;
     glint_camera *cameras; // in depth-first order of their nodes
 
+    size_t light_count;
+    glint_punctual_light *lights; // in depth-first order of their nodes; owned
+
     size_t skipped_points, skipped_lines; // primitives drawn by nodes that were left out, with a
                                           // warning
     size_t degenerate_triangles;          // zero area: kept out of `positions`
@@ -141,10 +145,16 @@ typedef struct glint_scene_source glint_scene_source;
 
 // What the chosen clip does.
 typedef struct glint_motion {
-    bool moves_triangles, moves_cameras;
+    bool moves_triangles, moves_cameras, moves_lights;
     double duration;  // seconds, to the last key; 0 without a clip
     const char *clip; // its name, the source's; NULL where it has none
 } glint_motion;
+
+// Whether the scene differs at other times by more than its cameras.
+static inline bool glint_motion_moves_scene(const glint_motion *motion)
+{
+    return motion->moves_triangles || motion->moves_lights;
+}
 
 // `options` may be NULL. Errors: as glint_scene_load; *source is then NULL.
 glint_status glint_scene_open(const char *path, const glint_scene_options *options,

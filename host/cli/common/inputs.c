@@ -243,7 +243,7 @@ static glint_status load_scene(const glint_input_request *request, glint_inputs 
     inputs->motion = *glint_scene_motion(inputs->source);
     const glint_status status =
         glint_scene_at(inputs->source, 0, &inputs->scene, &inputs->warnings, error);
-    if (!inputs->motion.moves_triangles && !inputs->motion.moves_cameras) {
+    if (!glint_motion_moves_scene(&inputs->motion) && !inputs->motion.moves_cameras) {
         glint_scene_close(inputs->source); // it holds the file
         inputs->source = NULL;
         inputs->motion = (glint_motion){0};

@@ -96,12 +96,12 @@ static glint_status find_place(capture *work, glint_error *error)
 static glint_status set_time(capture *work, double time, glint_error *error)
 {
     glint_inputs *inputs = &work->inputs;
-    if (work->stands && (!inputs->motion.moves_triangles || time == work->time)) {
+    if (work->stands && (!glint_motion_moves_scene(&inputs->motion) || time == work->time)) {
         return GLINT_OK;
     }
     work->stands = false;
     work->time = time;
-    if (!inputs->motion.moves_triangles) {
+    if (!glint_motion_moves_scene(&inputs->motion)) {
         work->stands = true;
         return find_place(work, error);
     }
@@ -161,7 +161,7 @@ static glint_status find_first(capture *work, glint_error *error)
         glint_error_free(error);
         *error = (glint_error){0};
         status = set_time(work, (frame - 1) / request->fps, error);
-        is_left = status == GLINT_BAD_INPUT && work->inputs.motion.moves_triangles &&
+        is_left = status == GLINT_BAD_INPUT && glint_motion_moves_scene(&work->inputs.motion) &&
                   request->is_sequence && glint_frame_next(&cursor, &frame);
     }
     return status;
@@ -367,7 +367,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     if (status != GLINT_OK) {
         goto cleanup;
     }
-    if (request->frames.count > 1 && !work.inputs.motion.moves_triangles) {
+    if (request->frames.count > 1 && !glint_motion_moves_scene(&work.inputs.motion)) {
         glint_warn(&work.inputs.warnings, "%s: nothing moves: all %llu frames are the same",
                    request->inputs.scene, (unsigned long long)request->frames.count);
     }

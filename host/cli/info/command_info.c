@@ -85,14 +85,48 @@ static void print_scene(const glint_scene *scene, const glint_topology *topology
            scene->skipped_points, scene->skipped_lines, scene->degenerate_triangles);
 }
 
+static void print_lights(const glint_scene *scene)
+{
+    if (scene->light_count > 0) {
+        printf("\nLights\n");
+    }
+    for (size_t i = 0; i < scene->light_count && i < LIST_MAX; i++) {
+        const glint_punctual_light *light = &scene->lights[i];
+        printf("  %s (node %d): %s, (%g, %g, %g) %s", name_or_none(light->name), light->node_index,
+               glint_punctual_kind_name(light->kind), light->color[0], light->color[1],
+               light->color[2], light->kind == GLINT_PUNCTUAL_DIRECTIONAL ? "lx" : "cd");
+        if (isfinite(light->range)) {
+            printf(", range %g m", light->range);
+        }
+        if (light->kind == GLINT_PUNCTUAL_SPOT) {
+            printf(", cone %g to %g degrees", light->inner_angle * 180 / GLINT_PI,
+                   light->outer_angle * 180 / GLINT_PI);
+        }
+        printf("\n");
+    }
+    print_more(scene->light_count);
+}
+
 static void print_motion(const glint_motion *motion)
 {
-    if (motion->moves_triangles || motion->moves_cameras) {
-        printf("  animation %s: %g s, moves %s (shown at its beginning)\n",
-               name_or_none(motion->clip), motion->duration,
-               !motion->moves_cameras     ? "objects"
-               : !motion->moves_triangles ? "cameras"
-                                          : "objects and cameras");
+    const struct {
+        bool moves;
+        const char *what;
+    } parts[] = {{motion->moves_triangles, "objects"},
+                 {motion->moves_cameras, "cameras"},
+                 {motion->moves_lights, "lights"}};
+    const char *before = NULL;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        if (parts[i].moves && before == NULL) {
+            printf("  animation %s: %g s, moves ", name_or_none(motion->clip), motion->duration);
+        }
+        if (parts[i].moves) {
+            printf("%s%s", before != NULL ? before : "", parts[i].what);
+            before = " and ";
+        }
+    }
+    if (before != NULL) {
+        printf(" (shown at its beginning)\n");
     }
 }
 
@@ -310,6 +344,7 @@ static void print_text(const glint_subject *subject, const glint_view_request *v
     print_lists(subject->scene);
     print_usages(subject->scene);
     print_variants(subject->scene);
+    print_lights(subject->scene);
     print_cameras(subject->scene, view, subject->camera);
     print_environment(subject->environment);
     print_plan(subject);

@@ -361,7 +361,7 @@ static glint_status take_clip(render_request *request, double duration, glint_er
 glint_status render_request_settle(render_request *request, const glint_motion *motion,
                                    glint_warnings *warnings, glint_error *error)
 {
-    const bool moves = motion->moves_triangles || motion->moves_cameras;
+    const bool moves = glint_motion_moves_scene(motion) || motion->moves_cameras;
     if (request->frames.count == 0) {
         return moves ? take_clip(request, motion->duration, error)
                      : glint_fail(error, GLINT_USAGE,

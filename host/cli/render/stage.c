@@ -48,7 +48,7 @@ static glint_status take_pose(render_stage *stage, double time, glint_error *err
 static glint_status move_to(render_stage *stage, double time, glint_error *error)
 {
     glint_inputs *inputs = &stage->inputs;
-    if (inputs->motion.moves_triangles) {
+    if (glint_motion_moves_scene(&inputs->motion)) {
         return take_pose(stage, time, error);
     }
     if (inputs->motion.moves_cameras) {

@@ -81,8 +81,8 @@ static void say_sequence(const render_run *run)
                   (double)totals->rendered / seconds,
                   1e-6 * (double)totals->rays.primary / seconds);
         glint_say("  %-6s %10s %10s %10s", "", "mean", "least", "most");
-        if (run->shot.stage.inputs.motion.moves_triangles || run->request->env_name.length > 0 ||
-            run->request->capture != NULL) {
+        if (glint_motion_moves_scene(&run->shot.stage.inputs.motion) ||
+            run->request->env_name.length > 0 || run->request->capture != NULL) {
             say_spread("build", &totals->build, totals->rendered);
         }
         if (run->request->max_error > 0) {

@@ -85,7 +85,7 @@ void render_tracer_look_ahead(render_tracer *tracer, render_shot *shot, int next
     const render_request *request = shot->request;
     render_stage *stage = &shot->stage;
     const double time = render_request_time(request, next);
-    if (!stage->inputs.motion.moves_triangles || time == stage->time) {
+    if (!glint_motion_moves_scene(&stage->inputs.motion) || time == stage->time) {
         return;
     }
     stage->ahead.request = &request->inputs;

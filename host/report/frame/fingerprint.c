@@ -105,6 +105,15 @@ static void add_instance(XXH3_state_t *state, const glint_scene *scene,
     add_text(state, material->name != NULL ? material->name : "");
 }
 
+static void add_light(XXH3_state_t *state, const glint_punctual_light *light)
+{
+    const double numbers[] = {light->kind,  light->color[0],    light->color[1],   light->color[2],
+                              light->range, light->inner_angle, light->outer_angle};
+    add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
+    add_vector(state, light->position);
+    add_vector(state, light->direction);
+}
+
 static void add_scene(XXH3_state_t *state, const glint_scene *scene)
 {
     add_vector(state, scene->origin);
@@ -123,6 +132,9 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
     }
     for (size_t i = 0; i < scene->instance_count; i++) {
         add_instance(state, scene, &scene->instances[i]);
+    }
+    for (size_t i = 0; i < scene->light_count; i++) {
+        add_light(state, &scene->lights[i]);
     }
 }
 

@@ -26,7 +26,7 @@ size_t glint_inventory_device_bytes(const glint_subject *subject)
 // null where nothing moves.
 static json_t *animation_object(const glint_motion *motion)
 {
-    if (motion == NULL || !(motion->moves_triangles || motion->moves_cameras)) {
+    if (motion == NULL || !(glint_motion_moves_scene(motion) || motion->moves_cameras)) {
         return json_null();
     }
     json_t *object = json_object();
@@ -34,6 +34,7 @@ static json_t *animation_object(const glint_motion *motion)
     glint_json_put_real(object, "seconds", motion->duration);
     glint_json_put_flag(object, "moves_triangles", motion->moves_triangles);
     glint_json_put_flag(object, "moves_cameras", motion->moves_cameras);
+    glint_json_put_flag(object, "moves_lights", motion->moves_lights);
     return object;
 }
 

@@ -232,6 +232,24 @@ static json_t *instance_object(const glint_instance *instance)
     return object;
 }
 
+static json_t *light_object(const glint_punctual_light *light)
+{
+    json_t *object = json_object();
+    glint_json_put_text(object, "name", light->name);
+    glint_json_put(object, "node_index", json_integer(light->node_index));
+    glint_json_put_text(object, "type", glint_punctual_kind_name(light->kind));
+    glint_json_put(object, "position", vector(light->position));
+    glint_json_put(object, "direction", vector(light->direction));
+    // Candela, of a directional light lux.
+    glint_json_put(object, "intensity", triple(light->color[0], light->color[1], light->color[2]));
+    glint_json_put_real(object, "range", light->range); // null: no end
+    if (light->kind == GLINT_PUNCTUAL_SPOT) {
+        glint_json_put_real(object, "inner_cone_degrees", light->inner_angle * 180 / GLINT_PI);
+        glint_json_put_real(object, "outer_cone_degrees", light->outer_angle * 180 / GLINT_PI);
+    }
+    return object;
+}
+
 // null: the file's plain materials, and "" for a variant without a name.
 static json_t *variant_name(const glint_scene *scene, int variant)
 {
@@ -264,6 +282,11 @@ static void put_lists(json_t *object, const glint_scene *scene)
         (void)json_array_append_new(cameras, glint_json_camera(&scene->cameras[i]));
     }
     glint_json_put(object, "cameras", cameras);
+    json_t *lights = json_array();
+    for (size_t i = 0; i < scene->light_count; i++) {
+        (void)json_array_append_new(lights, light_object(&scene->lights[i]));
+    }
+    glint_json_put(object, "lights", lights);
 }
 
 // What the command line made of the materials, as it said it.
@@ -297,6 +320,7 @@ json_t *glint_json_scene(const glint_subject *subject, bool everything)
     glint_json_put_count(object, "instance_count", scene->instance_count);
     glint_json_put_count(object, "material_count", scene->material_count);
     glint_json_put_count(object, "camera_count", scene->camera_count);
+    glint_json_put_count(object, "light_count", scene->light_count);
     glint_json_put_count(object, "degenerate_triangles", scene->degenerate_triangles);
     glint_json_put_count(object, "texture_images",
                          scene->textures != NULL ? scene->textures->count : 0);

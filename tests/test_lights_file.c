@@ -1,0 +1,240 @@
+// Punctual lights in files: what is read, where nodes put them, how they move, and what is refused.
+#include "scene/scene.h"
+#include "support/gltf_text.h"
+#include "support/scratch.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define LIGHTS(list) ",\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[" list "]}}"
+#define LIT "\"extensions\":{\"KHR_lights_punctual\":{\"light\":"
+
+static void assert_vector(glint_vec3 got, double x, double y, double z)
+{
+    if (!(fabs(got.x - x) <= 1e-15 * fabs(x) + 1e-15 &&
+          fabs(got.y - y) <= 1e-15 * fabs(y) + 1e-15 &&
+          fabs(got.z - z) <= 1e-15 * fabs(z) + 1e-15)) {
+        fail_msg("(%.17g, %.17g, %.17g) instead of (%.17g, %.17g, %.17g)", got.x, got.y, got.z, x,
+                 y, z);
+    }
+}
+
+static void lights_are_read_with_their_defaults(void **state)
+{
+    glint_scene scene = load_tetrahedron(
+        *state, TETRAHEDRON LIGHTS(
+                    "{\"type\":\"directional\"},"
+                    "{\"type\":\"point\",\"name\":\"bulb\",\"color\":[0.5,0.25,2],"
+                    "\"intensity\":8,\"range\":3},"
+                    "{\"type\":\"spot\",\"spot\":{}},"
+                    "{\"type\":\"spot\",\"spot\":{\"innerConeAngle\":0.25,"
+                    "\"outerConeAngle\":0.5}}") ",\"extensionsRequired\":[\"KHR_lights_punctual\"],"
+                                                "\"extensionsUsed\":[\"KHR_lights_punctual\"],"
+                                                "\"scenes\":[{\"nodes\":[0,1,2,3,4]}],"
+                                                "\"nodes\":[{\"mesh\":0},"
+                                                "{" LIT "0}}},"
+                                                "{" LIT "1}},\"translation\":[1,2,3]},"
+                                                "{" LIT "2}},\"name\":\"stage\"},{" LIT "3}}},"
+                                                "{" LIT "1}},\"name\":\"of another scene\"}]");
+    assert_int_equal(scene.light_count, 4);
+    const glint_punctual_light *l = scene.lights;
+    assert_int_equal(l[0].kind, GLINT_PUNCTUAL_DIRECTIONAL);
+    assert_true(l[0].name == NULL && l[0].node_index == 1 && l[0].color[2] == 1);
+    assert_vector(l[0].direction, 0, 0, -1);
+    assert_int_equal(l[1].kind, GLINT_PUNCTUAL_POINT);
+    assert_string_equal(l[1].name, "bulb");
+    assert_true(l[1].color[0] == 4 && l[1].color[1] == 2 && l[1].color[2] == 16);
+    assert_true(l[1].range == 3);
+    assert_vector(l[1].position, 1, 2, 3);
+    assert_int_equal(l[2].kind, GLINT_PUNCTUAL_SPOT);
+    assert_string_equal(l[2].name, "stage");
+    assert_true(isinf(l[2].range) && l[2].inner_angle == 0);
+    assert_true(fabs(l[2].outer_angle - atan(1)) < 1e-15);
+    assert_true(l[3].inner_angle == 0.25 && l[3].outer_angle == 0.5);
+    assert_string_equal(scene.usages[0].name, "KHR_lights_punctual");
+    assert_int_equal(scene.usages[0].treatment, GLINT_APPROXIMATED);
+    glint_scene_free(&scene);
+}
+
+// A parent turns, scales and mirrors; instances of a node's mesh do not multiply its light.
+static void nodes_place_lights_and_scale_none(void **state)
+{
+    glint_scene scene =
+        load_tetrahedron(*state, TETRAHEDRON_STORAGE
+                         ",\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE
+                         "}]}]" LIGHTS("{\"type\":\"spot\",\"spot\":{},\"intensity\":5,\"range\":"
+                                       "2}") ",\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{"
+                                             "\"children\":[1],\"translation\":[0,7,0],"
+                                             "\"rotation\":[0,0.70710678118654752,0,0."
+                                             "70710678118654752],\"scale\":[2,3,-4]},"
+                                             "{\"mesh\":0,\"translation\":[1,1,1],\"extensions\":{"
+                                             "\"KHR_lights_punctual\":{\"light\":0},"
+                                             "\"EXT_mesh_gpu_instancing\":{\"attributes\":{"
+                                             "\"TRANSLATION\":0}}}}]");
+    assert_true(scene.instance_count == 4 && scene.light_count == 1);
+    // The quarter turn takes +z to +x and +x to −z; the scale makes (1, 1, 1) to (2, 3, −4).
+    assert_vector(scene.lights[0].position, -4, 10, -2);
+    assert_vector(scene.lights[0].direction, 1, 0, 0);
+    assert_true(scene.lights[0].color[0] == 5 && scene.lights[0].range == 2);
+    glint_scene_free(&scene);
+}
+
+static void lights_that_shine_nowhere_are_left_out(void **state)
+{
+    char *text = gltf_text(
+        &the_tetrahedron, sizeof the_tetrahedron,
+        TETRAHEDRON LIGHTS(
+            "{\"type\":\"directional\"},{\"type\":\"point\"}") ",\"scenes\":[{\"nodes\":[0,1,2]}],"
+                                                               "\"nodes\":[{\"mesh\":0},"
+                                                               "{" LIT
+                                                               "0}},\"scale\":[0,0,0]},{" LIT
+                                                               "1}},\"scale\":[0,0,0]}]");
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
+    assert_int_equal(scene.light_count, 1); // a point shines all around
+    assert_int_equal(scene.lights[0].kind, GLINT_PUNCTUAL_POINT);
+    assert_true(any_warning_has(&warnings, "nodes[1]: the light shines nowhere"));
+    assert_true(any_warning_has(&warnings, "nodes[1] and 1 more: lights have no size"));
+    glint_warnings_free(&warnings);
+    glint_scene_free(&scene);
+    free(text);
+}
+
+// ---- Over time ----------------------------------------------------------------------------------
+
+typedef struct moving_data {
+    tetrahedron mesh;
+    float times[2];
+    float places[2][3];
+} moving_data;
+
+static void lights_move_with_their_nodes(void **state)
+{
+    const moving_data data = {the_tetrahedron, {0, 2}, {{0, 1, 0}, {4, 1, 0}}};
+    char *text = gltf_text(
+        &data, sizeof data,
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24},"
+        "{\"buffer\":0,\"byteOffset\":120,\"byteLength\":8},"
+        "{\"buffer\":0,\"byteOffset\":128,\"byteLength\":24}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"},"
+        "{\"bufferView\":3,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\",\"min\":[0],"
+        "\"max\":[2]},"
+        "{\"bufferView\":4,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}],"
+        "\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE "}]}]" LIGHTS(
+            "{\"type\":\"point\"}") ",\"scenes\":[{\"nodes\":[0,1]}],"
+                                    "\"nodes\":[{\"mesh\":0},{\"children\":[2]},{" LIT "0}}}],"
+                                    "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":"
+                                    "{\"node\":1,\"path\":\"translation\"}}],"
+                                    "\"samplers\":[{\"input\":3,\"output\":4}]}]");
+    const char *path = write_bytes(*state, "moving.gltf", text, strlen(text));
+    glint_scene_source *source;
+    assert_int_equal(glint_scene_open(path, NULL, &source, NULL), GLINT_OK);
+    const glint_motion *motion = glint_scene_motion(source);
+    assert_true(motion->moves_lights && !motion->moves_triangles && !motion->moves_cameras);
+    assert_true(glint_motion_moves_scene(motion) && motion->duration == 2);
+    static const double at[][2] = {{0, 0}, {0.5, 1}, {2, 4}, {3, 4}};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        glint_scene scene;
+        assert_int_equal(glint_scene_at(source, at[i][0], &scene, NULL, NULL), GLINT_OK);
+        assert_int_equal(scene.light_count, 1);
+        assert_vector(scene.lights[0].position, at[i][1], 1, 0);
+        assert_false(scene.moves); // triangles stand
+        glint_scene_free(&scene);
+    }
+    glint_scene_close(source);
+    free(text);
+}
+
+// ---- What is refused ----------------------------------------------------------------------------
+
+typedef struct bad_case {
+    const char *rest, *said;
+} bad_case;
+
+#define NODE ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE
+#define LIGHT(text) TETRAHEDRON NODE LIGHTS("{" text "}")
+#define SPOT(text) LIGHT("\"type\":\"spot\",\"spot\":{" text "}")
+#define AT "extensions.KHR_lights_punctual."
+
+static const bad_case cases[] = {
+    {TETRAHEDRON NODE ",\"extensions\":{\"KHR_lights_punctual\":{}}", AT "lights: missing"},
+    {TETRAHEDRON NODE ",\"extensions\":{\"KHR_lights_punctual\":[]}",
+     "KHR_lights_punctual: an array"},
+    {TETRAHEDRON NODE LIGHTS("7"), AT "lights[0]: 7 stands where an object must stand"},
+    {LIGHT(""), AT "lights[0].type: \"\" is none (directional, point or spot)"},
+    {LIGHT("\"type\":\"area\""), AT "lights[0].type: \"area\" is none"},
+    {LIGHT("\"type\":\"point\",\"intensity\":-1"), AT "lights[0].intensity: -1 is less than 0"},
+    {LIGHT("\"type\":\"point\",\"intensity\":1e999"), "not JSON that can be used"},
+    {LIGHT("\"type\":\"point\",\"intensity\":null"), AT "lights[0].intensity: null stands where"},
+    {LIGHT("\"type\":\"point\",\"range\":0"), AT "lights[0].range: 0: it must be more than 0"},
+    {LIGHT("\"type\":\"spot\",\"spot\":{},\"range\":-2"), AT "lights[0].range: -2: it must"},
+    {LIGHT("\"type\":\"directional\",\"range\":\"far\""), AT "lights[0].range: the text \"far\""},
+    {LIGHT("\"type\":\"point\",\"color\":[1,1]"), AT "lights[0].color: it must be an array of 3"},
+    {LIGHT("\"type\":\"point\",\"color\":1"), AT "lights[0].color: it must be an array of 3"},
+    {LIGHT("\"type\":\"point\",\"color\":[1,-0.5,1]"),
+     AT "lights[0].color[1]: -0.5 is less than 0"},
+    {LIGHT("\"type\":\"point\",\"name\":1"), AT "lights[0].name: 1 stands where a text"},
+    {LIGHT("\"type\":\"spot\""), AT "lights[0].spot: missing"},
+    {LIGHT("\"type\":\"spot\",\"spot\":1"), AT "lights[0].spot: 1 stands where an object"},
+    {SPOT("\"innerConeAngle\":-0.1"), AT "lights[0].spot.innerConeAngle: -0.1 is less than 0"},
+    {SPOT("\"innerConeAngle\":0.8"), "innerConeAngle: 0.8 is not less than the outerConeAngle"},
+    {SPOT("\"innerConeAngle\":0.3,\"outerConeAngle\":0.3"),
+     "innerConeAngle: 0.3 is not less than the outerConeAngle, 0.3"},
+    {SPOT("\"outerConeAngle\":0"), "innerConeAngle: 0 is not less than the outerConeAngle, 0"},
+    {SPOT("\"outerConeAngle\":1.6"), AT "lights[0].spot.outerConeAngle: 1.6 is outside [0, 1.5707"},
+    {TETRAHEDRON ",\"nodes\":[{\"mesh\":0," LIT "0}}}]," ONE_SCENE,
+     "nodes[0]." AT "light: 0: there is no such light (the file has none"},
+    {TETRAHEDRON ",\"nodes\":[{\"mesh\":0," LIT "1}}}]," ONE_SCENE LIGHTS("{\"type\":\"point\"}"),
+     "nodes[0]." AT "light: 1: there is no such light (the file has 1 light"},
+    {TETRAHEDRON ",\"nodes\":[{\"mesh\":0," LIT "-1}}}]," ONE_SCENE LIGHTS("{\"type\":\"point\"}"),
+     "nodes[0]." AT "light: -1: there is no such light"},
+    {TETRAHEDRON
+     ",\"nodes\":[{\"mesh\":0,\"extensions\":{\"KHR_lights_punctual\":{}}}]," ONE_SCENE LIGHTS(
+         "{\"type\":\"point\"}"),
+     "nodes[0]." AT "light: missing"},
+};
+
+static void every_mistake_is_named(void **state)
+{
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, cases[i].rest);
+        glint_scene scene;
+        glint_warnings warnings = {0};
+        glint_error error = {0};
+        const glint_status status = load_text(*state, text, &scene, &warnings, &error);
+        if (status != GLINT_BAD_INPUT || strstr(error.message, cases[i].said) == NULL) {
+            fail_msg("said \"%s\" (%d), expected \"%s\"", error.message, (int)status,
+                     cases[i].said);
+        }
+        assert_true(strchr(error.message, '\n') == NULL && warnings.count == 0);
+        assert_true(scene.light_count == 0 && scene.lights == NULL);
+        glint_error_free(&error);
+        free(text);
+    }
+}
+
+int main(void)
+{
+#define IN_A_FOLDER(test) cmocka_unit_test_setup_teardown(test, scratch_setup, scratch_teardown)
+    const struct CMUnitTest tests[] = {
+        IN_A_FOLDER(lights_are_read_with_their_defaults),
+        IN_A_FOLDER(nodes_place_lights_and_scale_none),
+        IN_A_FOLDER(lights_that_shine_nowhere_are_left_out),
+        IN_A_FOLDER(lights_move_with_their_nodes),
+        IN_A_FOLDER(every_mistake_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
