@@ -16,6 +16,7 @@
     ARGUMENT(global const float *, attributes)                                                     \
     ARGUMENT(global const glint_texture_record *, textures)                                        \
     ARGUMENT(global const ushort *, texels)                                                        \
+    ARGUMENT(global const glint_light_record *, lights)                                            \
     ARGUMENT(global const void *, environment)                                                     \
     ARGUMENT(global const float *, irradiance)                                                     \
     ARGUMENT(global float *, vertices)    /* shade_vertices writes them, the others read */        \

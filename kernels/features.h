@@ -37,6 +37,9 @@
     FEATURE(PAINT, "matte paint is lit by the environment's irradiance", GLINT_GEOMETRY, 0, IDLE)  \
     FEATURE(GLOSS, "smooth paint reflects under its Fresnel term", GLINT_PAINT, 0, IDLE)           \
     FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, IDLE)             \
+    FEATURE(LIGHTS, "punctual lights shine on matte paint, and cast shadows",                      \
+            GLINT_PAINT || GLINT_BLEND,                                                            \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
     FEATURE(UNLIT, "unlit surfaces end a path with their colour", GLINT_GEOMETRY, 0, IDLE)         \
     FEATURE(EMISSION, "surfaces emit", GLINT_GEOMETRY, 0, IDLE)                                    \
     FEATURE(TEXTURES, "materials have textures", GLINT_GEOMETRY,                                   \

@@ -172,17 +172,10 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
 // the origin of coordinates along the plane's normal; place_on_triangle says why.
 #define START_OFFSET (R(8.0) * EPSILON)
 
-// Whether a triangle lies in the plane of the one at place `start`, −1 for none: all its corners as
-// near to it as rays start off it (place_on_triangle).
-static inline bool lies_in_plane_of(const leaf *leaf, int start, const float corners[9])
+// Whether three points lie in the plane of a triangle: all of them as near to it as rays start off
+// it (place_on_triangle).
+static inline bool lie_in_plane(const float own[9], const float corners[9])
 {
-    if (start < 0) {
-        return false;
-    }
-    const int cluster = start / GLINT_CLUSTER_LANES - leaf->first / GLINT_CLUSTER_LANES;
-    float own[9];
-    load_triangle(leaf->cluster + (long)cluster * GLINT_CLUSTER_VALUES, start % GLINT_CLUSTER_LANES,
-                  own);
     scalar a[3], b[3], farthest = R(0.0), off[3] = {R(0.0), R(0.0), R(0.0)};
 #pragma unroll
     for (int k = 0; k < 3; k++) {
@@ -201,6 +194,19 @@ static inline bool lies_in_plane_of(const leaf *leaf, int start, const float cor
         }
     }
     return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <= START_OFFSET * farthest;
+}
+
+// Whether a triangle lies in the plane of the one at place `start`, −1 for none.
+static inline bool lies_in_plane_of(const leaf *leaf, int start, const float corners[9])
+{
+    if (start < 0) {
+        return false;
+    }
+    const int cluster = start / GLINT_CLUSTER_LANES - leaf->first / GLINT_CLUSTER_LANES;
+    float own[9];
+    load_triangle(leaf->cluster + (long)cluster * GLINT_CLUSTER_VALUES, start % GLINT_CLUSTER_LANES,
+                  own);
+    return lie_in_plane(own, corners);
 }
 
 // A ray that leaves a plane meets no triangle that lies in it. Where it starts in the plane itself,

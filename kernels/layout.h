@@ -5,6 +5,11 @@
 #ifndef GLINT_KERNELS_LAYOUT_H
 #define GLINT_KERNELS_LAYOUT_H
 
+// A vector as an unevaluated sum of two floats; float precision uses the first alone.
+typedef struct glint_split_vector {
+    float high[4], low[4];
+} glint_split_vector;
+
 // ---- Cube map ----------------------------------------------------------------------------------
 // Faces in the order +X −X +Y −Y +Z −Z, oriented as in OpenEXR's ImfEnvmap.h: seen from inside,
 // unmirrored. On a face, s runs to the right and t downwards, each in [−1, 1]; the direction is the
@@ -132,6 +137,26 @@ typedef struct glint_medium_record {
     float unused[3];
 } glint_medium_record;
 
+// ---- Lights ------------------------------------------------------------------------------------
+// The scene's punctual lights, behind the last of which stands one of the kind NONE.
+#define GLINT_LIGHT_NONE 0u
+#define GLINT_LIGHT_POINT 1u
+#define GLINT_LIGHT_SPOT 2u
+#define GLINT_LIGHT_DIRECTIONAL 3u
+
+typedef struct glint_light_record {
+    unsigned int kind;       // GLINT_LIGHT_…
+    float position[3];       // stored coordinates; not of a directional light
+    glint_split_vector axis; // unit, the way that the light shines
+    // R, G, B: irradiance over π at right angles to the light; of a point or a spot 1 stored unit
+    // away.
+    glint_split_vector color;
+    float inverse_range[2]; // 1/range², per stored unit squared: high, low; 0: no end
+    float outer_cosine[2];  // of a spot: of its half angle
+    float cone_scale[2];    // of a spot: 1/(cos inner − cos outer)
+    unsigned int unused[2];
+} glint_light_record;
+
 // ---- Packets -----------------------------------------------------------------------------------
 // A packet of rays covers columns × rows of pixels, lanes row by row.
 #define GLINT_PACKET_COLUMNS(lanes) ((lanes) == 1 ? 1 : 4)
@@ -140,11 +165,7 @@ typedef struct glint_medium_record {
 #define GLINT_TILE_SIDE(tiles) ((tiles) ? 4 : 1)
 
 // ---- Frame -------------------------------------------------------------------------------------
-// Values that may change from frame to frame without compiling again. A vector is an unevaluated
-// sum of two floats; float precision uses the first alone.
-typedef struct glint_split_vector {
-    float high[4], low[4];
-} glint_split_vector;
+// Values that may change from frame to frame without compiling again.
 
 // The primary ray through the point (px, py) of the image plane, in pixels from the top left, with
 // X = px − width/2 and Y = height/2 − py, starts at origin + X origin_x + Y origin_y and runs along
@@ -268,7 +289,8 @@ enum glint_counter {
     GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT,
     GLINT_COUNT_WEIGHT_BY_STACK,
     GLINT_COUNT_TRUNCATION_SQUARES, // of each pixel's truncated weight, its samples' mean
-    GLINT_COUNTERS = 16             // room for more, and a round size
+    GLINT_COUNT_SHADOW_RAYS,
+    GLINT_COUNTERS = 16 // room for more, and a round size
 };
 
 // ---- Probes ------------------------------------------------------------------------------------

@@ -195,7 +195,6 @@ static inline void count_transmissions(const surface *s, mask transmits, tally *
     tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
 }
 
-#define TRANSMITS (GLINT_GLASS || GLINT_ALPHA)
 // Pixels may see the background past surfaces, and leave it out.
 #define SEES_THROUGH (GLINT_ALPHA && GLINT_TRANSPARENT)
 
@@ -341,6 +340,10 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     tally->deepest = SELECT(there & (depth > tally->deepest), depth, tally->deepest);
 #if GLINT_DIAGNOSTICS
     note_surfaces(tally->layers, &all->pixels[slot], there, depth);
+#endif
+#if GLINT_LIGHTS
+    s.direct = direct_light(scene, ray, &s, hit->place, met,
+                            &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
 #endif
 #if SHADES_VERTICES
     const scattering out = scatter_from_corners(scene, frame, ray, &s, hit, met);

@@ -43,6 +43,8 @@ GLINT_FEATURES(CHECK)
 #include "lookups.cl"
 #include "stream.cl"
 #include "traverse_together.cl"
+#include "shadows.cl"
+#include "punctual.cl"
 #include "layers.cl"
 #include "terms.cl"
 #include "corners.cl"

@@ -30,13 +30,17 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
     return reflectance;
 }
 
-// Rule 5: the media on both sides of a solid's surface. A back face met with an empty stack means
-// that the path began inside that solid. Sets the stacks of both branches and returns η = n_i/n_t.
+// Rule 5: a back face met with an empty stack means that the path began inside that solid.
+static inline lanes_int media_met_in(const surface *s, mask solid, lanes_int media)
+{
+    return SELECT(solid & !s->outside & (media == (lane_int)0), s->medium, media);
+}
+
+// Rule 5: the media on both sides of a solid's surface. Sets the stacks of both branches and returns η = n_i/n_t.
 static inline real cross_solid(const scene_buffers *scene, const surface *s, mask solid,
                                lanes_int *media, lanes_int *beyond, mask *lost)
 {
-    mask inside = solid & !s->outside;
-    *media = SELECT(inside & (*media == (lane_int)0), s->medium, *media);
+    *media = media_met_in(s, solid, *media);
     lanes_int entered = enter_medium(*media, s->medium, lost);
     lanes_int left = leave_medium(*media, s->medium);
     *beyond = SELECT(solid, SELECT(s->outside, entered, left), *media);
@@ -120,6 +124,18 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
 }
 #endif
 
+// What lights matte paint, over π: the environment, which occlusion darkens, and the file's lights.
+static inline real3 light_on_paint(const surface *s, real3 irradiance)
+{
+#if GLINT_TEXTURES
+    irradiance = scale(irradiance, s->occlusion);
+#endif
+#if GLINT_LIGHTS
+    irradiance = add(irradiance, s->direct);
+#endif
+    return irradiance;
+}
+
 // `media` is the path's stack; a path that began inside the solid it meets has it put right.
 static inline scattering scatter(const scene_buffers *scene, const surface *s, real3 v,
                                  lanes_int *media, real3 irradiance, mask *media_lost)
@@ -152,9 +168,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     result.bend = real_of(0);
 #endif
     result.media_reflected = *media;
-#if GLINT_TEXTURES
-    irradiance = scale(irradiance, s->occlusion);
-#endif
+    irradiance = light_on_paint(s, irradiance);
     if (GLINT_PAINT) {
         scatter_paint(s, irradiance, dielectric - glass, &result);
     }

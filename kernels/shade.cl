@@ -47,11 +47,16 @@ typedef struct surface {
 #if GLINT_NORMAL_MAPS
     real3 bump; // the normal along tangent, bitangent and normal
 #endif
+#if GLINT_LIGHTS
+    real3 direct; // irradiance over π that lights send; 0 until meet_surfaces
+#endif
     lanes_int flags, medium;
 } surface;
 
 // Hits have places: rays start there, or the environment is seen from there.
-#define HAS_PLACES (GLINT_INTERREFLECTION || GLINT_PROXY)
+#define HAS_PLACES (GLINT_INTERREFLECTION || GLINT_PROXY || GLINT_LIGHTS)
+// Light may pass surfaces.
+#define TRANSMITS (GLINT_GLASS || GLINT_ALPHA)
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 
 // The corners of the triangles hit, and their normals; zeros for rays that hit nothing.
@@ -431,6 +436,9 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
         place_on_triangle(vertices, hit, &s);
     }
     load_materials(scene, t, &s);
+#if GLINT_LIGHTS
+    s.direct = real3_of(real_of(0), real_of(0), real_of(0));
+#endif
 #if GLINT_COLORED_VERTICES
     color_surface(scene, hit, &s);
 #endif

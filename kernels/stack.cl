@@ -15,6 +15,7 @@ typedef struct scene_buffers {
     global const float *attributes; // of the triangles' corners, by the triangles' numbers
     global const glint_texture_record *textures;
     global const ushort *texels;
+    global const glint_light_record *lights;
     cube_map environment, irradiance;
     global const float *vertices; // what was found at them, with VERTEX_COLOR and VERTEX_DIRECTION
     global const uint *pixels;    // with PIXEL_LIST: their numbers, see layout.h
@@ -22,7 +23,7 @@ typedef struct scene_buffers {
 
 // The same, from the arguments of a kernel.
 #define SCENE_OF_ARGUMENTS                                                                         \
-    {nodes, clusters, normals, numbers, materials, media, attributes, textures, texels,            \
+    {nodes, clusters, normals, numbers, materials, media, attributes, textures, texels, lights,    \
      {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
      {irradiance, frame.irradiance_edge, false},                                                   \
      vertices,                                                                                     \

@@ -32,21 +32,26 @@ typedef struct stream {
     int here[STREAM_RAYS + STREAM_PADDING], met[STREAM_RAYS + STREAM_PADDING];
 } stream;
 
+// Takes a ray out of a packet, which is that of a group.
+static inline void take_stream_ray(const packet *p, int group, int lane, lanes_int from,
+                                   stream_ray *r)
+{
+    r->ray = take_ray(p, lane, from);
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        r->inverse[k] = LANE(p->inverse[k], lane);
+        r->widening[k] = FRUSTUM_SLACK * fabs(r->inverse[k]);
+        r->near[k] = (r->inverse[k] > R(0.0) ? k : 3 + k) * GLINT_BVH_WIDTH;
+    }
+    r->farthest = SCENE_END;
+    r->group = group;
+    r->lane = lane;
+}
+
 static inline void join_stream(stream *s, const packet *p, int group, mask these, lanes_int from)
 {
     for (uint left = mask_bits(these); left != 0; left &= left - 1) {
-        const int lane = lowest_bit(left);
-        stream_ray *r = &s->rays[s->count++];
-        r->ray = take_ray(p, lane, from);
-#pragma unroll
-        for (int k = 0; k < 3; k++) {
-            r->inverse[k] = LANE(p->inverse[k], lane);
-            r->widening[k] = FRUSTUM_SLACK * fabs(r->inverse[k]);
-            r->near[k] = (r->inverse[k] > R(0.0) ? k : 3 + k) * GLINT_BVH_WIDTH;
-        }
-        r->farthest = SCENE_END;
-        r->group = group;
-        r->lane = lane;
+        take_stream_ray(p, group, lowest_bit(left), from, &s->rays[s->count++]);
     }
 }
 

@@ -153,6 +153,43 @@ static void unlit_and_blended_materials_hide_their_other_factors(void **state)
     assert_false(compiles(&plan, GLINT_FEATURE_EMISSION) || compiles(&plan, GLINT_FEATURE_PAINT));
 }
 
+static void lights_are_compiled_where_paint_shows_them(void **state)
+{
+    (void)state;
+    static glint_punctual_light lights[GLINT_PUNCTUAL_LIGHTS_MAX + 1];
+    glint_settings settings = glint_settings_default;
+    glint_material blend = white_paint;
+    blend.mirror = 0.5f;
+    test_scene s;
+    glint_plan plan;
+    make_scene(&s, &white_paint, 1);
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_false(compiles(&plan, GLINT_FEATURE_LIGHTS));
+    s.scene.lights = lights;
+    s.scene.light_count = GLINT_PUNCTUAL_LIGHTS_MAX;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_LIGHTS));
+    assert_string_equal(plan.features[GLINT_FEATURE_LIGHTS].reason, "1024 lights");
+    make_scene(&s, &blend, 1);
+    s.scene.light_count = 1;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_true(compiles(&plan, GLINT_FEATURE_LIGHTS));
+    settings.shading = GLINT_SHADING_VERTEX_DIRECTION;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_false(compiles(&plan, GLINT_FEATURE_LIGHTS));
+    settings.shading = GLINT_SHADING_PIXEL;
+    settings.output = GLINT_OUTPUT_HITS;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_false(compiles(&plan, GLINT_FEATURE_LIGHTS));
+    settings.output = GLINT_OUTPUT_COLOR;
+    s.scene.light_count = GLINT_PUNCTUAL_LIGHTS_MAX + 1;
+    glint_error error = {0};
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, &error), GLINT_BAD_INPUT);
+    assert_non_null(strstr(error.message, "1025 lights shine, 1024 at most"));
+    settings.lights = GLINT_LIGHTS_NONE;
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+}
+
 static void the_width_follows_the_device(void **state)
 {
     (void)state;
@@ -418,6 +455,7 @@ int main(void)
         cmocka_unit_test(a_mirror_compiles_no_glass_and_no_paint),
         cmocka_unit_test(glass_compiles_what_its_volume_asks_for),
         cmocka_unit_test(unlit_and_blended_materials_hide_their_other_factors),
+        cmocka_unit_test(lights_are_compiled_where_paint_shows_them),
         cmocka_unit_test(the_width_follows_the_device),
         cmocka_unit_test(the_stack_holds_every_branch_that_the_least_weight_allows),
         cmocka_unit_test(the_plan_says_how_secondary_rays_are_traced),

@@ -8,6 +8,7 @@ void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more)
     sum->refracted_in += more->refracted_in;
     sum->refracted_out += more->refracted_out;
     sum->transmitted += more->transmitted;
+    sum->shadow += more->shadow;
     sum->total_reflections += more->total_reflections;
 }
 
@@ -15,7 +16,7 @@ uint64_t glint_ray_counts_all(const glint_ray_counts *rays)
 {
     // Total reflections are among the reflected.
     return rays->primary + rays->reflected + rays->refracted_in + rays->refracted_out +
-           rays->transmitted;
+           rays->transmitted + rays->shadow;
 }
 
 double glint_truncation_total(const glint_truncation *truncation)

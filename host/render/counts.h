@@ -12,6 +12,7 @@ typedef struct glint_ray_counts {
     uint64_t refracted_in;      // into a solid
     uint64_t refracted_out;     // out of a solid
     uint64_t transmitted;       // straight through a thin wall
+    uint64_t shadow;            // to lights; surfaces that let light pass count no more
     uint64_t total_reflections; // of `reflected`, those by total internal reflection
 } glint_ray_counts;
 

@@ -60,7 +60,7 @@ size_t glint_device_scene_bytes(const glint_device_scene *s)
     return glint_buffer_bytes(g->clusters.buffer) + glint_buffer_bytes(g->normals.buffer) +
            glint_buffer_bytes(g->numbers.buffer) + glint_buffer_bytes(g->materials) +
            glint_buffer_bytes(g->media) + glint_buffer_bytes(g->attributes) +
-           glint_buffer_bytes(s->textures.texels);
+           glint_buffer_bytes(g->lights) + glint_buffer_bytes(s->textures.texels);
 }
 
 size_t glint_device_scene_tree_bytes(const glint_device_scene *s)

@@ -28,8 +28,13 @@ static bool goes_on(const glint_plan *plan)
            has(plan, GLINT_FEATURE_GLOSS) || has(plan, GLINT_FEATURE_BLEND);
 }
 
-static void add_vertices(const glint_settings *settings, glint_ladder *ladder)
+// Not where lights shine, which vertices do not show.
+static void add_vertices(const glint_plan *plan, const glint_settings *settings,
+                         glint_ladder *ladder)
 {
+    if (has(plan, GLINT_FEATURE_LIGHTS)) {
+        return;
+    }
     add(ladder, settings, "colours at vertices", "--shading vertex-color")->settings.shading =
         GLINT_SHADING_VERTEX_COLOR;
     add(ladder, settings, "directions at vertices", "--shading vertex-direction")
@@ -147,7 +152,7 @@ void glint_ladder_make(const glint_plan *plan, const glint_settings *settings, g
         add_exact(plan, settings, ladder);
         return;
     }
-    add_vertices(settings, ladder);
+    add_vertices(plan, settings, ladder);
     add_depth(settings, 1, ladder);
     if (has(plan, GLINT_FEATURE_SPLIT)) {
         add_branching(settings, ladder);

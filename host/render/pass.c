@@ -24,6 +24,7 @@ static void count_rays(const uint32_t *counters, glint_ray_counts *rays)
     rays->refracted_in = total_of(counters, GLINT_COUNT_REFRACTED_IN);
     rays->refracted_out = total_of(counters, GLINT_COUNT_REFRACTED_OUT);
     rays->transmitted = total_of(counters, GLINT_COUNT_TRANSMITTED);
+    rays->shadow = total_of(counters, GLINT_COUNT_SHADOW_RAYS);
     rays->total_reflections = total_of(counters, GLINT_COUNT_TOTAL_REFLECTIONS);
 }
 

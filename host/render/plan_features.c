@@ -146,6 +146,38 @@ static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
+// Why no light of the scene shines; NULL: they do.
+static const char *no_lights(const glint_plan_inputs *in, const glint_plan *plan)
+{
+    const bool is_paint = plan->features[GLINT_FEATURE_PAINT].compiled ||
+                          plan->features[GLINT_FEATURE_BLEND].compiled;
+    return in->scene->light_count == 0                 ? "the scene has no lights"
+           : in->settings->lights == GLINT_LIGHTS_NONE ? "lights none"
+           : in->settings->output == GLINT_OUTPUT_HITS ? "hits alone are wanted"
+           : glint_plan_shades_vertices(plan) ? "vertices are shaded, by the environment alone"
+           : !is_paint                        ? "no material shows lights"
+                                              : NULL;
+}
+
+static glint_status decide_lights(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
+{
+    const glint_scene *scene = in->scene;
+    const size_t count = scene->light_count;
+    const char *why_not = no_lights(in, plan);
+    if (why_not != NULL) {
+        decide(plan, GLINT_FEATURE_LIGHTS, false, "%s", why_not);
+        return GLINT_OK;
+    }
+    decide(plan, GLINT_FEATURE_LIGHTS, true, "%zu light%s", count, count == 1 ? "" : "s");
+    return count <= GLINT_PUNCTUAL_LIGHTS_MAX
+               ? GLINT_OK
+               : glint_fail(error, GLINT_BAD_INPUT,
+                            "%s: %zu lights shine, %d at most can be rendered (leave some out, or "
+                            "use --lights none)",
+                            scene->path != NULL ? scene->path : "the scene", count,
+                            GLINT_PUNCTUAL_LIGHTS_MAX);
+}
+
 static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
 {
     const glint_scene *scene = in->scene;
@@ -216,7 +248,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     decide_scene(in, plan);
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);
-    return GLINT_OK;
+    return decide_lights(in, plan, error);
 }
 
 // From the depth, and from what is proved of the scene.

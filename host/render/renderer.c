@@ -23,6 +23,7 @@ glint_scene_arguments glint_renderer_scene_arguments(const glint_renderer *r)
         .attributes = g->attributes,
         .textures = r->scene.textures.records,
         .texels = r->scene.textures.texels,
+        .lights = g->lights,
         .environment = r->light.chosen.environment,
         .irradiance = r->light.chosen.irradiance,
         .vertices = r->scene.vertices,

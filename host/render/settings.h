@@ -57,6 +57,12 @@ typedef enum glint_irradiance {
     GLINT_IRRADIANCE_SH,    // nine spherical harmonics, see environment/harmonics.h
 } glint_irradiance;
 
+// Whether the file's punctual lights shine.
+typedef enum glint_lights {
+    GLINT_LIGHTS_FILE, // on paint that pixels shade
+    GLINT_LIGHTS_NONE,
+} glint_lights;
+
 #define GLINT_LIST_COLUMNS 16
 #define GLINT_SAMPLES_PER_AXIS_MAX 64
 #define GLINT_DEPTH_MAX 64   // what --depth auto stops at; larger depths may be asked for by number
@@ -93,6 +99,7 @@ typedef struct glint_settings {
     glint_texels texels;
     glint_filter filter;
     glint_irradiance irradiance;
+    glint_lights lights;
     bool proxy;            // the environment has one (environment.h), which is heeded: with the
                            // bilinear filter, shading pixel and no terms
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers

@@ -214,6 +214,12 @@ const glint_setting glint_setting_table[] = {
                         "environment; sh, its nine spherical harmonics, which take less time and "
                         "are off where a light is small.",
                 .choices = GLINT_CHOICES("exact", "sh")}},
+    {GLINT_SETTINGS_OF_FRAME, MEMBER(lights), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
+     .key = "lights",
+     .option = {GLINT_OPTION_CHOICE, .name = "lights", .argument = "KIND",
+                .help = "Whether the point, spot and directional lights of the file shine: file or "
+                        "none. Matte paint shows their light and shadows.",
+                .choices = GLINT_CHOICES("file", "none")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(shading), .fingerprint = 15, .key = "shading",
      .no_capture = "a capture shows what surfaces see of each other, which vertices do not",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,

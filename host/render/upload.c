@@ -5,6 +5,8 @@
 #include "environment/half_texels.h"
 #include "environment/mip_levels.h"
 #include "kernels/layout.h"
+#include "render/punctual.h"
+#include "render/split.h"
 #include "render/vertices.h"
 
 #include <math.h>
@@ -16,6 +18,7 @@ _Static_assert(sizeof(glint_material_record) == 96, "glint_material_record has g
 _Static_assert(sizeof(glint_texture_record) == 112, "glint_texture_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
+_Static_assert(sizeof(glint_light_record) == 112, "glint_light_record has gaps");
 _Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
 _Static_assert(sizeof(glint_frame_record) == 12 * 32 + 27 * 4, "glint_frame_record has gaps");
 
@@ -113,8 +116,7 @@ static glint_medium_record medium_record(const glint_material *m, double unit)
             sigma = -log(color) / (double)m->attenuation_distance * unit;
             sigma = m->attenuation_color[k] > 0 ? fmin(sigma, 1e30) : 1e30;
         }
-        record.absorption_high[k] = (float)sigma;
-        record.absorption_low[k] = (float)(sigma - (double)record.absorption_high[k]);
+        glint_split_number(sigma, &record.absorption_high[k], &record.absorption_low[k]);
     }
     return record;
 }
@@ -169,6 +171,9 @@ glint_status glint_geometry_upload(const glint_upload_inputs *in, glint_geometry
     if (status == GLINT_OK) {
         status = upload_materials(in, memory, error);
     }
+    if (status == GLINT_OK) {
+        status = glint_lights_upload(in->device, in->scene, &memory->lights, error);
+    }
     if (status != GLINT_OK) {
         glint_geometry_memory_free(memory);
     }
@@ -200,6 +205,7 @@ void glint_geometry_memory_free(glint_geometry_memory *memory)
     glint_buffer_release(&memory->materials);
     glint_buffer_release(&memory->media);
     glint_buffer_release(&memory->attributes);
+    glint_buffer_release(&memory->lights);
 }
 
 // The environment and its coarser levels. Of halfs the map's own texels need no copy in between.

@@ -14,7 +14,7 @@
 // need are a few bytes long, as a kernel's arguments cannot be left out.
 typedef struct glint_geometry_memory {
     glint_shared_buffer nodes, clusters, normals, numbers; // the tree's arrays
-    cl_mem materials, media, attributes;
+    cl_mem materials, media, attributes, lights;
 } glint_geometry_memory;
 
 // What is uploaded of a scene. Pointers are borrowed. A device that shares the host's memory takes

@@ -2,6 +2,8 @@
 // glint_frame_record.
 #include "render/view.h"
 
+#include "render/split.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -11,18 +13,12 @@ glint_stored_space glint_stored_space_of(const glint_scene *scene)
     return (glint_stored_space){scene->origin, unit, scene->low, scene->high};
 }
 
-static void split_number(double value, float *high, float *low)
-{
-    *high = (float)value;
-    *low = (float)(value - (double)*high);
-}
-
 static glint_split_vector split_vector(glint_vec3 v)
 {
     glint_split_vector split = {{0}, {0}};
-    split_number(v.x, &split.high[0], &split.low[0]);
-    split_number(v.y, &split.high[1], &split.low[1]);
-    split_number(v.z, &split.high[2], &split.low[2]);
+    glint_split_number(v.x, &split.high[0], &split.low[0]);
+    glint_split_number(v.y, &split.high[1], &split.low[1]);
+    glint_split_number(v.z, &split.high[2], &split.low[2]);
     return split;
 }
 
@@ -83,19 +79,19 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     record->direction = split_vector(forward);
     record->direction_x = split_vector(camera->orthographic ? none : step_x);
     record->direction_y = split_vector(camera->orthographic ? none : step_y);
-    split_number(start, &record->start[0], &record->start[1]);
+    glint_split_number(start, &record->start[0], &record->start[1]);
 
     record->image_x = split_vector(glint_vec3_scale(camera->right, 1 / step));
     record->image_y = split_vector(glint_vec3_scale(camera->up, 1 / step));
     record->image_z = split_vector(forward);
-    split_number(camera->orthographic ? 1 : start, &record->image_offset[0],
-                 &record->image_offset[1]);
+    glint_split_number(camera->orthographic ? 1 : start, &record->image_offset[0],
+                       &record->image_offset[1]);
     record->image_slope = camera->orthographic ? 0 : 1;
     record->key_is_inverse = !camera->orthographic && start <= FAR_EYE * range.extent;
 
     double angle = fmod(settings->env_rotate, 360) * GLINT_PI / 180;
-    split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
-    split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
+    glint_split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
+    glint_split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
     record->min_weight = (float)settings->min_weight;
     int pixels[2];
     glint_settings_pixels(settings, pixels);

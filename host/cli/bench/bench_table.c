@@ -103,9 +103,13 @@ static void print_rays(const json_t *scene, FILE *out)
     static const struct {
         const char *key, *label;
     } classes[] = {
-        {"primary", "primary"},           {"reflected", "reflected"},
-        {"refracted_in", "refracted in"}, {"refracted_out", "refracted out"},
-        {"transmitted", "through walls"}, {"all", "all"},
+        {"primary", "primary"},
+        {"reflected", "reflected"},
+        {"refracted_in", "refracted in"},
+        {"refracted_out", "refracted out"},
+        {"transmitted", "through walls"},
+        {"shadow", "to lights"},
+        {"all", "all"},
     };
     const json_t *rays = glint_json_at(scene, "rays");
     const json_t *rates = glint_json_at(scene, "mrays_per_second");

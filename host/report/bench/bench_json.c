@@ -45,7 +45,8 @@ static json_t *rates_object(const glint_bench_result *result)
     } classes[] = {
         {"primary", rays->primary},           {"reflected", rays->reflected},
         {"refracted_in", rays->refracted_in}, {"refracted_out", rays->refracted_out},
-        {"transmitted", rays->transmitted},   {"all", glint_ray_counts_all(rays)},
+        {"transmitted", rays->transmitted},   {"shadow", rays->shadow},
+        {"all", glint_ray_counts_all(rays)},
     };
     // Rays in 1e6 over milliseconds in 1e-3.
     double scale = 1e-3 / result->kernel.median;

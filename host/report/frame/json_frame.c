@@ -9,6 +9,7 @@ json_t *glint_json_rays(const glint_ray_counts *rays)
     glint_json_put_count(object, "refracted_in", rays->refracted_in);
     glint_json_put_count(object, "refracted_out", rays->refracted_out);
     glint_json_put_count(object, "transmitted", rays->transmitted);
+    glint_json_put_count(object, "shadow", rays->shadow);
     glint_json_put_count(object, "all", glint_ray_counts_all(rays));
     glint_json_put_count(object, "total_reflections", rays->total_reflections);
     return object;

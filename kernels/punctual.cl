@@ -1,0 +1,120 @@
+// Punctual lights, by KHR_lights_punctual (glint_light_record of layout.h). They shine on matte
+// paint. Mirrors and glass do not show them, as a point has no size.
+#if GLINT_LIGHTS
+
+// What a light sends to surfaces if nothing is on the way.
+typedef struct arrival {
+    real3 direction;  // unit, to the light
+    real distance;    // to the light; HUGE of a directional one
+    real3 irradiance; // over π; 0 where the light is not above the surface
+} arrival;
+
+static inline real3 join_vector_of(global const glint_split_vector *v)
+{
+    const glint_split_vector own = *v;
+    return join_vector(&own);
+}
+
+static inline real between_0_and_1(real x)
+{
+    x = LARGER(x, real_of(0));
+    return SMALLER(x, real_of(1));
+}
+
+// How much of a point's light is left at the square of the distance: max(1 − (d/range)⁴, 0)/d².
+static inline real falloff(global const glint_light_record *light, real squared)
+{
+    const real share = squared * JOIN(light->inverse_range[0], light->inverse_range[1]);
+    const real open = R(1.0) - share * share;
+    return LARGER(open, real_of(0)) / squared;
+}
+
+// What a spot's cone leaves of it: ((cos θ − cos outer)/(cos inner − cos outer))², between 0 and 1.
+static inline real cone_left(global const glint_light_record *light, real3 to_light)
+{
+    const real cosine = -dot3(to_light, join_vector_of(&light->axis));
+    const real share = (cosine - JOIN(light->outer_cosine[0], light->outer_cosine[1])) *
+                       JOIN(light->cone_scale[0], light->cone_scale[1]);
+    const real left = between_0_and_1(share);
+    return left * left;
+}
+
+// A light in the surface's plane, as far as rounding tells, is not above it.
+static inline arrival arrive(global const glint_light_record *light, const surface *s)
+{
+    arrival a;
+    mask above;
+    real strength = real_of(1);
+    if (light->kind == GLINT_LIGHT_DIRECTIONAL) {
+        a.direction = negate(join_vector_of(&light->axis));
+        a.distance = real_of(HUGE);
+        above = dot3(a.direction, s->geometric_normal) > R(0.0);
+    } else {
+        const real3 to = subtract(real3_of(real_of(light->position[0]), real_of(light->position[1]),
+                                           real_of(light->position[2])),
+                                  s->position);
+        const real squared = dot3(to, to);
+        a.direction = normalized(to, &above);
+        a.distance = sqrt(squared);
+        above = above & (dot3(to, s->geometric_normal) > s->offset);
+        strength = falloff(light, squared);
+        if (light->kind == GLINT_LIGHT_SPOT) {
+            strength *= cone_left(light, a.direction);
+        }
+    }
+    strength *= dot3(a.direction, s->lit_normal);
+    // NaN gives nothing.
+    strength = SELECT(above & (strength > R(0.0)), strength, real_of(0));
+    a.irradiance = scale(join_vector_of(&light->color), strength);
+    return a;
+}
+
+// Surfaces that send some of what lights them back.
+static inline mask is_matte(const surface *s)
+{
+    mask matte = (R(1.0) - s->metallic) * (R(1.0) - s->transmission) > R(0.0);
+    if (GLINT_BLEND) {
+        matte = matte | (HAS_FLAG(*s, GLINT_MATERIAL_BLEND) & (s->blend < R(1.0)));
+    }
+#if GLINT_ALPHA
+    matte = matte & (s->coverage > R(0.0));
+#endif
+    return matte & (largest3(s->base_color) > R(0.0));
+}
+
+// The irradiance over π that all lights send to what the rays in `met` met, at `places`.
+// Adds the shadow rays to a counter.
+static inline real3 direct_light(const scene_buffers *scene, const path *ray, const surface *s,
+                                 lanes_int places, mask met, ulong *shadow_rays)
+{
+    const real3 nothing = real3_of(real_of(0), real_of(0), real_of(0));
+    const mask wanted = met & is_matte(s) & (largest3(ray->weight) > R(0.0));
+    real3 sum = nothing;
+    if (!any_lane(wanted)) {
+        return sum;
+    }
+    for (global const glint_light_record *light = scene->lights; light->kind != GLINT_LIGHT_NONE;
+         light++) {
+        const arrival a = arrive(light, s);
+        const mask lit = wanted & (largest3(a.irradiance) > R(0.0));
+        if (!any_lane(lit)) {
+            continue;
+        }
+        path to_light = *ray;
+        to_light.origin = scale_add(s->geometric_normal, s->offset, s->position);
+        to_light.direction = a.direction;
+        to_light.from = places;
+#if GLINT_SOLID
+        to_light.media = media_met_in(s, HAS_FLAG(*s, GLINT_MATERIAL_SOLID), ray->media);
+#endif
+#if CARRIES_CONES
+        to_light.cone.width = to_light.cone.spread = real_of(0);
+#endif
+        const real3 left = light_left(scene, &to_light, light, a.distance, lit);
+        sum = add(sum, select3(lit, multiply(left, a.irradiance), nothing));
+        *shadow_rays += (ulong)count_lanes(lit);
+    }
+    return sum;
+}
+
+#endif

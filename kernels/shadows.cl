@@ -1,0 +1,173 @@
+// Shadow rays: what is left of the light on its way from a light to a surface. They run from the
+// surface to the light, each by itself, as what is opaque ends a ray wherever it stands on the way.
+// Light goes straight on through the rest, without refraction: glass takes its Fresnel term and its
+// colour, a solid what it absorbs, and alpha lets pass what is not there. Of these the nearest are
+// passed first, so that the product has the same bits in every tree.
+#if GLINT_LIGHTS
+
+// More surfaces than these on the way leave nothing.
+#define SHADOW_SURFACES 64
+
+// Whether light may pass the triangles of a cluster.
+static inline bool lets_light_pass(const scene_buffers *scene, global const float *cluster)
+{
+#if TRANSMITS
+    const int material =
+        GLINT_MANY_MATERIALS ? ((global const int *)cluster)[GLINT_CLUSTER_MATERIAL] : 0;
+    return (scene->materials[material].flags & (GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN |
+                                                GLINT_MATERIAL_MASK | GLINT_MATERIAL_COVER)) != 0;
+#else
+    return false;
+#endif
+}
+
+// Whether triangle i of a leaf is met before *hit, in the ray's lane; then it takes its place. A
+// light in the plane of a triangle is on this side of it: hits near the light are looked at again.
+static inline bool meet_before_light(const stream_ray *r, const leaf *leaf,
+                                     const cluster_test *test, int i,
+                                     global const glint_light_record *light, scalar light_at,
+                                     closest *hit)
+{
+    closest trial = *hit;
+    if (!take_if_nearer(&r->ray, leaf, test, i, &trial, r->lane)) {
+        return false;
+    }
+    if (LANE(trial.t, r->lane) > (R(1.0) - NEXT_TO_NOTHING) * light_at) {
+        float own[9], at[9];
+        load_triangle(leaf->cluster, i, own);
+        for (int k = 0; k < 9; k++) {
+            at[k] = light->position[k % 3];
+        }
+        if (lie_in_plane(own, at)) {
+            return false;
+        }
+    }
+    *hit = trial;
+    return true;
+}
+
+// Whether something opaque is on the way, `light_at` long. Else the nearest surface that lets light
+// pass becomes *hit, in the ray's lane.
+static inline bool is_blocked(stream_ray *r, const scene_buffers *scene,
+                              global const glint_light_record *light, scalar light_at, closest *hit)
+{
+    int stack[GLINT_TRAVERSAL_STACK];
+    int size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+        const int child = stack[--size];
+        if (child >= 0) {
+            node_pointer node = node_at(scene, child);
+            for (uint met = boxes_at_ray(r, node); met != 0; met &= met - 1) {
+                stack[size++] = child_of(node, lowest_bit(met));
+            }
+            continue;
+        }
+        const leaf leaf = {scene->clusters + (size_t)~child * GLINT_CLUSTER_VALUES, scene->numbers,
+                           ~child * GLINT_CLUSTER_LANES};
+        cluster_test test;
+        bool found = false;
+        test_cluster(&r->ray, &leaf, &test);
+        for (uint left = test.inside; left != 0; left &= left - 1) {
+            found |= meet_before_light(r, &leaf, &test, lowest_bit(left), light, light_at, hit);
+        }
+        if (found && !lets_light_pass(scene, leaf.cluster)) {
+            return true;
+        }
+        r->farthest = SMALLER(r->farthest, LANE(hit->t, r->lane));
+    }
+    return false;
+}
+
+// The rays that are blocked; `distance` is the light's.
+static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
+                                  global const glint_light_record *light, real distance,
+                                  mask wanted, closest *hit)
+{
+    const packet p = make_packet(rays->origin, rays->direction);
+    lanes_int blocked = int_of(0);
+    *hit = no_hit();
+    hit->t = SMALLER(distance, hit->t);
+    wanted = wanted & is_sound(rays->origin, rays->direction);
+    for (uint left = mask_bits(wanted); left != 0; left &= left - 1) {
+        stream_ray r;
+        const int lane = lowest_bit(left);
+        take_stream_ray(&p, 0, lane, rays->from, &r);
+        r.farthest = SMALLER(r.farthest, LANE(hit->t, lane));
+        LANE_INT(blocked, lane) = is_blocked(&r, scene, light, LANE(hit->t, lane), hit) ? 1 : 0;
+    }
+    return blocked != (lane_int)0;
+}
+
+#if TRANSMITS
+
+// What a surface lets pass of light that goes straight on.
+static inline real3 light_passing(const surface *s)
+{
+    real3 passing = real3_of(real_of(0), real_of(0), real_of(0));
+#if GLINT_GLASS
+    const mask glass = HAS_FLAG(*s, GLINT_MATERIAL_SOLID) | HAS_FLAG(*s, GLINT_MATERIAL_THIN);
+    const real share = (R(1.0) - s->metallic) * s->transmission;
+    const real reflectance =
+        GLINT_FRESNEL ? surface_reflectance(s->cosine, s->ior) : real_of(0);
+    passing = scale(s->base_color, SELECT(glass, share - share * reflectance, real_of(0)));
+#endif
+#if GLINT_ALPHA
+    const mask partly = s->coverage < R(1.0);
+    const real gone = SELECT(partly, R(1.0) - s->coverage, real_of(0));
+    passing = add(scale(passing, SELECT(partly, s->coverage, real_of(1))),
+                  real3_of(gone, gone, gone));
+#endif
+    return passing;
+}
+
+// Takes the rays in `met`, which have `left` so far, past what they met.
+static inline void pass_surfaces(const scene_buffers *scene, path *rays, const closest *hit,
+                                 mask met, real3 *left)
+{
+    const triangle triangles = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
+    const surface s = find_surface(scene, rays, hit, &triangles);
+    lanes_int beyond = rays->media;
+#if GLINT_SOLID
+    mask lost;
+    (void)cross_solid(scene, &s, HAS_FLAG(s, GLINT_MATERIAL_SOLID), &rays->media, &beyond, &lost);
+#endif
+    real3 passing = light_passing(&s);
+#if GLINT_ABSORPTION
+    passing = multiply(passing, medium_transmittance(scene->media, medium_on_top(rays->media),
+                                                     SELECT(met, hit->t, real_of(0))));
+#endif
+    *left = select3(met, multiply(*left, passing), *left);
+    rays->media = SELECT(met, beyond, rays->media);
+    rays->origin = scale_add(s.geometric_normal, -s.offset, s.position);
+    rays->from = hit->place;
+}
+
+#endif
+
+// What is left of a light's on its way to the rays' origins.
+static inline real3 light_left(const scene_buffers *scene, path *rays,
+                               global const glint_light_record *light, real distance, mask wanted)
+{
+    const real one = real_of(1);
+    const real3 nothing = real3_of(real_of(0), real_of(0), real_of(0));
+    real3 left = real3_of(one, one, one);
+    closest hit;
+    const mask dark = trace_to_light(scene, rays, light, distance, wanted, &hit);
+    left = select3(dark, nothing, left);
+#if TRANSMITS
+    wanted = wanted & !dark & (hit.place >= (lane_int)0);
+    for (int passed = 1; any_lane(wanted); passed++) {
+        pass_surfaces(scene, rays, &hit, wanted, &left);
+        distance -= hit.t;
+        wanted = wanted & (largest3(left) > R(0.0));
+        const mask blocked = trace_to_light(scene, rays, light, distance, wanted, &hit) |
+                             (passed == SHADOW_SURFACES ? mask_all() : mask_none());
+        left = select3(wanted & blocked, nothing, left);
+        wanted = wanted & !blocked & (hit.place >= (lane_int)0);
+    }
+#endif
+    return left;
+}
+
+#endif
