@@ -19,7 +19,7 @@
 static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
 {
     (void)state;
-    static const char *const names[] = {"materials", "nested_glass", "absorption_box"};
+    static const char *const names[] = {"materials", "nested_glass", "absorption_box", "lights"};
     // Widths and tiles; the last two are for the scene that has everything.
     static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}, {1, 16}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -178,8 +178,8 @@ static void cones_change_nothing_where_texels_are_wide(void **state)
 static void features_that_a_scene_does_not_need_change_nothing(void **state)
 {
     (void)state;
-    static const char *const names[] = {"mirror_sphere", "glass_sphere", "thin_wall",
-                                        "lecture_example_2", "materials"};
+    static const char *const names[] = {"mirror_sphere",     "glass_sphere", "thin_wall",
+                                        "lecture_example_2", "materials",    "lights"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         glint_settings settings = test_small_frame(4);
         test_frame minimal, everything;

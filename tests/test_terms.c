@@ -113,7 +113,8 @@ static void a_frame_lit_anew_is_a_frame(void **state)
 {
     (void)state;
     static const char *const scenes[] = {"mirror_sphere", "lecture_example_2", "materials",
-                                         "glass_sphere",  "absorption_box",    "facing_mirrors"};
+                                         "glass_sphere",  "absorption_box",    "facing_mirrors",
+                                         "lights"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         glint_settings settings = keeping(32, 4);
         check(scenes[i], &settings);

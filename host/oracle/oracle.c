@@ -2,6 +2,7 @@
 // transport") counts them.
 #include "oracle/oracle.h"
 #include "oracle/hit.h"
+#include "oracle/lights.h"
 #include "oracle/surface.h"
 #include "oracle/vector.h"
 
@@ -232,6 +233,65 @@ static vector irradiance(const walk *w, const surface *s)
     return scaled(environment(w->scene, w->scene->irradiance, s->lit), s->occlusion);
 }
 
+// Rule 10: punctual lights.
+
+// The way of a light's to a surface: what is left of it, and the solids that it is inside.
+typedef struct shadow {
+    const walk *walk;
+    path way;
+} shadow;
+
+// Straight on: through what is not there, and through glass by its Fresnel term and colour.
+static vector pass_straight(void *state, const oracle_hit *hit, vector direction)
+{
+    shadow *to_light = state;
+    path *way = &to_light->way;
+    const walk *w = to_light->walk;
+    arrival by = {direction, 0.0, way->travelled + hit->distance};
+    surface s = oracle_surface_at(w->scene, hit, &by);
+    const oracle_material *m = s.material;
+    w->report->jump = fmin(w->report->jump, s.jump);
+    absorb(w->scene, way, &s, hit->distance);
+    if (oracle_is_solid(m) && s.front)
+        media_enter(&way->inside, s.index);
+    else if (oracle_is_solid(m))
+        media_leave(&way->inside, s.index);
+    double f = w->view->no_fresnel ? 0.0 : oracle_fresnel(s.cosine, 1.0, m->ior);
+    double glass = m->unlit || m->mirror >= 0.0 ? 0.0 : (1.0 - s.metallic) * s.transmission;
+    double gone = 1.0 - s.coverage;
+    vector there = scaled(s.base, s.coverage * glass * (1.0 - f)), past = {{gone, gone, gone}};
+    way->weight = times(way->weight, plus(there, past));
+    return way->weight;
+}
+
+// Adds what the lights send to paint, of which `matte` comes back.
+static void add_lights(walk *w, const path *p, const surface *s, vector matte)
+{
+    receiver r = {.scene = w->scene,
+                  .point = s->point,
+                  .geometric = s->geometric,
+                  .lit = s->lit,
+                  .triangle = s->triangle,
+                  .travelled = p->travelled,
+                  .edges = w->view->edges,
+                  .report = w->report};
+    for (int i = 0; i < w->scene->light_count; i++) {
+        shadow to_light = {w, *p};
+        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
+        add(w, times(p->weight, matte), oracle_light_at(&r, i, pass_straight, &to_light));
+    }
+}
+
+// What comes back of the light that paint receives: of the environment's, as the occlusion leaves
+// it, and of the lights'.
+static void add_matte(walk *w, const path *p, const surface *s, vector matte)
+{
+    if (largest(matte) > 0.0) {
+        add(w, times(p->weight, matte), irradiance(w, s));
+        add_lights(w, p, s, matte);
+    }
+}
+
 // The reflected branch.
 static void reflect(walk *w, const path *p, const surface *s, vector weight)
 {
@@ -271,8 +331,7 @@ static void scatter(walk *w, const path *p, const surface *s, vector past)
         reflected = plus(reflected, (vector){{f, f, f}});
         through = plus(past, scaled(s->base, as_glass * (1.0 - glass.fresnel)));
     }
-    if (largest(matte) > 0.0)
-        add(w, times(p->weight, matte), irradiance(w, s));
+    add_matte(w, p, s, matte);
     reflect(w, p, s, times(p->weight, reflected));
     branch(w, &glass.beyond, s, glass.through, times(p->weight, through));
 }
@@ -281,8 +340,7 @@ static void scatter(walk *w, const path *p, const surface *s, vector past)
 static void blend(walk *w, const path *p, const surface *s)
 {
     double m = s->material->mirror;
-    if (m < 1.0)
-        add(w, times(p->weight, scaled(s->base, s->coverage * (1.0 - m))), irradiance(w, s));
+    add_matte(w, p, s, scaled(s->base, s->coverage * (1.0 - m)));
     reflect(w, p, s, scaled(p->weight, s->coverage * m));
 }
 

@@ -69,6 +69,16 @@ typedef struct oracle_material {
 // White, rough 0, metallic 0, opaque, ior 1.5, clear, no blend, no textures: smooth white paint.
 extern const oracle_material oracle_material_default;
 
+// A light without a size (KHR_lights_punctual), in world space.
+typedef struct oracle_punctual {
+    bool directional, spot; // neither: a point
+    double position[3];
+    double direction[3]; // unit, the way that it shines
+    double color[3];     // candela, of a directional light lux
+    double range;        // metres; INFINITY: no end
+    double inner, outer; // of a spot: half angles in radians
+} oracle_punctual;
+
 // Light by direction. `direction` is a unit vector in world space, away from the surface.
 typedef void (*oracle_light)(const void *context, const double direction[3], double rgb[3]);
 
@@ -83,7 +93,9 @@ typedef struct oracle_scene {
     oracle_light irradiance;     // E(n)/π: cosine-weighted mean of the radiance about n
     const void *context;         // handed to both
     double environment_rotation; // degrees about +Y, counter-clockwise seen from above
-    const oracle_tree *tree;     // NULL: every ray tries every triangle
+    const oracle_punctual *lights;
+    int light_count;
+    const oracle_tree *tree; // NULL: every ray tries every triangle
 } oracle_scene;
 
 typedef struct oracle_view {

@@ -115,17 +115,39 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
     return o;
 }
 
+// In its place as the kernels have it, which is rounded as vertices are.
+static oracle_punctual light_of(const glint_scene *scene, const glint_punctual_light *light)
+{
+    const double unit = scene->unit;
+    const double position[3] = {light->position.x, light->position.y, light->position.z};
+    const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
+    oracle_punctual o = {
+        .directional = light->kind == GLINT_PUNCTUAL_DIRECTIONAL,
+        .spot = light->kind == GLINT_PUNCTUAL_SPOT,
+        .direction = {light->direction.x, light->direction.y, light->direction.z},
+        .range = light->range,
+        .inner = light->inner_angle,
+        .outer = light->outer_angle,
+    };
+    for (int k = 0; k < 3; k++) {
+        o.position[k] = origin[k] + unit * (double)(float)((position[k] - origin[k]) / unit);
+        o.color[k] = light->color[k];
+    }
+    return o;
+}
+
 static bool make_room(const glint_scene *scene, judge *j)
 {
     j->image_count = scene->textures != NULL ? scene->textures->count : 0;
     j->triangles = calloc(scene->triangle_count + 1, sizeof *j->triangles);
     j->materials = calloc(scene->material_count + 1, sizeof *j->materials);
     j->images = calloc(j->image_count + 1, sizeof *j->images);
+    j->lights = calloc(scene->light_count + 1, sizeof *j->lights);
     if (scene->attributes != NULL) {
         j->corners = calloc(scene->triangle_count + 1, sizeof *j->corners);
     }
     bool complete = j->triangles != NULL && j->materials != NULL && j->images != NULL &&
-                    (j->corners != NULL || scene->attributes == NULL);
+                    j->lights != NULL && (j->corners != NULL || scene->attributes == NULL);
     for (size_t i = 0; complete && i < j->image_count; i++) {
         complete = copy_image(scene->textures, i, &j->images[i]);
     }
@@ -143,6 +165,9 @@ static void copy_scene(const glint_scene *scene, judge *j)
     }
     for (size_t i = 0; i < scene->material_count; i++) {
         j->materials[i] = material_of(&scene->materials[i], j->images);
+    }
+    for (size_t i = 0; i < scene->light_count; i++) {
+        j->lights[i] = light_of(scene, &scene->lights[i]);
     }
 }
 
@@ -163,6 +188,8 @@ glint_status judge_begin(const glint_scene *scene, judge *j, glint_error *error)
                               .triangle_count = (int)scene->triangle_count,
                               .corners = (const oracle_corner(*)[3])j->corners,
                               .materials = j->materials,
+                              .lights = j->lights,
+                              .light_count = (int)scene->light_count,
                               .tree = j->tree};
     return GLINT_OK;
 }
@@ -177,6 +204,7 @@ void judge_end(judge *j)
     free(j->corners);
     free(j->materials);
     free(j->images);
+    free(j->lights);
     *j = (judge){0};
 }
 

@@ -16,6 +16,7 @@ typedef struct judge {
     oracle_material *materials;
     size_t image_count;
     oracle_image *images;
+    oracle_punctual *lights;
     oracle_tree *tree;
 } judge;
 
