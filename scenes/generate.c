@@ -29,6 +29,7 @@ static const struct {
     {"water", build_water},
     {"worm", build_worm},
     {"textures", build_textures},
+    {"lights", build_lights},
 };
 
 static glint_status write_scenes(const char *folder, glint_error *error)

@@ -52,8 +52,12 @@ const picture *model_add_picture(model *scene, const picture *p)
 static node *add_node(model *scene, const char *name)
 {
     node *added = &scene->nodes[next_index(scene, &scene->node_count)];
-    *added =
-        (node){.name = name, .geometry = -1, .camera = -1, .rotation = {0, 0, 0, 1}, .parent = -1};
+    *added = (node){.name = name,
+                    .geometry = -1,
+                    .camera = -1,
+                    .light = -1,
+                    .rotation = {0, 0, 0, 1},
+                    .parent = -1};
     return added;
 }
 
@@ -129,6 +133,17 @@ void model_add_orthographic(model *scene, const char *name, double ymag, glint_v
                             glint_vec3 target)
 {
     add_camera(scene, &(camera){.name = name, .orthographic = true, .ymag = ymag}, eye, target);
+}
+
+node *model_add_light(model *scene, const light *l, glint_vec3 eye, glint_vec3 target)
+{
+    const int index = next_index(scene, &scene->light_count);
+    scene->lights[index] = *l;
+    node *added = add_node(scene, l->name);
+    added->light = index;
+    move(added, eye);
+    rotation_look_at(eye, target, added->rotation);
+    return added;
 }
 
 material material_metal(const char *name, double r, double g, double b)

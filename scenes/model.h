@@ -49,6 +49,7 @@ typedef struct node {
     int geometry; // −1: none
     int material;
     int camera; // −1: none
+    int light;  // −1: none
     double translation[3];
     double rotation[4];
     double scale; // 0 means 1
@@ -78,6 +79,15 @@ typedef struct camera {
     double ymag; // metres, orthographic: half the height
 } camera;
 
+// KHR_lights_punctual.
+typedef struct light {
+    const char *name, *type; // "point", "spot" or "directional"
+    double color[3];
+    double intensity;    // candela, of a directional light lux
+    double range;        // metres; 0: none
+    double inner, outer; // degrees, of a spot
+} light;
+
 #define MODEL_CAPACITY 64
 
 // How one property of a node moves: a glTF channel with its sampler.
@@ -97,6 +107,7 @@ typedef struct motion {
 typedef struct model {
     const char *name; // also the files' name
     int geometry_count, material_count, node_count, camera_count, motion_count, picture_count;
+    int light_count;
     struct {
         const char *name;
         mesh mesh;
@@ -106,6 +117,7 @@ typedef struct model {
     material materials[MODEL_CAPACITY];
     node nodes[MODEL_CAPACITY];
     camera cameras[MODEL_CAPACITY];
+    light lights[MODEL_CAPACITY];
     picture pictures[MODEL_CAPACITY];
     motion motions[MODEL_CAPACITY]; // one clip
     const char *clip;               // its name
@@ -136,6 +148,9 @@ void model_add_perspective(model *scene, const char *name, double yfov, glint_ve
                            glint_vec3 target);
 void model_add_orthographic(model *scene, const char *name, double ymag, glint_vec3 eye,
                             glint_vec3 target);
+
+// A light at `eye` that shines towards `target`.
+node *model_add_light(model *scene, const light *l, glint_vec3 eye, glint_vec3 target);
 
 // A motion of a node, without keys.
 motion *model_add_motion(model *scene, const node *moved, const char *path,

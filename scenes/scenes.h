@@ -34,6 +34,9 @@ void build_worm(model *scene);
 // Textures, vertex colours and alpha (textures.c).
 void build_textures(model *scene);
 
+// Punctual lights and their shadows (lights.c).
+void build_lights(model *scene);
+
 // The labelled axis environment, 1024 × 512, lat-long (axes_map.c).
 glint_status draw_axes_map(glint_image *image, glint_error *error);
 

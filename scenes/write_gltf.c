@@ -329,6 +329,10 @@ static json_t *node_to_json(gltf_writer *w, const node *n)
     if (n->camera >= 0) {
         json_object_set_new(object, "camera", json_integer(n->camera));
     }
+    if (n->light >= 0) {
+        json_object_set_new(object, "extensions",
+                            json_pack("{s:{s:i}}", "KHR_lights_punctual", "light", n->light));
+    }
     json_object_set_new(object, "translation", gltf_numbers(n->translation, 3));
     if (n->rotation[3] != 1) {
         json_object_set_new(object, "rotation", gltf_numbers(n->rotation, 4));
@@ -376,6 +380,37 @@ static json_t *camera_to_json(const camera *c)
                      gltf_number(c->yfov * GLINT_PI / 180), "znear", gltf_number(0.01));
 }
 
+static json_t *light_to_json(const light *l)
+{
+    json_t *object = json_pack("{s:s, s:s, s:o, s:o}", "name", l->name, "type", l->type, "color",
+                               gltf_numbers(l->color, 3), "intensity", gltf_number(l->intensity));
+    if (l->range > 0) {
+        json_object_set_new(object, "range", gltf_number(l->range));
+    }
+    if (l->outer > 0) {
+        const double degree = GLINT_PI / 180;
+        json_object_set_new(object, "spot",
+                            json_pack("{s:o, s:o}", "innerConeAngle",
+                                      gltf_number(l->inner * degree), "outerConeAngle",
+                                      gltf_number(l->outer * degree)));
+    }
+    return object;
+}
+
+static void add_lights(const model *scene, json_t *file, json_t *used)
+{
+    json_t *lights = json_array();
+    for (int i = 0; i < scene->light_count; i++) {
+        json_array_append_new(lights, light_to_json(&scene->lights[i]));
+    }
+    if (scene->light_count > 0) {
+        json_object_set_new(used, "KHR_lights_punctual", json_true());
+        json_object_set_new(file, "extensions",
+                            json_pack("{s:{s:O}}", "KHR_lights_punctual", "lights", lights));
+    }
+    json_decref(lights);
+}
+
 // ---- The file ----------------------------------------------------------------------------------
 
 static json_t *asset(void)
@@ -402,6 +437,7 @@ static json_t *scene_to_json(gltf_writer *w)
         json_array_append_new(cameras, camera_to_json(&scene->cameras[i]));
     }
     json_t *file = json_pack("{s:o}", "asset", asset());
+    add_lights(scene, file, used);
     json_t *extensions = json_array();
     const char *name;
     json_t *value;

@@ -121,7 +121,7 @@ static agreement render_and_compare(const char *name, const glint_settings *sett
 static const char *const scene_names[] = {
     "mirror_sphere",     "glass_sphere",   "glass_slab", "prism",        "nested_glass",
     "thin_wall",         "absorption_box", "materials",  "orthographic", "facing_mirrors",
-    "lecture_example_2", "axes",           "gallery",    "textures",
+    "lecture_example_2", "axes",           "gallery",    "textures",     "lights",
 };
 #define SCENE_COUNT (sizeof scene_names / sizeof *scene_names)
 
