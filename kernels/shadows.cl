@@ -1,8 +1,9 @@
 // Shadow rays: what is left of the light on its way from a light to a surface. They run from the
-// surface to the light, each by itself, as what is opaque ends a ray wherever it stands on the way.
-// Light goes straight on through the rest, without refraction: glass takes its Fresnel term and its
-// colour, a solid what it absorbs, and alpha lets pass what is not there. Of these the nearest are
-// passed first, so that the product has the same bits in every tree.
+// surface to the light: a packet's as one frustum while they stay near each other, else each by
+// itself, where what is opaque ends a ray wherever it stands on the way. Light goes straight on
+// through the rest, without refraction: glass takes its Fresnel term and its colour, a solid what
+// it absorbs, and alpha lets pass what is not there. Of these the nearest are passed first, so that
+// the product has the same bits in every tree.
 #if GLINT_LIGHTS
 
 // More surfaces than these on the way leave nothing.
@@ -79,7 +80,41 @@ static inline bool is_blocked(stream_ray *r, const scene_buffers *scene,
     return false;
 }
 
-// The rays that are blocked; `distance` is the light's.
+#if GLINT_WIDTH > 1
+
+// Finds the closest hits of rays that stay near each other, as one frustum. Returns the rays that
+// are left to be traced alone: those that spread, and those whose hit is near the light.
+static inline mask trace_alike(const scene_buffers *scene, const path *rays, const packet *p,
+                               mask wanted, closest *hit)
+{
+    const real light_at = hit->t;
+    mask left = wanted, alone = mask_none();
+    while (any_lane(left)) {
+        int along;
+        scalar sign;
+        choose_axis(p, &left, &along, &sign);
+        const mask together = rays_along(&rays->direction, along, sign, left);
+        bundle b = make_bundle(p, along, sign, together);
+        left = left & !together;
+        if (b.bounds.wide) {
+            alone = alone | together;
+            continue;
+        }
+        update_farthest(&b, hit);
+        group_frusta several; // of which there are none
+        party one;
+        one.bounds = b.bounds;
+        one.farthest = b.farthest;
+        one.groups = 1;
+        trace_party(&one, &several, &b, scene, rays, hit);
+    }
+    const mask near = (hit->place >= (lane_int)0) & (hit->t > (R(1.0) - NEXT_TO_NOTHING) * light_at);
+    return wanted & (alone | near);
+}
+
+#endif
+
+// The rays that are blocked; `distance` is the light's. What the others met lets light pass.
 static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
                                   global const glint_light_record *light, real distance,
                                   mask wanted, closest *hit)
@@ -87,14 +122,26 @@ static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
     const packet p = make_packet(rays->origin, rays->direction);
     lanes_int blocked = int_of(0);
     *hit = no_hit();
-    hit->t = SMALLER(distance, hit->t);
-    wanted = wanted & is_sound(rays->origin, rays->direction);
-    for (uint left = mask_bits(wanted); left != 0; left &= left - 1) {
+    const real light_at = SMALLER(distance, hit->t);
+    hit->t = light_at;
+    mask alone = wanted & is_sound(rays->origin, rays->direction);
+#if GLINT_WIDTH > 1
+    alone = trace_alike(scene, rays, &p, alone, hit);
+    hit->t = SELECT(alone, light_at, hit->t);
+    hit->place = SELECT(alone, int_of(-1), hit->place);
+    for (uint met = mask_bits(hit->place >= (lane_int)0); met != 0; met &= met - 1) {
+        const int lane = lowest_bit(met);
+        const size_t cluster = (size_t)LANE_INT(hit->place, lane) / GLINT_CLUSTER_LANES;
+        LANE_INT(blocked, lane) =
+            lets_light_pass(scene, scene->clusters + cluster * GLINT_CLUSTER_VALUES) ? 0 : 1;
+    }
+#endif
+    for (uint left = mask_bits(alone); left != 0; left &= left - 1) {
         stream_ray r;
         const int lane = lowest_bit(left);
         take_stream_ray(&p, 0, lane, rays->from, &r);
-        r.farthest = SMALLER(r.farthest, LANE(hit->t, lane));
-        LANE_INT(blocked, lane) = is_blocked(&r, scene, light, LANE(hit->t, lane), hit) ? 1 : 0;
+        r.farthest = SMALLER(r.farthest, LANE(light_at, lane));
+        LANE_INT(blocked, lane) = is_blocked(&r, scene, light, LANE(light_at, lane), hit) ? 1 : 0;
     }
     return blocked != (lane_int)0;
 }
