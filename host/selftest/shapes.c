@@ -158,6 +158,7 @@ static bool add_materials(shape *s)
     scene->materials[MATERIAL_TINTED].metallic = 1;
     scene->materials[MATERIAL_TINTED].base_color[0] = 0.5F;
     scene->materials[MATERIAL_TINTED].base_color[1] = 0.75F;
+    scene->materials[MATERIAL_PAINT].roughness = 1;
     for (int i = MATERIAL_GLASS; i <= MATERIAL_CORE; i++) {
         scene->materials[i].transmission = 1;
         scene->materials[i].thickness = 1;

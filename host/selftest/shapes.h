@@ -16,6 +16,7 @@ typedef enum shape_material {
     MATERIAL_GLASS,  // clear, of index 1.5
     MATERIAL_CORE,   // clear, of index 1.25
     MATERIAL_TINTED, // metal of base colour (½, ¾, 1)
+    MATERIAL_PAINT,  // white and matte
     MATERIAL_COUNT,
 } shape_material;
 
