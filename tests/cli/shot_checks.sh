@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Command-line tests of glint capture, and of what renders of shots are made of: parts of scenes,
-# plates, an environment for each frame.
+# plates, the file's lights, an environment for each frame.
 # shot_checks.sh GLINT JSON_GET MAKE_EXR SCENES
 make_exr=$(readlink -f -- "$3")
 scenes=$(readlink -f -- "$4")
@@ -285,6 +285,30 @@ run render in/clockwork.gltf -o out/c.exr "${small[@]}" --env "capture:$moving" 
     --frames 13 --background transparent
 check 'each frame of a scene that moves from its own' same_pixels out/c.exr out/c.0013.exr
 clean
+
+# ---- lights of the file -------------------------------------------------------------------------
+
+cp "$scenes"/lights.* in/
+lit=(in/lights.gltf --size 48x30 --depth 4)
+for kind in file none; do
+    run render "${lit[@]}" --lights $kind -o out/$kind.exr --stats out/$kind.json
+    check "--lights $kind" test "$status" -eq 0
+done
+check '--lights none is darker' apart 0.2 out/file.exr out/none.exr
+check 'shadow rays are counted' test "$("$json_get" out/file.json rays shadow)" -gt 1000 \
+    -a "$("$json_get" out/none.json rays shadow)" -eq 0
+run render "${lit[@]}" -o out/none.exr --skip-existing
+check '--skip-existing sees the difference' same_pixels out/file.exr out/none.exr
+run info in/lights.gltf
+for light in 'warm lamp (node 7): point, (26, 16.12, 7.8) cd, range 6 m' \
+    'blue spot (node 8): spot, (27, 45, 90) cd, cone 9 to 14 degrees' \
+    'sun (node 9): directional, (2, 1.9, 1.7) lx'; do
+    check "info tells: $light" grep -qxF "  $light" stdout
+done
+clean
+sed 's/"point"/"area"/' in/lights.gltf >in/bad_lights.gltf
+refuses 3 'lights[0].type: "area" is none' render in/bad_lights.gltf -o out/a.exr
+refuses 2 "--lights" render in/lights.gltf -o out/a.exr --lights some
 
 # ---- relight -------------------------------------------------------------------------------------
 
