@@ -172,6 +172,24 @@ static void text_becomes_plain(void **state)
     assert_true(glint_is_plain("two\nlines"));
 }
 
+static void a_list_of_names_is_cut_not_overrun(void **state)
+{
+    (void)state;
+    char list[32] = "";
+    glint_list_add(list, sizeof list, 0, "main");
+    glint_list_add(list, sizeof list, 1, NULL);
+    assert_string_equal(list, "0 \"main\", 1");
+    glint_list_add(list, sizeof list, 2, "fourteen bytes");
+    assert_string_equal(list, "0 \"main\", 1, ...");
+    glint_list_add(list, sizeof list, 3, NULL);
+    assert_string_equal(list, "0 \"main\", 1, ...");
+    char filled[17] = "";
+    for (int i = 0; i < 9; i++) {
+        glint_list_add(filled, sizeof filled, i, NULL);
+    }
+    assert_string_equal(filled, "0, 1, 2, 3, ...");
+}
+
 static void pipes_are_not_waited_for(void **state)
 {
     (void)state;
@@ -196,6 +214,7 @@ int main(void)
         cmocka_unit_test(an_error_is_one_line_whatever_it_quotes),
         cmocka_unit_test(a_long_message_is_cut_not_overrun),
         cmocka_unit_test(text_becomes_plain),
+        cmocka_unit_test(a_list_of_names_is_cut_not_overrun),
         cmocka_unit_test(pipes_are_not_waited_for),
         cmocka_unit_test(a_warning_is_said_once),
         cmocka_unit_test(allocation_is_zeroed_aligned_and_safe_from_overflow),

@@ -38,6 +38,22 @@ static int already_said(const glint_warnings *warnings, const char *text)
     return 0;
 }
 
+void glint_list_add(char *list, size_t capacity, long long index, const char *name)
+{
+    static const char more[] = ", ...";
+    const size_t used = strlen(list);
+    if (used + 1 >= sizeof more && strcmp(list + used + 1 - sizeof more, more) == 0) {
+        return;
+    }
+    const size_t room = capacity - used - (sizeof more - 1); // more may follow
+    const char *quote = name != NULL ? "\"" : "";
+    const int length = snprintf(list + used, room, "%s%lld%s%s%s%s", used > 0 ? ", " : "", index,
+                                name != NULL ? " " : "", quote, name != NULL ? name : "", quote);
+    if (length < 0 || (size_t)length >= room) {
+        memcpy(list + used, more, sizeof more);
+    }
+}
+
 void glint_warn(glint_warnings *warnings, const char *format, ...)
 {
     if (warnings == NULL) {

@@ -76,6 +76,10 @@ static inline glint_status glint_fail_memory(glint_error *error, const char *wha
 
 void glint_error_free(glint_error *error);
 
+// Adds to a list for a message: 0 "main", 1, 2 "top" and so on; "..." in the place of what does not
+// fit. name may be NULL. An empty text begins a list.
+void glint_list_add(char *list, size_t capacity, long long index, const char *name);
+
 // Things worth saying that do not stop the work. Zero is valid and empty. The texts are owned by
 // the list. Adding a text that is already there does nothing, so that each thing is said once; a
 // text that finds no memory is counted in `lost`.

@@ -241,27 +241,6 @@ static bool is_named(const glint_material_override *one, const glint_material *m
            (one->index >= 0 ? one->index == material->index : has_name(one, material->name));
 }
 
-// 0 "paint", 1, 2 "gem" and so on, as much of it as fits.
-static void list_materials(const glint_material *materials, size_t count, char *text,
-                           size_t capacity)
-{
-    static const char more[] = ", ...";
-    const size_t room = capacity - sizeof more;
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < count; i++) {
-        const char *name = materials[i].name;
-        const int length =
-            snprintf(text + used, room - used, "%s%d%s%s%s", i > 0 ? ", " : "", materials[i].index,
-                     name != NULL ? " \"" : "", name != NULL ? name : "", name != NULL ? "\"" : "");
-        if (length < 0 || (size_t)length >= room - used) {
-            memcpy(text + used, more, sizeof more);
-            return;
-        }
-        used += (size_t)length;
-    }
-}
-
 static const char *nearest_name(const char *wanted, const glint_material *materials, size_t count)
 {
     const char *nearest = NULL;
@@ -281,10 +260,12 @@ static const char *nearest_name(const char *wanted, const glint_material *materi
 static glint_status fail_unnamed(const glint_material_override *one,
                                  const glint_material *materials, size_t count, glint_error *error)
 {
-    char name[64], list[600];
+    char name[64], list[600] = "";
     snprintf(name, sizeof name, "%.*s", (int)one->name_length, one->text);
     const char *nearest = nearest_name(name, materials, count);
-    list_materials(materials, count, list, sizeof list);
+    for (size_t i = 0; i < count; i++) {
+        glint_list_add(list, sizeof list, materials[i].index, materials[i].name);
+    }
     return nearest != NULL
                ? glint_fail(error, GLINT_BAD_INPUT,
                             "there is no material \"%s\" (did you mean \"%s\"?)", name, nearest)

@@ -81,26 +81,6 @@ void glint_scene_shown_bounds(const glint_scene *scene, glint_vec3 *low, glint_v
     *high = scene->moves ? scene->swept_high : scene->high;
 }
 
-// 0 "main", 1, 2 "top" and so on, as much of it as fits.
-static void list_cameras(const glint_scene *scene, char *text, size_t capacity)
-{
-    static const char more[] = ", ...";
-    size_t room = capacity - sizeof more;
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < scene->camera_count; i++) {
-        const char *name = scene->cameras[i].name;
-        const char *comma = i > 0 ? ", " : "";
-        int length = name ? snprintf(text + used, room - used, "%s%zu \"%s\"", comma, i, name)
-                          : snprintf(text + used, room - used, "%s%zu", comma, i);
-        if (length < 0 || (size_t)length >= room - used) {
-            memcpy(text + used, more, sizeof more);
-            return;
-        }
-        used += (size_t)length;
-    }
-}
-
 static const glint_camera *find_camera(const glint_scene *scene, const char *name)
 {
     for (size_t i = 0; i < scene->camera_count; i++) {
@@ -154,8 +134,10 @@ glint_status glint_scene_camera(const glint_scene *scene, const char *name, glin
                           "one is made that frames it)",
                           path, name);
     }
-    char list[600];
-    list_cameras(scene, list, sizeof list);
+    char list[600] = "";
+    for (size_t i = 0; i < scene->camera_count; i++) {
+        glint_list_add(list, sizeof list, (long long)i, scene->cameras[i].name);
+    }
     return glint_fail(error, GLINT_BAD_INPUT, "%s: there is no camera \"%.60s\" (there is %s)",
                       path, name, list);
 }
