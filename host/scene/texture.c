@@ -22,8 +22,8 @@ const char *glint_texture_slot_name(glint_texture_slot slot)
 
 // ---- An image -----------------------------------------------------------------------------------
 
-// Leaves out the levels that are too large.
-static void drop_large_levels(int largest, glint_texture_levels *levels)
+// Leaves out the levels that are too large, and frees their memory before the next image is read.
+static glint_status drop_large_levels(int largest, glint_texture_levels *levels, glint_error *error)
 {
     glint_texture *t = &levels->texture;
     int dropped = 0;
@@ -33,15 +33,21 @@ static void drop_large_levels(int largest, glint_texture_levels *levels)
         dropped++;
     }
     if (dropped == 0) {
-        return;
+        return GLINT_OK;
     }
     const size_t gone = t->first[dropped];
     levels->texel_count -= gone;
     t->levels -= dropped;
-    memmove(levels->texels, levels->texels + gone, levels->texel_count * sizeof *levels->texels);
     for (int i = 0; i < t->levels; i++) {
         t->first[i] = t->first[i + dropped] - gone;
     }
+    uint16_t(*all)[4] = levels->texels;
+    levels->texels = glint_allocate_unset(levels->texel_count, sizeof *levels->texels);
+    if (levels->texels != NULL) {
+        memcpy(levels->texels, all + gone, levels->texel_count * sizeof *levels->texels);
+    }
+    free(all);
+    return levels->texels != NULL ? GLINT_OK : glint_fail_memory(error, "a texture");
 }
 
 static glint_status make(const glint_texture_request *request, const glint_stored *stored,
@@ -70,15 +76,16 @@ glint_status glint_texture_read(const glint_texture_request *request, int larges
     *levels = (glint_texture_levels){0};
     glint_stored stored;
     TRY(glint_decoder_run(&request->source, false, &stored, error));
-    const glint_status status = make(request, &stored, levels, error);
+    glint_status status = make(request, &stored, levels, error);
     glint_stored_free(&stored);
+    if (status == GLINT_OK) {
+        status = drop_large_levels(largest, levels, error);
+    }
     if (status != GLINT_OK) {
         free(levels->texels);
         *levels = (glint_texture_levels){0};
-        return status;
     }
-    drop_large_levels(largest, levels);
-    return GLINT_OK;
+    return status;
 }
 
 // ---- All images ---------------------------------------------------------------------------------
@@ -94,7 +101,13 @@ glint_status glint_textures_join(glint_texture_levels *images, size_t count,
     if (all != NULL) {
         all->owners = 1;
         all->textures = glint_allocate(count, sizeof *all->textures);
-        all->texels = glint_allocate_unset(texels, sizeof *all->texels);
+        if (count == 1) { // it keeps its memory
+            all->texels = images->texels;
+            images->texels = NULL;
+        }
+        if (all->texels == NULL) {
+            all->texels = glint_allocate_unset(texels, sizeof *all->texels);
+        }
     }
     if (all == NULL || all->textures == NULL || all->texels == NULL) {
         glint_textures_release(all);
@@ -106,7 +119,7 @@ glint_status glint_textures_join(glint_texture_levels *images, size_t count,
         for (int k = 0; k < texture->levels; k++) {
             texture->first[k] += all->texel_count;
         }
-        if (images[i].texels != NULL) { // else it could not be read
+        if (images[i].texels != NULL) { // else they are there, or it could not be read
             memcpy(all->texels + all->texel_count, images[i].texels,
                    images[i].texel_count * sizeof *all->texels);
         }
