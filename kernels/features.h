@@ -44,6 +44,8 @@
     FEATURE(EMISSION, "surfaces emit", GLINT_GEOMETRY, 0, IDLE)                                    \
     FEATURE(TEXTURES, "materials have textures", GLINT_GEOMETRY,                                   \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
+    FEATURE(ANISOTROPY, "textures are averaged along what a pixel sees at a slant",                \
+            GLINT_TEXTURES, GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)    \
     FEATURE(SECOND_TEXCOORDS, "some textures have texture coordinates of their own",               \
             GLINT_TEXTURES, GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)    \
     FEATURE(NORMAL_MAPS, "textures bend normals", GLINT_TEXTURES,                                  \

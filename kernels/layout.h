@@ -118,6 +118,7 @@ typedef struct glint_material_record {
 #define GLINT_TEXTURE_MAGNIFIED_NEAREST 32u // where a texel covers a pixel or more
 #define GLINT_TEXTURE_MINIFIED_NEAREST 64u
 #define GLINT_TEXTURE_MIPS_NEAREST 128u // one level, not a blend of two
+#define GLINT_TEXTURE_TRILINEAR 256u    // minified, a blend of texels and of levels
 
 typedef struct glint_texture_record {
     unsigned int first[GLINT_TEXTURE_LEVELS]; // texels before each level
@@ -201,10 +202,11 @@ typedef struct glint_frame_record {
     int environment_edge; // texels, without border
     int irradiance_edge;
     // Tiles are rendered band by band, and within one column by column.
-    int band;       // how many rows of tiles, 1 or more
-    int first_band; // where this launch begins
-    int terms;      // that a pixel keeps at most, with GLINT_TERMS
-    float unit;     // metres per stored unit, a power of two; with GLINT_DIAGNOSTICS
+    int band;         // how many rows of tiles, 1 or more
+    int first_band;   // where this launch begins
+    float anisotropy; // taps of a texture along an ellipse at most, 1 or more
+    int terms;        // that a pixel keeps at most, with GLINT_TERMS
+    float unit;       // metres per stored unit, a power of two; with GLINT_DIAGNOSTICS
 } glint_frame_record;
 
 // ---- Irradiance --------------------------------------------------------------------------------

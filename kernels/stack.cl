@@ -16,6 +16,7 @@ typedef struct scene_buffers {
     global const glint_texture_record *textures;
     global const ushort *texels;
     global const glint_light_record *lights;
+    float anisotropy; // as the frame record has it
     cube_map environment, irradiance;
     global const float *vertices; // what was found at them, with VERTEX_COLOR and VERTEX_DIRECTION
     global const uint *pixels;    // with PIXEL_LIST: their numbers, see layout.h
@@ -24,6 +25,7 @@ typedef struct scene_buffers {
 // The same, from the arguments of a kernel.
 #define SCENE_OF_ARGUMENTS                                                                         \
     {nodes, clusters, normals, numbers, materials, media, attributes, textures, texels, lights,    \
+     frame.anisotropy,                                                                             \
      {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
      {irradiance, frame.irradiance_edge, false},                                                   \
      vertices,                                                                                     \

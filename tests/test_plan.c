@@ -399,6 +399,23 @@ static void layers_are_compiled_where_they_are_asked_for(void **state)
 }
 
 // Of each kind of material alone and of all of them, and of nothing.
+static void textures_are_averaged_along_ellipses_unless_one_tap_is_asked_for(void **state)
+{
+    (void)state;
+    test_scene s;
+    make_scene(&s, &white_paint, 1);
+    glint_settings settings = glint_settings_default;
+    for (int k = 0; k < 4; k++) {
+        s.scene.attribute_set.texcoords = k > 0;
+        settings.anisotropy = k == 1 ? 1 : 2;
+        settings.output = k == 3 ? GLINT_OUTPUT_HITS : GLINT_OUTPUT_COLOR;
+        glint_plan plan;
+        assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+        assert_int_equal(compiles(&plan, GLINT_FEATURE_TEXTURES), k == 1 || k == 2);
+        assert_int_equal(compiles(&plan, GLINT_FEATURE_ANISOTROPY), k == 2);
+    }
+}
+
 static void features_have_what_they_need_whatever_is_asked_for(void **state)
 {
     (void)state;
@@ -464,6 +481,7 @@ int main(void)
         cmocka_unit_test(texels_are_what_is_asked_for_or_refused),
         cmocka_unit_test(settings_out_of_range_are_usage_errors),
         cmocka_unit_test(layers_are_compiled_where_they_are_asked_for),
+        cmocka_unit_test(textures_are_averaged_along_ellipses_unless_one_tap_is_asked_for),
         cmocka_unit_test(features_have_what_they_need_whatever_is_asked_for),
         cmocka_unit_test(every_feature_is_passed_to_the_compiler_as_0_or_1),
     };

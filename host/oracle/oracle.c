@@ -247,7 +247,7 @@ static vector pass_straight(void *state, const oracle_hit *hit, vector direction
     shadow *to_light = state;
     path *way = &to_light->way;
     const walk *w = to_light->walk;
-    arrival by = {direction, 0.0, way->travelled + hit->distance};
+    arrival by = {direction, 0.0, way->travelled + hit->distance, 1};
     surface s = oracle_surface_at(w->scene, hit, &by);
     const oracle_material *m = s.material;
     w->report->jump = fmin(w->report->jump, s.jump);
@@ -384,7 +384,7 @@ static void follow(walk *w, const path *p)
     path here = *p;
     here.travelled += hit.distance;
     here.cone.width += here.cone.spread * hit.distance;
-    arrival by = {p->direction, here.cone.width, here.travelled};
+    arrival by = {p->direction, here.cone.width, here.travelled, w->view->anisotropy};
     surface s = oracle_surface_at(w->scene, &hit, &by);
     report->jump = fmin(report->jump, s.jump);
     here.met++;

@@ -108,6 +108,7 @@ typedef struct oracle_view {
     int depth;         // N: surfaces that a path may meet; 0 means ORACLE_DEPTH_LIMIT
     double min_weight; // a branch whose largest component is less takes E at once
     bool no_fresnel;   // metal reflects its base, glass only where it reflects all, paint nothing
+    int anisotropy;    // taps of a texture along its longer axis at most; 0 means 1
     bool transparent;  // what meets nothing is left out, and of alpha
     bool edges;        // measure oracle_report.edge, at about twice the time
 } oracle_view;

@@ -57,9 +57,9 @@ static double change(const place *p, int axis, const double of[3])
     return p->moved[axis][0] * (of[1] - of[0]) + p->moved[axis][1] * (of[2] - of[0]);
 }
 
-static oracle_spot spot_of(const place *p, int set, double width)
+static oracle_spot spot_of(const place *p, int set, const arrival *by)
 {
-    oracle_spot spot = {.width = width};
+    oracle_spot spot = {.width = by->width, .taps = by->taps};
     for (int k = 0; k < 2; k++) {
         double of[3];
         for (int i = 0; i < 3; i++)
@@ -80,7 +80,7 @@ static oracle_glance glance_at(const place *p, const arrival *by, oracle_role ro
     oracle_glance white = {{1.0, 1.0, 1.0, 1.0}, INFINITY, INFINITY, 0.0};
     if (!texture->image)
         return white;
-    oracle_spot spot = spot_of(p, texture->set, by->width);
+    oracle_spot spot = spot_of(p, texture->set, by);
     oracle_glance glance = oracle_look_up(texture, &spot);
     s->jump = fmin(s->jump, fmin(glance.jump / by->travelled, glance.turn));
     return glance;

@@ -29,10 +29,12 @@ typedef struct surface {
     double jump; // see oracle_report
 } surface;
 
-// How a path arrives: its direction, its cone where it meets the surface, and its whole length.
+// How a path arrives: its direction, its cone where it meets the surface, its whole length, and
+// what the view says of textures.
 typedef struct arrival {
     vector direction;
     double width, travelled;
+    int taps; // of a texture at most
 } arrival;
 
 surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, const arrival *by);

@@ -133,7 +133,7 @@ static double nearest_border(const oracle_texture *t, int level, const double uv
     return least;
 }
 
-// Which levels, by how many texels of the first the longer axis of what the pixel sees covers.
+// Which levels, by how many texels of the first a tap covers.
 typedef struct choice {
     use fine, coarse;
     double turn;
@@ -161,34 +161,99 @@ static choice choose(const oracle_texture *t, double texels)
     return c;
 }
 
+// The ellipse that the pixel sees, in texels: its longer axis, and the taps along it.
+typedef struct ellipse {
+    double width;    // of a tap
+    double length;   // of the row of taps, in taps: 1 or more
+    double along[2]; // from tap to tap, in texture coordinates
+} ellipse;
+
+// `axes` are conjugate: the ellipse is what they make of a circle.
+static ellipse ellipse_of(const oracle_texture *t, double axes[2][2], int most)
+{
+    double uu = 0.0, uv = 0.0, vv = 0.0; // of the ellipse's matrix
+    for (int axis = 0; axis < 2; axis++) {
+        uu += axes[axis][0] * axes[axis][0];
+        uv += axes[axis][0] * axes[axis][1];
+        vv += axes[axis][1] * axes[axis][1];
+    }
+    double angle = 0.5 * atan2(2.0 * uv, uu - vv);
+    double longer = sqrt(0.5 * (uu + vv) + hypot(0.5 * (uu - vv), uv));
+    double area = fabs(axes[0][0] * axes[1][1] - axes[0][1] * axes[1][0]);
+    bool blends = t->mips == ORACLE_MIPS_LINEAR && !t->minified_nearest;
+    double limit = blends && most > 1 ? most : 1.0;
+    ellipse e = {longer, 1.0, {0.0, 0.0}};
+    if (!(longer > 0.0))
+        return e;
+    e.width = fmin(longer, fmax(2.0 * area / longer, longer / limit));
+    e.length = fmax(1.0, longer / fmax(e.width, 1.0));
+    e.along[0] = longer / e.length * cos(angle) / t->image->width;
+    e.along[1] = longer / e.length * sin(angle) / t->image->height;
+    return e;
+}
+
+// A look-up under way.
+typedef struct look {
+    const oracle_texture *texture;
+    choice choice;
+    double speed[2]; // of u and v, per distance aside
+    oracle_glance found;
+} look;
+
+// Adds `share` of a tap to what was found.
+static void add_tap(look *l, const double uv[2], double share)
+{
+    use fine = l->choice.fine, coarse = l->choice.coarse;
+    fine.share *= share;
+    coarse.share *= share;
+    look_up_level(l->texture, &fine, uv, l->found.rgba);
+    look_up_level(l->texture, &coarse, uv, l->found.rgba);
+    if (fine.nearest) {
+        double first = nearest_border(l->texture, fine.level, uv, l->speed);
+        double second = nearest_border(l->texture, coarse.level, uv, l->speed);
+        l->found.jump = fmin(l->found.jump, fmin(first, second));
+    }
+}
+
+// The mean along the ellipse: 2 taps up to a length of 2, where they are 1 apart; then 4, of which
+// the outer two count in part; and so on.
+static void add_taps(look *l, const ellipse *e, const double uv[2])
+{
+    if (e->length == 1.0) {
+        add_tap(l, uv, 1.0);
+        return;
+    }
+    double apart = fmin(e->length - 1.0, 1.0);
+    for (int pair = 0; pair < 0.5 * e->length; pair++) {
+        double share = fmin(0.5 * e->length - pair, 1.0) / e->length;
+        for (int side = -1; side <= 1; side += 2) {
+            double offset = side * (pair + 0.5) * apart;
+            add_tap(l, (double[]){uv[0] + offset * e->along[0], uv[1] + offset * e->along[1]},
+                    share);
+        }
+    }
+}
+
 oracle_glance oracle_look_up(const oracle_texture *t, const oracle_spot *spot)
 {
-    double uv[2], speed[2], longest = 0.0;
+    look l = {.texture = t, .found = {.jump = INFINITY}};
+    double uv[2], axes[2][2]; // [axis][u, v], in texels
     int size[2] = {t->image->width, t->image->height};
-    double moved[2][2]; // [axis][u, v], in texels
     for (int k = 0; k < 2; k++) {
         const double *row = t->transform[k];
         uv[k] = row[0] * spot->at[0] + row[1] * spot->at[1] + row[2];
         double part[2];
         for (int axis = 0; axis < 2; axis++) {
             part[axis] = row[0] * spot->moved[axis][0] + row[1] * spot->moved[axis][1];
-            moved[axis][k] = part[axis] * size[k];
+            axes[axis][k] = spot->width * part[axis] * size[k];
         }
-        speed[k] = hypot(part[0], part[1]);
+        l.speed[k] = hypot(part[0], part[1]);
     }
-    for (int axis = 0; axis < 2; axis++)
-        longest = fmax(longest, fabs(spot->width) * hypot(moved[axis][0], moved[axis][1]));
-
-    choice c = choose(t, longest);
-    oracle_glance glance = {.jump = INFINITY, .turn = c.turn};
-    look_up_level(t, &c.fine, uv, glance.rgba);
-    look_up_level(t, &c.coarse, uv, glance.rgba);
-    if (c.fine.nearest) {
-        glance.jump = nearest_border(t, c.fine.level, uv, speed);
-        glance.jump = fmin(glance.jump, nearest_border(t, c.coarse.level, uv, speed));
-    } else {
-        for (int k = 0; k < 2; k++)
-            glance.slope += speed[k] * oracle_image_side(size[k], c.fine.level);
-    }
-    return glance;
+    ellipse e = ellipse_of(t, axes, spot->taps);
+    l.choice = choose(t, e.width);
+    l.found.turn = l.choice.turn;
+    add_taps(&l, &e, uv);
+    for (int k = 0; k < 2 && !l.choice.fine.nearest; k++)
+        l.found.slope += l.speed[k] * oracle_image_side(size[k], l.choice.fine.level);
+    return l.found;
 }

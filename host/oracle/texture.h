@@ -42,6 +42,7 @@ typedef struct oracle_texture {
 typedef struct oracle_spot {
     double at[2], moved[2][2]; // moved[axis][u, v]
     double width;              // of the pixel's cone here
+    int taps;                  // along the ellipse that the pixel sees, at most; 0 means 1
 } oracle_spot;
 
 // What a look-up found, and how near it is to one that finds something else.

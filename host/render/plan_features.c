@@ -144,6 +144,10 @@ static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
                : by_vertex             ? "vertices are shaded, by the materials' factors alone"
                                        : "hits alone are wanted");
     }
+    const int taps = in->settings->anisotropy;
+    const bool textured = plan->features[GLINT_FEATURE_TEXTURES].compiled;
+    decide(plan, GLINT_FEATURE_ANISOTROPY, textured && taps > 1, "anisotropy %d%s", taps,
+           textured ? "" : ", and no textures");
 }
 
 // Why no light of the scene shines; NULL: they do.

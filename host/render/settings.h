@@ -98,6 +98,7 @@ typedef struct glint_settings {
     glint_output output;
     glint_texels texels;
     glint_filter filter;
+    int anisotropy; // taps of a texture along the ellipse that a pixel sees, at most: 1 or more
     glint_irradiance irradiance;
     glint_lights lights;
     bool proxy;            // the environment has one (environment.h), which is heeded: with the

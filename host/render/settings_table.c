@@ -112,6 +112,7 @@ const glint_settings glint_settings_default = {
     .height = 720,
     .samples_per_axis = 1,
     .min_weight = 1.0 / 1024,
+    .anisotropy = 8,
 };
 
 static const char *const shadings[] = {[GLINT_SHADING_PIXEL] = "pixel",
@@ -207,6 +208,12 @@ const glint_setting glint_setting_table[] = {
                         "four nearest texels; mip, averaged over what a pixel sees of it, so that "
                         "fine or bright detail does not sparkle in curved mirrors and glass.",
                 .choices = GLINT_CHOICES("bilinear", "mip")}},
+    {GLINT_SETTINGS_OF_FRAME, MEMBER(anisotropy), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
+     .key = "anisotropy", .roles = GLINT_SETTING_VARIES,
+     .option = {GLINT_OPTION_INT, .name = "anisotropy", .argument = "N",
+                .help = "Look-ups of a texture along what a pixel sees of it, at most: more keep "
+                        "floors sharp towards the horizon, and take more time. 1 blurs them.",
+                .minimum = 1, .maximum = 16}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(irradiance), .fingerprint = 13, .key = "irradiance",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "irradiance", .argument = "KIND",

@@ -15,7 +15,8 @@ static unsigned flags_of(const glint_texture_use *use)
            (use->wrap_t == GLINT_WRAP_MIRROR ? GLINT_TEXTURE_MIRROR_T : 0) |
            (use->magnified_nearest ? GLINT_TEXTURE_MAGNIFIED_NEAREST : 0) |
            (use->minified_nearest ? GLINT_TEXTURE_MINIFIED_NEAREST : 0) |
-           (use->mips == GLINT_MIP_NEAREST ? GLINT_TEXTURE_MIPS_NEAREST : 0);
+           (use->mips == GLINT_MIP_NEAREST ? GLINT_TEXTURE_MIPS_NEAREST : 0) |
+           (use->mips == GLINT_MIP_LINEAR && !use->minified_nearest ? GLINT_TEXTURE_TRILINEAR : 0);
 }
 
 static glint_texture_record record_of(const glint_textures *textures, const glint_texture_use *use)

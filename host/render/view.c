@@ -102,6 +102,7 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     record->step = settings->grid_step > 0 ? settings->grid_step : 1;
     record->first_pixel = settings->grid_step / 2;
     record->samples_per_axis = settings->samples_per_axis;
+    record->anisotropy = (float)settings->anisotropy;
     record->depth = plan->depth;
     record->unit = (float)space->unit;
     record->depth_counts = !plan->depth_is_exact && plan->depth < GLINT_DEPTH_MAX;

@@ -239,6 +239,7 @@ oracle_view judge_view(const glint_camera *camera, const glint_settings *setting
                         .width = settings->width,
                         .height = settings->height,
                         .samples = settings->samples_per_axis,
+                        .anisotropy = settings->anisotropy,
                         .depth = 1};
     copy_vector(camera->eye, view.eye);
     copy_vector(camera->right, view.right);

@@ -134,6 +134,7 @@ refuses 2 '--tone filmic: one of none|pbr-neutral|agx' render "${ok[@]}" --tone 
 refuses 2 '--precision half' render "${ok[@]}" --precision half
 refuses 2 '--texels double' render "${ok[@]}" --texels double
 refuses 2 '--filter sharp' render "${ok[@]}" --filter sharp
+refuses 2 '--anisotropy 17' render "${ok[@]}" --anisotropy 17
 refuses 3 'plate.png' render "${ok[@]}" --background plate.png
 refuses 2 '--progress loud' render "${ok[@]}" --progress loud
 refuses 2 '--exr-type double' render "${ok[@]}" --exr-type double
@@ -345,6 +346,8 @@ for texels in auto half float; do
     clean
 done
 renders '--filter mip' out/x.png --filter mip --texels float
+clean
+renders '--anisotropy 1' out/x.png --anisotropy 1
 clean
 run devices --json
 if grep -q '"fp64": true' stdout; then
