@@ -154,7 +154,8 @@ static const char much_that_is_not_modelled[] = TETRAHEDRON_STORAGE
     "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}},"
     "\"extras\":{\"glint\":{\"miror\":1}}},"
     "{\"name\":\"lens\",\"extensions\":{\"KHR_materials_clearcoat\":{},"
-    "\"KHR_materials_transmission\":{\"transmissionTexture\":{\"index\":0}}}}],"
+    "\"KHR_materials_transmission\":{\"transmissionTexture\":{\"index\":0}},"
+    "\"KHR_materials_volume\":{\"thicknessFactor\":1,\"thicknessTexture\":{\"index\":0}}}}],"
     "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\"}]}},"
     "\"extensionsUsed\":[\"KHR_materials_clearcoat\"]";
 
@@ -178,7 +179,8 @@ static const struct {
     {"KHR_materials_clearcoat", GLINT_IGNORED}, {"roughness", GLINT_APPROXIMATED},
     {"alphaMode MASK", GLINT_RENDERED},         {"COLOR_0", GLINT_RENDERED},
     {"baseColorTexture", GLINT_IGNORED},        {"transmissionTexture", GLINT_IGNORED},
-    {"morph targets", GLINT_RENDERED},          {"points and lines", GLINT_IGNORED},
+    {"thicknessTexture", GLINT_APPROXIMATED},   {"morph targets", GLINT_RENDERED},
+    {"points and lines", GLINT_IGNORED},
 };
 
 static void what_is_not_modelled_is_said_once(void **state)

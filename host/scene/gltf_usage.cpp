@@ -65,6 +65,20 @@ void add_material(const glint_material &material, Usages &usages)
     }
 }
 
+// Light takes the way through the solid itself, which the texture only stands for.
+void add_thickness(const Load &load, std::ptrdiff_t index, const UsedMaterial &used, Usages &usages)
+{
+    if (index < 0 || used.is_replaced || !(used.material.thickness > 0)) {
+        return;
+    }
+    const auto &materials = objects_of(load.document.root, "materials");
+    const json *volume =
+        extension_of(materials[static_cast<std::size_t>(index)], Place(), "KHR_materials_volume");
+    if (volume != nullptr && member(*volume, "thicknessTexture") != nullptr) {
+        usages.add("thicknessTexture", GLINT_APPROXIMATED);
+    }
+}
+
 void add_meshes(const Load &load, Usages &usages)
 {
     for (const Visit &visit : load.visits) {
@@ -102,6 +116,7 @@ void list_usages(const Load &load, glint_scene &scene)
         for (const MissingTexture &missing : one.second.missing) {
             usages.add(missing.key, GLINT_IGNORED);
         }
+        add_thickness(load, one.first, one.second, usages);
     }
     add_meshes(load, usages);
     if (scene.skipped_points + scene.skipped_lines > 0) {
