@@ -1,25 +1,25 @@
 // Irradiance of an environment, as its texels have it. See irradiance.h.
 //
 // Over a region of constant radiance L that lies wholly in front of n, ∫ L n·ω dω = n · (L m) with
-// the first moment m = ∫ ω dω. On a cube's face a texel is a spherical quadrilateral whose sides
-// are arcs of great circles, and m is Lambert's formula (Photometria, 1760; Arvo 1994): half the
-// sum, over its sides, of the arc's angle times the unit normal of the arc's plane, pointing
-// inwards. Moments add up. The faces are cut into blocks of whole texels (or of parts of texels,
-// where these are large), and of each row and each column of blocks the running sums of L m are
-// kept. n·ω is linear over a face, so the horizon of n is a straight line there, which in each row
-// (or column, whichever it crosses more steeply) parts the blocks in front from those behind: a
-// difference of two running sums is all that the ones in front bring.
+// the first moment m = ∫ ω dω. Moments add up. The faces are cut into blocks of whole texels (or of
+// parts of texels, where these are large), and of each row and each column of blocks the running
+// sums of L m are kept. n·ω is linear over a face, so the horizon of n is a straight line there,
+// which in each row (or column, whichever it crosses more steeply) parts the blocks in front from
+// those behind: one running sum is all that a row brings beside the blocks that are crossed.
 //
-// What is left are the blocks that the line runs through. With g = n·ω/ω_z, linear on the face, and
-// the weight w = L ω_z, such a block brings ∫ w max(0, g) dω; of w only the sum W and of w g only
-// the sum P = n · Σ L m are known. g is taken as spread evenly over P/W ± a, with a so that the
-// spread is that of g over an evenly weighted block: (P + aW)²/(4aW). That is exact for an even
-// weight and a line along an axis, and 6% of aW/4 too much at worst for one along a diagonal. Half
-// a block is a ≤ h/2, h the width of a block, so a great circle through 2π/h blocks of h² errs by
-// less than 0.06 · h²/4 of the radiance near the horizon: 4e-6 with h = 2/GRID_MIN. However uneven
-// the weight, the part of P within the block is right to aW/4, h/8 of what it would bring from
-// straight above: that is what a single bright texel (the sun) may err by, when the horizon runs
-// through its block.
+// The line crosses one or two blocks of a row. With g = n·ω/ω_z, linear on the face, and the weight
+// w = L ω_z, such a block brings ∫ w max(0, g) dω; of w only the sum W and of w g only the sum
+// P = n · Σ L m are known. g is taken as spread evenly over P/W ± a, with a so that the spread is
+// that of g over an evenly weighted block: (P + aW)²/(4aW). That is exact for an even weight and a
+// line along an axis, and 6% of aW/4 too much at worst for one along a diagonal. Half a block is
+// a ≤ h/2, h the width of a block, so a great circle through 2π/h blocks of h² errs by less than
+// 0.06 · h²/4 of the radiance near the horizon: 4e-6 with h = 2/GRID_MIN. However uneven the
+// weight, the part of P within the block is right to aW/4, h/8 of what it would bring from straight
+// above: that is what a single bright texel (the sun) may err by, when the horizon runs through its
+// block.
+//
+// Half of the normals follow from the others: max(0, x) − max(0, −x) = x, so E(n) − E(−n) is n · M
+// with M the first moment of the whole sphere. The opposite of a texel's normal is a texel's too.
 #include "environment/irradiance.h"
 
 #include "base/memory.h"
@@ -30,30 +30,45 @@
 #include <stdlib.h>
 
 enum {
-    GRID_MIN = 128, // blocks along a face's edge, at least
-    BLOCKS_MAX = 2 * GRID_MIN - 1,
+    GRID_MIN = 128,  // blocks along a face's edge, at least
+    CELLS_MAX = 128, // along a block's edge; the largest cube has fewer
+    BAND = 4,        // rows of blocks that a thread sums at once: neighbours share cache lines
+    TILE = 8,        // normals along the edge of a square; their horizons pass the same blocks
+    AXES = 3,        // of a face: s, t and its own
+    CHANNELS = 3,
+    PAIRS = (AXES * CHANNELS + 1) / 2,
 };
 
-// R and G, or B and padding: what a vector register of every x86-64 holds. Each lane is computed as
-// a scalar would be.
+// What a vector register of every x86-64 holds. Each lane is computed as a scalar would be.
 typedef double pair __attribute__((vector_size(2 * sizeof(double))));
-typedef int64_t pair_mask __attribute__((vector_size(2 * sizeof(int64_t))));
-enum { PAIRS = 2 };
+typedef float quad __attribute__((vector_size(4 * sizeof(float))));
+typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(int32_t))));
 
-// Σ L m in the face's axes: s, t and the face's own.
+// Σ L m: [axis][channel], and a 0.
 typedef struct moment_sum {
-    pair along[3][PAIRS];
+    pair of[PAIRS];
 } moment_sum;
+
+// A block, with a lane for each channel. In float: it is only read where a horizon crosses it.
+typedef struct block {
+    quad s, t;   // P/W along the face's axes, 0 without light; along the face's own axis it is 1
+    quad weight; // W
+} block;
 
 // Blocks are the same along both axes of a face. A line is a row (ALONG_S) or a column (ALONG_T).
 enum { ALONG_S, ALONG_T, DIRECTIONS };
 
 typedef struct block_grid {
-    int texels;   // along an edge of the map
-    int blocks;   // along an edge
-    double scale; // blocks per unit of (s + 1)/2; all blocks but the last have this width
-    // [face][line][blocks + 1]: the sums of the blocks of a line before the k-th.
+    int cells;    // along a face's edge: parts of equal radiance
+    int parts;    // cells along a texel's edge
+    int whole;    // cells along a block's edge; the last block may have fewer
+    int blocks;   // along a face's edge
+    double scale; // the same, but for what the last block lacks
+    // [face][line][-1 … blocks + 1]: the sums of the blocks of a line before the k-th; at the ends
+    // again those of 0 and of all.
     moment_sum *before[DIRECTIONS];
+    block *lights[DIRECTIONS];     // [face][line][-1 … blocks + 1]: empty ones at the ends
+    moment_sum *above[DIRECTIONS]; // [face][blocks + 1]: the sums of the lines before the k-th
 } block_grid;
 
 // What the threads share.
@@ -63,108 +78,181 @@ typedef struct job {
     block_grid grid;
 } job;
 
-static moment_sum *line_of(const block_grid *grid, int direction, int face, int line)
+// Where block 0 of a line is, among the blocks and among the sums.
+static size_t place_of(const block_grid *grid, int face, int line)
 {
-    size_t blocks = (size_t)grid->blocks;
-    return grid->before[direction] + ((size_t)face * blocks + (size_t)line) * (blocks + 1);
+    const size_t blocks = (size_t)grid->blocks;
+    return ((size_t)face * blocks + (size_t)line) * (blocks + 3) + 1;
 }
 
-static void add_sum(const moment_sum *a, moment_sum *to)
+static moment_sum *above_of(const block_grid *grid, int direction, int face)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        for (int p = 0; p < PAIRS; p++) {
-            to->along[axis][p] += a->along[axis][p];
-        }
+    return grid->above[direction] + (size_t)face * ((size_t)grid->blocks + 1);
+}
+
+// Written out, because a loop would keep the sum in memory.
+static inline void add_sum(const moment_sum *a, moment_sum *to)
+{
+    to->of[0] += a->of[0];
+    to->of[1] += a->of[1];
+    to->of[2] += a->of[2];
+    to->of[3] += a->of[3];
+    to->of[4] += a->of[4];
+}
+
+static void subtract_sum(const moment_sum *a, moment_sum *from)
+{
+    for (int p = 0; p < PAIRS; p++) {
+        from->of[p] -= a->of[p];
+    }
+}
+
+// n · Σ L m, added to the light.
+static void add_light(const moment_sum *sum, const double n[AXES], double light[CHANNELS])
+{
+    for (int k = 0; k < AXES * CHANNELS; k++) {
+        light[k % CHANNELS] += n[k / CHANNELS] * sum->of[k / 2][k % 2];
     }
 }
 
 // ---- Moments ------------------------------------------------------------------------------------
 
-// Adds the moment of [s0, s1] × [t0, t1] in the plane at distance 1.
-static void add_moment(const double s[2], const double t[2], double moment[3])
+// Moments of a row of cells of a block: s or t times `aside` along the axes of the face, `ahead`
+// along its own.
+typedef struct cell_row {
+    int first, count; // cells
+    double t;
+    double s[CELLS_MAX], aside[CELLS_MAX], ahead[CELLS_MAX];
+} cell_row;
+
+// ω dω is (s, t, 1) u² ds dt with u = 1/(1 + s² + t²). Over a square of edge h a function's mean is
+// its value in the middle and h²/24 of its Laplacian there: 16u³ − 24u⁴ for u², and for s u²
+// s (8u³ − 24u⁴). What follows is less than 0.12 h⁴ of the whole: 7e-9 with h = 2/GRID_MIN.
+static void weigh_cells(int cells, int row, cell_row *out)
 {
-    for (int side = 0; side < 2; side++) {
-        double sign = side == 0 ? 1.0 : -1.0; // inwards
-        // The side at constant s: its plane's normal is (1, 0, −s), its arc runs over t.
-        double far_s = sqrt(1.0 + s[side] * s[side]);
-        double angle_t = atan(t[1] / far_s) - atan(t[0] / far_s);
-        double far_t = sqrt(1.0 + t[side] * t[side]);
-        double angle_s = atan(s[1] / far_t) - atan(s[0] / far_t);
-        moment[0] += 0.5 * sign * angle_t / far_s;
-        moment[1] += 0.5 * sign * angle_s / far_t;
-        moment[2] -= 0.5 * sign * (angle_t * s[side] / far_s + angle_s * t[side] / far_t);
+    const double h = 2.0 / cells, area = h * h;
+    out->t = (row + 0.5) * h - 1.0;
+    for (int i = 0; i < out->count; i++) {
+        const double s = (out->first + i + 0.5) * h - 1.0;
+        const double u = 1.0 / (1.0 + s * s + out->t * out->t), weight = area * u * u;
+        out->s[i] = s;
+        out->aside[i] = weight * (1.0 + area * (u / 3.0 - u * u));
+        out->ahead[i] = weight * (1.0 + area * (2.0 * u / 3.0 - u * u));
     }
 }
 
-// Whole texels a block; 0 where a block is a part of one.
-static int texels_a_block(const block_grid *grid)
-{
-    return grid->texels / GRID_MIN;
-}
+// R and G, B and what is beside it.
+typedef struct block_sum {
+    pair along[AXES][2];
+} block_sum;
 
-// The first texel that block i covers, and in `line` where the block begins, in [−1, 1].
-static int block_start(const block_grid *grid, int i, double *line)
+static void sum_cells(const float *texels, int parts, const cell_row *row, block_sum *sum)
 {
-    int whole = texels_a_block(grid);
-    if (whole == 0) {
-        *line = 2.0 * i / grid->blocks - 1.0;
-        return i / (grid->blocks / grid->texels);
-    }
-    int first = i * whole < grid->texels ? i * whole : grid->texels;
-    *line = 2.0 * first / grid->texels - 1.0;
-    return first;
-}
-
-static void add_texel(const float *texel, const double s[2], const double t[2], moment_sum *sum)
-{
-    double moment[3] = {0.0, 0.0, 0.0};
-    add_moment(s, t, moment);
-    const pair radiance[PAIRS] = {{(double)texel[0], (double)texel[1]}, {(double)texel[2]}};
-    for (int axis = 0; axis < 3; axis++) {
-        for (int p = 0; p < PAIRS; p++) {
-            sum->along[axis][p] += radiance[p] * moment[axis];
+    pair x[2] = {sum->along[0][0], sum->along[0][1]}, y[2] = {{0}, {0}};
+    pair z[2] = {sum->along[2][0], sum->along[2][1]};
+    for (int i = 0; i < row->count; i++) {
+        const int cell = row->first + i;
+        const float *texel = texels + 4 * (parts == 1 ? cell : cell / parts);
+        const pair radiance[2] = {{(double)texel[0], (double)texel[1]},
+                                  {(double)texel[2], (double)texel[3]}};
+        for (int p = 0; p < 2; p++) {
+            const pair aside = radiance[p] * row->aside[i];
+            x[p] += aside * row->s[i];
+            y[p] += aside;
+            z[p] += radiance[p] * row->ahead[i];
         }
     }
+    for (int p = 0; p < 2; p++) {
+        sum->along[0][p] = x[p];
+        sum->along[1][p] += y[p] * row->t;
+        sum->along[2][p] = z[p];
+    }
 }
 
-static double texel_line(const block_grid *grid, int i)
+static int end_of_block(const block_grid *grid, int i)
 {
-    return 2.0 * i / grid->texels - 1.0;
+    const int end = (i + 1) * grid->whole;
+    return end < grid->cells ? end : grid->cells;
 }
 
-static void sum_block(const job *shared, int face, int row, int column, moment_sum *sum)
+// The block at a row and a column, of all faces.
+static void sum_block(const job *shared, int row, int column, block_sum sums[GLINT_CUBE_FACES])
 {
     const block_grid *grid = &shared->grid;
-    double s[2], t[2];
-    int first_i = block_start(grid, column, &s[0]), end_i = block_start(grid, column + 1, &s[1]);
-    int first_j = block_start(grid, row, &t[0]), end_j = block_start(grid, row + 1, &t[1]);
-    *sum = (moment_sum){0};
-    if (texels_a_block(grid) == 0) {
-        add_texel(glint_cube_texel(shared->radiance, face, first_i, first_j), s, t, sum);
-        return;
-    }
-    for (int j = first_j; j < end_j; j++) {
-        for (int i = first_i; i < end_i; i++) {
-            double across[2] = {texel_line(grid, i), texel_line(grid, i + 1)};
-            double down[2] = {texel_line(grid, j), texel_line(grid, j + 1)};
-            add_texel(glint_cube_texel(shared->radiance, face, i, j), across, down, sum);
+    cell_row cells;
+    cells.first = column * grid->whole;
+    cells.count = end_of_block(grid, column) - cells.first;
+    for (int j = row * grid->whole; j < end_of_block(grid, row); j++) {
+        weigh_cells(grid->cells, j, &cells);
+        for (int face = 0; face < GLINT_CUBE_FACES; face++) {
+            const float *texels = glint_cube_texel(shared->radiance, face, 0, j / grid->parts);
+            sum_cells(texels, grid->parts, &cells, &sums[face]);
         }
     }
 }
 
-// One row of blocks: its running sums, and the blocks themselves to where the columns' sums will
-// be.
-static void sum_row(size_t index, void *context)
+static moment_sum pack_sum(const block_sum *sum)
+{
+    moment_sum packed = {0};
+    for (int k = 0; k < AXES * CHANNELS; k++) {
+        const int channel = k % CHANNELS;
+        packed.of[k / 2][k % 2] = sum->along[k / CHANNELS][channel / 2][channel % 2];
+    }
+    return packed;
+}
+
+static block light_of(const block_sum *sum)
+{
+    block light = {0};
+    for (int c = 0; c < CHANNELS; c++) {
+        const double weight = sum->along[2][c / 2][c % 2];
+        const double share = weight > 0.0 ? 1.0 / weight : 0.0;
+        light.s[c] = (float)(sum->along[0][c / 2][c % 2] * share);
+        light.t[c] = (float)(sum->along[1][c / 2][c % 2] * share);
+        light.weight[c] = (float)weight;
+    }
+    return light;
+}
+
+// Of a line of blocks whose sums are complete.
+static void close_line(const block_grid *grid, int direction, size_t place)
+{
+    moment_sum *before = grid->before[direction] + place;
+    block *lights = grid->lights[direction] + place;
+    before[-1] = before[0] = (moment_sum){0};
+    before[grid->blocks + 1] = before[grid->blocks];
+    lights[-1] = lights[grid->blocks] = (block){0};
+}
+
+// A row of blocks: its running sums, and the blocks themselves to where the columns' sums will be.
+static void sum_row(const job *shared, int row)
+{
+    const block_grid *grid = &shared->grid;
+    moment_sum running[GLINT_CUBE_FACES] = {0};
+    for (int column = 0; column < grid->blocks; column++) {
+        block_sum sums[GLINT_CUBE_FACES] = {0};
+        sum_block(shared, row, column, sums);
+        for (int face = 0; face < GLINT_CUBE_FACES; face++) {
+            const size_t s = place_of(grid, face, row) + (size_t)column;
+            const size_t t = place_of(grid, face, column) + (size_t)row;
+            const moment_sum sum = pack_sum(&sums[face]);
+            add_sum(&sum, &running[face]);
+            grid->before[ALONG_S][s + 1] = running[face];
+            grid->before[ALONG_T][t + 1] = sum;
+            grid->lights[ALONG_S][s] = grid->lights[ALONG_T][t] = light_of(&sums[face]);
+        }
+    }
+    for (int face = 0; face < GLINT_CUBE_FACES; face++) {
+        close_line(grid, ALONG_S, place_of(grid, face, row));
+    }
+}
+
+static void sum_band(size_t index, void *context)
 {
     const job *shared = context;
-    const block_grid *grid = &shared->grid;
-    int face = (int)index / grid->blocks, row = (int)index % grid->blocks;
-    moment_sum *sums = line_of(grid, ALONG_S, face, row);
-    for (int column = 0; column < grid->blocks; column++) {
-        moment_sum *block = line_of(grid, ALONG_T, face, column) + row + 1;
-        sum_block(shared, face, row, column, block);
-        sums[column + 1] = sums[column];
-        add_sum(block, &sums[column + 1]);
+    const int first = (int)index * BAND;
+    for (int row = first; row < first + BAND && row < shared->grid.blocks; row++) {
+        sum_row(shared, row);
     }
 }
 
@@ -172,10 +260,26 @@ static void sum_column(size_t index, void *context)
 {
     const job *shared = context;
     const block_grid *grid = &shared->grid;
-    int face = (int)index / grid->blocks, column = (int)index % grid->blocks;
-    moment_sum *sums = line_of(grid, ALONG_T, face, column);
-    for (int row = 0; row < grid->blocks; row++) {
-        add_sum(&sums[row], &sums[row + 1]);
+    const size_t place = place_of(grid, (int)index / grid->blocks, (int)index % grid->blocks);
+    moment_sum *before = grid->before[ALONG_T] + place;
+    for (int row = 1; row < grid->blocks; row++) {
+        add_sum(&before[row], &before[row + 1]);
+    }
+    close_line(grid, ALONG_T, place);
+}
+
+// The sums of the lines of a face, in one direction.
+static void sum_lines(size_t index, void *context)
+{
+    const job *shared = context;
+    const block_grid *grid = &shared->grid;
+    const int direction = (int)index / GLINT_CUBE_FACES, face = (int)index % GLINT_CUBE_FACES;
+    moment_sum *above = above_of(grid, direction, face);
+    above[0] = (moment_sum){0};
+    for (int line = 0; line < grid->blocks; line++) {
+        const size_t end = place_of(grid, face, line) + (size_t)grid->blocks;
+        above[line + 1] = above[line];
+        add_sum(&grid->before[direction][end], &above[line + 1]);
     }
 }
 
@@ -183,26 +287,27 @@ static void grid_free(block_grid *grid)
 {
     for (int direction = 0; direction < DIRECTIONS; direction++) {
         free(grid->before[direction]);
+        free(grid->lights[direction]);
+        free(grid->above[direction]);
     }
     *grid = (block_grid){0};
 }
 
 static glint_status grid_create(int texels, block_grid *grid, glint_error *error)
 {
-    *grid = (block_grid){.texels = texels};
-    int whole = texels_a_block(grid);
-    if (whole == 0) {
-        grid->blocks = texels * ((GRID_MIN + texels - 1) / texels);
-        grid->scale = grid->blocks;
-    } else {
-        grid->blocks = (texels + whole - 1) / whole;
-        grid->scale = (double)texels / whole;
-    }
-    size_t blocks = (size_t)grid->blocks;
+    *grid = (block_grid){.parts = texels < GRID_MIN ? (GRID_MIN + texels - 1) / texels : 1,
+                         .whole = texels < GRID_MIN ? 1 : texels / GRID_MIN};
+    grid->cells = texels * grid->parts;
+    grid->blocks = (grid->cells + grid->whole - 1) / grid->whole;
+    grid->scale = (double)grid->cells / grid->whole;
+    const size_t end = place_of(grid, GLINT_CUBE_FACES, 0);
+    const size_t lines = GLINT_CUBE_FACES * ((size_t)grid->blocks + 1);
     for (int direction = 0; direction < DIRECTIONS; direction++) {
-        grid->before[direction] =
-            glint_allocate(GLINT_CUBE_FACES * blocks * (blocks + 1), sizeof(moment_sum));
-        if (grid->before[direction] == NULL) {
+        grid->before[direction] = glint_allocate_unset(end, sizeof(moment_sum));
+        grid->lights[direction] = glint_allocate_unset(end, sizeof(block));
+        grid->above[direction] = glint_allocate_unset(lines, sizeof(moment_sum));
+        if (grid->before[direction] == NULL || grid->lights[direction] == NULL ||
+            grid->above[direction] == NULL) {
             return glint_fail_memory(error, "an irradiance map");
         }
     }
@@ -211,138 +316,220 @@ static glint_status grid_create(int texels, block_grid *grid, glint_error *error
 
 // ---- Gathering ----------------------------------------------------------------------------------
 
-// The whole number at or below, and the one at or above, in 0 … most; NaN: 0.
-static int whole_below(double value, int most)
-{
-    return value > 0.0 ? (value < most ? (int)value : most) : 0;
-}
-
-static int whole_above(double value, int most)
-{
-    const int below = whole_below(value, most);
-    return below < most && below < value ? below + 1 : below;
-}
-
-// What the block between two running sums brings, of reach a. Taking a block for crossed that is
-// not does no harm: P is then outside ±aW.
-static pair light_of_crossed(const moment_sum sums[2], const double n[3], double a, int p)
-{
-    const pair weight = sums[1].along[2][p] - sums[0].along[2][p];
-    const pair part = n[0] * (sums[1].along[0][p] - sums[0].along[0][p]) +
-                      n[1] * (sums[1].along[1][p] - sums[0].along[1][p]) + n[2] * weight;
-    const pair reach = a * weight;
-    const pair_mask in_front = part >= reach;
-    const pair risen = (pair)((part > -reach) & (pair_mask)(part + reach)); // 0 behind
-    const pair crossed = risen * risen / (4.0 * reach); // NaN where there is no light
-    return (pair)((in_front & (pair_mask)part) | (~in_front & (pair_mask)crossed));
-}
-
-// What a normal's horizon, in a face's axes, cuts of a line of blocks.
+// How a normal's horizon runs over a face, in the direction that it crosses more steeply. Places on
+// a line are in blocks · 2³².
 typedef struct horizon {
-    const double *n;
-    double fast, slow, height; // of n: along the line, along the next line, along the face's axis
-    double scale, step;        // blocks per half unit, and the width of a line
-    double reach;              // a, see above
-    int blocks;
+    int64_t low, step, span; // the least place on line 0; how far it moves a line; |step|
+    int first, end;          // the lines that are crossed
+    bool rises;              // what is in front lies beyond the horizon on a line, not before it
+    double reach;            // a
+    quad s, t, ahead;        // n/2a, and ½ more ahead
 } horizon;
 
-// Where n·ω is 0 at one side of a line, in blocks; a face that n looks straight at, or away from,
-// has it at ±∞.
-static double crossing(const horizon *h, double side)
+#define ONE_BLOCK ((int64_t)1 << 32)
+
+static quad four(double value)
 {
-    return (1.0 - (h->height + h->slow * side) / h->fast) * 0.5 * h->scale;
+    const float f = (float)value;
+    return (quad){f, f, f, f};
 }
 
-// The blocks of a line that lie wholly in front end or begin with those that are crossed.
-typedef struct cut {
-    const moment_sum *crossed, *crossed_end, *front, *front_end;
-} cut;
-
-static cut cut_line(const moment_sum *sums, const horizon *h, int line)
+static horizon find_horizon(const block_grid *grid, int direction, const double n[AXES])
 {
-    const double side = 2.0 * line / h->scale - 1.0;
-    const double start = crossing(h, side), stop = crossing(h, side + h->step);
-    const moment_sum *first = &sums[whole_below(start < stop ? start : stop, h->blocks)];
-    const moment_sum *end = &sums[whole_above(start < stop ? stop : start, h->blocks)];
-    return h->fast > 0.0 ? (cut){first, end, end, &sums[h->blocks]}
-                         : (cut){first, end, sums, first};
+    // The line at `side` is crossed at s (or t) = −(ahead + slow · side)/fast.
+    const double fast = n[direction == ALONG_S ? 0 : 1], slow = n[direction == ALONG_S ? 1 : 0];
+    const double start = (1.0 - (n[2] - slow) / fast) * 0.5 * grid->scale;
+    const double reach = sqrt(fast * fast + slow * slow) / grid->scale, share = 0.5 / reach;
+    horizon h = {.step = (int64_t)(-slow / fast * (double)ONE_BLOCK),
+                 .rises = fast > 0.0,
+                 .reach = reach,
+                 .s = four(n[0] * share),
+                 .t = four(n[1] * share),
+                 .ahead = four(n[2] * share + 0.5)};
+    h.span = h.step < 0 ? -h.step : h.step;
+    h.low = (int64_t)floor(start * (double)ONE_BLOCK) + (h.step < 0 ? h.step : 0);
+    return h;
 }
 
-// Two channels of what the lines of a face bring.
-static pair gather_pair(const cut *cuts, const horizon *h, int p, pair light)
+static bool crosses(const horizon *h, int line, int blocks)
 {
-    const double *n = h->n;
-    pair x = {0}, y = {0}, z = {0}; // of what lies wholly in front
-    for (int line = 0; line < h->blocks; line++) {
-        const cut *c = &cuts[line];
-        x = x + c->front_end->along[0][p] - c->front->along[0][p];
-        y = y + c->front_end->along[1][p] - c->front->along[1][p];
-        z = z + c->front_end->along[2][p] - c->front->along[2][p];
-        for (const moment_sum *k = c->crossed; k < c->crossed_end; k++) {
-            light += light_of_crossed(k, n, h->reach, p);
-        }
+    const int64_t low = h->low + h->step * line;
+    return low + h->span > 0 && low < blocks * ONE_BLOCK;
+}
+
+static void find_lines(horizon *h, int blocks)
+{
+    h->end = blocks;
+    while (h->first < h->end && !crosses(h, h->first, blocks)) {
+        h->first++;
     }
-    return light + (n[0] * x + n[1] * y + n[2] * z);
+    while (h->first < h->end && !crosses(h, h->end - 1, blocks)) {
+        h->end--;
+    }
+}
+
+static quad above_zero(quad value)
+{
+    return (quad)((value > 0.0f) & (quad_mask)value);
+}
+
+// What a crossed block brings, over a: W ((P/aW + 1)/2)², and the line through where P = aW beyond.
+static quad light_of_crossed(const block *b, const horizon *h, quad weight)
+{
+    const quad risen = above_zero(h->s * b->s + h->t * b->t + h->ahead);
+    const quad beyond = above_zero(risen - 1.0f);
+    return weight * (risen * risen - beyond * beyond);
+}
+
+// Adds what the crossed blocks bring, over a, and returns the sums before the first block of each
+// line that is not crossed any more (or not yet).
+static moment_sum walk_lines(const block_grid *grid, int direction, size_t place, const horizon *h,
+                             quad *crossed)
+{
+    static const quad_mask taken[2] = {{0, 0, 0, 0}, {-1, -1, -1, -1}};
+    const ptrdiff_t pitch = grid->blocks + 3;
+    const moment_sum *before = grid->before[direction] + place + h->first * pitch;
+    const block *lights = grid->lights[direction] + place + h->first * pitch;
+    int64_t low = h->low + h->step * h->first;
+    moment_sum sum = {0};
+    quad light = {0};
+    for (int line = h->first; line < h->end; line++) {
+        const ptrdiff_t first = (ptrdiff_t)(low >> 32);
+        const int second = (low & (ONE_BLOCK - 1)) + h->span > ONE_BLOCK;
+        add_sum(&before[h->rises ? first + 1 + second : first], &sum);
+        const block *b = &lights[first];
+        light += light_of_crossed(&b[0], h, b[0].weight);
+        light += light_of_crossed(&b[1], h, (quad)((quad_mask)b[1].weight & taken[second]));
+        before += pitch;
+        lights += pitch;
+        low += h->step;
+    }
+    *crossed = light;
+    return sum;
 }
 
 // One face, n in its axes.
-static void gather_face(const block_grid *grid, int face, const double n[3], pair light[PAIRS])
+static void gather_face(const block_grid *grid, int face, const double n[AXES],
+                        double light[CHANNELS])
 {
-    // Along the axis that n·ω changes faster with, the horizon crosses two blocks a line at most.
-    const int direction = fabs(n[0]) >= fabs(n[1]) ? ALONG_S : ALONG_T;
-    const double fast = n[direction == ALONG_S ? 0 : 1], slow = n[direction == ALONG_S ? 1 : 0];
-    if (fabs(fast) + fabs(slow) + n[2] <= 0.0) {
-        return; // wholly behind
+    const double across = fabs(n[0]) + fabs(n[1]);
+    const int direction = fabs(n[0]) >= fabs(n[1]) ? ALONG_S : ALONG_T, blocks = grid->blocks;
+    const moment_sum *above = above_of(grid, direction, face);
+    if (!(across > fabs(n[2]))) { // wholly in front or behind
+        if (n[2] > 0.0) {
+            add_light(&above[blocks], n, light);
+        }
+        return;
     }
-    const double reach = sqrt(fast * fast + slow * slow) / grid->scale;
-    const horizon h = {n, fast, slow, n[2], grid->scale, 2.0 / grid->scale, reach, grid->blocks};
-    cut cuts[BLOCKS_MAX];
-    for (int line = 0; line < h.blocks; line++) {
-        cuts[line] = cut_line(line_of(grid, direction, face, line), &h, line);
+    horizon h = find_horizon(grid, direction, n);
+    find_lines(&h, blocks);
+    quad crossed;
+    moment_sum sum = walk_lines(grid, direction, place_of(grid, face, 0), &h, &crossed);
+    // Of lines that are not crossed, all blocks lie before the horizon or none.
+    if (h.low >= blocks * ONE_BLOCK) {
+        add_sum(&above[h.first], &sum);
     }
-    for (int p = 0; p < PAIRS; p++) {
-        light[p] = gather_pair(cuts, &h, p, light[p]);
+    if (h.low + h.step * (blocks - 1) >= blocks * ONE_BLOCK) {
+        add_sum(&above[blocks], &sum);
+        subtract_sum(&above[h.end], &sum);
+    }
+    moment_sum front = above[blocks];
+    subtract_sum(&sum, &front);
+    add_light(h.rises ? &front : &sum, n, light);
+    for (int c = 0; c < CHANNELS; c++) {
+        light[c] += h.reach * (double)crossed[c];
     }
 }
 
-static void irradiance_along(const block_grid *grid, glint_vec3 n, pair light[PAIRS])
+typedef struct face_axes {
+    glint_vec3 s, t, ahead;
+} face_axes;
+
+static face_axes axes_of(int face)
+{
+    const glint_vec3 ahead = glint_cube_direction(face, 0.0, 0.0);
+    return (face_axes){glint_vec3_subtract(glint_cube_direction(face, 1.0, 0.0), ahead),
+                       glint_vec3_subtract(glint_cube_direction(face, 0.0, 1.0), ahead), ahead};
+}
+
+static void turn_to_face(const face_axes *axes, glint_vec3 n, double out[AXES])
+{
+    out[0] = glint_vec3_dot(n, axes->s);
+    out[1] = glint_vec3_dot(n, axes->t);
+    out[2] = glint_vec3_dot(n, axes->ahead);
+}
+
+// A normal of the map, and what it receives; then what its opposite does.
+typedef struct receiver {
+    int i, j;
+    glint_vec3 n;
+    double light[2][CHANNELS];
+} receiver;
+
+static void gather(const block_grid *grid, receiver *receivers, int count)
 {
     for (int face = 0; face < GLINT_CUBE_FACES; face++) {
-        glint_vec3 axis = glint_cube_direction(face, 0.0, 0.0);
-        glint_vec3 along_s = glint_vec3_subtract(glint_cube_direction(face, 1.0, 0.0), axis);
-        glint_vec3 along_t = glint_vec3_subtract(glint_cube_direction(face, 0.0, 1.0), axis);
-        // A component of 0 has no sign to divide by; so small a one turns n by nothing.
-        const double least = 1e-30;
-        double in_face[3] = {glint_vec3_dot(n, along_s), glint_vec3_dot(n, along_t),
-                             glint_vec3_dot(n, axis)};
-        if (fabs(in_face[0]) < least && fabs(in_face[1]) < least) {
-            in_face[0] = least;
+        const face_axes axes = axes_of(face);
+        const moment_sum *all = above_of(grid, ALONG_S, face) + grid->blocks;
+        for (int k = 0; k < count; k++) {
+            double n[AXES];
+            turn_to_face(&axes, receivers[k].n, n);
+            gather_face(grid, face, n, receivers[k].light[0]);
+            const double opposite[AXES] = {-n[0], -n[1], -n[2]};
+            add_light(all, opposite, receivers[k].light[1]);
         }
-        gather_face(grid, face, in_face, light);
     }
-    for (int p = 0; p < PAIRS; p++) {
-        light[p] /= GLINT_PI;
+}
+
+static void store(float *texel, const double light[CHANNELS])
+{
+    for (int c = 0; c < CHANNELS; c++) {
+        texel[c] = light[c] > 0.0 ? (float)(light[c] / GLINT_PI) : 0.0f;
     }
+    texel[3] = 1.0f;
+}
+
+// Stores the same place, seen from the cube's middle, of a face and of the one opposite.
+static void store_receiver(const glint_cube *map, int face, const receiver *r)
+{
+    const face_axes here = axes_of(face), there = axes_of(face + 1);
+    const int last = map->edge - 1;
+    const int i = glint_vec3_dot(here.s, there.s) < 0.0 ? r->i : last - r->i;
+    const int j = glint_vec3_dot(here.t, there.t) < 0.0 ? r->j : last - r->j;
+    const double opposite[CHANNELS] = {r->light[0][0] + r->light[1][0],
+                                       r->light[0][1] + r->light[1][1],
+                                       r->light[0][2] + r->light[1][2]};
+    store(glint_cube_texel(map, face, r->i, r->j), r->light[0]);
+    store(glint_cube_texel(map, face + 1, i, j), opposite);
+}
+
+static int tiles_of(int edge)
+{
+    return (edge + 2 * GLINT_CUBE_BORDER + TILE - 1) / TILE;
 }
 
 // The border too: irradiance is smooth, and its own value in the plane of the face serves better
 // than a neighbour's texel, which stands up to half a texel aside. Both faces then agree on their
 // common edge up to the error of interpolation.
-static void gather_row(size_t index, void *context)
+static void gather_tile(size_t index, void *context)
 {
     const job *shared = context;
-    int edge = shared->irradiance->edge, pitch = edge + 2 * GLINT_CUBE_BORDER;
-    int face = (int)index / pitch, j = (int)index % pitch - GLINT_CUBE_BORDER;
-    for (int i = -GLINT_CUBE_BORDER; i < edge + GLINT_CUBE_BORDER; i++) {
-        double s = (2.0 * i + 1.0) / edge - 1.0, t = (2.0 * j + 1.0) / edge - 1.0;
-        const glint_vec3 normal = glint_vec3_normalize(glint_cube_direction(face, s, t));
-        pair light[PAIRS] = {0};
-        irradiance_along(&shared->grid, normal, light);
-        float *texel = glint_cube_texel(shared->irradiance, face, i, j);
-        for (int c = 0; c < 3; c++) {
-            texel[c] = (float)light[c / 2][c % 2];
+    const int edge = shared->irradiance->edge, tiles = tiles_of(edge);
+    const int face = 2 * ((int)index / tiles / tiles); // and the next, opposite
+    const int first_i = (int)index % tiles * TILE - GLINT_CUBE_BORDER;
+    const int first_j = (int)index / tiles % tiles * TILE - GLINT_CUBE_BORDER;
+    receiver receivers[TILE * TILE];
+    int count = 0;
+    for (int j = first_j; j < first_j + TILE && j < edge + GLINT_CUBE_BORDER; j++) {
+        for (int i = first_i; i < first_i + TILE && i < edge + GLINT_CUBE_BORDER; i++) {
+            const double s = (2.0 * i + 1.0) / edge - 1.0, t = (2.0 * j + 1.0) / edge - 1.0;
+            const glint_vec3 n = glint_vec3_normalize(glint_cube_direction(face, s, t));
+            receivers[count++] = (receiver){i, j, n, {{0}}};
         }
-        texel[3] = 1.0f;
+    }
+    gather(&shared->grid, receivers, count);
+    for (int k = 0; k < count; k++) {
+        store_receiver(shared->irradiance, face, &receivers[k]);
     }
 }
 
@@ -352,15 +539,15 @@ glint_status glint_irradiance_map(const glint_cube *radiance, int edge, glint_cu
     job shared = {.radiance = radiance, .irradiance = irradiance};
     TRY(glint_cube_create(edge, irradiance, error));
     const glint_status status = grid_create(radiance->edge, &shared.grid, error);
-    if (status != GLINT_OK) {
+    if (status == GLINT_OK) {
+        const size_t blocks = (size_t)shared.grid.blocks, tiles = (size_t)tiles_of(edge);
+        glint_parallel_for((blocks + BAND - 1) / BAND, sum_band, &shared);
+        glint_parallel_for(GLINT_CUBE_FACES * blocks, sum_column, &shared);
+        glint_parallel_for(DIRECTIONS * GLINT_CUBE_FACES, sum_lines, &shared);
+        glint_parallel_for(GLINT_CUBE_FACES / 2 * tiles * tiles, gather_tile, &shared);
+    } else {
         glint_cube_free(irradiance);
-        return status;
     }
-    const size_t lines = GLINT_CUBE_FACES * (size_t)shared.grid.blocks;
-    glint_parallel_for(lines, sum_row, &shared);
-    glint_parallel_for(lines, sum_column, &shared);
-    const size_t pitch = (size_t)edge + 2 * GLINT_CUBE_BORDER;
-    glint_parallel_for(GLINT_CUBE_FACES * pitch, gather_row, &shared);
     grid_free(&shared.grid);
-    return GLINT_OK;
+    return status;
 }

@@ -17,8 +17,8 @@ extern "C" {
 
 // Fills `irradiance` (edge texels a face) with E(n)/π, where
 // E(n) = ∫ L(ω) max(0, n·ω) dω over the sphere: 1 under a uniform environment of radiance 1.
-// The environment is taken as its texels, each with its exact solid angle and first moment; only
-// blocks of texels that n's horizon runs through are approximated (4e-6, see irradiance.c). The
+// The environment is taken as its texels, each with its first moment (to 7e-9); only blocks of
+// texels that n's horizon runs through are approximated (4e-6, see irradiance.c). The
 // border holds E(n)/π at its own place in the plane of the face: a smooth function is interpolated
 // better so than through values on the edges, as a radiance map is (see cube.c).
 glint_status glint_irradiance_map(const glint_cube *radiance, int edge, glint_cube *irradiance,
