@@ -36,7 +36,8 @@ static inline lanes_int media_met_in(const surface *s, mask solid, lanes_int med
     return SELECT(solid & !s->outside & (media == (lane_int)0), s->medium, media);
 }
 
-// Rule 5: the media on both sides of a solid's surface. Sets the stacks of both branches and returns η = n_i/n_t.
+// Rule 5: the media on both sides of a solid's surface. Sets the stacks of both branches and
+// returns η = n_i/n_t.
 static inline real cross_solid(const scene_buffers *scene, const surface *s, mask solid,
                                lanes_int *media, lanes_int *beyond, mask *lost)
 {

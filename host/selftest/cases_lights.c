@@ -1,13 +1,11 @@
 // Hard cases of punctual lights: in a surface, close above one, at the edge of a cone and of a
 // range, in mirrors and through glass, and in scenes of any size. The environment is black.
-#include "base/memory.h"
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 #include "selftest/vectors.h"
 
 #include <math.h>
-#include <string.h>
 
 // A few dozen roundings of a point's coordinates, each of which counts by up to 1/distance.
 #define ROUNDINGS 256
@@ -45,13 +43,7 @@ static glint_status end_lit(trial *t, shape *s, const glint_punctual_light *ligh
                             glint_scene *scene)
 {
     TRY(shape_end(s, scene, t->error));
-    scene->lights = glint_allocate(count, sizeof *scene->lights);
-    if (scene->lights == NULL) {
-        return glint_fail_memory(t->error, "a self-test");
-    }
-    memcpy(scene->lights, lights, count * sizeof *lights);
-    scene->light_count = count;
-    return GLINT_OK;
+    return shape_set_lights(lights, count, scene, t->error);
 }
 
 static glint_status render_in_dark(trial *t, const glint_scene *scene, const glint_camera *camera,

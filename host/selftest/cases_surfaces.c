@@ -18,7 +18,7 @@ enum {
     LEAVES, // MASK by a texture's alpha
     EVEN,   // MASK with just the cutoff's alpha
     VEIL,   // BLEND by the vertices' alpha, glossy
-    PANE,   // thin glass, BLEND by a texture's alpha, which transmits in places
+    PANE,   // thin glass, a little metal, BLEND by a texture's alpha, which transmits in places
     SLAB,   // solid glass, which transmits in places
     SHEEN,  // the lecture's blend, with occlusion
     SIGN,   // unlit, BLEND
@@ -121,7 +121,7 @@ static void add_factors(glint_material *m)
         {0.9F, 0.8F, 0.7F}, {0.7F, 0.6F, 0.9F}, {0.9F, 0.7F, 0.5F},   {0.6F, 0.8F, 0.9F},
         {0.3F, 0.8F, 0.2F}, {0.8F, 0.2F, 0.2F}, {0.9F, 0.9F, 0.4F},   {0.8F, 0.9F, 0.9F},
         {0.9F, 1, 0.9F},    {0.4F, 0.5F, 0.8F}, {0.95F, 0.35F, 0.15F}};
-    static const float metallic[MATERIALS] = {[MIRROR] = 0.9F, [BALL] = 1};
+    static const float metallic[MATERIALS] = {[MIRROR] = 0.9F, [BALL] = 1, [PANE] = 0.25F};
     static const float alpha[MATERIALS] = {1, 1, 1, 1, 0.85F, 0.5F, 0.9F, 0.9F, 1, 1, 0.6F};
     for (int i = 0; i < MATERIALS; i++) {
         set_material(&m[i], colors[i], metallic[i], alpha[i]);
@@ -277,6 +277,23 @@ static glint_status make_room(int variant, glint_scene *scene, glint_error *erro
     return add_attributes(scene, error);
 }
 
+// A lamp before the leaves and a sun from the upper right: both shine past and through the rest.
+static glint_status add_lights(glint_scene *scene, glint_error *error)
+{
+    static const glint_punctual_light lights[] = {
+        {.kind = GLINT_PUNCTUAL_POINT,
+         .position = {0.1, 0.4, 0.55},
+         .direction = {0, -1, 0},
+         .color = {2, 1.5, 1},
+         .range = 3},
+        {.kind = GLINT_PUNCTUAL_DIRECTIONAL,
+         .direction = {-0.48, -0.64, -0.6},
+         .color = {0.5, 1, 1.5},
+         .range = INFINITY},
+    };
+    return shape_set_lights(lights, sizeof lights / sizeof *lights, scene, error);
+}
+
 // ---- Judging ------------------------------------------------------------------------------------
 
 static void uniform_light(const void *context, const double direction[3], double rgb[3])
@@ -288,6 +305,12 @@ static void uniform_light(const void *context, const double direction[3], double
 typedef struct surface_measures {
     glint_measure *errors, *undecided;
 } surface_measures;
+
+// How a room is seen.
+typedef struct room_view {
+    int variant, depth;
+    bool transparent, lit;
+} room_view;
 
 // Pixels that come this near to an edge, to the critical angle, or to where a texture or alpha
 // jumps may show the other side of it: as rounding of some u grows by what curved surfaces bend.
@@ -314,8 +337,7 @@ static void measure_pixels(trial *t, const oracle_scene *scene, const oracle_vie
     }
 }
 
-static glint_status measure_room(trial *t, int variant, int depth, bool transparent,
-                                 const surface_measures *of)
+static glint_status measure_room(trial *t, const room_view *room, const surface_measures *of)
 {
     static const double eye[3] = {0.25, 0.2, 2.1}, target[3] = {-0.05, -0.05, 0};
     static const double light = 0.75;
@@ -324,11 +346,14 @@ static glint_status measure_room(trial *t, int variant, int depth, bool transpar
     trial_picture picture = {0};
     judge j = {0};
     glint_settings settings = trial_settings(t);
-    settings.depth = depth;
-    settings.transparent = transparent;
+    settings.depth = room->depth;
+    settings.transparent = room->transparent;
     const glint_camera camera = shape_camera(eye, target, 0.85, 0);
     glint_status status;
-    TRY_OR(cleanup, status, make_room(variant, &scene, t->error));
+    TRY_OR(cleanup, status, make_room(room->variant, &scene, t->error));
+    if (room->lit) {
+        TRY_OR(cleanup, status, add_lights(&scene, t->error));
+    }
     TRY_OR(cleanup, status, trial_uniform_environment((float)light, &environment, t->error));
     const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
     TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
@@ -336,8 +361,8 @@ static glint_status measure_room(trial *t, int variant, int depth, bool transpar
     j.scene.radiance = j.scene.irradiance = uniform_light;
     j.scene.context = &light;
     oracle_view view = judge_view(&camera, &settings);
-    view.depth = depth;
-    view.transparent = transparent;
+    view.depth = room->depth;
+    view.transparent = room->transparent;
     view.edges = true;
     measure_pixels(t, &j.scene, &view, &picture, of);
 cleanup:
@@ -363,8 +388,23 @@ static glint_status dressed_room(trial *t)
             trial_share(t, "pixels that rounding decides", 0.05),
         };
         for (int variant = 0; variant < 12; variant++) {
-            TRY(measure_room(t, variant, frames[i].depth, variant % 2 == 1, &of));
+            const room_view room = {variant, frames[i].depth, variant % 2 == 1, false};
+            TRY(measure_room(t, &room, &of));
         }
+    }
+    return GLINT_OK;
+}
+
+// Edges of shadows are edges, too: rounding decides more of the pixels.
+static glint_status lit_room(trial *t)
+{
+    const surface_measures of = {
+        trial_error(t, "depth 3: beside the oracle's colours", "4096 u + 2⁻²³", 4),
+        trial_share(t, "pixels that rounding decides", 0.1),
+    };
+    for (int variant = 0; variant < 12; variant += 3) {
+        const room_view room = {variant, 3, variant % 2 == 1, true};
+        TRY(measure_room(t, &room, &of));
     }
     return GLINT_OK;
 }
@@ -374,5 +414,7 @@ const trial_case surface_cases[] = {
      "textures, colours and alpha, seen at once, in mirrors and through glass: the oracle's "
      "colours",
      dressed_room},
+    {"lit_room", "the same under a lamp and a sun, which occlusion does not darken: their shadows",
+     lit_room},
     {0},
 };

@@ -185,6 +185,18 @@ glint_status shape_end(shape *s, glint_scene *scene, glint_error *error)
     return shape_end_with_unit(s, 1, scene, error);
 }
 
+glint_status shape_set_lights(const glint_punctual_light *lights, size_t count, glint_scene *scene,
+                              glint_error *error)
+{
+    scene->lights = glint_allocate(count, sizeof *lights);
+    if (scene->lights == NULL) {
+        return glint_fail_memory(error, "lights");
+    }
+    memcpy(scene->lights, lights, count * sizeof *lights);
+    scene->light_count = count;
+    return GLINT_OK;
+}
+
 glint_camera shape_camera(const double eye[3], const double target[3], double yfov, double ymag)
 {
     const glint_vec3 at = {eye[0], eye[1], eye[2]};

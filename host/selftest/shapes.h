@@ -70,6 +70,10 @@ void shape_add_ball(shape *s, const shape_ball *ball);
 glint_status shape_end(shape *s, glint_scene *scene, glint_error *error);
 glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glint_error *error);
 
+// Gives a scene without lights these.
+glint_status shape_set_lights(const glint_punctual_light *lights, size_t count, glint_scene *scene,
+                              glint_error *error);
+
 // A camera at `eye` that looks at `target`; yfov in radians, or 0: orthographic with `ymag`, half
 // the height of what it sees, in metres.
 glint_camera shape_camera(const double eye[3], const double target[3], double yfov, double ymag);
