@@ -108,7 +108,9 @@ typedef struct glint_material_record {
 // ---- Textures ----------------------------------------------------------------------------------
 // All texels stand in one array: [4] 16-bit whole numbers, R, G, B, A, linear, in 1/65535. A
 // texture's levels follow each other; each is rows of texels from the top. Level k is
-// max(1, width >> k) by max(1, height >> k).
+// max(1, width >> k) by max(1, height >> k). Right of each row and below all of them comes what a
+// repeated texture shows there: the first texel again, and the first row.
+#define GLINT_TEXTURE_BORDER 1
 #define GLINT_TEXTURE_LEVELS 16  // at most, so that an image is 32768 wide and high at most
 #define GLINT_TEXTURE_SECOND 1u  // looked up by the second texture coordinates
 #define GLINT_TEXTURE_CLAMP_S 2u // else repeated, or mirrored
@@ -126,7 +128,8 @@ typedef struct glint_texture_record {
     int levels;                               // that are looked up
     unsigned int flags;                       // GLINT_TEXTURE_…
     float transform[6];                       // of u and v, see glint_texture_use
-    unsigned int unused[2];
+    int alike;                                // the same number: they differ in texels alone
+    unsigned int unused;
 } glint_texture_record;
 
 // Medium 0 is empty space. Absorption is per stored unit of length, as an unevaluated sum of two

@@ -341,25 +341,46 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
     }
 }
 
-// Looks up the textures of one material. Slots that share one, as occlusion and metallic often do,
-// share its look-up.
+// Looks up the textures of one material in slots of `*left` that are looked up alike, which leave
+// it. Slots that share a texture, as occlusion and metallic often do, share its look-up.
+static inline void take_alike(const scene_buffers *scene, const texture_spot *spots, mask here,
+                              global const glint_material_record *m, uint *left, surface *s)
+{
+    global const glint_texture_record *t = scene->textures + m->textures[lowest_bit(*left)];
+    texture_group g;
+    int place[GLINT_MATERIAL_TEXTURES];
+    uint taken = 0;
+    g.count = 0;
+    for (uint rest = *left; rest != 0; rest &= rest - 1) {
+        const int slot = lowest_bit(rest), texture = m->textures[slot];
+        if (scene->textures[texture].alike == t->alike) {
+            if (g.count == 0 || texture != g.textures[g.count - 1]) {
+                g.textures[g.count++] = texture;
+            }
+            place[slot] = g.count - 1;
+            taken |= 1u << slot;
+        }
+    }
+    *left &= ~taken;
+    const bool second = GLINT_SECOND_TEXCOORDS && (t->flags & GLINT_TEXTURE_SECOND);
+    scalar4 found[GLINT_MATERIAL_TEXTURES][GLINT_WIDTH];
+    look_up_textures(scene, &g, &spots[second], here, found);
+    for (uint rest = taken; rest != 0; rest &= rest - 1) {
+        const int slot = lowest_bit(rest);
+        const texture_color color = color_of_lanes(found[place[slot]]);
+        take_texture(slot, &color, here, m, s);
+    }
+}
+
 static inline void take_textures(const scene_buffers *scene, const texture_spot *spots, mask here,
                                  global const glint_material_record *m, surface *s)
 {
-    int last = -1;
-    texture_color color;
+    uint left = 0;
     for (int slot = 0; slot < GLINT_MATERIAL_TEXTURES; slot++) {
-        const int texture = m->textures[slot];
-        if (texture < 0) {
-            continue;
-        }
-        if (texture != last) {
-            global const glint_texture_record *t = scene->textures + texture;
-            const bool second = GLINT_SECOND_TEXCOORDS && (t->flags & GLINT_TEXTURE_SECOND);
-            color = look_up_texture(scene, t, &spots[second], here);
-            last = texture;
-        }
-        take_texture(slot, &color, here, m, s);
+        left |= m->textures[slot] >= 0 ? 1u << slot : 0;
+    }
+    while (left != 0) {
+        take_alike(scene, spots, here, m, &left, s);
     }
 }
 

@@ -190,68 +190,83 @@ static inline real wrapped(real x, bool clamps, bool mirrors)
     return x - floor(x);
 }
 
-// Two texels of a row or column beside each other, and how far the point lies towards the second.
+// The first of two texels of a row or column beside each other, and how far the point lies towards
+// the second.
 typedef struct neighbours {
-    lanes_int first, second;
+    lanes_int first;
     real share;
 } neighbours;
 
 static inline neighbours neighbours_at(real x, lanes_int size, bool repeats, mask nearest)
 {
-    const real at = fused(x, to_real(size), real_of(R(-0.5)));
+    const real one = real_of(1), zero = real_of(0);
+    real at = fused(x, to_real(size), real_of(R(-0.5)));
+    if (!repeats) {
+        at = LARGER(at, zero);
+        at = SMALLER(at, to_real(size - (lane_int)1));
+    }
     neighbours n;
     n.first = to_int_down(at);
     n.share = at - to_real(n.first);
-    n.second = n.first + (lane_int)1;
-    const mask before = n.first < (lane_int)0, beyond = n.second >= size;
-    const lanes_int last = size - (lane_int)1;
-    n.first = SELECT(before, repeats ? last : int_of(0), n.first);
-    n.second = SELECT(beyond, repeats ? int_of(0) : last, n.second);
-    const real one = real_of(1), zero = real_of(0);
+    n.first = SELECT(n.first < (lane_int)0, n.first + size, n.first);
     n.share = SELECT(nearest, SELECT(n.share >= R(0.5), one, zero), n.share);
     return n;
 }
 
-// Four texels of a level.
+// Four texels of a level: the upper left one, and where the point lies between them.
 typedef struct texel_square {
-    neighbours across, down;
-    lanes_int width;
+    lanes_int first, pitch; // in texels
+    real across, down;
 } texel_square;
 
 static inline texel_square square_at(global const glint_texture_record *t, real u, real v,
                                      lanes_int level, mask nearest)
 {
     const lanes_int one = int_of(1);
+    const lanes_int width = max(int_of((lane_int)t->width) >> level, one);
     const lanes_int height = max(int_of((lane_int)t->height) >> level, one);
-    const uint repeats_s = t->flags & (GLINT_TEXTURE_CLAMP_S | GLINT_TEXTURE_MIRROR_S);
-    const uint repeats_t = t->flags & (GLINT_TEXTURE_CLAMP_T | GLINT_TEXTURE_MIRROR_T);
+    const uint bounds_s = t->flags & (GLINT_TEXTURE_CLAMP_S | GLINT_TEXTURE_MIRROR_S);
+    const uint bounds_t = t->flags & (GLINT_TEXTURE_CLAMP_T | GLINT_TEXTURE_MIRROR_T);
+    const neighbours across = neighbours_at(u, width, bounds_s == 0, nearest);
+    const neighbours down = neighbours_at(v, height, bounds_t == 0, nearest);
     texel_square square;
-    square.width = max(int_of((lane_int)t->width) >> level, one);
-    square.across = neighbours_at(u, square.width, repeats_s == 0, nearest);
-    square.down = neighbours_at(v, height, repeats_t == 0, nearest);
+    square.pitch = width + (lane_int)GLINT_TEXTURE_BORDER;
+    square.first = down.first * square.pitch + across.first;
+    square.across = across.share;
+    square.down = down.share;
     return square;
 }
 
-// A lane's mean of its four texels, in texels' units. `texels` are those of the level.
-static inline scalar4 mean_of_square(global const ushort *texels, const texel_square *s, int lane)
+// A lane's square, in numbers.
+typedef struct lane_square {
+    size_t first, pitch;
+    scalar across, down;
+} lane_square;
+
+static inline lane_square square_of_lane(const texel_square *s, int lane)
 {
-    const size_t width = (size_t)LANE_INT(s->width, lane);
-    const size_t left = (size_t)LANE_INT(s->across.first, lane);
-    const size_t right = (size_t)LANE_INT(s->across.second, lane);
-    const size_t upper = width * (size_t)LANE_INT(s->down.first, lane);
-    const size_t lower = width * (size_t)LANE_INT(s->down.second, lane);
-    const scalar4 share = (scalar4)LANE(s->across.share, lane);
-    scalar4 a = TO_SCALAR4(vload4(upper + left, texels));
-    scalar4 b = TO_SCALAR4(vload4(lower + left, texels));
-    a = fused(share, TO_SCALAR4(vload4(upper + right, texels)) - a, a);
-    b = fused(share, TO_SCALAR4(vload4(lower + right, texels)) - b, b);
-    return fused((scalar4)LANE(s->down.share, lane), b - a, a);
+    lane_square of;
+    of.first = 4 * (size_t)LANE_INT(s->first, lane);
+    of.pitch = 4 * (size_t)LANE_INT(s->pitch, lane);
+    of.across = LANE(s->across, lane);
+    of.down = LANE(s->down, lane);
+    return of;
 }
 
-// What rays see of a texture: R, G, B, A.
-typedef struct texture_color {
-    real r, g, b, a;
-} texture_color;
+// The mean of four texels, in texels' units, as fetch_from_cube has it. `texels` are those of the
+// level.
+static inline scalar4 mean_of_square(global const ushort *texels, const lane_square *s)
+{
+    const scalar8 upper = TO_SCALAR8(vload8(0, texels + s->first));
+    const scalar8 lower = TO_SCALAR8(vload8(0, texels + s->first + s->pitch));
+    const scalar8 sides = fused((scalar8)s->down, lower - upper, upper);
+    return fused((scalar4)s->across, sides.hi - sides.lo, sides.lo);
+}
+
+// Textures of a material that are looked up alike: they share all but the texels.
+typedef struct texture_group {
+    int count, textures[GLINT_MATERIAL_TEXTURES];
+} texture_group;
 
 // A point of a texture, and what counts there.
 typedef struct tap {
@@ -260,37 +275,39 @@ typedef struct tap {
     real u, v, weight;
 } tap;
 
-static inline void add_tap(const scene_buffers *scene, global const glint_texture_record *t,
-                           const tap *p, mask wanted, texture_color *sum)
+// `sums` hold R, G, B, A of each ray, for each texture of the group.
+static inline void add_tap(const scene_buffers *scene, const texture_group *g, const tap *p,
+                           mask wanted, scalar4 sums[][GLINT_WIDTH])
 {
+    global const glint_texture_record *t = scene->textures + g->textures[0];
     const real u =
         wrapped(p->u, t->flags & GLINT_TEXTURE_CLAMP_S, t->flags & GLINT_TEXTURE_MIRROR_S);
     const real v =
         wrapped(p->v, t->flags & GLINT_TEXTURE_CLAMP_T, t->flags & GLINT_TEXTURE_MIRROR_T);
-    const texel_square fine = square_at(t, u, v, p->choice.level, p->nearest);
-    const texel_square coarse = square_at(t, u, v, p->choice.level + (lane_int)1, p->nearest);
+    const texel_square fines = square_at(t, u, v, p->choice.level, p->nearest);
+    const texel_square coarses = square_at(t, u, v, p->choice.level + (lane_int)1, p->nearest);
     for (uint left = mask_bits(wanted); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left), level = (int)LANE_INT(p->choice.level, lane);
-        const scalar blend = LANE(p->choice.blend, lane);
-        scalar4 value = mean_of_square(scene->texels + 4 * (size_t)t->first[level], &fine, lane);
-        if (blend > R(0.0)) {
-            const scalar4 next =
-                mean_of_square(scene->texels + 4 * (size_t)t->first[level + 1], &coarse, lane);
-            value = fused((scalar4)blend, next - value, value);
+        const scalar blend = LANE(p->choice.blend, lane), weight = LANE(p->weight, lane);
+        const lane_square fine = square_of_lane(&fines, lane);
+        const lane_square coarse = square_of_lane(&coarses, lane);
+        for (int i = 0; i < g->count; i++) {
+            global const uint *first = scene->textures[g->textures[i]].first + level;
+            scalar4 value = mean_of_square(scene->texels + 4 * (size_t)first[0], &fine);
+            if (blend > R(0.0)) {
+                const scalar4 next = mean_of_square(scene->texels + 4 * (size_t)first[1], &coarse);
+                value = fused((scalar4)blend, next - value, value);
+            }
+            sums[i][lane] = fused((scalar4)weight, value, sums[i][lane]);
         }
-        value *= LANE(p->weight, lane);
-        LANE(sum->r, lane) += value.x;
-        LANE(sum->g, lane) += value.y;
-        LANE(sum->b, lane) += value.z;
-        LANE(sum->a, lane) += value.w;
     }
 }
 
 // Pairs of taps about the middle. The outermost pair counts in part, and below a length of 2 the
 // one pair moves together, so that nothing jumps where a tap more is taken.
-static inline void add_taps(const scene_buffers *scene, global const glint_texture_record *t,
+static inline void add_taps(const scene_buffers *scene, const texture_group *g,
                             const texture_spot *spot, const footprint *f, tap *p, mask wanted,
-                            texture_color *sum)
+                            scalar4 sums[][GLINT_WIDTH])
 {
 #if GLINT_ANISOTROPY
     const real unit = p->weight / f->length;
@@ -308,19 +325,20 @@ static inline void add_taps(const scene_buffers *scene, global const glint_textu
         p->u = fused(offset, f->u_step, spot->u);
         p->v = fused(offset, f->v_step, spot->v);
         p->weight = SMALLER(share, real_of(1)) * unit;
-        add_tap(scene, t, p, here, sum);
+        add_tap(scene, g, p, here, sums);
     }
 #else
     p->u = spot->u;
     p->v = spot->v;
-    add_tap(scene, t, p, wanted, sum);
+    add_tap(scene, g, p, wanted, sums);
 #endif
 }
 
-static inline texture_color look_up_texture(const scene_buffers *scene,
-                                            global const glint_texture_record *t,
-                                            const texture_spot *unmoved, mask wanted)
+static inline void look_up_textures(const scene_buffers *scene, const texture_group *g,
+                                    const texture_spot *unmoved, mask wanted,
+                                    scalar4 sums[][GLINT_WIDTH])
 {
+    global const glint_texture_record *t = scene->textures + g->textures[0];
     const texture_spot spot = moved_spot(t, unmoved);
     const footprint seen = footprint_of(scene, t, &spot);
     const mask yes = mask_all(), no = mask_none();
@@ -329,9 +347,29 @@ static inline texture_color look_up_texture(const scene_buffers *scene,
     p.nearest = SELECT(seen.width > R(1.0), t->flags & GLINT_TEXTURE_MINIFIED_NEAREST ? yes : no,
                        t->flags & GLINT_TEXTURE_MAGNIFIED_NEAREST ? yes : no);
     p.weight = real_of(R(1.0) / R(65535.0));
-    texture_color color = {real_of(0), real_of(0), real_of(0), real_of(0)};
-    add_taps(scene, t, &spot, &seen, &p, wanted, &color);
-    return color;
+    for (int i = 0; i < g->count; i++) {
+        for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+            sums[i][lane] = (scalar4)R(0.0);
+        }
+    }
+    add_taps(scene, g, &spot, &seen, &p, wanted, sums);
+}
+
+// What rays see of a texture: R, G, B, A.
+typedef struct texture_color {
+    real r, g, b, a;
+} texture_color;
+
+static inline texture_color color_of_lanes(const scalar4 values[GLINT_WIDTH])
+{
+    texture_color c;
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        LANE(c.r, lane) = values[lane].x;
+        LANE(c.g, lane) = values[lane].y;
+        LANE(c.b, lane) = values[lane].z;
+        LANE(c.a, lane) = values[lane].w;
+    }
+    return c;
 }
 
 #endif

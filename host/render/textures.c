@@ -40,26 +40,33 @@ static glint_texture_record record_of(const glint_textures *textures, const glin
     return record;
 }
 
-// An image's place tells it from others.
-static bool is_same(const glint_texture_record *a, const glint_texture_record *b)
+// But for the texels.
+static bool are_alike(const glint_texture_record *a, const glint_texture_record *b)
 {
     for (int i = 0; i < 6; i++) {
         if (a->transform[i] != b->transform[i]) {
             return false;
         }
     }
-    return a->first[0] == b->first[0] && a->levels == b->levels && a->flags == b->flags;
+    return a->width == b->width && a->height == b->height && a->levels == b->levels &&
+           a->flags == b->flags;
 }
 
-// The place of a record among those that there are, where it is put if it is new.
+// The place of a record among those that there are, where it is put if it is new. An image's place
+// tells it from others.
 static int place_of(glint_texture_table *table, const glint_texture_record *record)
 {
+    glint_texture_record *new = &table->records[table->count];
+    *new = *record;
+    new->alike = (int)table->count;
     for (size_t i = 0; i < table->count; i++) {
-        if (is_same(&table->records[i], record)) {
-            return (int)i;
+        if (are_alike(&table->records[i], record)) {
+            new->alike = table->records[i].alike;
+            if (table->records[i].first[0] == record->first[0]) {
+                return (int)i;
+            }
         }
     }
-    table->records[table->count] = *record;
     return (int)table->count++;
 }
 

@@ -14,6 +14,17 @@
 extern "C" {
 #endif
 
+// Texels of a level with its border, and those from a row to the next.
+static inline size_t glint_texture_pitch(int width)
+{
+    return (size_t)width + GLINT_TEXTURE_BORDER;
+}
+
+static inline size_t glint_texture_area(int width, int height)
+{
+    return glint_texture_pitch(width) * ((size_t)height + GLINT_TEXTURE_BORDER);
+}
+
 // What a material's textures are for.
 typedef enum glint_texture_slot {
     GLINT_TEXTURE_BASE_COLOR =
@@ -55,6 +66,7 @@ typedef struct glint_texture_use {
 
 // An image and its levels: each has half of the last one's width and height, rounded down, 1 at
 // least. Values are linear, as whole numbers of 1/65535, R, G, B, A; row 0 is at the top, v = 0.
+// kernels/layout.h says how texels stand.
 typedef struct glint_texture {
     int width, height, levels;
     size_t first[GLINT_TEXTURE_LEVELS]; // where each level begins, in texels of all textures

@@ -51,16 +51,6 @@ static void means_of_row(const meanings *of, const void *codes, const glint_stor
     }
 }
 
-// Values are in [0, 65535].
-static void round_row(const float (*row)[4], size_t width, uint16_t (*texels)[4])
-{
-    const float *from = &row[0][0];
-    uint16_t *to = &texels[0][0];
-    for (size_t i = 0; i < 4 * width; i++) {
-        to[i] = (uint16_t)(int)(from[i] + 0.5f);
-    }
-}
-
 // ---- Levels -------------------------------------------------------------------------------------
 
 // Which texels of the finer level a texel of the coarser one covers along one axis, and how much of
@@ -95,6 +85,22 @@ typedef struct level_rows {
     float (*means)[4]; // in 1/65535; NULL: those of the image, which are read
     uint16_t (*texels)[4];
 } level_rows;
+
+// Values are in [0, 65535]. The row becomes texels, and part of the border.
+static void round_row(const float (*row)[4], const level_rows *level, int y)
+{
+    const size_t width = (size_t)level->width, pitch = glint_texture_pitch(level->width);
+    uint16_t(*texels)[4] = level->texels + (size_t)y * pitch;
+    const float *from = &row[0][0];
+    uint16_t *to = &texels[0][0];
+    for (size_t i = 0; i < 4 * width; i++) {
+        to[i] = (uint16_t)(int)(from[i] + 0.5f);
+    }
+    memcpy(texels[width], texels[0], sizeof *texels);
+    if (y == 0) {
+        memcpy(texels + (size_t)level->height * pitch, texels, pitch * sizeof *texels);
+    }
+}
 
 // A level that is made of the next finer one. Means are not rounded before they are averaged.
 typedef struct levels_work {
@@ -138,7 +144,7 @@ static glint_status read_row(const levels_work *w, strip *s, int y, bool stays, 
     TRY(glint_stored_read(w->stored, (size_t)y * bytes, s->codes, bytes, error));
     means_of_row(&w->of, s->codes, facts, s->row);
     if (stays) {
-        round_row((const float(*)[4])s->row, width, w->fine.texels + (size_t)y * width);
+        round_row((const float(*)[4])s->row, &w->fine, y);
     }
     return GLINT_OK;
 }
@@ -199,7 +205,7 @@ static glint_status make_row(const levels_work *w, strip *s, int y, glint_error 
     for (size_t x = 0; x < width; x++) {
         average(s, &w->across[x], w->is_coverage, means[x]);
     }
-    round_row((const float(*)[4])means, width, coarse->texels + (size_t)y * width);
+    round_row((const float(*)[4])means, coarse, y);
     return GLINT_OK;
 }
 
@@ -243,7 +249,7 @@ static size_t plan_levels(int width, int height, glint_texture *texture)
     size_t count = 0;
     for (;;) {
         texture->first[texture->levels++] = count;
-        count += (size_t)width * (size_t)height;
+        count += glint_texture_area(width, height);
         if (width == 1 && height == 1) {
             return count;
         }
@@ -259,8 +265,9 @@ static glint_status make_levels(levels_work *w, int threads, const glint_texture
     const glint_texture *t = &levels->texture;
     w->fine = (level_rows){t->width, t->height, NULL, levels->texels};
     for (int level = 1; level == 1 || level < t->levels; level++) {
-        w->coarse = (level_rows){half_of(w->fine.width), half_of(w->fine.height), means,
-                                 w->fine.texels + (size_t)w->fine.width * (size_t)w->fine.height};
+        w->coarse =
+            (level_rows){half_of(w->fine.width), half_of(w->fine.height), means,
+                         w->fine.texels + glint_texture_area(w->fine.width, w->fine.height)};
         TRY(make_level(w, threads));
         means += (size_t)w->coarse.width * (size_t)w->coarse.height;
         w->fine = w->coarse;
@@ -275,9 +282,10 @@ glint_status glint_texture_levels_make(const glint_texture_request *request,
     const glint_stored_facts *facts = &stored->facts;
     levels->texel_count = plan_levels(facts->width, facts->height, &levels->texture);
     // An image of one texel gets a level 1 as well, which is not used.
-    const size_t coarser = levels->texel_count + 1 - (size_t)facts->width * (size_t)facts->height;
+    const size_t count = levels->texel_count + glint_texture_area(1, 1);
+    const size_t coarser = count - glint_texture_area(facts->width, facts->height);
     float(*means)[4] = glint_allocate_unset(coarser, sizeof *means);
-    levels->texels = glint_allocate_unset(levels->texel_count + 1, sizeof *levels->texels);
+    levels->texels = glint_allocate_unset(count, sizeof *levels->texels);
     levels_work w = {.stored = stored, .is_coverage = request->is_coverage, .error = error};
     glint_status status = GLINT_OK;
     if (means == NULL || levels->texels == NULL) {

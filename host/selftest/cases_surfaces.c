@@ -27,8 +27,8 @@ enum {
 
 // ---- Images -------------------------------------------------------------------------------------
 
-enum { IMAGES = 3, COVERAGE_IMAGE = 1 };
-static const int image_sizes[IMAGES][2] = {{16, 16}, {12, 8}, {9, 5}};
+enum { IMAGES = 4, COVERAGE_IMAGE = 1 };
+static const int image_sizes[IMAGES][2] = {{16, 16}, {12, 8}, {9, 5}, {16, 16}};
 
 // Texels that differ from their neighbours by a few parts in ten, in another way in each channel.
 static double texel(int image, int x, int y, int channel)
@@ -37,6 +37,21 @@ static double texel(int image, int x, int y, int channel)
     const double wave = sin(2 * GLINT_PI * (x * (1 + channel) / w + 0.13 * image)) *
                         cos(2 * GLINT_PI * (y * (1 + channel % 2) / h + 0.31 * channel));
     return 0.6 + 0.4 * wave;
+}
+
+// With its border.
+static void copy_level(const oracle_image *image, int level, uint16_t (*texels)[4])
+{
+    const int width = oracle_image_side(image->width, level);
+    const int height = oracle_image_side(image->height, level);
+    for (int y = 0; y <= height; y++) {
+        for (int x = 0; x <= width; x++, texels++) {
+            const double *from = image->texels[level][y % height * width + x % width];
+            for (int c = 0; c < 4; c++) {
+                (*texels)[c] = (uint16_t)lround(from[c] * 65535);
+            }
+        }
+    }
 }
 
 static glint_status fill_image(int number, glint_texture_levels *levels, glint_error *error)
@@ -55,13 +70,12 @@ static glint_status fill_image(int number, glint_texture_levels *levels, glint_e
     *t = (glint_texture){.width = image.width, .height = image.height, .levels = image.levels};
     for (int level = 0; level < image.levels; level++) {
         t->first[level] = levels->texel_count;
-        levels->texel_count += (size_t)oracle_image_side(image.width, level) *
-                               (size_t)oracle_image_side(image.height, level);
+        levels->texel_count += glint_texture_area(oracle_image_side(image.width, level),
+                                                  oracle_image_side(image.height, level));
     }
     levels->texels = glint_allocate_unset(levels->texel_count, sizeof *levels->texels);
-    for (size_t i = 0; levels->texels != NULL && i < 4 * levels->texel_count; i++) {
-        // The levels stand one after the other in the oracle's image, too.
-        levels->texels[i / 4][i % 4] = (uint16_t)lround(image.texels[0][i / 4][i % 4] * 65535);
+    for (int level = 0; levels->texels != NULL && level < image.levels; level++) {
+        copy_level(&image, level, levels->texels + t->first[level]);
     }
     oracle_image_free(&image);
     return levels->texels != NULL ? GLINT_OK : glint_fail_memory(error, "a self-test");
@@ -139,27 +153,29 @@ static void add_factors(glint_material *m)
     }
 }
 
+// The mirror's two textures are looked up alike.
 static void add_textures(glint_material *m, int variant)
 {
     static const struct {
         int material;
         glint_texture_slot slot;
-        int image;
+        int image, variant;
     } uses[] = {
-        {FLOOR, GLINT_TEXTURE_BASE_COLOR, 0},
-        {FLOOR, GLINT_TEXTURE_OCCLUSION, 2},
-        {WALL, GLINT_TEXTURE_EMISSION, 2},
-        {MIRROR, GLINT_TEXTURE_METALLIC_ROUGHNESS, 0},
-        {MIRROR, GLINT_TEXTURE_NORMAL, 2},
-        {BALL, GLINT_TEXTURE_BASE_COLOR, 2},
-        {LEAVES, GLINT_TEXTURE_BASE_COLOR, COVERAGE_IMAGE},
-        {PANE, GLINT_TEXTURE_BASE_COLOR, COVERAGE_IMAGE},
-        {PANE, GLINT_TEXTURE_TRANSMISSION, 0},
-        {SLAB, GLINT_TEXTURE_TRANSMISSION, 2},
-        {SHEEN, GLINT_TEXTURE_OCCLUSION, 0},
+        {FLOOR, GLINT_TEXTURE_BASE_COLOR, 0, 0},
+        {FLOOR, GLINT_TEXTURE_OCCLUSION, 2, 1},
+        {WALL, GLINT_TEXTURE_EMISSION, 2, 2},
+        {MIRROR, GLINT_TEXTURE_METALLIC_ROUGHNESS, 0, 3},
+        {MIRROR, GLINT_TEXTURE_NORMAL, 3, 3},
+        {BALL, GLINT_TEXTURE_BASE_COLOR, 2, 5},
+        {LEAVES, GLINT_TEXTURE_BASE_COLOR, COVERAGE_IMAGE, 6},
+        {PANE, GLINT_TEXTURE_BASE_COLOR, COVERAGE_IMAGE, 7},
+        {PANE, GLINT_TEXTURE_TRANSMISSION, 0, 8},
+        {SLAB, GLINT_TEXTURE_TRANSMISSION, 2, 9},
+        {SHEEN, GLINT_TEXTURE_OCCLUSION, 0, 10},
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
-        m[uses[i].material].textures[uses[i].slot] = use_of(uses[i].image, variant + (int)i);
+        m[uses[i].material].textures[uses[i].slot] =
+            use_of(uses[i].image, variant + uses[i].variant);
     }
 }
 

@@ -43,11 +43,15 @@ static bool copy_image(const glint_textures *textures, size_t number, oracle_ima
         return false;
     }
     for (int level = 0; level < t->levels; level++) { // 0 where it could not be read
-        const size_t count = (size_t)oracle_image_side(t->width, level) *
-                             (size_t)oracle_image_side(t->height, level);
-        for (size_t i = 0; i < 4 * count; i++) {
-            const size_t texel = i / 4, c = i % 4;
-            image->texels[level][texel][c] = textures->texels[t->first[level] + texel][c] / 65535.0;
+        const int width = oracle_image_side(t->width, level);
+        const int height = oracle_image_side(t->height, level);
+        for (int i = 0; i < width * height; i++) {
+            const size_t texel = t->first[level] +
+                                 (size_t)(i / width) * glint_texture_pitch(width) +
+                                 (size_t)(i % width);
+            for (int c = 0; c < 4; c++) {
+                image->texels[level][i][c] = textures->texels[texel][c] / 65535.0;
+            }
         }
     }
     return true;
