@@ -19,6 +19,7 @@
     ARGUMENT(global const glint_light_record *, lights)                                            \
     ARGUMENT(global const void *, environment)                                                     \
     ARGUMENT(global const float *, irradiance)                                                     \
+    ARGUMENT(global const float *, lobes) /* with GLINT_ROUGH: albedos and cells */                \
     ARGUMENT(global float *, vertices)    /* shade_vertices writes them, the others read */        \
     ARGUMENT(global const uint *, listed) /* pixels, with GLINT_PIXEL_LIST */
 

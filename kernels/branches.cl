@@ -38,11 +38,14 @@ typedef struct branch {
 #if GLINT_ALPHA
     int passed;
 #endif
+#if GLINT_ROUGH
+    scalar held[3], shown;
+#endif
 } branch;
 
 // By which the host knows how much room a tile's branches take.
 typedef char branch_is_as_large_as_layout_h_says
-    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA) ? 1 : -1];
+    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA, GLINT_ROUGH) ? 1 : -1];
 
 typedef struct branches {
     int next_count, waiting_count;
@@ -110,6 +113,10 @@ static inline void save_branch(const path *ray, const pixels *pixels, lanes_int 
     b->met = (int)LANE_INT(ray->met, lane);
 #if GLINT_ALPHA
     b->passed = (int)LANE_INT(ray->passed, lane);
+#endif
+#if GLINT_ROUGH
+    save3(b->held, &ray->held, lane);
+    b->shown = LANE(ray->shown, lane);
 #endif
     b->kind = (int)LANE_INT(kinds, lane);
     b->pixel = pixel_of(*pixels, lane);
@@ -185,6 +192,10 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
         LANE_INT(ray->media, lane) = list[i].media;
 #if GLINT_ALPHA
         LANE_INT(ray->passed, lane) = list[i].passed;
+#endif
+#if GLINT_ROUGH
+        restore3(list[i].held, &ray->held, lane);
+        LANE(ray->shown, lane) = list[i].shown;
 #endif
         LANE_INT(ray->looked_up, lane) = max(list[i].kind - CUT_SHORT + 1, 0);
         LANE_INT(pixels[place / GLINT_WIDTH], lane) = list[i].pixel;

@@ -36,6 +36,10 @@
             0, IDLE)                                                                               \
     FEATURE(PAINT, "matte paint is lit by the environment's irradiance", GLINT_GEOMETRY, 0, IDLE)  \
     FEATURE(GLOSS, "smooth paint reflects under its Fresnel term", GLINT_PAINT, 0, IDLE)           \
+    FEATURE(ROUGH, "rough surfaces reflect lobes of the environment", GLINT_MIRROR || GLINT_PAINT, \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
+                GLINT_PROXY,                                                                       \
+            ACTIVE)                                                                                \
     FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, IDLE)             \
     FEATURE(LIGHTS, "punctual lights shine on matte paint, and cast shadows",                      \
             GLINT_PAINT || GLINT_BLEND,                                                            \

@@ -19,6 +19,7 @@
 typedef double scalar;
 typedef double4 scalar4;
 typedef double8 scalar8;
+#define TO_SCALAR4(numbers) convert_double4(numbers)
 #define TO_SCALAR8(numbers) convert_double8(numbers)
 #define R(literal) literal
 #define EPSILON 0x1p-53 // half the distance from 1 to the next value: the largest rounding error
@@ -26,6 +27,7 @@ typedef double8 scalar8;
 typedef float scalar;
 typedef float4 scalar4;
 typedef float8 scalar8;
+#define TO_SCALAR4(numbers) convert_float4(numbers)
 #define TO_SCALAR8(numbers) convert_float8(numbers)
 #define R(literal) literal##f
 #define EPSILON 0x1p-24f

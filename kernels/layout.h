@@ -43,6 +43,48 @@ typedef struct glint_split_vector {
 // edge, rounded down, to the edge 1: at most so many with the first.
 #define GLINT_LEVELS_MAX 14
 
+// ---- Lobes -------------------------------------------------------------------------------------
+// What rough surfaces (GLINT_ROUGH) read, floats. First a table of how much a lobe reflects of a
+// white environment, without and with Fresnel's (1 − v·h)⁵: ∫ D V (1 − m) n·l dl and ∫ D V m n·l
+// dl, by [roughness from 0 to 1][√(n·v) from 0 to 1], in equal steps.
+#define GLINT_ALBEDO_ROUGHNESSES 32
+#define GLINT_ALBEDO_COSINES 32
+#define GLINT_ALBEDO_VALUES (2 * GLINT_ALBEDO_ROUGHNESSES * GLINT_ALBEDO_COSINES)
+// Then how bright the environment is, R + G + B: the square of √(R + G + B)'s mean, on which suns
+// weigh little; and seven floats that are not used.
+#define GLINT_LOBES_BRIGHTNESS GLINT_ALBEDO_VALUES
+// Then the environment as cells. Level 0 has GLINT_CELLS_ROOT cells along a face's edge, each other
+// level twice as many as the last. A level is [6][edge²] cells; those of a face stand in Morton
+// order: the even bits of a cell's place are its column's, the odd ones its row's. So a cell's
+// parts stand together at four times its place. A cell is its centroid, a unit vector, by how
+// bright its parts are; about how wide it is, as an angle; ∫ E dω of R, G, B; and the variance of
+// where its light comes from, along one axis, in squared radians.
+#define GLINT_LOBES_CELLS (GLINT_LOBES_BRIGHTNESS + GLINT_CELL_VALUES)
+#define GLINT_CELL_VALUES 8
+#define GLINT_CELLS_ROOT 2
+#define GLINT_CELLS_LEVELS 9 // at most
+// The cells before a level.
+#define GLINT_CELLS_FIRST(level)                                                                   \
+    ((size_t)(GLINT_CUBE_FACES * GLINT_CELLS_ROOT * GLINT_CELLS_ROOT / 3) *                        \
+     (((size_t)1 << (2 * (level))) - 1))
+// How large a cell is, is said beside the width over which the lobe varies: as an angle of h,
+// √(α² + sin² θ_h), but no more than √(WIDEST (1 + TAIL/α²)), beyond which n·l turns light and
+// shadow. It errs, about, by what it brings times the fourth power of that ratio, and is too large
+// where that is more than the frame's tolerance of the brightness, or the ratio's square more than
+// LARGEST. Measured: so all roughnesses err alike. Where the pixel sees w of the lobe, what a cell
+// brings is w of that, and LARGEST is 1 + α (1/√w − 1) times as much.
+#define GLINT_LOBE_WIDEST 0.1f
+#define GLINT_LOBE_TAIL 0.1f
+#define GLINT_CELL_LARGEST 6.25f
+// Roughness below LEAST counts as none. Lobes below NARROW are narrower than a cell of the finest
+// level.
+#define GLINT_ROUGHNESS_LEAST 0.01f
+#define GLINT_ROUGHNESS_NARROW 0.07f
+// The coat of paint from MATTE on sees the environment alone, as what is beneath it does; below
+// SHARP it sees surfaces; and in between a share of them.
+#define GLINT_COAT_SHARP 0.3f
+#define GLINT_COAT_MATTE 0.6f
+
 // ---- Tree --------------------------------------------------------------------------------------
 // A node of width B is 7 × B 32-bit values: the children's low x, low y, low z, high x, high y,
 // high z (floats, B of each), then B ints that name the children: 0 or more is a node's index;
@@ -101,7 +143,7 @@ typedef struct glint_material_record {
     float alpha_cutoff;  // see GLINT_MATERIAL_MASK
     float normal_scale;  // of the normal texture
     float occlusion_strength;
-    unsigned int unused;
+    float roughness;                       // [0, 1]
     int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
 
@@ -205,11 +247,13 @@ typedef struct glint_frame_record {
     int environment_edge; // texels, without border
     int irradiance_edge;
     // Tiles are rendered band by band, and within one column by column.
-    int band;         // how many rows of tiles, 1 or more
-    int first_band;   // where this launch begins
-    float anisotropy; // taps of a texture along an ellipse at most, 1 or more
-    int terms;        // that a pixel keeps at most, with GLINT_TERMS
-    float unit;       // metres per stored unit, a power of two; with GLINT_DIAGNOSTICS
+    int band;              // how many rows of tiles, 1 or more
+    int first_band;        // where this launch begins
+    float anisotropy;      // taps of a texture along an ellipse at most, 1 or more
+    int cells_last;        // the finest level of cells, with GLINT_ROUGH
+    float cells_tolerance; // how far off one may be, see GLINT_CELL_LARGEST
+    int terms;             // that a pixel keeps at most, with GLINT_TERMS
+    float unit;            // metres per stored unit, a power of two; with GLINT_DIAGNOSTICS
 } glint_frame_record;
 
 // ---- Irradiance --------------------------------------------------------------------------------
@@ -224,10 +268,11 @@ typedef struct glint_frame_record {
 // ---- Branches ----------------------------------------------------------------------------------
 // What a branch that waits takes (branches.cl, with GLINT_SPLIT), in bytes, where a number of the
 // precision takes `number`: eleven of these, two more where rays carry cones, three ints, and one
-// more with GLINT_ALPHA; rounded up to whole numbers.
-#define GLINT_BRANCH_BYTES(number, cones, alpha)                                                   \
-    (((number)*11 + ((cones) ? (number)*2 : 0) + ((alpha) ? 16u : 12u) + (number)-1) / (number) *  \
-     (number))
+// more with GLINT_ALPHA; with GLINT_ROUGH four more numbers; rounded up to whole numbers.
+#define GLINT_BRANCH_BYTES(number, cones, alpha, rough)                                            \
+    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u)) + ((alpha) ? 16u : 12u) +       \
+      (number)-1) /                                                                                \
+     (number) * (number))
 
 // ---- Layers ------------------------------------------------------------------------------------
 // With GLINT_DIAGNOSTICS: what became of a pixel's paths, [height][width]. The first three are of

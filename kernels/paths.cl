@@ -97,6 +97,10 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 #endif
     ray.media = int_of(0);
     ray.looked_up = int_of(0);
+#if GLINT_ROUGH
+    ray.held = real3_of(real_of(0), real_of(0), real_of(0));
+    ray.shown = real_of(1);
+#endif
     return ray;
 }
 
@@ -108,6 +112,10 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     path branch = *ray;
     branch.direction = direction;
     branch.met = ray->met + (lane_int)1;
+#if GLINT_ROUGH
+    branch.held = real3_of(real_of(0), real_of(0), real_of(0));
+    branch.shown = real_of(1);
+#endif
     if (GLINT_CONVEX_SOLID) {
         const mask leaves = sign > R(0.0) ? s->outside : !s->outside;
         branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
@@ -185,6 +193,10 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
 #endif
     ray->media = SELECT(yes, branch->media, ray->media);
     ray->looked_up = SELECT(yes, branch->looked_up, ray->looked_up);
+#if GLINT_ROUGH
+    ray->held = select3(yes, branch->held, ray->held);
+    ray->shown = SELECT(yes, branch->shown, ray->shown);
+#endif
 }
 
 static inline void count_transmissions(const surface *s, mask transmits, tally *tally)
@@ -323,6 +335,54 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
     return out;
 }
 
+#if GLINT_ROUGH
+// What lobes show of the environment.
+typedef struct seen_lobe {
+    real3 matte; // without a path
+    real3 held;  // that the reflected path brings where it ends
+    real shown;  // how much of the environment's light it brings there beside that
+} seen_lobe;
+
+// Rule 11, for the rays in `met`.
+static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_record *frame,
+                                 const surface *s, const scattering *out, mask met,
+                                 const path *ray)
+{
+    const mask rough = met & out->rough;
+    const real3 none = real3_of(real_of(0), real_of(0), real_of(0));
+    seen_lobe seen = {none, none, real_of(1)};
+    if (!any_lane(rough)) {
+        return seen;
+    }
+    const real3 normal = turn_into_environment(frame, s->normal);
+    const real3 v = turn_into_environment(frame, negate(ray->direction));
+    const real share = share_of_lobe(s->roughness);
+    const real least = real_of((scalar)GLINT_ROUGHNESS_NARROW);
+    const lobe l = find_lobe(&scene->cells, normal, v, s->cosine, LARGER(s->roughness, least),
+                             largest3(ray->weight) * out->lobe_weight);
+    const lobe_light light = integrate_lobe(scene, &l, rough);
+    const real3 matte =
+        scale_add(light.base, out->matte_base, scale(light.edge, out->matte_edge));
+    const real3 by_path =
+        add(multiply(out->lobe_base, light.base), multiply(out->lobe_edge, light.edge));
+    seen.matte = select3(rough, multiply(ray->weight, matte), none);
+    seen.held = select3(rough, multiply(ray->weight, scale(by_path, share)), none);
+    seen.shown = SELECT(rough, R(1.0) - share, real_of(1));
+    return seen;
+}
+
+#if CARRIES_CONES
+// A lobe is about 2α wide, and so is what the reflected ray sees; but not below ROUGHNESS_NARROW,
+// where it shows what a mirror does.
+static inline real widened_by_lobe(const surface *s, mask rough, real spread)
+{
+    const real width = R(2.0) * s->roughness * s->roughness;
+    const mask wide = rough & (s->roughness >= (scalar)GLINT_ROUGHNESS_NARROW);
+    return SELECT(wide, sqrt(fused(width, width, spread * spread)), spread);
+}
+#endif
+#endif
+
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
@@ -353,6 +413,10 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #if GATHERS
     gather(all, slot, multiply(ray->weight, out.emitted), met);
 #endif
+#if GLINT_ROUGH
+    const seen_lobe seen = see_lobe(scene, frame, &s, &out, met, ray);
+    gather(all, slot, seen.matte, met);
+#endif
 #if GLINT_TERMS && GATHERS
     note_emission(tally->terms, scene, &s, negate(ray->direction), ray, met, &all->pixels[slot]);
 #endif
@@ -364,8 +428,15 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
     reflected.weight = multiply(ray->weight, out.reflected_weight);
     reflected.media = out.media_reflected;
+#if GLINT_ROUGH
+    reflected.held = seen.held;
+    reflected.shown = seen.shown;
+#endif
 #if CARRIES_CONES
     reflected.cone = leave_surface(width, spread, real_of(1), real_of(2), s.curvature);
+#if GLINT_ROUGH
+    reflected.cone.spread = widened_by_lobe(&s, out.rough, reflected.cone.spread);
+#endif
 #endif
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
@@ -443,6 +514,23 @@ static inline real3 environment_seen(const glint_frame_record *frame, const path
     return toward_proxy(frame, ray->origin, ray->direction, behind);
 }
 
+#if GLINT_ROUGH
+// Gathers what the rays in `escaped` hold, and leaves them the weight of the environment's light;
+// returns those that still have some.
+static inline mask bring_held(paths *all, int slot, mask escaped, tally *tally)
+{
+    path *ray = &all->ray[slot];
+#if GLINT_DIAGNOSTICS
+    note_truncation(tally->layers, &all->pixels[slot],
+                    escaped & (ray->shown < R(1.0)) & (ray->looked_up == (lane_int)1),
+                    scale(ray->weight, R(1.0) - ray->shown));
+#endif
+    gather(all, slot, ray->held, escaped & (ray->shown < R(1.0)));
+    ray->weight = select3(escaped, scale(ray->weight, ray->shown), ray->weight);
+    return escaped & (ray->shown > R(0.0));
+}
+#endif
+
 // Takes the paths in a slot on from what they have met: those that escaped are looked up, the
 // others go on from their surfaces. `first` says what primary rays are, and is NULL for others.
 static inline void advance_paths(const scene_buffers *scene, const glint_frame_record *frame,
@@ -458,6 +546,9 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
         uncover(all, slot, all->ray[slot].weight.x, past);
     }
     escaped = escaped & !past;
+#endif
+#if GLINT_ROUGH
+    escaped = bring_held(all, slot, escaped, tally);
 #endif
     if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
         const path *ray = &all->ray[slot];

@@ -19,7 +19,7 @@ GLINT_FEATURES(CHECK)
 #define GATHERS                                                                                    \
     (!GLINT_HITS &&                                                                                \
      (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT ||          \
-      GLINT_VERTEX_COLOR))
+      GLINT_ROUGH || GLINT_VERTEX_COLOR))
 
 #include "layout.h"
 #include "arguments.h"
@@ -38,6 +38,7 @@ GLINT_FEATURES(CHECK)
 #include "cones.cl"
 #include "textures.cl"
 #include "shade.cl"
+#include "rough.cl"
 #include "scatter.cl"
 #include "branches.cl"
 #include "lookups.cl"

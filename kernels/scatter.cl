@@ -10,6 +10,12 @@ typedef struct scattering {
     lanes_int media_transmitted; // the stack of media beyond the surface
     mask total_reflection;
     real eta, bend; // of the transmitted ray, see leave_surface
+#if GLINT_ROUGH
+    mask rough;                   // reflects a lobe
+    real3 lobe_base, lobe_edge;   // what of lobe_light's parts paths bring
+    real matte_base, matte_edge;  // and what comes without one
+    real lobe_weight;             // how much of the lobe that is together
+#endif
 } scattering;
 
 // Rule 4, glass: reflectance and transmitted direction. A thin wall is one interface from empty
@@ -78,17 +84,69 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
     out->total_reflection = out->total_reflection & (share > R(0.0));
 }
 
+#if GLINT_ROUGH
+// Rule 11: which surfaces reflect lobes.
+static inline mask are_rough(const surface *s)
+{
+    const lane_int smooth = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN | GLINT_MATERIAL_BLEND |
+                            GLINT_MATERIAL_UNLIT;
+    return (s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST) & ((s->flags & smooth) == (lane_int)0);
+}
+
+// How much of what a coat reflects comes by a path.
+static inline real share_of_path(real roughness)
+{
+    const scalar inverse = (scalar)(1 / (GLINT_COAT_MATTE - GLINT_COAT_SHARP));
+    const real left = ((scalar)GLINT_COAT_MATTE - roughness) * inverse;
+    return SMALLER(LARGER(left, real_of(0)), real_of(1));
+}
+
+// Rule 11: metal and the coat of paint, of which there is a share, as lobes. Sets what the light's
+// parts weigh, and returns what the coat leaves of the light.
+static inline real scatter_lobe(const scene_buffers *scene, const surface *s, real paint,
+                                scattering *out)
+{
+    const real zero = real_of(0);
+    const lobe_albedo albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
+    const real3 white = real3_of(s->metallic, s->metallic, s->metallic);
+    out->lobe_base = GLINT_TINT ? scale(s->base_color, s->metallic) : white;
+    out->lobe_edge = GLINT_FRESNEL ? white : out->lobe_base;
+    out->matte_base = out->matte_edge = zero;
+    real coat = zero;
+    if (GLINT_PAINT && GLINT_FRESNEL) {
+        const real root = (s->ior - R(1.0)) / (s->ior + R(1.0));
+        const real f0 = root * root, own = paint * f0;
+        const real by_path = share_of_path(s->roughness);
+        const real base = own * by_path, edge = paint * by_path;
+        coat = fused(f0, albedo.base, albedo.edge);
+        out->lobe_base = add(out->lobe_base, real3_of(base, base, base));
+        out->lobe_edge = add(out->lobe_edge, real3_of(edge, edge, edge));
+        out->matte_base = own - base;
+        out->matte_edge = paint - edge;
+    }
+    const real3 weight =
+        scale_add(out->lobe_base, albedo.base, scale(out->lobe_edge, albedo.edge));
+    out->reflected_weight = select3(out->rough, weight, out->reflected_weight);
+    const real matte = fused(out->matte_base, albedo.base, out->matte_edge * albedo.edge);
+    out->lobe_weight = (largest3(weight) + matte) / (albedo.base + albedo.edge);
+    return R(1.0) - coat;
+}
+#endif
+
 // Rule 6, paint: what a share of it sends back of the environment's irradiance (the map holds
 // E(n)/π) and, where it is smooth, reflects.
-static inline void scatter_paint(const surface *s, real3 irradiance, real share, scattering *out)
+static inline void scatter_paint(const surface *s, real3 irradiance, real share, real kept,
+                                 scattering *out)
 {
-    real kept = real_of(1);
     if (GLINT_GLOSS) {
-        const mask smooth = HAS_FLAG(*s, GLINT_MATERIAL_GLOSS);
+        mask smooth = HAS_FLAG(*s, GLINT_MATERIAL_GLOSS);
+#if GLINT_ROUGH
+        smooth = smooth & !out->rough;
+#endif
         const real reflectance = surface_reflectance(s->cosine, s->ior);
         const real gloss = SELECT(smooth, share * reflectance, real_of(0));
         out->reflected_weight = add(out->reflected_weight, real3_of(gloss, gloss, gloss));
-        kept = SELECT(smooth, R(1.0) - reflectance, real_of(1));
+        kept = SELECT(smooth, R(1.0) - reflectance, kept);
     }
     out->emitted = scale(multiply(s->base_color, irradiance), share * kept);
 }
@@ -115,6 +173,13 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
     const real left = SELECT(partly, s->coverage, real_of(1));
     out->emitted = scale(out->emitted, left);
     out->reflected_weight = scale(out->reflected_weight, left);
+#if GLINT_ROUGH
+    out->lobe_base = scale(out->lobe_base, left);
+    out->lobe_edge = scale(out->lobe_edge, left);
+    out->matte_base *= left;
+    out->matte_edge *= left;
+    out->lobe_weight *= left;
+#endif
     out->transmitted_weight =
         add(scale(out->transmitted_weight, left), real3_of(gone, gone, gone));
     out->transmitted = select3(partly, negate(v), out->transmitted);
@@ -145,6 +210,9 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     scattering result;
     result.emitted = zero;
     result.reflected_weight = result.transmitted_weight = zero;
+#if GLINT_ROUGH
+    result.rough = are_rough(s);
+#endif
     *media_lost = mask_none();
 
     // Shares of the three models, metallic first: metal, then glass, the rest is paint.
@@ -170,8 +238,12 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
 #endif
     result.media_reflected = *media;
     irradiance = light_on_paint(s, irradiance);
+    real kept = real_of(1);
+#if GLINT_ROUGH
+    kept = SELECT(result.rough, scatter_lobe(scene, s, dielectric - glass, &result), kept);
+#endif
     if (GLINT_PAINT) {
-        scatter_paint(s, irradiance, dielectric - glass, &result);
+        scatter_paint(s, irradiance, dielectric - glass, kept, &result);
     }
     if (GLINT_BLEND) {
         scatter_blend(s, irradiance, &result);

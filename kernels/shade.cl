@@ -21,6 +21,10 @@ typedef struct path {
     lanes_int media;     // see media.cl
     lanes_int looked_up; // takes the environment along its direction, without being traced: 1 as
                          // it is cut short, ESCAPES as it meets nothing; else 0
+#if GLINT_ROUGH
+    real3 held; // light that it brings where it ends
+    real shown; // how much of the environment's light it brings there: 1, or less beside that
+#endif
 } path;
 
 // A hit, ready for optics.
@@ -37,6 +41,9 @@ typedef struct surface {
     mask outside; // the viewer is on the side from which the triangle winds left
     real3 base_color, emission;
     real metallic, transmission, ior, blend;
+#if GLINT_ROUGH
+    real roughness;
+#endif
 #if GLINT_ALPHA
     real coverage; // how much of the surface is there; its alpha until cover_surface
     real alpha_cutoff;
@@ -283,6 +290,9 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->metallic = SELECT(yes, real_of(m->metallic), s->metallic);
     s->transmission = SELECT(yes, real_of(m->transmission), s->transmission);
     s->ior = SELECT(yes, real_of(m->ior), s->ior);
+#if GLINT_ROUGH
+    s->roughness = SELECT(yes, real_of(m->roughness), s->roughness);
+#endif
     s->blend = SELECT(yes, real_of(m->blend), s->blend);
     s->flags = SELECT(yes, int_of((lane_int)m->flags), s->flags);
     s->medium = SELECT(yes, int_of((lane_int)m->medium), s->medium);
@@ -317,6 +327,9 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
         break;
     case GLINT_SLOT_METALLIC_ROUGHNESS:
         s->metallic = SELECT(here, s->metallic * c->b, s->metallic);
+#if GLINT_ROUGH
+        s->roughness = SELECT(here, s->roughness * c->g, s->roughness);
+#endif
         break;
 #if GLINT_NORMAL_MAPS
     case GLINT_SLOT_NORMAL: {

@@ -4,6 +4,13 @@
 #define PARAMETER(type, name) type name,
 #define MEMBER(type, name) type name;
 
+// What rough surfaces see of the environment (layout.h, Cells).
+typedef struct cell_map {
+    global const float *values; // albedo, brightness and cells
+    int last;                   // the finest level
+    float tolerance;            // as the frame record has it
+} cell_map;
+
 // The scene's buffers, as every part of the shading gets them.
 typedef struct scene_buffers {
     global const float *nodes;
@@ -18,6 +25,7 @@ typedef struct scene_buffers {
     global const glint_light_record *lights;
     float anisotropy; // as the frame record has it
     cube_map environment, irradiance;
+    cell_map cells;
     global const float *vertices; // what was found at them, with VERTEX_COLOR and VERTEX_DIRECTION
     global const uint *pixels;    // with PIXEL_LIST: their numbers, see layout.h
 } scene_buffers;
@@ -28,6 +36,7 @@ typedef struct scene_buffers {
      frame.anisotropy,                                                                             \
      {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
      {irradiance, frame.irradiance_edge, false},                                                   \
+     {lobes, frame.cells_last, frame.cells_tolerance},                                             \
      vertices,                                                                                     \
      listed}
 

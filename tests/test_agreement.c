@@ -131,7 +131,8 @@ static glint_settings small_frame(int depth)
     settings.width = 64;
     settings.height = 48;
     settings.depth = depth;
-    settings.texels = GLINT_TEXELS_FLOAT; // the oracle's
+    settings.texels = GLINT_TEXELS_FLOAT;        // the oracle's
+    settings.roughness = GLINT_ROUGHNESS_SMOOTH; // test_rough.c has the others
     return settings;
 }
 

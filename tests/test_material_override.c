@@ -86,7 +86,7 @@ static void each_preset_is_what_it_is_called(void **state)
         {"body=thin-glass", {.glass = true, .thin = true}, 1.5F, 1},
         {"body=diamond", {.glass = true, .solid = true}, 2.417F, 1},
         {"body=water", {.glass = true, .solid = true}, 1.333F, 1},
-        {"body=paint", {.paint = true}, 1.5F, 0.5F},
+        {"body=paint", {.paint = true, .rough = true}, 1.5F, 0.5F},
         {"body=glossy-paint", {.paint = true, .gloss = true}, 1.5F, 0.5F},
         {"body=unlit", {.unlit = true}, 1.5F, 0.5F},
     };

@@ -93,6 +93,7 @@ static void a_mirror_compiles_no_glass_and_no_paint(void **state)
     (void)state;
     glint_material mirror = white_paint;
     mirror.metallic = 1;
+    mirror.roughness = 0;
     test_scene s;
     make_scene(&s, &mirror, 1);
     glint_plan plan;

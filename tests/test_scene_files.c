@@ -167,7 +167,6 @@ static const char *const said_of_it[] = {
     "animations[0] \"spin\": the first of 2 animations is shown",
     "materials[0] \"gold\": baseColorTexture: it names no image of a kind that is read",
     "materials[1] \"lens\": transmissionTexture: it names no image of a kind that is read",
-    "materials[0] \"gold\" and 1 more: roughness above 0 on paint: its reflection is left out",
     "materials[0] \"gold\": extras.glint.\"miror\" is unknown",
     "materials[1] \"lens\": KHR_materials_clearcoat is not modelled",
 };
@@ -176,7 +175,7 @@ static const struct {
     const char *name;
     glint_treatment treatment;
 } used_of_it[] = {
-    {"KHR_materials_clearcoat", GLINT_IGNORED}, {"roughness", GLINT_APPROXIMATED},
+    {"KHR_materials_clearcoat", GLINT_IGNORED}, {"roughness", GLINT_RENDERED},
     {"alphaMode MASK", GLINT_RENDERED},         {"COLOR_0", GLINT_RENDERED},
     {"baseColorTexture", GLINT_IGNORED},        {"transmissionTexture", GLINT_IGNORED},
     {"thicknessTexture", GLINT_APPROXIMATED},   {"morph targets", GLINT_RENDERED},

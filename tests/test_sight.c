@@ -239,10 +239,10 @@ static void exits_escape_as_is_proved(void **state)
         glint_topology topology;
         build(&c, &scene);
         assert_int_equal(glint_topology_find(&scene, &topology, NULL), GLINT_OK);
-        const glint_sight sight = glint_sight_find(&scene, &topology);
+        const glint_sight sight = glint_sight_find(&scene, &topology, false);
         assert_int_equal(sight.exits_escape, glasses[i].escape);
         scene.moves = true;
-        assert_false(glint_sight_find(&scene, &topology).exits_escape);
+        assert_false(glint_sight_find(&scene, &topology, false).exits_escape);
         scene.moves = false;
         const glint_camera cameras[] = {camera_at(0.4, 0.3, 3), camera_at(0.1, 0, 0.2)};
         for (int k = 0; k < 2; k++) {
@@ -275,18 +275,18 @@ static void is_proved_as_it_must_be(void **state)
         build(&cases[i], &scene);
         glint_topology topology;
         assert_int_equal(glint_topology_find(&scene, &topology, NULL), GLINT_OK);
-        const glint_sight sight = glint_sight_find(&scene, &topology);
+        const glint_sight sight = glint_sight_find(&scene, &topology, false);
         print_message("%-33s %d: %s\n", cases[i].name, sight.depth, sight.reason);
         assert_int_equal(sight.depth, cases[i].depth);
         assert_int_equal(sight.from_outside, cases[i].from_outside);
         assert_true(sight.reason[0] != '\0');
         // What convexity proves must be asked for, as it is not looked into otherwise.
-        assert_true(!sight.from_outside || glint_sight_wants_topology(&scene));
-        const glint_sight without = glint_sight_find(&scene, &(glint_topology){0});
+        assert_true(!sight.from_outside || glint_sight_wants_topology(&scene, false));
+        const glint_sight without = glint_sight_find(&scene, &(glint_topology){0}, false);
         assert_int_equal(without.depth, sight.from_outside ? 0 : sight.depth);
         scene.moves = true;
-        assert_false(glint_sight_wants_topology(&scene));
-        assert_false(glint_sight_find(&scene, &topology).from_outside);
+        assert_false(glint_sight_wants_topology(&scene, false));
+        assert_false(glint_sight_find(&scene, &topology, false).from_outside);
         glint_topology_free(&topology);
         glint_scene_free(&scene);
     }
@@ -334,7 +334,7 @@ static void materials_end_paths_or_not(void **state)
             build(&cases[is_bumpy ? 4 : 0], &scene);
             scene.materials[MATERIAL_MIRROR] = kinds[i].material;
             assert_int_equal(glint_topology_find(&scene, &topology, NULL), GLINT_OK);
-            const int depth = glint_sight_find(&scene, &topology).depth;
+            const int depth = glint_sight_find(&scene, &topology, false).depth;
             if (depth != (is_bumpy ? kinds[i].bumpy : kinds[i].convex)) {
                 fail_msg("%s: depth %d", kinds[i].name, depth);
             }

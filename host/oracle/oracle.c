@@ -3,6 +3,7 @@
 #include "oracle/oracle.h"
 #include "oracle/hit.h"
 #include "oracle/lights.h"
+#include "oracle/rough.h"
 #include "oracle/surface.h"
 #include "oracle/vector.h"
 
@@ -37,6 +38,8 @@ typedef struct path {
     int left;         // triangle that it leaves, or −1
     int met;          // surfaces met so far, but for those that were not there
     double travelled; // length of the path so far
+    bool holds;       // brings `held` where it ends, in place of the environment's light
+    vector held;
 } path;
 
 typedef struct walk {
@@ -79,7 +82,9 @@ static void add(walk *w, vector weight, vector radiance)
 // What a path takes along its direction where it ends; rule 9 where it has met nothing.
 static void escape(walk *w, const path *p, vector direction, vector weight)
 {
-    if (w->view->transparent && p->met == 0)
+    if (p->holds)
+        w->radiance = plus(w->radiance, p->held);
+    else if (w->view->transparent && p->met == 0)
         w->uncovered += largest(weight);
     else
         add(w, weight, environment(w->scene, w->scene->radiance, direction));
@@ -292,10 +297,16 @@ static void add_matte(walk *w, const path *p, const surface *s, vector matte)
     }
 }
 
-// The reflected branch.
-static void reflect(walk *w, const path *p, const surface *s, vector weight)
+// The reflected branch, which brings `held` where it ends, if that is not NULL.
+static void reflect(walk *w, const path *p, const surface *s, vector weight, const vector *held)
 {
     path back = leaving(p, s, 1.0, 2.0);
+    back.holds = held != NULL;
+    if (held) {
+        back.held = times(p->weight, *held);
+        if (s->roughness >= 0.07)
+            back.cone.spread = hypot(back.cone.spread, 2.0 * s->roughness * s->roughness);
+    }
     branch(w, &back, s, mirror_direction(s), weight);
 }
 
@@ -307,10 +318,48 @@ static void pass(walk *w, const path *p, const surface *s, vector weight)
     branch(w, &past, s, scaled(s->viewer, -1.0), weight);
 }
 
+// Rule 11.
+
+static vector radiance(const void *scene, vector d)
+{
+    return environment(scene, ((const oracle_scene *)scene)->radiance, d);
+}
+
+static bool is_rough(const walk *w, const surface *s)
+{
+    return w->view->roughness > 0 && s->roughness >= 0.01 && !oracle_is_solid(s->material) &&
+           !oracle_is_thin(s->material);
+}
+
+// Metal and the coat of paint as lobes.
+static void scatter_lobes(walk *w, const path *p, const surface *s)
+{
+    double as_metal = s->coverage * s->metallic, as_paint = s->coverage * (1.0 - s->metallic);
+    lobe_integrals lobe = oracle_lobe(s, w->view->roughness, radiance, w->scene);
+    double n = s->material->ior, f0 = (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0));
+    double coat = w->view->no_fresnel ? 0.0 : 1.0;
+    double by_path = fmin(1.0, fmax(0.0, (0.6 - s->roughness) / 0.3)); // the rest as matte light
+    double paths = coat * as_paint * by_path, matte = coat * as_paint * (1.0 - by_path);
+    vector white = {{1.0, 1.0, 1.0}};
+    vector base = plus(scaled(s->base, as_metal), scaled(white, paths * f0));
+    vector edge = w->view->no_fresnel ? base : scaled(white, as_metal + paths);
+    vector matte_light = plus(scaled(lobe.base, matte * f0), scaled(lobe.edge, matte));
+    w->radiance = plus(w->radiance, times(p->weight, matte_light));
+    double kept = 1.0 - coat * (f0 * lobe.white_base + lobe.white_edge);
+    add_matte(w, p, s, scaled(s->base, as_paint * kept));
+    vector held = plus(times(base, lobe.base), times(edge, lobe.edge));
+    vector weight = plus(scaled(base, lobe.white_base), scaled(edge, lobe.white_edge));
+    reflect(w, p, s, times(p->weight, weight), &held);
+}
+
 // Rules 3, 4 and 6, mixed: metallic first, then transmission. The reflected parts share one
 // direction and so are one branch; so are what a thin wall transmits and what passes it (`past`).
 static void scatter(walk *w, const path *p, const surface *s, vector past)
 {
+    if (is_rough(w, s)) {
+        scatter_lobes(w, p, s);
+        return;
+    }
     const oracle_material *m = s->material;
     double as_metal = s->coverage * s->metallic;
     double as_glass = s->coverage * (1.0 - s->metallic) * s->transmission;
@@ -320,7 +369,7 @@ static void scatter(walk *w, const path *p, const surface *s, vector past)
     interface glass = {.through = scaled(s->viewer, -1.0), .beyond = *p};
 
     if (as_paint > 0.0) {
-        bool smooth = !(m->roughness > 0.0) && !w->view->no_fresnel;
+        bool smooth = !(s->roughness >= 0.01) && !w->view->no_fresnel;
         double f = smooth ? oracle_fresnel(s->cosine, 1.0, m->ior) : 0.0;
         reflected = plus(reflected, (vector){{as_paint * f, as_paint * f, as_paint * f}});
         matte = scaled(s->base, as_paint * (1.0 - f));
@@ -332,7 +381,7 @@ static void scatter(walk *w, const path *p, const surface *s, vector past)
         through = plus(past, scaled(s->base, as_glass * (1.0 - glass.fresnel)));
     }
     add_matte(w, p, s, matte);
-    reflect(w, p, s, times(p->weight, reflected));
+    reflect(w, p, s, times(p->weight, reflected), NULL);
     branch(w, &glass.beyond, s, glass.through, times(p->weight, through));
 }
 
@@ -341,7 +390,7 @@ static void blend(walk *w, const path *p, const surface *s)
 {
     double m = s->material->mirror;
     add_matte(w, p, s, scaled(s->base, s->coverage * (1.0 - m)));
-    reflect(w, p, s, scaled(p->weight, s->coverage * m));
+    reflect(w, p, s, scaled(p->weight, s->coverage * m), NULL);
 }
 
 // What a surface does with the light of a path that has met it.
@@ -382,6 +431,7 @@ static void follow(walk *w, const path *p)
     }
 
     path here = *p;
+    here.holds = false;
     here.travelled += hit.distance;
     here.cone.width += here.cone.spread * hit.distance;
     arrival by = {p->direction, here.cone.width, here.travelled, w->view->anisotropy};

@@ -39,7 +39,7 @@ typedef struct oracle_corner {
 // What textures are for: by which their values multiply a factor, if not said otherwise.
 typedef enum oracle_role {
     ORACLE_BASE,         // R, G, B the base colour, A the alpha
-    ORACLE_METALLIC,     // B
+    ORACLE_METALLIC,     // B; G: the roughness
     ORACLE_NORMAL,       // R, G, B are a normal's components along tangent, bitangent and normal
     ORACLE_OCCLUSION,    // R: what is left of the irradiance
     ORACLE_EMISSION,     // R, G, B
@@ -109,6 +109,8 @@ typedef struct oracle_view {
     double min_weight; // a branch whose largest component is less takes E at once
     bool no_fresnel;   // metal reflects its base, glass only where it reflects all, paint nothing
     int anisotropy;    // taps of a texture along its longer axis at most; 0 means 1
+    int roughness;     // directions along each axis of a lobe's quadrature; 0: rough metal is as
+                       // smooth, and rough paint reflects nothing
     bool transparent;  // what meets nothing is left out, and of alpha
     bool edges;        // measure oracle_report.edge, at about twice the time
 } oracle_view;

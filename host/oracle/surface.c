@@ -123,7 +123,9 @@ static void take_material(const place *p, const arrival *by, surface *s)
         s->base.at[c] = m->base[c] * color[c] * base.rgba[c];
         s->emission.at[c] = m->emission[c] * emission.rgba[c];
     }
-    s->metallic = m->metallic * glance_at(p, by, ORACLE_METALLIC, s).rgba[2];
+    oracle_glance metal = glance_at(p, by, ORACLE_METALLIC, s);
+    s->metallic = m->metallic * metal.rgba[2];
+    s->roughness = m->roughness * metal.rgba[1];
     s->transmission = m->transmission * glance_at(p, by, ORACLE_TRANSMISSION, s).rgba[0];
     double open = glance_at(p, by, ORACLE_OCCLUSION, s).rgba[0];
     s->occlusion = 1.0 - m->occlusion_strength * (1.0 - open);

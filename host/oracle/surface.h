@@ -25,7 +25,7 @@ typedef struct surface {
                       // convex; 0 where a vertex has none
     // The factors, as textures and the vertices' colours change them.
     vector base, emission;
-    double metallic, transmission, occlusion, coverage;
+    double metallic, roughness, transmission, occlusion, coverage;
     double jump; // see oracle_report
 } surface;
 

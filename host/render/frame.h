@@ -20,6 +20,7 @@ typedef struct glint_phases {
     double analysis;     // topology and plan
     double bvh;          // tree
     double irradiance;   // irradiance map, where paint needs one: all of them
+    double cells;        // likewise what rough surfaces see of the environment
     double kernel_build; // compiling, or fetching from the driver's cache: all kernels so far
     double upload;       // of this scene, and of this environment for all settings so far
     double kernel;       // all launches of the frame

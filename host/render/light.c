@@ -2,10 +2,15 @@
 #include "render/light.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
+#include "environment/cells.h"
 #include "environment/harmonics.h"
 #include "environment/irradiance.h"
+#include "environment/lobe_albedo.h"
 #include "kernels/layout.h"
 #include "render/upload.h"
+
+#include <stdlib.h>
 
 void glint_light_set_environment(glint_light *light, const glint_environment *environment)
 {
@@ -15,6 +20,7 @@ void glint_light_set_environment(glint_light *light, const glint_environment *en
     light->environment = environment;
     light->proxy = environment->proxy;
     light->irradiance_ms = before.irradiance_ms;
+    light->cells_ms = before.cells_ms;
 }
 
 bool glint_light_may_be_half(const glint_settings *settings)
@@ -77,6 +83,33 @@ static glint_status make_map(glint_light *light, cl_mem *buffer, glint_error *er
     return status;
 }
 
+// Albedos, and behind them cells down to the level that the plan wants.
+static glint_status make_lobes(glint_light *light, int last, glint_error *error)
+{
+    const size_t cells = last >= 0 ? GLINT_CELLS_FIRST(last + 1) : 0;
+    const glint_content content = {
+        "the cells of the environment",
+        last >= 0 ? (GLINT_LOBES_CELLS + cells * GLINT_CELL_VALUES) * sizeof(float) : 0, NULL};
+    float *values = glint_allocate_unset(content.bytes + 1, 1);
+    if (values == NULL) {
+        return glint_fail_memory(error, content.what);
+    }
+    double clock = glint_now_ms();
+    if (last >= 0) {
+        glint_lobe_albedo_fill(values);
+        values[GLINT_LOBES_BRIGHTNESS] = glint_cells_fill(
+            &light->environment->radiance, GLINT_CELLS_ROOT << last, values + GLINT_LOBES_CELLS);
+    }
+    light->cells_ms += glint_lap_ms(&clock);
+    glint_buffer_release(&light->lobes);
+    light->cells_last = last;
+    const glint_content filled = {content.what, content.bytes, values};
+    const glint_status status = glint_buffer_create(light->device, &filled, &light->lobes, error);
+    light->upload_ms += glint_lap_ms(&clock);
+    free(values);
+    return status;
+}
+
 static glint_status make_irradiance(glint_light *light, glint_irradiance_kind kind, cl_mem *buffer,
                                     glint_error *error)
 {
@@ -105,7 +138,12 @@ glint_status glint_light_choose(glint_light *light, const glint_plan *plan, bool
     if (*irradiance == NULL) {
         TRY(make_irradiance(light, kind, irradiance, error));
     }
+    const int last = plan->features[GLINT_FEATURE_ROUGH].compiled ? plan->cells_last : -1;
+    if (light->lobes == NULL || light->cells_last < last) {
+        TRY(make_lobes(light, last, error));
+    }
     light->chosen = (glint_chosen_light){
+        .lobes = light->lobes,
         .environment = texels->buffer,
         .irradiance = *irradiance,
         .environment_edge = radiance->edge,
@@ -123,7 +161,7 @@ size_t glint_light_bytes(const glint_light *light)
     for (int i = 0; i < GLINT_IRRADIANCE_KINDS; i++) {
         bytes += glint_buffer_bytes(light->irradiances[i]);
     }
-    return bytes;
+    return bytes + glint_buffer_bytes(light->lobes);
 }
 
 void glint_light_free(glint_light *light)
@@ -134,5 +172,6 @@ void glint_light_free(glint_light *light)
     for (int i = 0; i < GLINT_IRRADIANCE_KINDS; i++) {
         glint_buffer_release(&light->irradiances[i]);
     }
+    glint_buffer_release(&light->lobes);
     *light = (glint_light){0};
 }

@@ -22,7 +22,7 @@ typedef enum glint_irradiance_kind {
 
 // What a plan's kernels read. The buffers are borrowed.
 typedef struct glint_chosen_light {
-    cl_mem environment, irradiance;
+    cl_mem environment, irradiance, lobes;
     int environment_edge;
     int irradiance_edge; // 0: no map
 } glint_chosen_light;
@@ -36,9 +36,12 @@ typedef struct glint_light {
     bool half_is_known;
     glint_shared_buffer texels[2];              // as floats, as halfs
     cl_mem irradiances[GLINT_IRRADIANCE_KINDS]; // see kernels/layout.h
-    glint_chosen_light chosen;                  // for the plan at hand
-    double upload_ms;                           // of all that was made of this environment
-    double irradiance_ms;                       // likewise, and of those before
+    cl_mem lobes;              // what rough surfaces read: albedos and cells; NULL: none yet
+    int cells_last;            // their finest level
+    glint_chosen_light chosen; // for the plan at hand
+    double upload_ms;          // of all that was made of this environment
+    double irradiance_ms;      // likewise, and of those before
+    double cells_ms;           // likewise
 } glint_light;
 
 // Another environment in the place of the one that there was; nothing is uploaded yet. It is

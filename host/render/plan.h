@@ -54,6 +54,7 @@ typedef struct glint_plan {
     int media_capacity;  // entries of that stack
     int traversal_stack; // entries of the traversal's stack; set once the tree is built
     size_t environment_bytes; // device memory for the environment
+    int cells_last;           // the finest level of cells that rough surfaces need; −1: none do
     uint32_t build_tag;       // the settings'
 } glint_plan;
 

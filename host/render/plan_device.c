@@ -88,7 +88,8 @@ static void limit_branches(glint_plan *plan)
     const size_t branch = GLINT_BRANCH_BYTES(glint_plan_scalar_bytes(plan),
                                              plan->features[GLINT_FEATURE_MIP_LEVELS].compiled ||
                                                  plan->features[GLINT_FEATURE_TEXTURES].compiled,
-                                             plan->features[GLINT_FEATURE_ALPHA].compiled);
+                                             plan->features[GLINT_FEATURE_ALPHA].compiled,
+                                             plan->features[GLINT_FEATURE_ROUGH].compiled);
     const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
     if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
         plan->tiles = false;

@@ -17,7 +17,7 @@
     LOBE(THIN_WALL, thin, "transmission and no volume")                                            \
     LOBE(ABSORPTION, absorption, "absorption inside")                                              \
     LOBE(PAINT, paint, "a share of paint")                                                         \
-    LOBE(GLOSS, gloss, "paint of roughness 0")                                                     \
+    LOBE(GLOSS, gloss, "paint of roughness 0, or textured")                                        \
     LOBE(BLEND, blend, "the lecture's blend")                                                      \
     LOBE(UNLIT, unlit, "KHR_materials_unlit")                                                      \
     LOBE(EMISSION, emission, "emission")
@@ -27,25 +27,46 @@ typedef struct material_census {
     size_t needing[GLINT_FEATURE_COUNT];  // of these, for a lobe
     size_t metal_and_glass;               // both at once
     size_t partly_there, partly_reflects; // by alpha; of these, those that reflect as well
+    size_t rough, rough_coats;            // that reflect lobes; of these, paint
+    double least_roughness;               // of these; 0 where textures say it
 } material_census;
 
-static void count_material(const glint_material *material, material_census *census)
+static void count_roughness(const glint_material *material, const glint_lobes *lobes,
+                            material_census *census)
+{
+    if (lobes->rough) {
+        const bool is_textured = material->textures[GLINT_TEXTURE_METALLIC_ROUGHNESS].image != 0;
+        const double least = is_textured ? 0 : (double)material->roughness;
+        census->rough++;
+        census->rough_coats += lobes->paint;
+        census->least_roughness = fmin(census->least_roughness, least);
+    }
+}
+
+static void count_material(const glint_material *material, bool heeds_roughness,
+                           material_census *census)
 {
     const glint_lobes lobes = glint_material_lobes(material);
     census->used++;
     census->metal_and_glass += lobes.metal && lobes.glass;
     census->partly_there += lobes.masked || lobes.covers;
     census->partly_reflects +=
-        lobes.covers && (lobes.metal || lobes.gloss || lobes.blend_mirror || lobes.glass);
+        lobes.covers && (lobes.metal || lobes.gloss || lobes.blend_mirror || lobes.glass ||
+                         (lobes.rough_path && heeds_roughness));
+    if (heeds_roughness) {
+        count_roughness(material, &lobes, census);
+    }
 #define COUNT(feature, lobe, what) census->needing[GLINT_FEATURE_##feature] += lobes.lobe;
     LOBES(COUNT)
 #undef COUNT
 }
 
-static glint_status take_census(const glint_scene *scene, material_census *census,
+static glint_status take_census(const glint_plan_inputs *in, material_census *census,
                                 glint_error *error)
 {
-    *census = (material_census){0};
+    const glint_scene *scene = in->scene;
+    const bool heeds_roughness = glint_settings_heed_roughness(in->settings);
+    *census = (material_census){.least_roughness = 1};
     bool *used = calloc(scene->material_count + 1, sizeof *used);
     if (used == NULL) {
         return glint_fail_memory(error, "the plan");
@@ -57,7 +78,7 @@ static glint_status take_census(const glint_scene *scene, material_census *censu
     }
     for (size_t i = 0; i < scene->material_count; i++) {
         if (used[i]) {
-            count_material(&scene->materials[i], census);
+            count_material(&scene->materials[i], heeds_roughness, census);
         }
     }
     free(used);
@@ -101,12 +122,12 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
 {
     const bool exact = fresnel == GLINT_FRESNEL_EXACT;
     const size_t glass = c->needing[GLINT_FEATURE_GLASS];
-    const bool angular =
-        c->needing[GLINT_FEATURE_TINT] > 0 || glass > 0 || c->needing[GLINT_FEATURE_GLOSS] > 0;
+    const bool angular = c->needing[GLINT_FEATURE_TINT] > 0 || glass > 0 ||
+                         c->needing[GLINT_FEATURE_GLOSS] > 0 || c->rough > 0;
     decide(plan, GLINT_FEATURE_FRESNEL, exact && angular, "%s",
            !exact    ? "no Fresnel term was asked for"
-           : angular ? "coloured metal, glass or smooth paint"
-                     : "no coloured metal, glass or smooth paint");
+           : angular ? "coloured metal, glass, or what reflects lobes or is smooth paint"
+                     : "no coloured metal, glass, lobes or smooth paint");
     if (glass > 0 && exact) {
         decide_by_count(plan, GLINT_FEATURE_SPLIT, glass, c->used, "transmission and Fresnel");
     } else if (c->partly_reflects > 0) {
@@ -118,6 +139,29 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     }
     if (!exact) {
         decide(plan, GLINT_FEATURE_GLOSS, false, "no Fresnel term was asked for");
+    }
+}
+
+// At grazing angles lobes are narrower by a few times.
+#define GRAZING_LEVELS 2
+
+// Rough surfaces need cells as small as their narrowest lobe wants them.
+static void choose_cells(const material_census *c, const glint_settings *settings, glint_plan *plan)
+{
+    const bool exact = settings->fresnel == GLINT_FRESNEL_EXACT;
+    const size_t rough = exact ? c->rough : c->rough - c->rough_coats;
+    plan->cells_last = -1;
+    if (rough > 0) {
+        const double least = fmax(c->least_roughness, (double)GLINT_ROUGHNESS_NARROW);
+        const double alpha = least * least;
+        const double widest =
+            (double)GLINT_LOBE_WIDEST * (1 + (double)GLINT_LOBE_TAIL / (alpha * alpha));
+        const double width = fmin(alpha, sqrt(widest));
+        // In the lobe's middle a cell brings about the ratio's square of what the lobe takes.
+        const double ratio = pow(2.5 * glint_lobe_tolerance(settings->roughness), 1.0 / 6);
+        const double edge = 2 / (ratio * width);
+        const double level = ceil(log2(edge / GLINT_CELLS_ROOT)) + GRAZING_LEVELS;
+        plan->cells_last = (int)fmin(fmax(level, 0), GLINT_CELLS_LEVELS - 1);
     }
 }
 
@@ -241,7 +285,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
 {
     material_census census = {.used = 1};
     if (in->settings->output != GLINT_OUTPUT_HITS) { // of which no material is looked at
-        TRY(take_census(in->scene, &census, error));
+        TRY(take_census(in, &census, error));
     }
     decide_materials(&census, plan);
     if (glint_plan_shades_vertices(plan)) {
@@ -249,6 +293,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     }
     decide_by_count(plan, GLINT_FEATURE_ALPHA, census.partly_there, census.used, "alpha");
     decide_optics(&census, in->settings->fresnel, plan);
+    choose_cells(&census, in->settings, plan);
     decide_scene(in, plan);
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);
@@ -275,6 +320,12 @@ void glint_plan_decide_paths(glint_plan *plan)
 // What is told of a frame beside its colours.
 void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
 {
+    const bool rough = plan->cells_last >= 0 && settings->terms == 0;
+    decide(plan, GLINT_FEATURE_ROUGH, rough, "%s",
+           rough ? "rough metal or paint"
+           : glint_settings_heed_roughness(settings) && settings->terms == 0
+               ? "no rough metal or paint"
+               : "these settings show all as smooth");
     if (settings->terms > 0) {
         decide(plan, GLINT_FEATURE_TERMS, true, "%d directions of a pixel are kept",
                settings->terms);

@@ -23,12 +23,13 @@ glint_status glint_prepared_scene_plan(glint_prepared_scene *p, const glint_plan
     const glint_scene *scene = inputs->scene;
     glint_topology topology = {0};
     const bool sees = glint_plan_may_heed_sight(inputs->settings);
+    const bool rough = glint_settings_heed_roughness(inputs->settings);
     const bool wanted =
-        !scene->moves && (has_solids(scene) || (sees && glint_sight_wants_topology(scene)));
+        !scene->moves && (has_solids(scene) || (sees && glint_sight_wants_topology(scene, rough)));
     if (wanted) {
         TRY(glint_topology_find(scene, &topology, error));
     }
-    const glint_sight sight = sees ? glint_sight_find(scene, &topology) : (glint_sight){0};
+    const glint_sight sight = sees ? glint_sight_find(scene, &topology, rough) : (glint_sight){0};
     glint_plan_inputs all = *inputs;
     all.topology = &topology;
     all.sight = &sight;

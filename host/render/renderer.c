@@ -26,6 +26,7 @@ glint_scene_arguments glint_renderer_scene_arguments(const glint_renderer *r)
         .lights = g->lights,
         .environment = r->light.chosen.environment,
         .irradiance = r->light.chosen.irradiance,
+        .lobes = r->light.chosen.lobes,
         .vertices = r->scene.vertices,
         .listed = r->target.buffers[GLINT_TARGET_LIST],
     };
@@ -91,6 +92,7 @@ static glint_status equip(glint_renderer *r, glint_error *error)
     TRY(check_memory(r, target, error));
     TRY(glint_light_choose(&r->light, &r->plan, without_frames, error));
     r->phases.irradiance = r->light.irradiance_ms;
+    r->phases.cells = r->light.cells_ms;
     r->phases.upload = r->scene.upload_ms + r->light.upload_ms;
     TRY(glint_target_fit(&r->target, &r->settings, scalar, target, error));
     return without_frames ? GLINT_OK : find_kernels(r, error);

@@ -30,6 +30,18 @@ bool glint_settings_are_variation(const glint_settings *settings, const glint_se
            (settings->depth > 0 || first->depth == 0);
 }
 
+bool glint_settings_heed_roughness(const glint_settings *settings)
+{
+    return settings->roughness != GLINT_ROUGHNESS_SMOOTH &&
+           settings->output == GLINT_OUTPUT_COLOR && settings->shading == GLINT_SHADING_PIXEL &&
+           !settings->proxy;
+}
+
+double glint_lobe_tolerance(glint_roughness roughness)
+{
+    return roughness == GLINT_ROUGHNESS_EXACT ? 0.001 : 0.1;
+}
+
 // ---- Checks ------------------------------------------------------------------------------------
 
 static bool is_usual(const glint_setting *setting, const glint_settings *settings)

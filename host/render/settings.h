@@ -57,6 +57,13 @@ typedef enum glint_irradiance {
     GLINT_IRRADIANCE_SH,    // nine spherical harmonics, see environment/harmonics.h
 } glint_irradiance;
 
+// What becomes of rough surfaces that pixels shade, without terms and proxy; else they are smooth.
+typedef enum glint_roughness {
+    GLINT_ROUGHNESS_FAST,   // lobes, to about a hundredth
+    GLINT_ROUGHNESS_EXACT,  // to about a thousandth
+    GLINT_ROUGHNESS_SMOOTH, // metal is as smooth, and paint reflects nothing
+} glint_roughness;
+
 // Whether the file's punctual lights shine.
 typedef enum glint_lights {
     GLINT_LIGHTS_FILE, // on paint that pixels shade
@@ -101,6 +108,7 @@ typedef struct glint_settings {
     int anisotropy; // taps of a texture along the ellipse that a pixel sees, at most: 1 or more
     glint_irradiance irradiance;
     glint_lights lights;
+    glint_roughness roughness;
     bool proxy;            // the environment has one (environment.h), which is heeded: with the
                            // bilinear filter, shading pixel and no terms
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers
@@ -133,6 +141,12 @@ extern const glint_settings glint_settings_default;
 // without cl_khr_fp64).
 glint_status glint_settings_check(const glint_settings *settings, const glint_capabilities *device,
                                   const glint_scene *scene, glint_error *error);
+
+// Whether rough surfaces are to be seen, but for terms.
+bool glint_settings_heed_roughness(const glint_settings *settings);
+
+// How far off a cell of the environment may be (kernels/layout.h, Lobes), of its brightness.
+double glint_lobe_tolerance(glint_roughness roughness);
 
 // "pixel", "vertex-direction", "vertex-color".
 const char *glint_shading_name(glint_shading shading);

@@ -227,6 +227,13 @@ const glint_setting glint_setting_table[] = {
                 .help = "Whether the point, spot and directional lights of the file shine: file or "
                         "none. Matte paint shows their light and shadows.",
                 .choices = GLINT_CHOICES("file", "none")}},
+    {GLINT_SETTINGS_OF_FRAME, MEMBER(roughness), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
+     .key = "roughness", .roles = GLINT_SETTING_WEIGHS_ERRORS,
+     .option = {GLINT_OPTION_CHOICE, .name = "roughness", .argument = "KIND",
+                .help = "How rough metal and the coat of rough paint reflect: fast, lobes that "
+                        "are right to about 0.01; exact, to about 0.001, in several times the "
+                        "time; smooth, metal like a mirror and paint not at all.",
+                .choices = GLINT_CHOICES("fast", "exact", "smooth")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(shading), .fingerprint = 15, .key = "shading",
      .no_capture = "a capture shows what surfaces see of each other, which vertices do not",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,

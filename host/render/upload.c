@@ -20,7 +20,7 @@ _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps"
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_light_record) == 112, "glint_light_record has gaps");
 _Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 28 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 30 * 4, "glint_frame_record has gaps");
 
 static size_t attribute_bytes(const glint_scene *scene)
 {
@@ -94,6 +94,7 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
         .alpha_cutoff = m->alpha_cutoff,
         .normal_scale = m->normal_scale,
         .occlusion_strength = m->occlusion_strength,
+        .roughness = lobes.rough ? m->roughness : 0,
     };
     memcpy(record.base_color, m->base_color, sizeof m->base_color);
     record.base_color[3] = m->alpha;

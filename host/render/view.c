@@ -54,6 +54,22 @@ static depth_range depth_of(const glint_stored_space *space, const glint_camera 
     return (depth_range){depth, farthest - depth};
 }
 
+static void note_settings(const glint_settings *settings, glint_frame_record *record)
+{
+    record->min_weight = (float)settings->min_weight;
+    int pixels[2];
+    glint_settings_pixels(settings, pixels);
+    record->width = pixels[0];
+    record->height = pixels[1];
+    record->image_width = settings->width;
+    record->image_height = settings->height;
+    record->step = settings->grid_step > 0 ? settings->grid_step : 1;
+    record->first_pixel = settings->grid_step / 2;
+    record->samples_per_axis = settings->samples_per_axis;
+    record->anisotropy = (float)settings->anisotropy;
+    record->cells_tolerance = (float)glint_lobe_tolerance(settings->roughness);
+}
+
 void glint_view_record(const glint_stored_space *space, const glint_camera *camera,
                        const glint_settings *settings, const glint_plan *plan,
                        glint_frame_record *record)
@@ -92,17 +108,8 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     double angle = fmod(settings->env_rotate, 360) * GLINT_PI / 180;
     glint_split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
     glint_split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
-    record->min_weight = (float)settings->min_weight;
-    int pixels[2];
-    glint_settings_pixels(settings, pixels);
-    record->width = pixels[0];
-    record->height = pixels[1];
-    record->image_width = settings->width;
-    record->image_height = settings->height;
-    record->step = settings->grid_step > 0 ? settings->grid_step : 1;
-    record->first_pixel = settings->grid_step / 2;
-    record->samples_per_axis = settings->samples_per_axis;
-    record->anisotropy = (float)settings->anisotropy;
+    note_settings(settings, record);
+    record->cells_last = plan->cells_last;
     record->depth = plan->depth;
     record->unit = (float)space->unit;
     record->depth_counts = !plan->depth_is_exact && plan->depth < GLINT_DEPTH_MAX;

@@ -1,6 +1,8 @@
 // Which lobes a material has. See material.h.
 #include "scene/material.h"
 
+#include "kernels/layout.h"
+
 #include <math.h>
 
 const glint_material glint_material_default = {GLINT_MATERIAL_CLEAR,   .base_color = {1, 1, 1},
@@ -66,7 +68,12 @@ static glint_lobes sharing_lobes(const glint_material *m)
     lobes.absorption = lobes.solid && absorbs(m);
     lobes.thin = lobes.glass && !lobes.solid;
     lobes.paint = dielectric && (m->transmission < 1 || has_texture(m, GLINT_TEXTURE_TRANSMISSION));
-    lobes.gloss = lobes.paint && !(m->roughness > 0);
+    lobes.rough =
+        (lobes.metal || lobes.paint) && !lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
+    lobes.rough_path = lobes.rough && (lobes.metal || m->roughness < GLINT_COAT_MATTE ||
+                                       has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS));
+    lobes.gloss = lobes.paint && (!(m->roughness >= GLINT_ROUGHNESS_LEAST) ||
+                                  has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS));
     return lobes;
 }
 

@@ -25,7 +25,7 @@ typedef struct glint_material {
     int index;  // in the file; of glTF's default material, how many the file has
     float base_color[3];
     float metallic;             // [0, 1]
-    float roughness;            // [0, 1]; above 0, metal and glass are rendered smooth, paint matte
+    float roughness;            // [0, 1]
     float emission[3];          // emissiveFactor × emissiveStrength, radiance ≥ 0
     float transmission;         // KHR_materials_transmission, [0, 1]
     float ior;                  // KHR_materials_ior, ≥ 1; default 1.5. 0 in the file ("infinite,
@@ -70,6 +70,8 @@ typedef struct glint_lobes {
     bool thin;       // a wall without thickness: light passes straight
     bool paint;      // is lit by the environment's irradiance
     bool gloss;      // and reflects, as it is smooth
+    bool rough;      // metal, and the coat of paint, reflect lobes
+    bool rough_path; // for which paths go on
     // Beside all of these: some of the surface may not be there.
     bool masked; // by alpha_cutoff
     bool covers; // by its alpha; never of a solid, which is all there

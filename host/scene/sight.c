@@ -16,7 +16,7 @@ typedef enum fate {
     FATE_UNKNOWN    // what is there in part lets paths pass, or not
 } fate;
 
-static fate fate_at(const glint_material *m)
+static fate fate_at(const glint_material *m, bool rough)
 {
     const glint_lobes lobes = glint_material_lobes(m);
     if (lobes.masked || lobes.covers) {
@@ -25,19 +25,20 @@ static fate fate_at(const glint_material *m)
     if (lobes.glass) {
         return lobes.solid ? FATE_REFRACTED : FATE_PASSES;
     }
-    return lobes.metal || lobes.gloss || lobes.blend_mirror ? FATE_REFLECTED : FATE_ENDS;
+    const bool reflects = lobes.metal || lobes.gloss || lobes.blend_mirror;
+    return reflects || (rough && lobes.rough_path) ? FATE_REFLECTED : FATE_ENDS;
 }
 
 typedef struct census {
     size_t ends, reflected, passes, refracted, unknown; // triangles
 } census;
 
-static census take_census(const glint_scene *scene)
+static census take_census(const glint_scene *scene, bool rough)
 {
     census c = {0};
     for (size_t i = 0; i < scene->instance_count; i++) {
         const glint_instance *instance = &scene->instances[i];
-        switch (fate_at(&scene->materials[instance->material])) {
+        switch (fate_at(&scene->materials[instance->material], rough)) {
         case FATE_ENDS:
             c.ends += instance->triangle_count;
             break;
@@ -58,9 +59,9 @@ static census take_census(const glint_scene *scene)
     return c;
 }
 
-static bool goes_on_at(const glint_scene *scene, size_t triangle)
+static bool goes_on_at(const glint_scene *scene, bool rough, size_t triangle)
 {
-    return fate_at(&scene->materials[scene->material_of[triangle]]) != FATE_ENDS;
+    return fate_at(&scene->materials[scene->material_of[triangle]], rough) != FATE_ENDS;
 }
 
 static glint_vec3 corner(const glint_scene *scene, size_t triangle, int k)
@@ -100,13 +101,13 @@ static double slack_at(const plane *p, glint_vec3 at, double roundings)
 
 // Whether all triangles where paths go on lie in one plane, that of the largest. Where light passes
 // through, no more than what storing the corners has rounded may lie between two sheets.
-static bool is_flat(const glint_scene *scene, bool passes)
+static bool is_flat(const glint_scene *scene, bool rough, bool passes)
 {
     const double roundings = passes ? 2 : GLINT_POSITION_ROUNDINGS;
     size_t largest = 0;
     double size = -1;
     for (size_t i = 0; i < scene->triangle_count; i++) {
-        const double of = goes_on_at(scene, i) ? glint_vec3_length(normal_of(scene, i)) : -1;
+        const double of = goes_on_at(scene, rough, i) ? glint_vec3_length(normal_of(scene, i)) : -1;
         if (of > size) {
             size = of;
             largest = i;
@@ -114,7 +115,7 @@ static bool is_flat(const glint_scene *scene, bool passes)
     }
     const plane p = plane_of(scene, largest);
     for (size_t i = 0; i < scene->triangle_count; i++) {
-        for (int k = 0; k < 3 && goes_on_at(scene, i); k++) {
+        for (int k = 0; k < 3 && goes_on_at(scene, rough, i); k++) {
             const glint_vec3 at = corner(scene, i, k);
             if (!(fabs(glint_vec3_dot(p.n, at) - p.offset) <= slack_at(&p, at, roundings))) {
                 return false;
@@ -131,18 +132,18 @@ static bool is_flat(const glint_scene *scene, bool passes)
 
 // Whether a few corners of the mirrors lie on one side of the plane of each of their triangles,
 // which those of a convex body do.
-static bool may_be_convex(const glint_scene *scene, size_t mirrors)
+static bool may_be_convex(const glint_scene *scene, bool rough, size_t mirrors)
 {
     glint_vec3 probes[PROBES];
     size_t count = 0, seen = 0;
     const size_t every = mirrors / PROBES + 1;
     for (size_t i = 0; i < scene->triangle_count && count < PROBES; i++) {
-        if (goes_on_at(scene, i) && seen++ % every == 0) {
+        if (goes_on_at(scene, rough, i) && seen++ % every == 0) {
             probes[count++] = corner(scene, i, 0);
         }
     }
     for (size_t i = 0; i < scene->triangle_count; i++) {
-        if (!goes_on_at(scene, i)) {
+        if (!goes_on_at(scene, rough, i)) {
             continue;
         }
         const plane p = plane_of(scene, i);
@@ -159,22 +160,23 @@ static bool may_be_convex(const glint_scene *scene, size_t mirrors)
     return count > 0;
 }
 
-bool glint_sight_wants_topology(const glint_scene *scene)
+bool glint_sight_wants_topology(const glint_scene *scene, bool rough)
 {
-    const census c = take_census(scene);
+    const census c = take_census(scene, rough);
     return !scene->moves && c.reflected > 0 && c.passes == 0 && c.refracted == 0 &&
-           c.unknown == 0 && !is_flat(scene, false) && may_be_convex(scene, c.reflected);
+           c.unknown == 0 && !is_flat(scene, rough, false) &&
+           may_be_convex(scene, rough, c.reflected);
 }
 
 // The only surface at which paths go on, if it is one and proved convex.
-static bool is_one_convex_body(const glint_scene *scene, const glint_topology *topology)
+static bool is_one_convex_body(const glint_scene *scene, const glint_topology *topology, bool rough)
 {
     size_t bodies = 0;
     bool convex = true;
     for (size_t i = 0; i < topology->component_count; i++) {
         const glint_component *component = &topology->components[i];
         const uint32_t material = scene->instances[component->instance].material;
-        if (fate_at(&scene->materials[material]) != FATE_ENDS) {
+        if (fate_at(&scene->materials[material], rough) != FATE_ENDS) {
             bodies++;
             convex = convex && component->convex;
         }
@@ -197,9 +199,9 @@ static glint_sight not_proved(const char *why)
     return sight;
 }
 
-glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *topology)
+glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *topology, bool rough)
 {
-    const census c = take_census(scene);
+    const census c = take_census(scene, rough);
     const bool alone = c.ends == 0;
     if (scene->triangle_count == 0) {
         return not_proved("there is no surface");
@@ -215,10 +217,10 @@ glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *top
     if (scene->moves) {
         return not_proved("what moves is not looked at");
     }
-    if (c.refracted == 0 && is_flat(scene, c.passes > 0)) {
+    if (c.refracted == 0 && is_flat(scene, rough, c.passes > 0)) {
         return proved(alone, false, c.passes > 0 ? "a flat pane" : "a flat mirror");
     }
-    const bool is_convex = is_one_convex_body(scene, topology);
+    const bool is_convex = is_one_convex_body(scene, topology, rough);
     if (c.refracted == 0 && c.passes == 0 && is_convex) {
         return proved(alone, true, "a closed, convex mirror");
     }

@@ -23,16 +23,16 @@ typedef struct glint_sight {
 
 // Whether convexity could prove anything of the scene: then the topology is worth its time. Looks
 // at every triangle at most, and for a body with hollows at a few.
-bool glint_sight_wants_topology(const glint_scene *scene);
+bool glint_sight_wants_topology(const glint_scene *scene, bool rough);
 
-// `topology` may be empty: then nothing is known of convexity. Proofs hold up to roundings of the
-// vertices (see convexity.h; bends of so little add up to 1/1024 at most). They rest on these
-// facts: a reflected direction is folded to the side of its triangle's plane that it comes from,
-// and a refracted one to the other, whatever the vertices' normals say; and a convex body lies
-// behind each of its planes. A float's
-// tracing may say otherwise of slivers, whose plane rounding has turned; what is proved is what
-// they should show.
-glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *topology);
+// `rough`: rough surfaces reflect lobes, of which the middle is a path; else rough paint reflects
+// nothing. `topology` may be empty: then nothing is known of convexity. Proofs hold up to roundings
+// of the vertices (see convexity.h; bends of so little add up to 1/1024 at most). They rest on
+// these facts: a reflected direction is folded to the side of its triangle's plane that it comes
+// from, and a refracted one to the other, whatever the vertices' normals say; and a convex body
+// lies behind each of its planes. A float's tracing may say otherwise of slivers, whose plane
+// rounding has turned; what is proved is what they should show.
+glint_sight glint_sight_find(const glint_scene *scene, const glint_topology *topology, bool rough);
 
 #ifdef __cplusplus
 }

@@ -236,6 +236,9 @@ static void copy_vector(glint_vec3 from, double to[3])
     to[2] = from.z;
 }
 
+// Twice as many change what the oracle sees of the studio by less than 0.001.
+#define LOBE_STRATA 96
+
 oracle_view judge_view(const glint_camera *camera, const glint_settings *settings)
 {
     oracle_view view = {.yfov = camera->orthographic ? 0 : camera->yfov,
@@ -244,6 +247,7 @@ oracle_view judge_view(const glint_camera *camera, const glint_settings *setting
                         .height = settings->height,
                         .samples = settings->samples_per_axis,
                         .anisotropy = settings->anisotropy,
+                        .roughness = glint_settings_heed_roughness(settings) ? LOBE_STRATA : 0,
                         .depth = 1};
     copy_vector(camera->eye, view.eye);
     copy_vector(camera->right, view.right);

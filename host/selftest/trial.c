@@ -291,6 +291,7 @@ glint_settings trial_settings(const trial *t)
     settings.height = 48;
     settings.depth = GLINT_DEPTH_MAX; // as auto has it, but for scenes of which less is proved
     settings.min_weight = 0;
+    settings.roughness = GLINT_ROUGHNESS_SMOOTH;
     settings.precision = t->options->precision;
     settings.kernel_width = t->options->width;
     return settings;

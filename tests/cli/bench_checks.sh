@@ -88,7 +88,7 @@ check 'JSON: primary rays' stat_is $((64 * 48)) scenes 0 rays primary
 check 'JSON: their rate' stat_is_positive scenes 0 mrays_per_second primary
 check 'JSON: rate of reflected rays' stat_is_positive scenes 0 mrays_per_second reflected
 check 'JSON: frames a second' stat_is_positive scenes 0 frames frames_per_second
-for phase in load_scene load_environment analysis bvh irradiance upload kernel_build_cold \
+for phase in load_scene load_environment analysis bvh irradiance cells upload kernel_build_cold \
     kernel_build_warm first_frame; do
     check "JSON: milliseconds of $phase" "$json_get" out/stats.json scenes 0 milliseconds "$phase"
 done

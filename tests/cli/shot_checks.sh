@@ -317,7 +317,7 @@ check 'relight --help tells every option' help_mentions relight allow-large-imag
     ball-distance ball-fov env-flip $(settings_of environment) output exposure tone compression exr-type progress help
 run --help
 check 'glint --help lists it' grep -q '^  relight ' stdout
-kept=("$spheres" --size 64x48 --exr-type float --texels float)
+kept=("$spheres" --size 64x48 --exr-type float --texels float --roughness smooth)
 run render "${kept[@]}" -o in/kept.exr --directions 16
 run render "${kept[@]}" -o out/wanted.exr --env in/axes.exr --env-rotate 40
 run relight in/kept.exr --env in/axes.exr --env-rotate 40 -o out/lit.exr --exr-type float

@@ -119,6 +119,7 @@ glint_settings test_small_frame(int depth)
     settings.width = 61;
     settings.height = 43;
     settings.depth = depth;
+    settings.roughness = GLINT_ROUGHNESS_SMOOTH;
     return settings;
 }
 

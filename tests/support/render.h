@@ -44,6 +44,7 @@ void test_render_named(const char *name, const glint_settings *settings, test_fr
 void test_frame_free(test_frame *frame);
 
 // Settings of 61 × 43 pixels, which are no multiples of a packet: packets hang over both edges.
+// Rough surfaces are smooth: test_rough.c has the others.
 glint_settings test_small_frame(int depth);
 
 // The number of pixels of two images of one size that are not equal bit for bit.

@@ -125,10 +125,15 @@ static void print_phases(const json_t *scene, FILE *out)
     static const struct {
         const char *key, *label;
     } phases[] = {
-        {"load_scene", "load the scene"},       {"load_environment", "load the environment"},
-        {"analysis", "analysis and plan"},      {"bvh", "tree"},
-        {"irradiance", "irradiance map"},       {"upload", "upload"},
-        {"kernel_build_cold", "kernels, cold"}, {"kernel_build_warm", "kernels, warm"},
+        {"load_scene", "load the scene"},
+        {"load_environment", "load the environment"},
+        {"analysis", "analysis and plan"},
+        {"bvh", "tree"},
+        {"irradiance", "irradiance map"},
+        {"cells", "cells of environment"},
+        {"upload", "upload"},
+        {"kernel_build_cold", "kernels, cold"},
+        {"kernel_build_warm", "kernels, warm"},
         {"first_frame", "first frame"},
     };
     const json_t *milliseconds = glint_json_at(scene, "milliseconds");

@@ -374,7 +374,9 @@ static glint_status make_plan(const info_request *request, info_work *work, glin
     if (status != GLINT_OK) {
         return glint_fail(error, status, "%s", work->plan_failure.message);
     }
-    const glint_sight sight = glint_sight_find(&work->inputs.scene, &work->topology);
+    const glint_sight sight =
+        glint_sight_find(&work->inputs.scene, &work->topology,
+                         glint_settings_heed_roughness(&request->inputs.settings));
     const glint_plan_inputs inputs = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,

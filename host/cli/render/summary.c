@@ -45,12 +45,13 @@ static void say_frame(const render_run *run)
     const glint_settings *settings = &run->request->inputs.settings;
     const glint_frame_report *frame = &run->frames.last;
     const double rate = 1e-3 * (double)frame->rays.primary / frame->kernel_ms;
-    glint_say("%s: %dx%d, %.0f ms (load %.0f, tree %.0f, irradiance %.0f, kernels %.0f, trace "
+    glint_say("%s: %dx%d, %.0f ms (load %.0f, tree %.0f, irradiance %.0f, cells %.0f, kernels "
+              "%.0f, trace "
               "%.0f, encode %.0f), %.3g primary Mrays/s",
               run->request->output, settings->width, settings->height,
               glint_progress_elapsed(&run->display),
               run->shot.stage.inputs.scene_ms + run->shot.stage.inputs.environment_ms, phases->bvh,
-              phases->irradiance, phases->kernel_build, frame->kernel_ms,
+              phases->irradiance, phases->cells, phases->kernel_build, frame->kernel_ms,
               run->frames.totals.write.sum, rate);
     if (run->request->max_error > 0) {
         const glint_error_choice *choice = &run->choice;

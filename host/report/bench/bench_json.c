@@ -14,6 +14,7 @@ static json_t *milliseconds_object(const glint_bench_scene *scene, const glint_b
     glint_json_put_real(object, "analysis", phases->analysis);
     glint_json_put_real(object, "bvh", phases->bvh);
     glint_json_put_real(object, "irradiance", phases->irradiance);
+    glint_json_put_real(object, "cells", phases->cells);
     glint_json_put_real(object, "upload", phases->upload);
     glint_json_put_real(object, "kernel_build_cold", result->compile.cold);
     glint_json_put_real(object, "kernel_build_warm", result->compile.warm);

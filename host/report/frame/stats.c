@@ -19,6 +19,7 @@ static json_t *preparation_object(const glint_stats *stats)
     glint_json_put_real(object, "analysis", phases->analysis);
     glint_json_put_real(object, "bvh", phases->bvh);
     glint_json_put_real(object, "irradiance", phases->irradiance);
+    glint_json_put_real(object, "cells", phases->cells);
     glint_json_put_real(object, "kernel_build", phases->kernel_build);
     glint_json_put_real(object, "upload", phases->upload);
     return object;

@@ -159,6 +159,7 @@ static glint_phases phases_since(const run *r, const glint_phases *before,
     if (renderer == r->shared) {
         phases.kernel_build -= before->kernel_build;
         phases.irradiance -= before->irradiance;
+        phases.cells -= before->cells;
         phases.upload -= before->upload;
     }
     return phases;

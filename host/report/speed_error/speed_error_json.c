@@ -44,6 +44,7 @@ static json_t *phases_object(const glint_phases *phases)
     glint_json_put_real(object, "analysis", phases->analysis);
     glint_json_put_real(object, "bvh", phases->bvh);
     glint_json_put_real(object, "irradiance", phases->irradiance);
+    glint_json_put_real(object, "cells", phases->cells);
     glint_json_put_real(object, "upload", phases->upload);
     glint_json_put_real(object, "kernel_build", phases->kernel_build);
     return object;

@@ -244,15 +244,17 @@ static void put_making(const json_t *scene, FILE *out)
              glint_json_real_at(scene, "reference.change_by_twice_the_depth.relative_rmse"));
     put_fact(out, "reference", text);
     fputs("</dl>\n<div class=\"scroll\"><table>\n<thead><tr><th class=\"left\">before the first "
-          "frame, ms</th><th>analysis</th><th>tree</th><th>irradiance</th><th>upload</th>"
+          "frame, "
+          "ms</th><th>analysis</th><th>tree</th><th>irradiance</th><th>cells</th><th>upload</th>"
           "<th>kernels</th><th class=\"left\">plan</th></tr></thead>\n<tbody>\n",
           out);
     size_t i;
     json_t *rung;
     json_array_foreach(glint_json_at(scene, "rungs"), i, rung)
     {
-        static const char *const phases[] = {"phases.analysis", "phases.bvh", "phases.irradiance",
-                                             "phases.upload", "phases.kernel_build"};
+        static const char *const phases[] = {"phases.analysis",   "phases.bvh",
+                                             "phases.irradiance", "phases.cells",
+                                             "phases.upload",     "phases.kernel_build"};
         put(out, "<tr><td class=\"left\">", text_at(rung, "name"), "</td>");
         for (size_t k = 0; k < sizeof phases / sizeof *phases; k++) {
             put_real(out, glint_json_real_at(rung, phases[k]), "%.1f", "");

@@ -1,0 +1,82 @@
+// How much of a white environment lobes reflect. See lobe_albedo.h.
+#include "environment/lobe_albedo.h"
+
+#include "base/parallel.h"
+#include "base/vector.h"
+#include "kernels/layout.h"
+
+#include <math.h>
+
+enum { RINGS = 24, SECTORS = 16 };
+
+// Λ of Smith's shadowing.
+static double lambda(double cosine, double alpha)
+{
+    const double squared = cosine * cosine;
+    return squared > 0 ? 0.5 * (sqrt(1 + alpha * alpha * (1 - squared) / squared) - 1) : INFINITY;
+}
+
+// v, in the plane of x and z, stretched by the roughness. The rest is set once for all surfaces.
+typedef struct visible {
+    glint_vec3 v, stretched;
+    double alpha;
+    double cosines[SECTORS], sines[SECTORS];
+} visible;
+
+// The half vector at a place of the disk that the visible normals are projected onto (Heitz,
+// Sampling the GGX Distribution of Visible Normals, 2018). `depth` is √(1 − radius²).
+static glint_vec3 visible_normal(const visible *a, double depth, int sector)
+{
+    const double radius = sqrt(1 - depth * depth), lean = 0.5 * (1 + a->stretched.z);
+    const double first = radius * a->cosines[sector];
+    const double second = (1 - lean) * sqrt(1 - first * first) + lean * radius * a->sines[sector];
+    const double third = sqrt(fmax(0, 1 - first * first - second * second));
+    // The axes across v: y, and v turned up.
+    return glint_vec3_normalize(
+        (glint_vec3){a->alpha * (third * a->stretched.x - second * a->stretched.z),
+                     a->alpha * first, fmax(0, third * a->stretched.z + second * a->stretched.x)});
+}
+
+static void integrate(const visible *a, float out[2])
+{
+    const double of_v = lambda(a->v.z, a->alpha);
+    double base = 0, edge = 0;
+    for (int i = 0; i < RINGS * SECTORS; i++) {
+        // Rings are dense near the disk's edge, where the normals of the lobe's wide skirts are.
+        const int ring = i / SECTORS;
+        const double depth = (ring + 0.5) / RINGS;
+        const glint_vec3 h = visible_normal(a, depth, i % SECTORS);
+        const double vh = glint_vec3_dot(a->v, h), up = 2 * vh * h.z - a->v.z;
+        if (up > 0) {
+            const double left = 2 * depth * (1 + of_v) / (1 + of_v + lambda(up, a->alpha));
+            const double m = (1 - vh) * (1 - vh) * (1 - vh) * (1 - vh) * (1 - vh);
+            base += left * (1 - m);
+            edge += left * m;
+        }
+    }
+    out[0] = (float)(base / (RINGS * SECTORS));
+    out[1] = (float)(edge / (RINGS * SECTORS));
+}
+
+static void fill_row(size_t row, void *context)
+{
+    float *table = context;
+    const double roughness = fmax((double)row / (GLINT_ALBEDO_ROUGHNESSES - 1.0), 1e-3);
+    visible a = {.alpha = roughness * roughness};
+    for (int i = 0; i < SECTORS; i++) {
+        const double angle = ((i + 0.5) / SECTORS - 0.5) * GLINT_PI; // half: symmetric
+        a.cosines[i] = cos(angle);
+        a.sines[i] = sin(angle);
+    }
+    for (int i = 0; i < GLINT_ALBEDO_COSINES; i++) {
+        const double root = fmax(i / (GLINT_ALBEDO_COSINES - 1.0), 1e-3), cosine = root * root;
+        a.v = (glint_vec3){sqrt(1 - cosine * cosine), 0, cosine};
+        a.stretched = glint_vec3_normalize((glint_vec3){a.alpha * a.v.x, 0, a.v.z});
+        integrate(&a, table + 2 * (row * GLINT_ALBEDO_COSINES + (size_t)i));
+    }
+}
+
+void glint_lobe_albedo_fill(float *table)
+{
+    glint_parallel_for(GLINT_ALBEDO_ROUGHNESSES, fill_row, table);
+}

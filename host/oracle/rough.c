@@ -1,0 +1,58 @@
+// Rough surfaces: the integral over their lobe, by plain quadrature over directions. See rough.h.
+#include "oracle/rough.h"
+
+static const double PI = 3.14159265358979323846;
+
+// D V n·l, with GGX's D and the height-correlated V of Smith's shadowing.
+static double lobe_weight(const surface *s, double alpha, vector l, vector h)
+{
+    double nl = dot(s->normal, l), nv = s->cosine;
+    if (!(nl > 0.0))
+        return 0.0;
+    double a2 = alpha * alpha;
+    // 1 − (n·h)² as |n × h|², which does not cancel near the lobe's middle.
+    vector across = cross(s->normal, h);
+    double cos_squared = dot(s->normal, h) * dot(s->normal, h);
+    double q = a2 * cos_squared + dot(across, across);
+    double d = a2 / (PI * q * q);
+    double of_v = sqrt(a2 + (1.0 - a2) * nv * nv), of_l = sqrt(a2 + (1.0 - a2) * nl * nl);
+    return d * 0.5 / (nl * of_v + nv * of_l) * nl;
+}
+
+lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context)
+{
+    double alpha = s->roughness * s->roughness;
+    vector axis = {{0.0, 0.0, 0.0}};
+    oracle_reflect(s->normal.at, s->viewer.at, axis.at);
+    axis = unit(axis);
+    // Across the plane of incidence, and in it.
+    vector across = cross(s->normal, s->viewer);
+    if (!(largest_magnitude(across) > 1e-6))
+        across = cross(axis, fabs(axis.at[0]) < 0.6 ? (vector){{1, 0, 0}} : (vector){{0, 1, 0}});
+    across = unit(across);
+    vector within = cross(across, axis);
+    // Rings about the axis, at angles γ = π sinh(kt)/sinh(k), dense where the lobe is narrow.
+    double k = asinh(PI / (0.5 * alpha * fmax(s->cosine, 0.05)));
+    lobe_integrals sum = {{{0.0, 0.0, 0.0}}, {{0.0, 0.0, 0.0}}, 0.0, 0.0};
+    for (int ring = 0; ring < strata; ring++) {
+        double t = (ring + 0.5) / strata, angle = PI * sinh(k * t) / sinh(k);
+        double ring_width = PI * k * cosh(k * t) / sinh(k) / strata;
+        double share = sin(angle) * ring_width * 2.0 * PI / strata;
+        for (int sector = 0; sector < strata; sector++) {
+            double turn = 2.0 * PI * (sector + 0.5) / strata;
+            vector aside = plus(scaled(within, cos(turn)), scaled(across, sin(turn)));
+            vector l = plus(scaled(axis, cos(angle)), scaled(aside, sin(angle)));
+            vector h = unit(plus(l, s->viewer));
+            double weight = share * lobe_weight(s, alpha, l, h);
+            if (!(weight > 0.0))
+                continue;
+            double m = pow(1.0 - dot(s->viewer, h), 5.0);
+            vector seen = light(context, l);
+            sum.base = plus(sum.base, scaled(seen, weight * (1.0 - m)));
+            sum.edge = plus(sum.edge, scaled(seen, weight * m));
+            sum.white_base += weight * (1.0 - m);
+            sum.white_edge += weight * m;
+        }
+    }
+    return sum;
+}

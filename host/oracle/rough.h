@@ -1,0 +1,21 @@
+// Between the oracle's own files: rule 11, what rough surfaces see of the environment.
+#ifndef GLINT_ORACLE_ROUGH_H
+#define GLINT_ORACLE_ROUGH_H
+
+#include "oracle/surface.h"
+
+// Light by direction, in world space.
+typedef vector (*seen_light)(const void *context, vector direction);
+
+// ∫ D V (1 − m) E n·l dl and ∫ D V m E n·l dl over the directions l in front, m = (1 − v·h)⁵; and
+// both where E is 1.
+typedef struct lobe_integrals {
+    vector base, edge;
+    double white_base, white_edge;
+} lobe_integrals;
+
+// By strata × strata directions about the mirror direction of v, of which half are in each half
+// plane.
+lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context);
+
+#endif

@@ -1,0 +1,243 @@
+// Rough surfaces: microfacets of GGX, α = roughness². What they reflect of the environment is the
+// integral of D V F E n·l over the directions l in front of the surface. It is taken over cells of the
+// environment (layout.h): the integrand at a cell's centroid, times the cell's light. A ray takes
+// cells that err little, however its neighbours in the packet choose.
+#if GLINT_ROUGH
+
+// (v·h)² at least: how much narrower than in h a lobe is in l, across the plane of incidence.
+#define LOBE_STEEPEST R(0.0225)
+
+// The arrangement at a surface, in axes of the environment: n is the third, v lies in the plane of
+// the first and the third.
+typedef struct lobe {
+    real3 first, second, normal;
+    real sine, cosine;  // of v's angle to n
+    real alpha, alpha_squared;
+    real widest;    // width at most, squared
+    real smith;     // √(α² + (1 − α²) cos²)
+    real largest;   // of cells, as GLINT_CELL_LARGEST
+    real tolerance; // of what they err
+} lobe;
+
+// Both parts of Schlick's F = F0 (1 − m) + m with m = (1 − v·h)⁵.
+typedef struct lobe_light {
+    real3 base, edge; // ∫ D V (1 − m) E n·l dl, ∫ D V m E n·l dl
+} lobe_light;
+
+static inline real smith_root(const lobe *l, real cosine)
+{
+    return sqrt(fused((R(1.0) - l->alpha_squared) * cosine, cosine, l->alpha_squared));
+}
+
+// n and v are unit vectors, in axes of the environment; n·v is the cosine. A pixel sees the lobe's
+// light by `weight`.
+static inline lobe find_lobe(const cell_map *map, real3 normal, real3 v, real cosine,
+                             real roughness, real weight)
+{
+    lobe l;
+    const real3 across = scale_add(normal, -cosine, v);
+    const real squared = dot3(across, across);
+    const mask upright = !(squared > R(1e-12)); // then any axis serves
+    const mask along_x = fabs(normal.x) > R(0.6);
+    const real one = real_of(1), zero = real_of(0);
+    const real3 axis = select3(along_x, real3_of(zero, one, zero), real3_of(one, zero, zero));
+    mask valid;
+    l.normal = normal;
+    l.first = normalized(select3(upright, cross3(normal, axis), across), &valid);
+    l.second = cross3(normal, l.first);
+    l.cosine = cosine;
+    l.sine = SELECT(upright, zero, sqrt(squared));
+    l.alpha = roughness * roughness;
+    l.alpha_squared = l.alpha * l.alpha;
+    l.widest = fused(real_of(GLINT_LOBE_WIDEST * GLINT_LOBE_TAIL), R(1.0) / l.alpha_squared,
+                     real_of(GLINT_LOBE_WIDEST));
+    l.smith = smith_root(&l, cosine);
+    const real inverse = R(1.0) / LARGER(weight, real_of(R(1e-4)));
+    const real more = l.alpha * (sqrt(inverse) - R(1.0));
+    l.largest = fused(real_of(GLINT_CELL_LARGEST), LARGER(more, real_of(0)), real_of(GLINT_CELL_LARGEST));
+    l.tolerance = (map->tolerance * map->values[GLINT_LOBES_BRIGHTNESS]) * inverse;
+    return l;
+}
+
+// A direction u, and the half vector's length and place: u + v = (x, ., c) with W = |u + v|².
+typedef struct half_vector {
+    real up;     // n·u
+    real c;      // n·(u + v)
+    real square; // |u + v|² − c²
+    real whole;  // |u + v|²
+} half_vector;
+
+static inline half_vector half_vector_of(const lobe *l, scalar8 cell)
+{
+    const real x = real_of(cell.s0), y = real_of(cell.s1), z = real_of(cell.s2);
+    const real3 u = real3_of(x, y, z);
+    half_vector h;
+    h.up = dot3(l->normal, u);
+    h.c = h.up + l->cosine;
+    const real first = dot3(l->first, u) + l->sine, second = dot3(l->second, u);
+    h.square = fused(first, first, second * second);
+    h.whole = fused(h.c, h.c, h.square);
+    return h;
+}
+
+// What spreading a cell's light about its centroid changes, to second order: D is averaged, by half
+// the light's variance about the centroid, turned into h, times D's Laplacian, D (16 s² − 8 α²)/A² with
+// A = α² + s², s = sin θ_h. `scale` is 1/(A |u + v|²)².
+static inline real spread_factor(const lobe *l, const half_vector *h, scalar variance, real scale)
+{
+    const real turned = h->whole + SMALLER(R(50.0) * h->whole, real_of(4)); // 1 + 1/(v·h)², scaled
+    const real curved =
+        fused(l->alpha_squared * R(-0.5), h->whole, h->square) * (variance * turned);
+    return LARGER(fused(curved, scale, real_of(1)), real_of(R(0.1)));
+}
+
+// (α² cos² θ_h + sin² θ_h) |u + v|².
+static inline real width_of(const lobe *l, const half_vector *h)
+{
+    return fused(l->alpha_squared * h->c, h->c, h->square);
+}
+
+// The rays among `these` for which a cell is too large, see GLINT_CELL_LARGEST: without a division,
+// and as if n·u were a quarter of the cell's size at least. Where the products are too small for
+// numbers the cell is too large.
+static inline mask are_coarse(const lobe *l, const half_vector *h, real width, scalar8 cell,
+                              mask these)
+{
+    const real steep = LARGER(R(0.25) * h->whole, real_of(LOBE_STEEPEST));
+    const real limit = SMALLER(width, l->widest * h->whole) * steep;
+    const real size = cell.s3 * cell.s3 * h->whole;
+    const real above = LARGER(h->up, real_of(R(0.25) * cell.s3));
+    const real shadowing =
+        fused(above, l->smith, l->cosine * LARGER(above, l->alpha)); // √(a² + b²) ≈ max(a, b)
+    const real root = h->whole * size;
+    const real bright = (cell.s4 + cell.s5 + cell.s6) * R(0.15915494309189535);
+    const real brought = l->alpha_squared * bright * above * root * root;
+    const real allowed = width * limit;
+    return these & ((size > l->largest * limit) |
+                    (brought > l->tolerance * shadowing * allowed * allowed));
+}
+
+// Adds a cell's light for the rays in `these`.
+static inline void add_cell(const lobe *l, const half_vector *h, real width, scalar8 cell,
+                            mask these, lobe_light *sum)
+{
+    const real shadowing = fused(h->up, l->smith, l->cosine * smith_root(l, h->up));
+    const real above = R(0.15915494309189535) * l->alpha_squared * h->up * h->whole * h->whole;
+    const real inverse = R(1.0) / (width * width * shadowing);
+    const real factor = spread_factor(l, h, cell.s7, inverse * shadowing);
+    const real weight = SELECT(these & (h->up > R(0.0)), above * inverse * factor, real_of(0));
+    const real m = fused(sqrt(h->whole), real_of(R(-0.5)), real_of(1)), m2 = m * m;
+    const real edge = weight * (m2 * m2 * m), base = weight - edge;
+    const real3 light = real3_of(real_of(cell.s4), real_of(cell.s5), real_of(cell.s6));
+    sum->base = scale_add(light, base, sum->base);
+    sum->edge = scale_add(light, edge, sum->edge);
+}
+
+// Four cells that stand together, and the rays that take them or parts of them.
+typedef struct cell_group {
+    mask these;
+    int level;
+    uint first; // in the level
+} cell_group;
+
+// Groups that wait: three of each level and four of the last, as the fourth is next.
+#define GROUPS (3 * GLINT_CELLS_LEVELS + 1)
+
+// Adds what the rays take of a group's cells; a cell that is too large for some of them waits, as
+// the group of its parts.
+static inline int visit_group(const cell_map *map, const lobe *l, const cell_group *group,
+                              cell_group *waiting, int count, lobe_light *sum)
+{
+    const size_t number = GLINT_CELLS_FIRST(group->level) + group->first;
+    scalar8 cells[4];
+    half_vector h[4];
+    mask lit[4];
+#pragma unroll
+    for (int k = 0; k < 4; k++) {
+        cells[k] = TO_SCALAR8(vload8(number + k, map->values + GLINT_LOBES_CELLS));
+        h[k] = half_vector_of(l, cells[k]);
+        lit[k] = group->these & (h[k].up > -cells[k].s3);
+    }
+    if (!any_lane(lit[0] | lit[1] | lit[2] | lit[3])) {
+        return count;
+    }
+    mask coarse[4];
+#pragma unroll
+    for (int k = 0; k < 4; k++) {
+        const real width = width_of(l, &h[k]);
+        coarse[k] = group->level < map->last
+                        ? are_coarse(l, &h[k], width, cells[k], lit[k])
+                        : mask_none();
+        add_cell(l, &h[k], width, cells[k], lit[k] & !coarse[k], sum);
+    }
+#pragma unroll
+    for (int k = 0; k < 4; k++) {
+        if (any_lane(coarse[k])) {
+            waiting[count].these = coarse[k];
+            waiting[count].level = group->level + 1;
+            waiting[count].first = 4 * (group->first + k);
+            count++;
+        }
+    }
+    return count;
+}
+
+// What the lobes of the rays in `wanted` take of the environment.
+static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *l, mask wanted)
+{
+    const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
+    lobe_light sum = {zero, zero};
+    cell_group waiting[GROUPS];
+    for (uint root = 0; root < GLINT_CUBE_FACES * GLINT_CELLS_ROOT * GLINT_CELLS_ROOT; root += 4) {
+        waiting[0].these = wanted;
+        waiting[0].level = 0;
+        waiting[0].first = root;
+        for (int count = 1; count > 0;) {
+            const cell_group group = waiting[--count];
+            count = visit_group(&scene->cells, l, &group, waiting, count, &sum);
+        }
+    }
+    return sum;
+}
+
+// The share of what a lobe takes; the rest is what a mirror shows. Below ROUGHNESS_NARROW a lobe would
+// be narrower than cells: that of ROUGHNESS_NARROW is mixed with the mirror's look-up. It differs from
+// that by about α^1.5.
+static inline real share_of_lobe(real roughness)
+{
+    const real x = roughness * ((scalar)1 / (scalar)GLINT_ROUGHNESS_NARROW);
+    return SMALLER(x * x * x, real_of(1)); // α is x²
+}
+
+// ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl, from the table.
+typedef struct lobe_albedo {
+    real base, edge;
+} lobe_albedo;
+
+static inline lobe_albedo find_albedo(const scene_buffers *scene, real cosine, real roughness,
+                                      mask wanted)
+{
+    const real down = roughness * (scalar)(GLINT_ALBEDO_ROUGHNESSES - 1);
+    const real right = sqrt(cosine) * (scalar)(GLINT_ALBEDO_COSINES - 1);
+    const lanes_int last_row = int_of(GLINT_ALBEDO_ROUGHNESSES - 2);
+    const lanes_int last_column = int_of(GLINT_ALBEDO_COSINES - 2);
+    const lanes_int row = min(to_int_down(down), last_row);
+    const lanes_int column = min(to_int_down(right), last_column);
+    const real below = down - to_real(row), beside = right - to_real(column);
+    lobe_albedo albedo = {real_of(0), real_of(0)};
+    for (uint left = mask_bits(wanted); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        const size_t first =
+            (size_t)(LANE_INT(row, lane) * GLINT_ALBEDO_COSINES + LANE_INT(column, lane));
+        global const float *lower = scene->cells.values + 2 * (first + GLINT_ALBEDO_COSINES);
+        const scalar4 a = TO_SCALAR4(vload4(0, scene->cells.values + 2 * first));
+        const scalar4 b = TO_SCALAR4(vload4(0, lower));
+        const scalar4 sides = fused((scalar4)LANE(below, lane), b - a, a);
+        const scalar share = LANE(beside, lane);
+        LANE(albedo.base, lane) = fused(share, sides.z - sides.x, sides.x);
+        LANE(albedo.edge, lane) = fused(share, sides.w - sides.y, sides.y);
+    }
+    return albedo;
+}
+
+#endif

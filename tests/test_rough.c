@@ -1,0 +1,194 @@
+// Rough surfaces: the device's lobes against the oracle's quadrature.
+#include "environment/irradiance.h"
+#include "support/bridge.h"
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static const float roughnesses[] = {0.02F, 0.06F, 0.1F, 0.2F, 0.3F, 0.5F, 0.7F, 1.0F};
+#define ROUGHNESSES (sizeof roughnesses / sizeof *roughnesses)
+
+// What the oracle and the device disagree by: relative RMSE over the pixels that show surfaces and
+// that no decision is near.
+static double error_of(const oracle_scene *scene, const oracle_view *view, const test_frame *frame)
+{
+    double squares = 0, light = 0;
+    size_t count = 0;
+    for (int i = 0; i < view->width * view->height; i++) {
+        double rgba[4];
+        oracle_report report;
+        oracle_pixel(scene, view, (const int[]){i % view->width, i / view->width}, rgba, &report);
+        if (report.surfaces == 0 || report.edge < 1e-4) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const double off = frame->exact[4 * i + k] - rgba[k];
+            assert_true(isfinite(frame->exact[4 * i + k]));
+            squares += off * off;
+            light += rgba[k];
+            count++;
+        }
+    }
+    assert_true(count > 300);
+    return sqrt(squares * (double)count) / light;
+}
+
+typedef struct judged {
+    const char *scene;
+    const glint_environment *environment;
+    float roughness; // of all materials; less than 0: as they are
+    float metallic;  // likewise
+    glint_settings settings;
+} judged;
+
+static double judge(const judged *j)
+{
+    glint_scene scene = {0};
+    test_scene_load(j->scene, &scene);
+    for (size_t i = 0; i < scene.material_count; i++) {
+        glint_material *m = &scene.materials[i];
+        m->roughness = j->roughness < 0 ? m->roughness : j->roughness;
+        m->metallic = j->metallic < 0 ? m->metallic : j->metallic;
+    }
+    test_frame frame;
+    test_render(&scene, j->environment, NULL, &j->settings, &frame);
+    assert_true(frame.plan.features[GLINT_FEATURE_ROUGH].compiled);
+    bridge *b = bridge_create(&scene, j->environment);
+    glint_cube irradiance = {0};
+    assert_int_equal(
+        glint_irradiance_map(&j->environment->radiance, GLINT_IRRADIANCE_EDGE, &irradiance, NULL),
+        GLINT_OK);
+    bridge_use_irradiance_map(b, &irradiance);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    oracle_view view = bridge_view(&camera, &j->settings);
+    oracle_scene turned = *bridge_scene(b);
+    turned.environment_rotation = j->settings.env_rotate;
+    const double error = error_of(&turned, &view, &frame);
+    bridge_free(b);
+    glint_cube_free(&irradiance);
+    test_frame_free(&frame);
+    glint_scene_free(&scene);
+    return error;
+}
+
+static glint_settings rough_frame(glint_roughness roughness, int depth)
+{
+    glint_settings settings = glint_settings_default;
+    settings.width = 32;
+    settings.height = 24;
+    settings.depth = depth;
+    settings.texels = GLINT_TEXELS_FLOAT;
+    settings.roughness = roughness;
+    return settings;
+}
+
+// A sphere under the studio.
+static void check_spheres(float metallic, glint_roughness roughness, double allowed)
+{
+    for (size_t i = 0; i < ROUGHNESSES; i++) {
+        const judged j = {"mirror_sphere", test_studio(), roughnesses[i], metallic,
+                          rough_frame(roughness, 1)};
+        const double error = judge(&j);
+        print_message("metallic %g, roughness %4g, %s: %.4f\n", (double)metallic,
+                      (double)roughnesses[i], roughness == GLINT_ROUGHNESS_FAST ? "fast" : "exact",
+                      error);
+        assert_true(error <= allowed);
+    }
+}
+
+static void rough_metal_is_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    check_spheres(1, GLINT_ROUGHNESS_FAST, 0.01);
+    check_spheres(1, GLINT_ROUGHNESS_EXACT, 0.004);
+}
+
+static void rough_paint_is_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    check_spheres(0, GLINT_ROUGHNESS_FAST, 0.01);
+    check_spheres(0.5F, GLINT_ROUGHNESS_FAST, 0.01);
+}
+
+// A white furnace: what is reflected is a share of 1, as much as the oracle's, on all of a sphere.
+static void in_a_white_furnace_lobes_are_their_albedo(void **state)
+{
+    (void)state;
+    glint_environment environment = {0};
+    glint_cube *cube = &environment.radiance;
+    assert_int_equal(glint_cube_create(64, cube, NULL), GLINT_OK);
+    for (size_t i = 0; i < glint_cube_size(cube); i++) {
+        cube->texels[i] = 1;
+    }
+    for (size_t i = 0; i < ROUGHNESSES; i++) {
+        const judged j = {"mirror_sphere", &environment, roughnesses[i], 1,
+                          rough_frame(GLINT_ROUGHNESS_FAST, 1)};
+        const double error = judge(&j);
+        print_message("furnace, roughness %4g: %.4f\n", (double)roughnesses[i], error);
+        assert_true(error <= 0.01);
+    }
+    glint_environment_free(&environment);
+}
+
+// Surfaces that see each other, as they are and turned; without Fresnel; in double precision. The
+// environment is smooth, so that what is left is how paths go on.
+static void paths_go_on_from_rough_surfaces(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"materials", "facing_mirrors", "lecture_example_2",
+                                        "textures"};
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        for (int variant = 0; variant < 4; variant++) {
+            judged j = {names[i], &environment, 0.4F, -1, rough_frame(GLINT_ROUGHNESS_EXACT, 3)};
+            j.settings.env_rotate = variant == 1 ? 70 : 0;
+            j.settings.fresnel = variant == 2 ? GLINT_FRESNEL_NONE : GLINT_FRESNEL_EXACT;
+            j.settings.precision = variant == 3 ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
+            const double error = judge(&j);
+            print_message("%s, variant %d: %.5f\n", names[i], variant, error);
+            assert_true(error <= 0.003);
+        }
+    }
+    glint_environment_free(&environment);
+}
+
+static void all_widths_take_the_same_cells(void **state)
+{
+    (void)state;
+    static const int widths[] = {1, 8, 16};
+    glint_scene scene = {0};
+    test_scene_load("mirror_sphere", &scene);
+    scene.materials[0].roughness = 0.2F;
+    test_frame frames[3];
+    for (int i = 0; i < 3; i++) {
+        glint_settings settings = rough_frame(GLINT_ROUGHNESS_FAST, 0);
+        settings.kernel_width = widths[i];
+        test_render(&scene, test_studio(), NULL, &settings, &frames[i]);
+    }
+    assert_int_equal(test_count_different(&frames[0].image, &frames[1].image), 0);
+    assert_int_equal(test_count_different(&frames[0].image, &frames[2].image), 0);
+    for (int i = 0; i < 3; i++) {
+        test_frame_free(&frames[i]);
+    }
+    glint_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rough_metal_is_what_the_oracle_sees),
+        cmocka_unit_test(rough_paint_is_what_the_oracle_sees),
+        cmocka_unit_test(in_a_white_furnace_lobes_are_their_albedo),
+        cmocka_unit_test(paths_go_on_from_rough_surfaces),
+        cmocka_unit_test(all_widths_take_the_same_cells),
+    };
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
