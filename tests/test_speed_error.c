@@ -91,10 +91,13 @@ static void what_a_scene_has_not_has_no_rung(void **state)
     assert_false(has_rung(&convex, "--depth 2") || has_rung(&convex, "--depth auto"));
 
     const glint_feature of_glass[] = {GLINT_FEATURE_GEOMETRY, GLINT_FEATURE_GLASS,
-                                      GLINT_FEATURE_SPLIT, GLINT_FEATURE_PAINT};
+                                      GLINT_FEATURE_SPLIT, GLINT_FEATURE_ROUGH};
     const glint_ladder glass = ladder_of(of_glass, 4, true);
     check_ladder(&glass);
     assert_true(has_rung(&glass, "--fresnel none") && has_rung(&glass, "--min-weight 0.0625"));
+    assert_true(has_rung(&glass, "--roughness smooth") && has_rung(&glass, "--roughness exact"));
+    assert_non_null(strstr(glass.reference.options, " --roughness exact"));
+    assert_false(has_rung(&mirrors, "--roughness") || strstr(mirrors.reference.options, "rough"));
     assert_int_equal(glass.count, GLINT_RUNGS_MAX);
 }
 

@@ -97,7 +97,7 @@ static glint_status try_rung(glint_error_search *s, const glint_rung *rung, glin
 void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *t)
 {
     *t = (glint_error_trial){.is_reference = true};
-    glint_rung_reference(&s->asked->settings, &t->rung);
+    glint_rung_reference(&s->asked->settings, s->rough, &t->rung);
 }
 
 // ---- Where paths split -------------------------------------------------------------------------
@@ -128,7 +128,7 @@ static glint_rung rung_of_step(const glint_error_search *s, way by, int step)
     const bool is_float = by.precision == GLINT_PRECISION_FLOAT;
     const bool coarse = s->asked->bound >= HALF_TEXELS_FROM;
     glint_rung rung;
-    glint_rung_by_weight(&s->asked->settings, by.precision,
+    glint_rung_by_weight(&s->base, by.precision,
                          is_float && !coarse ? GLINT_TEXELS_FLOAT : GLINT_TEXELS_AUTO,
                          weight_of(step), &rung);
     glint_rung_mend(by.mend, &rung);
@@ -329,23 +329,19 @@ static glint_rung *append_rung(glint_error_search *s)
 static void list_rungs(glint_error_search *s, const glint_plan *plan)
 {
     for (int depth = 1; depth <= 8 && depth < plan->depth; depth *= 2) {
-        glint_rung_by_depth(&s->asked->settings, depth, append_rung(s));
+        glint_rung_by_depth(&s->base, depth, append_rung(s));
     }
-    glint_rung_by_depth(&s->asked->settings, 0, append_rung(s));
+    glint_rung_by_depth(&s->base, 0, append_rung(s));
     if (plan->half_texels && s->asked->settings.texels == GLINT_TEXELS_AUTO) {
         glint_rung *floats = append_rung(s);
-        *floats = (glint_rung){.settings = s->asked->settings};
+        glint_rung_of(&s->base, "float texels", "--texels float", floats);
         floats->settings.texels = GLINT_TEXELS_FLOAT;
-        snprintf(floats->name, sizeof floats->name, "float texels");
-        snprintf(floats->options, sizeof floats->options, "--texels float");
     }
     s->mended_rung = s->count;
     append_rung(s); // prepare_mended fills it
     glint_rung *doubles = append_rung(s);
-    *doubles = (glint_rung){.settings = s->asked->settings};
+    glint_rung_of(&s->base, "double precision", "--precision double", doubles);
     doubles->settings.precision = GLINT_PRECISION_DOUBLE;
-    snprintf(doubles->name, sizeof doubles->name, "double precision");
-    snprintf(doubles->options, sizeof doubles->options, "--precision double");
 }
 
 // The finest in single precision, mended: whether that is worth trying.
@@ -401,17 +397,32 @@ static void learn(glint_error_search *s)
     }
 }
 
+// Exact lobes, where those of the settings take half of the bound.
+static glint_status choose_lobes(glint_error_search *s, glint_error *error)
+{
+    if (!s->rough) {
+        return GLINT_OK;
+    }
+    glint_settings settings = s->of_reference;
+    settings.roughness = s->base.roughness;
+    glint_grid_error found;
+    TRY(glint_error_grid_measure(&s->grid, &settings, &found, error));
+    if (2 * found.at_most > s->asked->bound) {
+        s->base.roughness = GLINT_ROUGHNESS_EXACT;
+    }
+    return GLINT_OK;
+}
+
 glint_status glint_error_search_begin(glint_error_search *s, const glint_error_bound *asked,
                                       const glint_plan *plan, glint_error *error)
 {
     *s = (glint_error_search){.asked = asked, .grid = s->grid};
     s->splits = plan->features[GLINT_FEATURE_SPLIT].compiled;
     s->glass = plan->features[GLINT_FEATURE_GLASS].compiled;
-    if (!s->splits) {
-        list_rungs(s, plan);
-    }
+    s->rough = plan->features[GLINT_FEATURE_ROUGH].compiled;
+    s->base = asked->settings;
     glint_rung reference;
-    glint_rung_reference(&asked->settings, &reference);
+    glint_rung_reference(&asked->settings, s->rough, &reference);
     s->of_reference = reference.settings;
     if (s->grid.step > 1) { // one that is the frame is a small one, and has time for all
         const double least = fmin(1, asked->bound / REFERENCE_SHARE);
@@ -422,6 +433,10 @@ glint_status glint_error_search_begin(glint_error_search *s, const glint_error_b
     }
     TRY(glint_error_grid_set_reference(&s->grid, &s->of_reference, error));
     learn(s);
+    TRY(choose_lobes(s, error));
+    if (!s->splits) {
+        list_rungs(s, plan);
+    }
     return GLINT_OK;
 }
 
@@ -435,7 +450,7 @@ glint_status glint_error_search_choose(glint_error_search *s, glint_error_trial 
     if (s->splits) {
         return search_weights(s, t, error);
     }
-    TRY(glint_error_find_edges(s, &s->grid.reference, &s->asked->settings, error));
+    TRY(glint_error_find_edges(s, &s->grid.reference, &s->base, error));
     if (glint_error_wants_chaos(s, s->deepest)) {
         TRY(glint_error_find_chaos(s, &s->grid.reference, s->deepest, &s->of_reference, error));
     }

@@ -5,14 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+void glint_rung_of(const glint_settings *settings, const char *name, const char *options,
+                   glint_rung *rung)
+{
+    const bool is_exact = settings->roughness == GLINT_ROUGHNESS_EXACT;
+    rung->settings = *settings;
+    snprintf(rung->name, sizeof rung->name, "%s", name);
+    snprintf(rung->options, sizeof rung->options, "%s%s%s", options,
+             is_exact && options[0] != '\0' ? " " : "", is_exact ? "--roughness exact" : "");
+}
+
 // A rung that is the settings but for what the caller then changes.
 static glint_rung *add(glint_ladder *ladder, const glint_settings *settings, const char *name,
                        const char *options)
 {
     glint_rung *rung = &ladder->rungs[ladder->count++];
-    rung->settings = *settings;
-    snprintf(rung->name, sizeof rung->name, "%s", name);
-    snprintf(rung->options, sizeof rung->options, "%s", options);
+    glint_rung_of(settings, name, options, rung);
     return rung;
 }
 
@@ -25,7 +33,8 @@ static bool has(const glint_plan *plan, glint_feature feature)
 static bool goes_on(const glint_plan *plan)
 {
     return has(plan, GLINT_FEATURE_MIRROR) || has(plan, GLINT_FEATURE_GLASS) ||
-           has(plan, GLINT_FEATURE_GLOSS) || has(plan, GLINT_FEATURE_BLEND);
+           has(plan, GLINT_FEATURE_GLOSS) || has(plan, GLINT_FEATURE_BLEND) ||
+           has(plan, GLINT_FEATURE_ROUGH);
 }
 
 // Not where lights shine, which vertices do not show.
@@ -43,10 +52,11 @@ static void add_vertices(const glint_plan *plan, const glint_settings *settings,
 
 void glint_rung_by_depth(const glint_settings *settings, int depth, glint_rung *rung)
 {
-    *rung = (glint_rung){.settings = *settings};
+    char name[32], options[32];
+    snprintf(name, sizeof name, depth > 0 ? "depth %d" : "depth auto", depth);
+    snprintf(options, sizeof options, depth > 0 ? "--depth %d" : "--depth auto", depth);
+    glint_rung_of(settings, name, options, rung);
     rung->settings.depth = depth;
-    snprintf(rung->name, sizeof rung->name, depth > 0 ? "depth %d" : "depth auto", depth);
-    snprintf(rung->options, sizeof rung->options, depth > 0 ? "--depth %d" : "--depth auto", depth);
 }
 
 void glint_rung_by_weight(const glint_settings *settings, glint_precision precision,
@@ -54,18 +64,19 @@ void glint_rung_by_weight(const glint_settings *settings, glint_precision precis
 {
     const bool is_double = precision == GLINT_PRECISION_DOUBLE;
     const bool is_float = !is_double && texels == GLINT_TEXELS_FLOAT;
-    *rung = (glint_rung){.settings = *settings};
-    rung->settings.precision = precision;
-    rung->settings.texels = texels;
-    rung->settings.min_weight = min_weight;
-    snprintf(rung->name, sizeof rung->name, "weights of 1/%.0f%s", 1 / min_weight,
+    char name[64], options[64];
+    snprintf(name, sizeof name, "weights of 1/%.0f%s", 1 / min_weight,
              is_double  ? ", double precision"
              : is_float ? ", float texels"
                         : "");
-    snprintf(rung->options, sizeof rung->options, "--min-weight %.12g%s", min_weight,
+    snprintf(options, sizeof options, "--min-weight %.12g%s", min_weight,
              is_double  ? " --precision double"
              : is_float ? " --texels float"
                         : "");
+    glint_rung_of(settings, name, options, rung);
+    rung->settings.precision = precision;
+    rung->settings.texels = texels;
+    rung->settings.min_weight = min_weight;
 }
 
 void glint_rung_mend(double mend, glint_rung *rung)
@@ -132,28 +143,41 @@ static void add_exact(const glint_plan *plan, const glint_settings *settings, gl
         GLINT_PRECISION_DOUBLE;
 }
 
-void glint_rung_reference(const glint_settings *settings, glint_rung *reference)
+void glint_rung_reference(const glint_settings *settings, bool rough, glint_rung *reference)
 {
-    *reference = (glint_rung){.settings = *settings};
-    reference->settings.precision = GLINT_PRECISION_DOUBLE;
-    reference->settings.depth = GLINT_REFERENCE_DEPTH;
-    reference->settings.min_weight = GLINT_REFERENCE_MIN_WEIGHT;
-    snprintf(reference->name, sizeof reference->name, "the reference");
-    snprintf(reference->options, sizeof reference->options,
-             "--precision double --depth %d --min-weight %.12g", GLINT_REFERENCE_DEPTH,
-             GLINT_REFERENCE_MIN_WEIGHT);
+    glint_settings best = *settings;
+    best.precision = GLINT_PRECISION_DOUBLE;
+    best.depth = GLINT_REFERENCE_DEPTH;
+    best.min_weight = GLINT_REFERENCE_MIN_WEIGHT;
+    best.roughness = rough ? GLINT_ROUGHNESS_EXACT : best.roughness;
+    char options[96];
+    snprintf(options, sizeof options, "--precision double --depth %d --min-weight %.12g",
+             GLINT_REFERENCE_DEPTH, GLINT_REFERENCE_MIN_WEIGHT);
+    glint_rung_of(&best, "the reference", options, reference);
+}
+
+static void add_lobes(const glint_settings *settings, glint_ladder *ladder)
+{
+    add(ladder, settings, "rough surfaces smooth", "--roughness smooth")->settings.roughness =
+        GLINT_ROUGHNESS_SMOOTH;
+    glint_settings exact = *settings;
+    exact.roughness = GLINT_ROUGHNESS_EXACT;
+    add(ladder, &exact, "exact lobes", "");
 }
 
 void glint_ladder_make(const glint_plan *plan, const glint_settings *settings, glint_ladder *ladder)
 {
     *ladder = (glint_ladder){0};
-    glint_rung_reference(settings, &ladder->reference);
+    glint_rung_reference(settings, has(plan, GLINT_FEATURE_ROUGH), &ladder->reference);
     if (!has(plan, GLINT_FEATURE_GEOMETRY)) {
         add_exact(plan, settings, ladder);
         return;
     }
     add_vertices(plan, settings, ladder);
     add_depth(settings, 1, ladder);
+    if (has(plan, GLINT_FEATURE_ROUGH)) {
+        add_lobes(settings, ladder);
+    }
     if (has(plan, GLINT_FEATURE_SPLIT)) {
         add_branching(settings, ladder);
         return;

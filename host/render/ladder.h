@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-#define GLINT_RUNGS_MAX 12
+#define GLINT_RUNGS_MAX 14
 
 // Where the reference's paths end. Its depth is that of --depth auto and no more, as there is none
 // at which nothing changes any more: light that glass reflects totally can stay in it for ever, of
@@ -24,14 +24,18 @@ typedef struct glint_rung {
     glint_settings settings;
 } glint_rung;
 
+// A rung of these settings; where they ask for exact lobes its options end with that.
+void glint_rung_of(const glint_settings *settings, const char *name, const char *options,
+                   glint_rung *rung);
 // Rungs that are the settings but for what their names say: how many surfaces paths meet (0: as
-// many as the weight allows); below which weight branches are not followed; the reference.
+// many as the weight allows); below which weight branches are not followed; the reference, whose
+// lobes are exact where surfaces are `rough`.
 void glint_rung_by_depth(const glint_settings *settings, int depth, glint_rung *rung);
 void glint_rung_by_weight(const glint_settings *settings, glint_precision precision,
                           glint_texels texels, double min_weight, glint_rung *rung);
 // A rung in single precision, mended by so much, to three digits; 0: not at all.
 void glint_rung_mend(double mend, glint_rung *rung);
-void glint_rung_reference(const glint_settings *settings, glint_rung *reference);
+void glint_rung_reference(const glint_settings *settings, bool rough, glint_rung *reference);
 
 // Plain data.
 typedef struct glint_ladder {

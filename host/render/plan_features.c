@@ -145,11 +145,11 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
 // At grazing angles lobes are narrower by a few times.
 #define GRAZING_LEVELS 2
 
-// Rough surfaces need cells as small as their narrowest lobe wants them.
-static void choose_cells(const material_census *c, const glint_settings *settings, glint_plan *plan)
+// Rough surfaces need cells as small as their narrowest lobe wants them, where it is exact: so all
+// settings see the same cells.
+static void choose_cells(const material_census *c, glint_fresnel fresnel, glint_plan *plan)
 {
-    const bool exact = settings->fresnel == GLINT_FRESNEL_EXACT;
-    const size_t rough = exact ? c->rough : c->rough - c->rough_coats;
+    const size_t rough = fresnel == GLINT_FRESNEL_EXACT ? c->rough : c->rough - c->rough_coats;
     plan->cells_last = -1;
     if (rough > 0) {
         const double least = fmax(c->least_roughness, (double)GLINT_ROUGHNESS_NARROW);
@@ -158,9 +158,8 @@ static void choose_cells(const material_census *c, const glint_settings *setting
             (double)GLINT_LOBE_WIDEST * (1 + (double)GLINT_LOBE_TAIL / (alpha * alpha));
         const double width = fmin(alpha, sqrt(widest));
         // In the lobe's middle a cell brings about the ratio's square of what the lobe takes.
-        const double ratio = pow(2.5 * glint_lobe_tolerance(settings->roughness), 1.0 / 6);
-        const double edge = 2 / (ratio * width);
-        const double level = ceil(log2(edge / GLINT_CELLS_ROOT)) + GRAZING_LEVELS;
+        const double ratio = pow(2.5 * glint_lobe_tolerance(GLINT_ROUGHNESS_EXACT), 1.0 / 6);
+        const double level = ceil(log2(2 / (ratio * width) / GLINT_CELLS_ROOT)) + GRAZING_LEVELS;
         plan->cells_last = (int)fmin(fmax(level, 0), GLINT_CELLS_LEVELS - 1);
     }
 }
@@ -293,7 +292,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     }
     decide_by_count(plan, GLINT_FEATURE_ALPHA, census.partly_there, census.used, "alpha");
     decide_optics(&census, in->settings->fresnel, plan);
-    choose_cells(&census, in->settings, plan);
+    choose_cells(&census, in->settings->fresnel, plan);
     decide_scene(in, plan);
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);

@@ -130,8 +130,8 @@ typedef struct glint_settings {
 void glint_settings_pixels(const glint_settings *settings, int size[2]);
 
 // Whether a renderer that was made with `first` takes these settings: both shade pixels, and they
-// differ by what varies alone (settings_table.h) and by the list. Depth auto is no variation of a
-// depth by number, with which nothing is proved of the scene.
+// differ by what varies alone (settings_table.h) and by the list. Roughness does, but for SMOOTH.
+// Depth auto is no variation of a depth by number, with which nothing is proved of the scene.
 bool glint_settings_are_variation(const glint_settings *settings, const glint_settings *first);
 
 extern const glint_settings glint_settings_default;

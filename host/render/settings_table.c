@@ -228,7 +228,7 @@ const glint_setting glint_setting_table[] = {
                         "none. Matte paint shows their light and shadows.",
                 .choices = GLINT_CHOICES("file", "none")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(roughness), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
-     .key = "roughness", .roles = GLINT_SETTING_WEIGHS_ERRORS,
+     .key = "roughness", .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "roughness", .argument = "KIND",
                 .help = "How rough metal and the coat of rough paint reflect: fast, lobes that "
                         "are right to about 0.01; exact, to about 0.001, in several times the "
