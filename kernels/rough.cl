@@ -99,7 +99,8 @@ static inline real width_of(const lobe *l, const half_vector *h)
 
 // The rays among `these` for which a cell is too large, see GLINT_CELL_LARGEST: without a division,
 // and as if n·u were a quarter of the cell's size at least. Where the products are too small for
-// numbers the cell is too large.
+// numbers the cell is too large. What it brings is reckoned from its place nearest to the lobe's middle:
+// a lamp in another part may bring more than what its centroid is made of.
 static inline mask are_coarse(const lobe *l, const half_vector *h, real width, scalar8 cell,
                               mask these)
 {
@@ -109,10 +110,13 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
     const real above = LARGER(h->up, real_of(R(0.25) * cell.s3));
     const real shadowing =
         fused(above, l->smith, l->cosine * LARGER(above, l->alpha)); // √(a² + b²) ≈ max(a, b)
+    // Where the cell is nearest to the lobe's middle.
+    const real left = LARGER(sqrt(h->square) - R(0.5) * cell.s3, real_of(0));
+    const real nearest = fused(l->alpha_squared * h->c, h->c, left * left);
     const real root = h->whole * size;
     const real bright = (cell.s4 + cell.s5 + cell.s6) * R(0.15915494309189535);
     const real brought = l->alpha_squared * bright * above * root * root;
-    const real allowed = width * limit;
+    const real allowed = nearest * limit;
     return these & ((size > l->largest * limit) |
                     (brought > l->tolerance * shadowing * allowed * allowed));
 }

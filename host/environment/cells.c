@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+// Along a face's edge, the cells whose brightness is the environment's.
+#define BRIGHTNESS_EDGE 64
+
 // What a cell of no light weighs, by which its centroid is its middle.
 #define DARK_WEIGHT 1e-20
 
@@ -16,17 +19,15 @@ typedef struct job {
     int level;   // of them
     int samples; // along a finest cell's edge
     float *cells;
-    double *roots; // for each row of finest cells, ∫ √(R + G + B) dω
 } job;
 
-// The even bits of a place in Morton order are the column's.
+// The even bits of a place in Morton order are the column's. Below 2¹⁶.
 static size_t spread_bits(size_t x)
 {
-    size_t spread = 0;
-    for (int bit = 0; x >> bit != 0; bit++) {
-        spread |= (x >> bit & 1) << (2 * bit);
-    }
-    return spread;
+    x = (x | x << 8) & 0x00ff00ff;
+    x = (x | x << 4) & 0x0f0f0f0f;
+    x = (x | x << 2) & 0x33333333;
+    return (x | x << 1) & 0x55555555;
 }
 
 static float *cell_at(const job *j, int face, int column, int row)
@@ -45,36 +46,43 @@ typedef struct cell_sum {
     double light[3];
 } cell_sum;
 
-static void add_part(const double direction[3], const double light[3], double variance,
-                     cell_sum *sum)
+// Adds light, and returns what its direction weighs.
+static double add_light(const double light[3], double times, cell_sum *sum)
 {
-    const double bright = light[0] + light[1] + light[2];
+    const double bright = (light[0] + light[1] + light[2]) * times;
     const double weight = (bright > 0 ? bright : 0) + DARK_WEIGHT;
     sum->weight += weight;
-    sum->variance += weight * variance;
     for (int k = 0; k < 3; k++) {
-        sum->toward[k] += weight * direction[k];
-        sum->light[k] += light[k];
+        sum->light[k] += light[k] * times;
     }
+    return weight;
 }
 
 static void store_cell(const cell_sum *sum, double size, float *cell)
 {
     const double *d = sum->toward;
-    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), inverse = 1 / length;
-    const double between = 0.5 * (1 - length * length / (sum->weight * sum->weight));
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double inverse = 1 / length, share = 1 / sum->weight;
+    const double between = 0.5 * (1 - length * length * share * share);
     for (int k = 0; k < 3; k++) {
         cell[k] = (float)(d[k] * inverse);
         cell[4 + k] = (float)sum->light[k];
     }
     cell[3] = (float)size;
-    cell[7] = (float)(sum->variance / sum->weight + (between > 0 ? between : 0));
+    cell[7] = (float)(sum->variance * share + (between > 0 ? between : 0));
 }
 
-static double size_of(int edge, int column, int row)
+// About (s, t) of a face, whose texels lie in the plane 1 from the middle: how far that is,
+// inverse.
+static double inverse_distance(double s, double t)
 {
-    const double s = (2 * column + 1.0) / edge - 1, t = (2 * row + 1.0) / edge - 1;
-    return 2.0 / edge / sqrt(1 + s * s + t * t);
+    return 1 / sqrt(1 + s * s + t * t);
+}
+
+// Of a cell of the given edge: its middle's.
+static double middle_of(int edge, int column, int row)
+{
+    return inverse_distance((2 * column + 1.0) / edge - 1, (2 * row + 1.0) / edge - 1);
 }
 
 // The map at (x, y) of a face, in texels.
@@ -91,38 +99,58 @@ static void sample_face(const glint_cube *cube, int face, double x, double y, do
     }
 }
 
-// The solid angle about (s, t) of a square of edge h: its middle's, and h²/24 of the Laplacian
-// there.
+// The solid angle of a square of edge h: its middle's, and h²/24 of the Laplacian there.
 static double solid_angle(double h, double u)
 {
-    const double cube = u * u * u, fifth = cube * u * u;
-    return h * h * (cube + h * h / 24 * (9 * fifth - 15 * fifth * u * u));
+    const double squared = u * u;
+    return h * h * squared * u * (1 + h * h / 24 * squared * (9 - 15 * squared));
 }
 
-// The result is ∫ √(R + G + B) dω over the cell.
-static double fill_finest(const job *j, int face, int column, int row)
+// A direction from the middle through (s, t) of a face is linear in these.
+typedef struct face_axes {
+    glint_vec3 middle, to_s, to_t;
+} face_axes;
+
+static face_axes axes_of(int face)
+{
+    const glint_vec3 middle = glint_cube_direction(face, 0, 0);
+    return (face_axes){middle, glint_vec3_subtract(glint_cube_direction(face, 1, 0), middle),
+                       glint_vec3_subtract(glint_cube_direction(face, 0, 1), middle)};
+}
+
+// Adds u (1, s, t), by how bright it is there.
+static void add_direction(const face_axes *a, double u, double us, double ut, cell_sum *sum)
+{
+    sum->toward[0] += a->middle.x * u + a->to_s.x * us + a->to_t.x * ut;
+    sum->toward[1] += a->middle.y * u + a->to_s.y * us + a->to_t.y * ut;
+    sum->toward[2] += a->middle.z * u + a->to_s.z * us + a->to_t.z * ut;
+}
+
+static void fill_finest(const job *j, const face_axes *axes, int face, int column, int row)
 {
     const int parts = j->edge * j->samples;
     const double h = 2.0 / parts, scale = (double)j->cube->edge / parts;
     cell_sum sum = {0};
-    double root = 0;
+    double weight_u = 0, weight_us = 0, weight_ut = 0;
     for (int k = 0; k < j->samples * j->samples; k++) {
-        const int down = k / j->samples;
-        const double x = column * j->samples + k % j->samples + 0.5;
-        const double y = row * j->samples + down + 0.5;
-        const double s = x * h - 1, t = y * h - 1, u = 1 / sqrt(1 + s * s + t * t);
-        const glint_vec3 d = glint_cube_direction(face, s, t);
-        const double direction[3] = {d.x * u, d.y * u, d.z * u}, angle = solid_angle(h, u);
+        const int down = k / j->samples, x = column * j->samples + k % j->samples;
+        const int y = row * j->samples + down;
+        const double s = (x + 0.5) * h - 1, t = (y + 0.5) * h - 1, u = inverse_distance(s, t);
         double light[3];
-        sample_face(j->cube, face, x * scale, y * scale, light);
-        root += sqrt(fmax(0, light[0] + light[1] + light[2])) * angle;
-        for (int c = 0; c < 3; c++) {
-            light[c] *= angle;
+        if (j->cube->edge == parts) {
+            const float *texel = glint_cube_texel(j->cube, face, x, y);
+            light[0] = (double)texel[0], light[1] = (double)texel[1], light[2] = (double)texel[2];
+        } else {
+            sample_face(j->cube, face, (x + 0.5) * scale, (y + 0.5) * scale, light);
         }
-        add_part(direction, light, 0, &sum);
+        const double weight = add_light(light, solid_angle(h, u), &sum) * u;
+        weight_u += weight;
+        weight_us += weight * s;
+        weight_ut += weight * t;
     }
-    store_cell(&sum, size_of(j->edge, column, row), cell_at(j, face, column, row));
-    return root;
+    add_direction(axes, weight_u, weight_us, weight_ut, &sum);
+    store_cell(&sum, 2.0 / j->edge * middle_of(j->edge, column, row),
+               cell_at(j, face, column, row));
 }
 
 static void fill_coarser(const job *j, int face, int column, int row)
@@ -136,18 +164,23 @@ static void fill_coarser(const job *j, int face, int column, int row)
         const float *child = j->cells + (first + k) * GLINT_CELL_VALUES;
         const double direction[3] = {(double)child[0], (double)child[1], (double)child[2]};
         const double light[3] = {(double)child[4], (double)child[5], (double)child[6]};
-        add_part(direction, light, (double)child[7], &sum);
+        const double weight = add_light(light, 1, &sum);
+        sum.variance += weight * (double)child[7];
+        for (int c = 0; c < 3; c++) {
+            sum.toward[c] += weight * direction[c];
+        }
     }
-    store_cell(&sum, size_of(j->edge, column, row), cell);
+    store_cell(&sum, 2.0 / j->edge * middle_of(j->edge, column, row), cell);
 }
 
 static void fill_row(size_t index, void *context)
 {
     const job *j = context;
     const int face = (int)index / j->edge, row = (int)index % j->edge;
+    const face_axes axes = axes_of(face);
     for (int column = 0; column < j->edge; column++) {
         if (j->samples > 0) {
-            j->roots[index] += fill_finest(j, face, column, row);
+            fill_finest(j, &axes, face, column, row);
         } else {
             fill_coarser(j, face, column, row);
         }
@@ -160,21 +193,34 @@ static int samples_along(int texels, int cells)
     return texels % cells == 0 ? texels / cells : 2 * (texels / cells + 1);
 }
 
+// The level of the given edge.
+static float brightness_of(const job *j)
+{
+    double root = 0;
+    for (int i = 0; i < GLINT_CUBE_FACES * j->edge * j->edge; i++) {
+        const int face = i / (j->edge * j->edge), row = i / j->edge % j->edge;
+        const float *cell = cell_at(j, face, i % j->edge, row);
+        const double angle = solid_angle(2.0 / j->edge, middle_of(j->edge, i % j->edge, row));
+        const double bright = (double)cell[4] + (double)cell[5] + (double)cell[6];
+        root += sqrt(fmax(0, bright) * angle) / (4 * GLINT_PI);
+    }
+    return (float)(root * root);
+}
+
 float glint_cells_fill(const glint_cube *cube, int edge, float *cells)
 {
-    double roots[GLINT_CUBE_FACES * (GLINT_CELLS_ROOT << (GLINT_CELLS_LEVELS - 1))] = {0};
-    job j = {.cube = cube, .edge = edge, .roots = roots};
+    job j = {.cube = cube, .edge = edge};
     j.cells = cells;
     while (GLINT_CELLS_ROOT << j.level < edge) {
         j.level++;
     }
     j.samples = samples_along(cube->edge, edge);
+    float brightness = 0;
     for (; j.level >= 0; j.level--, j.edge /= 2, j.samples = 0) {
         glint_parallel_for((size_t)(GLINT_CUBE_FACES * j.edge), fill_row, &j);
+        if (j.edge <= BRIGHTNESS_EDGE && brightness == 0) {
+            brightness = brightness_of(&j);
+        }
     }
-    double root = 0;
-    for (int row = 0; row < GLINT_CUBE_FACES * edge; row++) {
-        root += roots[row] / (4 * GLINT_PI);
-    }
-    return (float)(root * root);
+    return brightness;
 }

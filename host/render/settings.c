@@ -26,7 +26,9 @@ bool glint_settings_are_variation(const glint_settings *settings, const glint_se
             return false;
         }
     }
-    return first->shading == GLINT_SHADING_PIXEL && first->output == GLINT_OUTPUT_COLOR &&
+    const bool is_smooth = settings->roughness == GLINT_ROUGHNESS_SMOOTH;
+    return is_smooth == (first->roughness == GLINT_ROUGHNESS_SMOOTH) &&
+           first->shading == GLINT_SHADING_PIXEL && first->output == GLINT_OUTPUT_COLOR &&
            (settings->depth > 0 || first->depth == 0);
 }
 
@@ -39,7 +41,7 @@ bool glint_settings_heed_roughness(const glint_settings *settings)
 
 double glint_lobe_tolerance(glint_roughness roughness)
 {
-    return roughness == GLINT_ROUGHNESS_EXACT ? 0.001 : 0.1;
+    return roughness == GLINT_ROUGHNESS_EXACT ? 0.002 : 0.4;
 }
 
 // ---- Checks ------------------------------------------------------------------------------------
