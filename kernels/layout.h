@@ -251,6 +251,7 @@ typedef struct glint_frame_record {
     int first_band;        // where this launch begins
     float anisotropy;      // taps of a texture along an ellipse at most, 1 or more
     int cells_last;        // the finest level of cells, with GLINT_ROUGH
+    float compensation;    // 1: lobes have what microfacets reflect more than once; 0: they lose it
     float cells_tolerance; // how far off one may be, see GLINT_CELL_LARGEST
     int terms;             // that a pixel keeps at most, with GLINT_TERMS
     float unit;            // metres per stored unit, a power of two; with GLINT_DIAGNOSTICS

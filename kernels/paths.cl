@@ -402,8 +402,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     note_surfaces(tally->layers, &all->pixels[slot], there, depth);
 #endif
 #if GLINT_LIGHTS
-    s.direct = direct_light(scene, ray, &s, hit->place, met,
-                            &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
+    light_surface(scene, ray, &s, hit->place, met, &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
 #endif
 #if SHADES_VERTICES
     const scattering out = scatter_from_corners(scene, frame, ray, &s, hit, met);

@@ -1,12 +1,13 @@
 // Punctual lights, by KHR_lights_punctual (glint_light_record of layout.h). They shine on matte
-// paint. Mirrors and glass do not show them, as a point has no size.
+// paint and in the lobes of rough surfaces. Mirrors and glass do not show them, as a point has no size.
 #if GLINT_LIGHTS
 
 // What a light sends to surfaces if nothing is on the way.
 typedef struct arrival {
     real3 direction;  // unit, to the light
     real distance;    // to the light; HUGE of a directional one
-    real3 irradiance; // over π; 0 where the light is not above the surface
+    real3 radiance;   // irradiance over π of what faces the light; 0 where it is not above the surface
+    real3 irradiance; // over π
 } arrival;
 
 static inline real3 join_vector_of(global const glint_split_vector *v)
@@ -62,10 +63,11 @@ static inline arrival arrive(global const glint_light_record *light, const surfa
             strength *= cone_left(light, a.direction);
         }
     }
-    strength *= dot3(a.direction, s->lit_normal);
+    const real3 color = join_vector_of(&light->color);
+    const real lit = strength * dot3(a.direction, s->lit_normal);
     // NaN gives nothing.
-    strength = SELECT(above & (strength > R(0.0)), strength, real_of(0));
-    a.irradiance = scale(join_vector_of(&light->color), strength);
+    a.irradiance = scale(color, SELECT(above & (lit > R(0.0)), lit, real_of(0)));
+    a.radiance = scale(color, SELECT(above & (strength > R(0.0)), strength, real_of(0)));
     return a;
 }
 
@@ -82,21 +84,49 @@ static inline mask is_matte(const surface *s)
     return matte & (largest3(s->base_color) > R(0.0));
 }
 
-// The irradiance over π that all lights send to what the rays in `met` met, at `places`.
-// Adds the shadow rays to a counter.
-static inline real3 direct_light(const scene_buffers *scene, const path *ray, const surface *s,
+#if GLINT_ROUGH
+// Surfaces whose lobes show lights.
+static inline mask may_shine(const surface *s)
+{
+#if GLINT_ALPHA
+    return are_rough(s) & (s->coverage > R(0.0));
+#else
+    return are_rough(s);
+#endif
+}
+
+// Adds what the rays in `lit` see of a light in their lobes; `left` of it comes.
+static inline void shine(const path *ray, const arrival *a, real3 left, mask lit, surface *s)
+{
+    const real3 light = scale(multiply(left, a->radiance), real_of(R(3.1415926535897932)));
+    const lobe_parts parts = weigh_light(s->normal, s->cosine, s->roughness,
+                                         negate(ray->direction), a->direction, lit);
+    s->shine_base = select3(lit, scale_add(light, parts.base, s->shine_base), s->shine_base);
+    s->shine_edge = select3(lit, scale_add(light, parts.edge, s->shine_edge), s->shine_edge);
+}
+#endif
+
+// What all lights send to what the rays in `met` met, at `places`. Adds the shadow rays to a counter.
+static inline void light_surface(const scene_buffers *scene, const path *ray, surface *s,
                                  lanes_int places, mask met, ulong *shadow_rays)
 {
     const real3 nothing = real3_of(real_of(0), real_of(0), real_of(0));
-    const mask wanted = met & is_matte(s) & (largest3(ray->weight) > R(0.0));
-    real3 sum = nothing;
-    if (!any_lane(wanted)) {
-        return sum;
+    const mask seen = met & (largest3(ray->weight) > R(0.0));
+    const mask matte = seen & is_matte(s);
+    mask rough = mask_none();
+#if GLINT_ROUGH
+    rough = seen & may_shine(s);
+#endif
+    if (!any_lane(matte | rough)) {
+        return;
     }
     for (global const glint_light_record *light = scene->lights; light->kind != GLINT_LIGHT_NONE;
          light++) {
         const arrival a = arrive(light, s);
-        const mask lit = wanted & (largest3(a.irradiance) > R(0.0));
+        const mask on_paint = matte & (largest3(a.irradiance) > R(0.0));
+        const mask shines = rough & (largest3(a.radiance) > R(0.0)) &
+                            (dot3(s->normal, a.direction) > R(0.0));
+        const mask lit = on_paint | shines;
         if (!any_lane(lit)) {
             continue;
         }
@@ -111,10 +141,12 @@ static inline real3 direct_light(const scene_buffers *scene, const path *ray, co
         to_light.cone.width = to_light.cone.spread = real_of(0);
 #endif
         const real3 left = light_left(scene, &to_light, light, a.distance, lit);
-        sum = add(sum, select3(lit, multiply(left, a.irradiance), nothing));
+        s->direct = add(s->direct, select3(on_paint, multiply(left, a.irradiance), nothing));
+#if GLINT_ROUGH
+        shine(ray, &a, left, shines, s);
+#endif
         *shadow_rays += (ulong)count_lanes(lit);
     }
-    return sum;
 }
 
 #endif

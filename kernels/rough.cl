@@ -121,20 +121,35 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
                     (brought > l->tolerance * shadowing * allowed * allowed));
 }
 
-// Adds a cell's light for the rays in `these`.
-static inline void add_cell(const lobe *l, const half_vector *h, real width, scalar8 cell,
-                            mask these, lobe_light *sum)
+// ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl; or what is below these.
+typedef struct lobe_parts {
+    real base, edge;
+} lobe_parts;
+
+// Both below the integrals along a direction, for the rays in `these`, as light is spread about it.
+static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, real width,
+                                         scalar variance, mask these)
 {
     const real shadowing = fused(h->up, l->smith, l->cosine * smith_root(l, h->up));
     const real above = R(0.15915494309189535) * l->alpha_squared * h->up * h->whole * h->whole;
     const real inverse = R(1.0) / (width * width * shadowing);
-    const real factor = spread_factor(l, h, cell.s7, inverse * shadowing);
+    const real factor = spread_factor(l, h, variance, inverse * shadowing);
     const real weight = SELECT(these & (h->up > R(0.0)), above * inverse * factor, real_of(0));
     const real m = fused(sqrt(h->whole), real_of(R(-0.5)), real_of(1)), m2 = m * m;
-    const real edge = weight * (m2 * m2 * m), base = weight - edge;
+    lobe_parts parts;
+    parts.edge = weight * (m2 * m2 * m);
+    parts.base = weight - parts.edge;
+    return parts;
+}
+
+// Adds a cell's light for the rays in `these`.
+static inline void add_cell(const lobe *l, const half_vector *h, real width, scalar8 cell,
+                            mask these, lobe_light *sum)
+{
+    const lobe_parts parts = weigh_direction(l, h, width, cell.s7, these);
     const real3 light = real3_of(real_of(cell.s4), real_of(cell.s5), real_of(cell.s6));
-    sum->base = scale_add(light, base, sum->base);
-    sum->edge = scale_add(light, edge, sum->edge);
+    sum->base = scale_add(light, parts.base, sum->base);
+    sum->edge = scale_add(light, parts.edge, sum->edge);
 }
 
 // Four cells that stand together, and the rays that take them or parts of them.
@@ -204,6 +219,28 @@ static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *
     return sum;
 }
 
+#if GLINT_LIGHTS
+// Both below the integrals towards a light, which is a point: a lobe is not narrower than that of
+// ROUGHNESS_NARROW, or it would fall between pixels. v and `to_light` are unit vectors.
+static inline lobe_parts weigh_light(real3 normal, real cosine, real roughness, real3 v,
+                                     real3 to_light, mask these)
+{
+    const real rho = LARGER(roughness, real_of((scalar)GLINT_ROUGHNESS_NARROW));
+    lobe l;
+    l.cosine = cosine;
+    l.alpha = rho * rho;
+    l.alpha_squared = l.alpha * l.alpha;
+    l.smith = smith_root(&l, cosine);
+    const real3 both = add(v, to_light), across = cross3(normal, both);
+    half_vector h;
+    h.up = dot3(normal, to_light);
+    h.c = h.up + cosine;
+    h.square = dot3(across, across);
+    h.whole = fused(h.c, h.c, h.square);
+    return weigh_direction(&l, &h, width_of(&l, &h), 0, these);
+}
+#endif
+
 // The share of what a lobe takes; the rest is what a mirror shows. Below ROUGHNESS_NARROW a lobe would
 // be narrower than cells: that of ROUGHNESS_NARROW is mixed with the mirror's look-up. It differs from
 // that by about α^1.5.
@@ -213,12 +250,8 @@ static inline real share_of_lobe(real roughness)
     return SMALLER(x * x * x, real_of(1)); // α is x²
 }
 
-// ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl, from the table.
-typedef struct lobe_albedo {
-    real base, edge;
-} lobe_albedo;
-
-static inline lobe_albedo find_albedo(const scene_buffers *scene, real cosine, real roughness,
+// Both integrals, from the table.
+static inline lobe_parts find_albedo(const scene_buffers *scene, real cosine, real roughness,
                                       mask wanted)
 {
     const real down = roughness * (scalar)(GLINT_ALBEDO_ROUGHNESSES - 1);
@@ -228,7 +261,7 @@ static inline lobe_albedo find_albedo(const scene_buffers *scene, real cosine, r
     const lanes_int row = min(to_int_down(down), last_row);
     const lanes_int column = min(to_int_down(right), last_column);
     const real below = down - to_real(row), beside = right - to_real(column);
-    lobe_albedo albedo = {real_of(0), real_of(0)};
+    lobe_parts albedo = {real_of(0), real_of(0)};
     for (uint left = mask_bits(wanted); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left);
         const size_t first =

@@ -101,28 +101,41 @@ static inline real share_of_path(real roughness)
     return SMALLER(LARGER(left, real_of(0)), real_of(1));
 }
 
+// What microfacets reflect to others, over what they reflect at once: with this times F0 more than
+// that a lobe has what is reflected more than once, too (Turquin, Practical multiple scattering
+// compensation for microfacet models, 2019). 0 where that is not asked for.
+static inline real light_lost(const scene_buffers *scene, const lobe_parts *albedo)
+{
+    return scene->cells.compensation *
+           (R(1.0) / LARGER(albedo->base + albedo->edge, real_of(R(0.1))) - R(1.0));
+}
+
 // Rule 11: metal and the coat of paint, of which there is a share, as lobes. Sets what the light's
 // parts weigh, and returns what the coat leaves of the light.
 static inline real scatter_lobe(const scene_buffers *scene, const surface *s, real paint,
                                 scattering *out)
 {
     const real zero = real_of(0);
-    const lobe_albedo albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
-    const real3 white = real3_of(s->metallic, s->metallic, s->metallic);
-    out->lobe_base = GLINT_TINT ? scale(s->base_color, s->metallic) : white;
-    out->lobe_edge = GLINT_FRESNEL ? white : out->lobe_base;
+    const lobe_parts albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
+    const real lost = light_lost(scene, &albedo);
+    const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
+    const real3 tint = GLINT_TINT ? s->base_color : one;
+    const real3 metal = scale(scale_add(tint, lost, one), s->metallic);
+    out->lobe_base = multiply(tint, metal);
+    out->lobe_edge = GLINT_FRESNEL ? metal : out->lobe_base;
     out->matte_base = out->matte_edge = zero;
     real coat = zero;
     if (GLINT_PAINT && GLINT_FRESNEL) {
         const real root = (s->ior - R(1.0)) / (s->ior + R(1.0));
-        const real f0 = root * root, own = paint * f0;
+        const real f0 = root * root, gain = fused(f0, lost, real_of(1));
+        const real whole_edge = paint * gain, own = whole_edge * f0;
         const real by_path = share_of_path(s->roughness);
-        const real base = own * by_path, edge = paint * by_path;
-        coat = fused(f0, albedo.base, albedo.edge);
+        const real base = own * by_path, edge = whole_edge * by_path;
+        coat = gain * fused(f0, albedo.base, albedo.edge);
         out->lobe_base = add(out->lobe_base, real3_of(base, base, base));
         out->lobe_edge = add(out->lobe_edge, real3_of(edge, edge, edge));
         out->matte_base = own - base;
-        out->matte_edge = paint - edge;
+        out->matte_edge = whole_edge - edge;
     }
     const real3 weight =
         scale_add(out->lobe_base, albedo.base, scale(out->lobe_edge, albedo.edge));
@@ -245,6 +258,13 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     if (GLINT_PAINT) {
         scatter_paint(s, irradiance, dielectric - glass, kept, &result);
     }
+#if GLINT_ROUGH && GLINT_LIGHTS
+    const real3 grey_base = real3_of(result.matte_base, result.matte_base, result.matte_base);
+    const real3 grey_edge = real3_of(result.matte_edge, result.matte_edge, result.matte_edge);
+    const real3 shine = add(multiply(add(result.lobe_base, grey_base), s->shine_base),
+                            multiply(add(result.lobe_edge, grey_edge), s->shine_edge));
+    result.emitted = select3(result.rough, add(result.emitted, shine), result.emitted);
+#endif
     if (GLINT_BLEND) {
         scatter_blend(s, irradiance, &result);
     }

@@ -56,6 +56,9 @@ typedef struct surface {
 #endif
 #if GLINT_LIGHTS
     real3 direct; // irradiance over π that lights send; 0 until meet_surfaces
+#if GLINT_ROUGH
+    real3 shine_base, shine_edge; // lobe_light's parts of the lights; likewise
+#endif
 #endif
     lanes_int flags, medium;
 } surface;
@@ -472,6 +475,9 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     load_materials(scene, t, &s);
 #if GLINT_LIGHTS
     s.direct = real3_of(real_of(0), real_of(0), real_of(0));
+#if GLINT_ROUGH
+    s.shine_base = s.shine_edge = s.direct;
+#endif
 #endif
 #if GLINT_COLORED_VERTICES
     color_surface(scene, hit, &s);

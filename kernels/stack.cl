@@ -9,6 +9,7 @@ typedef struct cell_map {
     global const float *values; // albedo, brightness and cells
     int last;                   // the finest level
     float tolerance;            // as the frame record has it
+    float compensation;         // likewise
 } cell_map;
 
 // The scene's buffers, as every part of the shading gets them.
@@ -36,7 +37,7 @@ typedef struct scene_buffers {
      frame.anisotropy,                                                                             \
      {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
      {irradiance, frame.irradiance_edge, false},                                                   \
-     {lobes, frame.cells_last, frame.cells_tolerance},                                             \
+     {lobes, frame.cells_last, frame.cells_tolerance, frame.compensation},                         \
      vertices,                                                                                     \
      listed}
 

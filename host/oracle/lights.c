@@ -75,16 +75,21 @@ static void measure_edge(const receiver *r, vector to_light, double distance)
     r->report->edge = fmin(r->report->edge, edge);
 }
 
+vector oracle_direction_to_light(const receiver *r, int index)
+{
+    const oracle_punctual *light = &r->scene->lights[index];
+    return light->directional ? scaled(vector_of(light->direction), -1.0)
+                              : unit(minus(vector_of(light->position), r->point));
+}
+
 vector oracle_light_at(const receiver *r, int index, passing pass, void *way)
 {
     const oracle_punctual *light = &r->scene->lights[index];
     vector nothing = {{0.0, 0.0, 0.0}};
-    vector to_light = scaled(vector_of(light->direction), -1.0);
+    vector to_light = oracle_direction_to_light(r, index);
     double distance = INFINITY, attenuation = 1.0;
     if (!light->directional) {
-        vector to = minus(vector_of(light->position), r->point);
-        distance = length(to);
-        to_light = unit(to);
+        distance = length(minus(vector_of(light->position), r->point));
         attenuation = distance_attenuation(light, distance);
         if (light->spot)
             attenuation *= angular_attenuation(light, to_light);

@@ -22,4 +22,7 @@ typedef vector (*passing)(void *way, const oracle_hit *hit, vector direction);
 // the receiver to the light.
 vector oracle_light_at(const receiver *r, int index, passing pass, void *way);
 
+// The unit vector from the receiver to it.
+vector oracle_direction_to_light(const receiver *r, int index);
+
 #endif

@@ -269,17 +269,22 @@ static vector pass_straight(void *state, const oracle_hit *hit, vector direction
     return way->weight;
 }
 
+static receiver receiver_at(walk *w, const path *p, const surface *s, vector lit)
+{
+    return (receiver){.scene = w->scene,
+                      .point = s->point,
+                      .geometric = s->geometric,
+                      .lit = lit,
+                      .triangle = s->triangle,
+                      .travelled = p->travelled,
+                      .edges = w->view->edges,
+                      .report = w->report};
+}
+
 // Adds what the lights send to paint, of which `matte` comes back.
 static void add_lights(walk *w, const path *p, const surface *s, vector matte)
 {
-    receiver r = {.scene = w->scene,
-                  .point = s->point,
-                  .geometric = s->geometric,
-                  .lit = s->lit,
-                  .triangle = s->triangle,
-                  .travelled = p->travelled,
-                  .edges = w->view->edges,
-                  .report = w->report};
+    receiver r = receiver_at(w, p, s, s->lit);
     for (int i = 0; i < w->scene->light_count; i++) {
         shadow to_light = {w, *p};
         to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
@@ -331,6 +336,26 @@ static bool is_rough(const walk *w, const surface *s)
            !oracle_is_thin(s->material);
 }
 
+// Adds what lobes show of the lights: of their two parts `base` and `edge`. A light is a point, and
+// so lobes have a least width.
+static void add_highlights(walk *w, const path *p, const surface *s, vector base, vector edge)
+{
+    const double pi = 3.14159265358979323846;
+    receiver r = receiver_at(w, p, s, s->normal);
+    for (int i = 0; i < w->scene->light_count; i++) {
+        vector to = oracle_direction_to_light(&r, i);
+        double cosine = dot(s->normal, to);
+        if (!(cosine > 0.0))
+            continue;
+        shadow to_light = {w, *p};
+        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
+        vector light = oracle_light_at(&r, i, pass_straight, &to_light);
+        lobe_integrals l = oracle_lobe_towards(s, fmax(s->roughness, 0.07), to);
+        vector seen = plus(scaled(base, l.white_base), scaled(edge, l.white_edge));
+        add(w, times(p->weight, seen), scaled(light, pi / cosine));
+    }
+}
+
 // Metal and the coat of paint as lobes.
 static void scatter_lobes(walk *w, const path *p, const surface *s)
 {
@@ -338,13 +363,19 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
     lobe_integrals lobe = oracle_lobe(s, w->view->roughness, radiance, w->scene);
     double n = s->material->ior, f0 = (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0));
     double coat = w->view->no_fresnel ? 0.0 : 1.0;
+    // Turquin 2019: of what leaves to other microfacets F0 is reflected again, and so on.
+    double lost = w->view->all_scattering ? 1.0 / (lobe.white_base + lobe.white_edge) - 1.0 : 0.0;
+    coat *= 1.0 + f0 * lost;
     double by_path = fmin(1.0, fmax(0.0, (0.6 - s->roughness) / 0.3)); // the rest as matte light
     double paths = coat * as_paint * by_path, matte = coat * as_paint * (1.0 - by_path);
     vector white = {{1.0, 1.0, 1.0}};
-    vector base = plus(scaled(s->base, as_metal), scaled(white, paths * f0));
-    vector edge = w->view->no_fresnel ? base : scaled(white, as_metal + paths);
+    vector metal = scaled(plus(white, scaled(s->base, lost)), as_metal);
+    vector base = plus(times(s->base, metal), scaled(white, paths * f0));
+    vector edge = w->view->no_fresnel ? base : plus(metal, scaled(white, paths));
     vector matte_light = plus(scaled(lobe.base, matte * f0), scaled(lobe.edge, matte));
     w->radiance = plus(w->radiance, times(p->weight, matte_light));
+    vector all = {{matte, matte, matte}};
+    add_highlights(w, p, s, plus(base, scaled(all, f0)), plus(edge, all));
     double kept = 1.0 - coat * (f0 * lobe.white_base + lobe.white_edge);
     add_matte(w, p, s, scaled(s->base, as_paint * kept));
     vector held = plus(times(base, lobe.base), times(edge, lobe.edge));

@@ -104,15 +104,16 @@ typedef struct oracle_view {
     double yfov;                     // whole vertical angle in radians; 0 = orthographic
     double ymag;                     // orthographic: half the vertical extent
     int width, height;
-    int samples;       // k: k × k samples a pixel; 0 means 1
-    int depth;         // N: surfaces that a path may meet; 0 means ORACLE_DEPTH_LIMIT
-    double min_weight; // a branch whose largest component is less takes E at once
-    bool no_fresnel;   // metal reflects its base, glass only where it reflects all, paint nothing
-    int anisotropy;    // taps of a texture along its longer axis at most; 0 means 1
-    int roughness;     // directions along each axis of a lobe's quadrature; 0: rough metal is as
-                       // smooth, and rough paint reflects nothing
-    bool transparent;  // what meets nothing is left out, and of alpha
-    bool edges;        // measure oracle_report.edge, at about twice the time
+    int samples;         // k: k × k samples a pixel; 0 means 1
+    int depth;           // N: surfaces that a path may meet; 0 means ORACLE_DEPTH_LIMIT
+    double min_weight;   // a branch whose largest component is less takes E at once
+    bool no_fresnel;     // metal reflects its base, glass only where it reflects all, paint nothing
+    int anisotropy;      // taps of a texture along its longer axis at most; 0 means 1
+    bool all_scattering; // lobes have what microfacets reflect more than once
+    int roughness;       // directions along each axis of a lobe's quadrature; 0: rough metal is as
+                         // smooth, and rough paint reflects nothing
+    bool transparent;    // what meets nothing is left out, and of alpha
+    bool edges;          // measure oracle_report.edge, at about twice the time
 } oracle_view;
 
 typedef struct oracle_ray {

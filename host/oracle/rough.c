@@ -19,6 +19,14 @@ static double lobe_weight(const surface *s, double alpha, vector l, vector h)
     return d * 0.5 / (nl * of_v + nv * of_l) * nl;
 }
 
+lobe_integrals oracle_lobe_towards(const surface *s, double roughness, vector direction)
+{
+    vector h = unit(plus(direction, s->viewer));
+    double weight = lobe_weight(s, roughness * roughness, direction, h);
+    double m = pow(1.0 - dot(s->viewer, h), 5.0);
+    return (lobe_integrals){.white_base = weight * (1.0 - m), .white_edge = weight * m};
+}
+
 lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context)
 {
     double alpha = s->roughness * s->roughness;

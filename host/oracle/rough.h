@@ -14,6 +14,9 @@ typedef struct lobe_integrals {
     double white_base, white_edge;
 } lobe_integrals;
 
+// ∫ D V (1 − m) n·l and ∫ D V m n·l towards one direction, without the integral; white_… of it.
+lobe_integrals oracle_lobe_towards(const surface *s, double roughness, vector direction);
+
 // By strata × strata directions about the mirror direction of v, of which half are in each half
 // plane.
 lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context);

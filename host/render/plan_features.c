@@ -196,13 +196,13 @@ static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
 // Why no light of the scene shines; NULL: they do.
 static const char *no_lights(const glint_plan_inputs *in, const glint_plan *plan)
 {
-    const bool is_paint = plan->features[GLINT_FEATURE_PAINT].compiled ||
-                          plan->features[GLINT_FEATURE_BLEND].compiled;
+    const bool shows_lights = plan->features[GLINT_FEATURE_PAINT].compiled ||
+                              plan->features[GLINT_FEATURE_BLEND].compiled || plan->cells_last >= 0;
     return in->scene->light_count == 0                 ? "the scene has no lights"
            : in->settings->lights == GLINT_LIGHTS_NONE ? "lights none"
            : in->settings->output == GLINT_OUTPUT_HITS ? "hits alone are wanted"
            : glint_plan_shades_vertices(plan) ? "vertices are shaded, by the environment alone"
-           : !is_paint                        ? "no material shows lights"
+           : !shows_lights                    ? "no material shows lights"
                                               : NULL;
 }
 

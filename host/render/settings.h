@@ -57,6 +57,12 @@ typedef enum glint_irradiance {
     GLINT_IRRADIANCE_SH,    // nine spherical harmonics, see environment/harmonics.h
 } glint_irradiance;
 
+// How often light is reflected between the microfacets of rough surfaces.
+typedef enum glint_scattering {
+    GLINT_SCATTERING_SINGLE,   // once; the rest is lost, as in glTF's rule
+    GLINT_SCATTERING_MULTIPLE, // as often as it takes: a white surface reflects all
+} glint_scattering;
+
 // What becomes of rough surfaces that pixels shade, without terms and proxy; else they are smooth.
 typedef enum glint_roughness {
     GLINT_ROUGHNESS_FAST,   // lobes, to about a hundredth
@@ -109,6 +115,7 @@ typedef struct glint_settings {
     glint_irradiance irradiance;
     glint_lights lights;
     glint_roughness roughness;
+    glint_scattering scattering;
     bool proxy;            // the environment has one (environment.h), which is heeded: with the
                            // bilinear filter, shading pixel and no terms
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers

@@ -234,6 +234,14 @@ const glint_setting glint_setting_table[] = {
                         "are right to about 0.01; exact, to about 0.001, in several times the "
                         "time; smooth, metal like a mirror and paint not at all.",
                 .choices = GLINT_CHOICES("fast", "exact", "smooth")}},
+    {GLINT_SETTINGS_OF_FRAME, MEMBER(scattering), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
+     .key = "scattering",
+     .option = {GLINT_OPTION_CHOICE, .name = "scattering", .argument = "KIND",
+                .help =
+                    "How often the microfacets of rough surfaces reflect light: single, once, as "
+                    "glTF has it, so rough metal is darker than smooth; multiple, until it "
+                    "leaves, so white metal reflects all.",
+                .choices = GLINT_CHOICES("single", "multiple")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(shading), .fingerprint = 15, .key = "shading",
      .no_capture = "a capture shows what surfaces see of each other, which vertices do not",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,

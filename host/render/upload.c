@@ -20,7 +20,7 @@ _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps"
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_light_record) == 112, "glint_light_record has gaps");
 _Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 30 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 31 * 4, "glint_frame_record has gaps");
 
 static size_t attribute_bytes(const glint_scene *scene)
 {

@@ -67,6 +67,7 @@ static void note_settings(const glint_settings *settings, glint_frame_record *re
     record->first_pixel = settings->grid_step / 2;
     record->samples_per_axis = settings->samples_per_axis;
     record->anisotropy = (float)settings->anisotropy;
+    record->compensation = settings->scattering == GLINT_SCATTERING_MULTIPLE;
     record->cells_tolerance = (float)glint_lobe_tolerance(settings->roughness);
 }
 

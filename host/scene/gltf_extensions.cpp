@@ -35,8 +35,7 @@ constexpr std::array<Extension, 16> extensions = {{
     {"KHR_meshopt_compression", Holder::document, true, nullptr, GLINT_RENDERED},
     {"EXT_mesh_gpu_instancing", Holder::node, true, nullptr, GLINT_RENDERED},
     {"KHR_lights_punctual", Holder::node, true,
-     "lights have no size: paint shows their light, metal, mirrors and glass do not",
-     GLINT_APPROXIMATED},
+     "lights have no size: mirrors and glass do not show their light", GLINT_APPROXIMATED},
     {"KHR_materials_variants", Holder::primitive, true, nullptr, GLINT_RENDERED},
     {"KHR_draco_mesh_compression", Holder::primitive, true, nullptr, GLINT_RENDERED},
 }};

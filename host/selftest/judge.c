@@ -248,6 +248,7 @@ oracle_view judge_view(const glint_camera *camera, const glint_settings *setting
                         .samples = settings->samples_per_axis,
                         .anisotropy = settings->anisotropy,
                         .roughness = glint_settings_heed_roughness(settings) ? LOBE_STRATA : 0,
+                        .all_scattering = settings->scattering == GLINT_SCATTERING_MULTIPLE,
                         .depth = 1};
     copy_vector(camera->eye, view.eye);
     copy_vector(camera->right, view.right);
