@@ -49,6 +49,7 @@ GLINT_FEATURES(CHECK)
 #include "layers.cl"
 #include "terms.cl"
 #include "corners.cl"
+#include "lobes.cl"
 #include "paths.cl"
 #include "vertices.cl"
 #include "mirrors.cl"

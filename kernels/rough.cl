@@ -54,7 +54,8 @@ static inline lobe find_lobe(const cell_map *map, real3 normal, real3 v, real co
     l.smith = smith_root(&l, cosine);
     const real inverse = R(1.0) / LARGER(weight, real_of(R(1e-4)));
     const real more = l.alpha * (sqrt(inverse) - R(1.0));
-    l.largest = fused(real_of(GLINT_CELL_LARGEST), LARGER(more, real_of(0)), real_of(GLINT_CELL_LARGEST));
+    const real usual = real_of(GLINT_CELL_LARGEST);
+    l.largest = fused(usual, LARGER(more, real_of(0)), usual);
     l.tolerance = (map->tolerance * map->values[GLINT_LOBES_BRIGHTNESS]) * inverse;
     return l;
 }
@@ -121,12 +122,12 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
                     (brought > l->tolerance * shadowing * allowed * allowed));
 }
 
-// ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl; or what is below these.
+// ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl; along one direction, what these integrate.
 typedef struct lobe_parts {
     real base, edge;
 } lobe_parts;
 
-// Both below the integrals along a direction, for the rays in `these`, as light is spread about it.
+// Along a direction, for the rays in `these`; light is spread about it by the variance.
 static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, real width,
                                          scalar variance, mask these)
 {
@@ -220,7 +221,7 @@ static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *
 }
 
 #if GLINT_LIGHTS
-// Both below the integrals towards a light, which is a point: a lobe is not narrower than that of
+// Towards a light, which is a point: a lobe is not narrower than that of
 // ROUGHNESS_NARROW, or it would fall between pixels. v and `to_light` are unit vectors.
 static inline lobe_parts weigh_light(real3 normal, real cosine, real roughness, real3 v,
                                      real3 to_light, mask these)

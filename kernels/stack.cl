@@ -4,7 +4,7 @@
 #define PARAMETER(type, name) type name,
 #define MEMBER(type, name) type name;
 
-// What rough surfaces see of the environment (layout.h, Cells).
+// What rough surfaces see of the environment (layout.h, Lobes).
 typedef struct cell_map {
     global const float *values; // albedo, brightness and cells
     int last;                   // the finest level

@@ -88,6 +88,44 @@ static bool compiles(const glint_plan *plan, glint_feature feature)
     return plan->features[feature].compiled;
 }
 
+// Lobes are for rough metal and paint alone. Without Fresnel's term there is no coat, but metal
+// that is paint in part has its lobe.
+static void rough_materials_reflect_lobes(void **state)
+{
+    (void)state;
+    static const struct {
+        float metallic, roughness, transmission;
+        glint_fresnel fresnel;
+        glint_roughness setting;
+        bool lobes;
+    } kinds[] = {
+        {1, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, true},
+        {1, 0.009F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, false},
+        {1, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_SMOOTH, false},
+        {1, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_EXACT, true},
+        {0, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, true},
+        {0, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_FAST, false},
+        {0.5F, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_FAST, true},
+        {0, 0.5F, 1, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, false},
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        glint_material material = white_paint;
+        material.metallic = kinds[i].metallic;
+        material.roughness = kinds[i].roughness;
+        material.transmission = kinds[i].transmission;
+        glint_settings settings = glint_settings_default;
+        settings.fresnel = kinds[i].fresnel;
+        settings.roughness = kinds[i].setting;
+        test_scene s;
+        make_scene(&s, &material, 1);
+        glint_plan plan;
+        assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+        if (compiles(&plan, GLINT_FEATURE_ROUGH) != kinds[i].lobes) {
+            fail_msg("kind %zu", i);
+        }
+    }
+}
+
 static void a_mirror_compiles_no_glass_and_no_paint(void **state)
 {
     (void)state;
@@ -471,6 +509,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mirror_compiles_no_glass_and_no_paint),
+        cmocka_unit_test(rough_materials_reflect_lobes),
         cmocka_unit_test(glass_compiles_what_its_volume_asks_for),
         cmocka_unit_test(unlit_and_blended_materials_hide_their_other_factors),
         cmocka_unit_test(lights_are_compiled_where_paint_shows_them),

@@ -407,7 +407,7 @@ static glint_status choose_lobes(glint_error_search *s, glint_error *error)
     settings.roughness = s->base.roughness;
     glint_grid_error found;
     TRY(glint_error_grid_measure(&s->grid, &settings, &found, error));
-    if (2 * found.at_most > s->asked->bound) {
+    if (!(2 * found.at_most <= s->asked->bound)) { // NaN as well
         s->base.roughness = GLINT_ROUGHNESS_EXACT;
     }
     return GLINT_OK;

@@ -1,4 +1,4 @@
-// The environment as a tree of cells, for the lobes of rough surfaces: see kernels/layout.h, Cells.
+// The environment as a tree of cells, for the lobes of rough surfaces: see kernels/layout.h, Lobes.
 #ifndef GLINT_ENVIRONMENT_CELLS_H
 #define GLINT_ENVIRONMENT_CELLS_H
 

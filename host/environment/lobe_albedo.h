@@ -1,5 +1,5 @@
 // How much of a white environment the lobes of rough surfaces reflect: see kernels/layout.h,
-// Albedo.
+// Lobes.
 #ifndef GLINT_ENVIRONMENT_LOBE_ALBEDO_H
 #define GLINT_ENVIRONMENT_LOBE_ALBEDO_H
 

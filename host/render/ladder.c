@@ -158,10 +158,10 @@ void glint_rung_reference(const glint_settings *settings, bool rough, glint_rung
 
 static void add_lobes(const glint_settings *settings, glint_ladder *ladder)
 {
-    add(ladder, settings, "rough surfaces smooth", "--roughness smooth")->settings.roughness =
-        GLINT_ROUGHNESS_SMOOTH;
-    glint_settings exact = *settings;
+    glint_settings smooth = *settings, exact = *settings;
+    smooth.roughness = GLINT_ROUGHNESS_SMOOTH;
     exact.roughness = GLINT_ROUGHNESS_EXACT;
+    add(ladder, &smooth, "rough surfaces smooth", "--roughness smooth");
     add(ladder, &exact, "exact lobes", "");
 }
 

@@ -27,7 +27,7 @@ typedef struct material_census {
     size_t needing[GLINT_FEATURE_COUNT];  // of these, for a lobe
     size_t metal_and_glass;               // both at once
     size_t partly_there, partly_reflects; // by alpha; of these, those that reflect as well
-    size_t rough, rough_coats;            // that reflect lobes; of these, paint
+    size_t rough, rough_coats;            // that reflect lobes; of these, no metal
     double least_roughness;               // of these; 0 where textures say it
 } material_census;
 
@@ -38,7 +38,7 @@ static void count_roughness(const glint_material *material, const glint_lobes *l
         const bool is_textured = material->textures[GLINT_TEXTURE_METALLIC_ROUGHNESS].image != 0;
         const double least = is_textured ? 0 : (double)material->roughness;
         census->rough++;
-        census->rough_coats += lobes->paint;
+        census->rough_coats += !lobes->metal;
         census->least_roughness = fmin(census->least_roughness, least);
     }
 }

@@ -66,7 +66,7 @@ typedef enum glint_scattering {
 // What becomes of rough surfaces that pixels shade, without terms and proxy; else they are smooth.
 typedef enum glint_roughness {
     GLINT_ROUGHNESS_FAST,   // lobes, to about a hundredth
-    GLINT_ROUGHNESS_EXACT,  // to about a thousandth
+    GLINT_ROUGHNESS_EXACT,  // to a few thousandths
     GLINT_ROUGHNESS_SMOOTH, // metal is as smooth, and paint reflects nothing
 } glint_roughness;
 

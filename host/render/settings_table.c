@@ -231,7 +231,7 @@ const glint_setting glint_setting_table[] = {
      .key = "roughness", .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "roughness", .argument = "KIND",
                 .help = "How rough metal and the coat of rough paint reflect: fast, lobes that "
-                        "are right to about 0.01; exact, to about 0.001, in several times the "
+                        "are right to about 0.01; exact, to about 0.003, in some three times the "
                         "time; smooth, metal like a mirror and paint not at all.",
                 .choices = GLINT_CHOICES("fast", "exact", "smooth")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(scattering), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
