@@ -2,9 +2,12 @@
 // starts and how fast it widens, which surfaces change as lenses do in paraxial optics
 // (Akenine-Möller et al., Improved Shader and Texture Level of Detail Using Ray Cones, 2021). Both
 // numbers keep their sign past a focus. Where the cone ends, the environment is taken from the
-// levels whose texels are as wide.
+// levels whose texels are as wide. Behind rough glass rays carry a second cone: what of the glass's
+// lobe a direction of the pixel stands for.
 #define CARRIES_CONES (GLINT_MIP_LEVELS || GLINT_TEXTURES)
-#if CARRIES_CONES
+#define HEEDS_CURVATURE (CARRIES_CONES || GLINT_FACETS)
+#define READS_LEVELS (GLINT_MIP_LEVELS || GLINT_FACETS) // of the environment
+#if HEEDS_CURVATURE
 
 typedef struct cone {
     real width;  // across, stored units
@@ -66,6 +69,12 @@ static inline cone leave_surface(real width, real spread, real scaled, real bend
     return c;
 }
 
+// How wide two widths are together that do not depend on each other: more than 0 unless both are 0.
+static inline real joined_width(real one, real other)
+{
+    return sqrt(fused(one, one, other * other));
+}
+
 // Levels finer than a cone's width by this much look sharper and hardly alias.
 #define LEVEL_BIAS R(0.7071067811865476)
 
@@ -77,10 +86,10 @@ typedef struct level_choice {
 
 // `direction` is a unit vector. A texel is 2/edge wide at a distance of 1/(its largest component).
 // Between powers of two log2 is taken to be linear.
-static inline level_choice choose_level(const cone *c, real3 direction, int edge, int last)
+static inline level_choice choose_level(real spread, real3 direction, int edge, int last)
 {
     const scalar texels_at_1 = R(0.5) * (scalar)edge * LEVEL_BIAS;
-    real texels = fabs(c->spread) * texels_at_1 / largest_magnitude3(direction);
+    real texels = fabs(spread) * texels_at_1 / largest_magnitude3(direction);
     const real most = real_of((scalar)(1 << last));
     texels = SELECT(texels > R(1.0), SMALLER(texels, most), real_of(1)); // NaN becomes 1
     level_choice choice;

@@ -40,6 +40,11 @@
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
                 GLINT_PROXY,                                                                       \
             ACTIVE)                                                                                \
+    FEATURE(FACETS, "paths go over the directions in which the facets of rough glass send light",  \
+            GLINT_GLASS,                                                                           \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
+                GLINT_PROXY,                                                                       \
+            ACTIVE)                                                                                \
     FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, IDLE)             \
     FEATURE(LIGHTS, "punctual lights shine on matte paint, and cast shadows",                      \
             GLINT_PAINT || GLINT_BLEND,                                                            \

@@ -39,8 +39,8 @@ typedef struct glint_split_vector {
         -1, -1, -1, 1, -1, -1                                                                      \
     }
 #define GLINT_CUBE_BORDER 1
-// With GLINT_MIP_LEVELS coarser maps follow in the same buffer, each with half of the last one's
-// edge, rounded down, to the edge 1: at most so many with the first.
+// With GLINT_MIP_LEVELS or GLINT_FACETS coarser maps follow in the same buffer, each with half of
+// the last one's edge, rounded down, to the edge 1: at most so many with the first.
 #define GLINT_LEVELS_MAX 14
 
 // ---- Lobes -------------------------------------------------------------------------------------
@@ -242,6 +242,8 @@ typedef struct glint_frame_record {
     int image_width, image_height;
     int step, first_pixel;
     int samples_per_axis; // k
+    int rounds;           // of all samples, with GLINT_FACETS: in later ones, those whose paths met
+                          // rough glass in the first alone
     int depth;            // surfaces that a path meets at most, 1 or more
     int depth_counts;     // with GLINT_TRUNCATION_SQUARES: what that cuts short counts, too
     int environment_edge; // texels, without border
@@ -269,10 +271,11 @@ typedef struct glint_frame_record {
 // ---- Branches ----------------------------------------------------------------------------------
 // What a branch that waits takes (branches.cl, with GLINT_SPLIT), in bytes, where a number of the
 // precision takes `number`: eleven of these, two more where rays carry cones, three ints, and one
-// more with GLINT_ALPHA; with GLINT_ROUGH four more numbers; rounded up to whole numbers.
-#define GLINT_BRANCH_BYTES(number, cones, alpha, rough)                                            \
-    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u)) + ((alpha) ? 16u : 12u) +       \
-      (number)-1) /                                                                                \
+// more with GLINT_ALPHA; with GLINT_ROUGH four more numbers, with GLINT_FACETS two; rounded up to
+// whole numbers.
+#define GLINT_BRANCH_BYTES(number, cones, alpha, rough, facets)                                    \
+    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u) + ((facets) ? 2u : 0u)) +        \
+      ((alpha) ? 16u : 12u) + (number)-1) /                                                        \
      (number) * (number))
 
 // ---- Layers ------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ static inline real widened_by_lobe(const surface *s, mask rough, real spread)
 {
     const real width = R(2.0) * s->roughness * s->roughness;
     const mask wide = rough & (s->roughness >= (scalar)GLINT_ROUGHNESS_NARROW);
-    return SELECT(wide, sqrt(fused(width, width, spread * spread)), spread);
+    return SELECT(wide, joined_width(spread, width), spread);
 }
 #endif
 #endif

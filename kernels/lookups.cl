@@ -12,7 +12,7 @@ typedef struct lookups {
     uint wanted[LOOKUPS]; // rays, as bits
     bool white[LOOKUPS];  // all wanted rays weigh 1
     cube_point points[LOOKUPS];
-#if GLINT_MIP_LEVELS
+#if READS_LEVELS
     level_choice levels[LOOKUPS];
     cube_point coarser[LOOKUPS]; // on the next level
     int level_count;
@@ -28,7 +28,7 @@ static inline void begin_lookups(lookups *l, const cube_map *map, scalar *sums)
 {
     l->count = 0;
     l->sums = sums;
-#if GLINT_MIP_LEVELS
+#if READS_LEVELS
     l->level_count = 0;
     int start = 0;
     for (int edge = map->edge; edge > 0; edge /= 2) {
@@ -51,11 +51,11 @@ static inline scalar4 fetch_at(const cube_point *point, const cube_map *map, int
 static inline scalar4 look_up(const lookups *l, const cube_map *map, int i, int lane)
 {
     int edge = map->edge;
-#if GLINT_MIP_LEVELS
+#if READS_LEVELS
     edge >>= LANE_INT(l->levels[i].level, lane);
 #endif
     scalar4 light = fetch_at(&l->points[i], map, edge, lane);
-#if GLINT_MIP_LEVELS
+#if READS_LEVELS
     const scalar blend = LANE(l->levels[i].blend, lane);
     if (blend > R(0.0)) {
         light = fused((scalar4)blend, fetch_at(&l->coarser[i], map, edge / 2, lane) - light, light);
@@ -86,13 +86,29 @@ static inline void finish_lookups(lookups *l, const cube_map *map)
     l->count = 0;
 }
 
+#if READS_LEVELS
+// How wide what a ray sees of the environment is, as an angle.
+static inline real spread_seen(const path *ray)
+{
+#if GLINT_MIP_LEVELS
+#if GLINT_FACETS
+    return joined_width(ray->cone.spread, ray->lobe.spread);
+#else
+    return ray->cone.spread;
+#endif
+#else
+    return ray->lobe.spread;
+#endif
+}
+#endif
+
 // Finds where the directions of some rays meet the map, for later.
 static inline void find_points(lookups *l, const cube_map *map, const path *rays, real3 direction,
                                uint wanted, int i)
 {
-#if GLINT_MIP_LEVELS
+#if READS_LEVELS
     const int last = max(l->level_count - 1, 0);
-    const level_choice choice = choose_level(&rays->cone, direction, map->edge, last);
+    const level_choice choice = choose_level(spread_seen(rays), direction, map->edge, last);
     l->levels[i] = choice;
     lanes_int edges = int_of(map->edge), starts = int_of(0);
     if (any_lane((choice.level > (lane_int)0) | (choice.blend > R(0.0)))) {

@@ -1,48 +1,5 @@
 // Paths through the scene, from the primary ray to the environment.
 
-// What one work-item counts, which is added to the counters at its end, and what it notes.
-typedef struct tally {
-    ulong counts[GLINT_COUNTERS];
-    lanes_int deepest; // surfaces that a path has met
-    real weight_by_depth, weight_by_min_weight, weight_by_stack;
-#if GLINT_TRUNCATION_SQUARES
-    scalar truncated[TILE_PIXELS]; // weight that the pixels' paths were cut short of
-#endif
-#if GLINT_DIAGNOSTICS
-    layers *layers; // of the tile's pixels
-#endif
-#if GLINT_TERMS
-    terms *terms; // likewise
-#endif
-} tally;
-
-static inline tally no_tally(void)
-{
-    tally t;
-    for (int i = 0; i < GLINT_COUNTERS; i++) {
-        t.counts[i] = 0;
-    }
-    t.deepest = int_of(0);
-    t.weight_by_depth = t.weight_by_min_weight = t.weight_by_stack = real_of(0);
-#if GLINT_TRUNCATION_SQUARES
-    for (int i = 0; i < TILE_PIXELS; i++) {
-        t.truncated[i] = 0;
-    }
-#endif
-    return t;
-}
-
-// The rays in `these` take the environment untraced for want of depth, weight or room.
-static inline void count_truncated(tally *tally, const pixels *pixels, mask these, real weight)
-{
-#if GLINT_TRUNCATION_SQUARES
-    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
-        const int lane = lowest_bit(left);
-        tally->truncated[pixel_of(*pixels, lane)] += LANE(weight, lane);
-    }
-#endif
-}
-
 // A packet of primary rays, which pixels' samples they are, and what they meet.
 typedef struct primary {
     real x, y;        // places on the image plane
@@ -101,6 +58,9 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
     ray.held = real3_of(real_of(0), real_of(0), real_of(0));
     ray.shown = real_of(1);
 #endif
+#if GLINT_FACETS
+    ray.lobe.width = ray.lobe.spread = real_of(0);
+#endif
     return ray;
 }
 
@@ -137,9 +97,8 @@ static inline mask ended(const glint_frame_record *frame, real weight, lanes_int
 {
     mask deep = exists & (met >= (lane_int)frame->depth);
     mask light = exists & !deep & (weight < (scalar)frame->min_weight);
-    const real zero = real_of(0);
-    tally->weight_by_depth += SELECT(deep, weight, zero);
-    tally->weight_by_min_weight += SELECT(light, weight, zero);
+    count_cut(tally, pixels, deep, weight, BY_DEPTH);
+    count_cut(tally, pixels, light, weight, BY_MIN_WEIGHT);
     count_truncated(tally, pixels, frame->depth_counts != 0 ? deep | light : light, weight);
     return deep | light;
 }
@@ -196,6 +155,10 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
 #if GLINT_ROUGH
     ray->held = select3(yes, branch->held, ray->held);
     ray->shown = SELECT(yes, branch->shown, ray->shown);
+#endif
+#if GLINT_FACETS
+    ray->lobe.width = SELECT(yes, branch->lobe.width, ray->lobe.width);
+    ray->lobe.spread = SELECT(yes, branch->lobe.spread, ray->lobe.spread);
 #endif
 }
 
@@ -272,11 +235,10 @@ static inline void split_path(paths *all, int slot, path *reflected, path *trans
     mask both = reflects & transmits;
     mask full = both & nearly_full(b, pixels);
     if (any_lane(full)) {
-        const real zero = real_of(0);
         mask unended_r = full & (reflected->looked_up == (lane_int)0);
         mask unended_t = full & (transmitted->looked_up == (lane_int)0);
-        tally->weight_by_stack += SELECT(unended_r, largest3(reflected->weight), zero) +
-                                  SELECT(unended_t, largest3(transmitted->weight), zero);
+        count_cut(tally, pixels, unended_r, largest3(reflected->weight), BY_STACK);
+        count_cut(tally, pixels, unended_t, largest3(transmitted->weight), BY_STACK);
         count_truncated(tally, pixels, unended_r, largest3(reflected->weight));
         count_truncated(tally, pixels, unended_t, largest3(transmitted->weight));
         reflected->looked_up = SELECT(unended_r, int_of(1), reflected->looked_up);
@@ -335,6 +297,19 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
     return out;
 }
 
+#if GLINT_FACETS
+// What of lobes a branch's direction stands for. `how`: scaled and bend as in leave_surface, and by
+// how much the branch turns for each turn of a facet.
+static inline cone leave_facet(const path *ray, real t, const surface *s, const real how[3])
+{
+    const real width = width_after(&ray->lobe, t);
+    cone lobe = leave_surface(width, ray->lobe.spread, how[0], how[1], s->curvature);
+    const real own = joined_width(lobe.spread, how[2] * s->facet.width);
+    lobe.spread = SELECT(s->facet.there, own, lobe.spread);
+    return lobe;
+}
+#endif
+
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
@@ -343,6 +318,11 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 {
     path *ray = &all->ray[slot];
     surface s = find_surface(scene, ray, hit, triangles);
+#if GLINT_FACETS
+    const mask faceted = met & are_faceted(&s);
+    note_facets(tally, &all->pixels[slot], faceted);
+    take_facet(frame, &tally->facets, ray, faceted, &s);
+#endif
 #if GLINT_ALPHA
     const mask there = met & (s.coverage > R(0.0));
 #else
@@ -389,6 +369,10 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     reflected.cone.spread = widened_by_lobe(&s, out.rough, reflected.cone.spread);
 #endif
 #endif
+#if GLINT_FACETS
+    const real back[3] = {real_of(1), real_of(2), real_of(2)};
+    reflected.lobe = leave_facet(ray, hit->t, &s, back);
+#endif
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, &all->pixels[slot], tally);
@@ -402,6 +386,11 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     transmitted.media = out.media_transmitted;
 #if CARRIES_CONES
     transmitted.cone = leave_surface(width, spread, out.eta, out.bend, s.curvature);
+#endif
+#if GLINT_FACETS
+    const real turn = SELECT(HAS_FLAG(s, GLINT_MATERIAL_THIN), real_of(2), out.bend);
+    const real on[3] = {out.eta, out.bend, turn};
+    transmitted.lobe = leave_facet(ray, hit->t, &s, on);
 #endif
 #if GLINT_ALPHA
     const mask passes = (s.coverage < R(1.0)) &

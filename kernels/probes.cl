@@ -66,6 +66,9 @@ static inline void probe_rays(global const scalar *in, size_t first, path *rays,
 #if CARRIES_CONES
         ray->cone.width = ray->cone.spread = real_of(0);
 #endif
+#if GLINT_FACETS
+        ray->lobe.width = ray->lobe.spread = real_of(0);
+#endif
         active[SLOT(g)] = mask_all();
     }
 }

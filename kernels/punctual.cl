@@ -140,6 +140,9 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
 #if CARRIES_CONES
         to_light.cone.width = to_light.cone.spread = real_of(0);
 #endif
+#if GLINT_FACETS
+        to_light.lobe.width = to_light.lobe.spread = real_of(0);
+#endif
         const real3 left = light_left(scene, &to_light, light, a.distance, lit);
         s->direct = add(s->direct, select3(on_paint, multiply(left, a.irradiance), nothing));
 #if GLINT_ROUGH

@@ -39,6 +39,7 @@ GLINT_FEATURES(CHECK)
 #include "textures.cl"
 #include "shade.cl"
 #include "rough.cl"
+#include "facets.cl"
 #include "scatter.cl"
 #include "branches.cl"
 #include "lookups.cl"
@@ -50,6 +51,7 @@ GLINT_FEATURES(CHECK)
 #include "terms.cl"
 #include "corners.cl"
 #include "lobes.cl"
+#include "tally.cl"
 #include "paths.cl"
 #include "vertices.cl"
 #include "mirrors.cl"
@@ -68,13 +70,18 @@ static inline void add_to_counter(global uint *counter, ulong amount)
     }
 }
 
-// A sum of weights in the counters' unit.
-static inline ulong weight_units(real weights)
+// The weight that paths were cut short of, in the counters' unit.
+static inline ulong cut_units(const tally *tally, const glint_frame_record *frame, enum cut by)
 {
-    if (!any_lane(weights != R(0.0))) {
-        return 0;
+#if GLINT_FACETS
+    scalar sum = 0;
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        sum += tally->cut[by][i] * share_of_round(tally, frame, i);
     }
-    return (ulong)(sum_of_lanes(weights) * (scalar)(1UL << GLINT_WEIGHT_BITS));
+#else
+    const scalar sum = sum_of_lanes(tally->cut[by]);
+#endif
+    return (ulong)(sum * (scalar)(1UL << GLINT_WEIGHT_BITS));
 }
 
 #if GLINT_TRUNCATION_SQUARES
@@ -85,7 +92,7 @@ static inline ulong squared_truncation(const tally *tally, const glint_frame_rec
     const scalar share = R(1.0) / (scalar)(k * k);
     ulong sum = 0;
     for (int i = 0; i < TILE_PIXELS; i++) {
-        const scalar weight = tally->truncated[i] * share;
+        const scalar weight = tally->truncated[i] * (share * share_of_round(tally, frame, i));
         sum += (ulong)(weight * weight * (scalar)(1UL << GLINT_SQUARE_BITS) + R(0.5));
     }
     return sum;
@@ -97,9 +104,9 @@ static inline void report(tally *tally, const glint_frame_record *frame, global 
     const uint slot = (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0));
     ulong *counts = tally->counts;
     counts[GLINT_COUNT_DEEPEST] = (ulong)largest_lane(to_real(tally->deepest));
-    counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = weight_units(tally->weight_by_depth);
-    counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] = weight_units(tally->weight_by_min_weight);
-    counts[GLINT_COUNT_WEIGHT_BY_STACK] = weight_units(tally->weight_by_stack);
+    counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = cut_units(tally, frame, BY_DEPTH);
+    counts[GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT] = cut_units(tally, frame, BY_MIN_WEIGHT);
+    counts[GLINT_COUNT_WEIGHT_BY_STACK] = cut_units(tally, frame, BY_STACK);
 #if GLINT_TRUNCATION_SQUARES
     counts[GLINT_COUNT_TRUNCATION_SQUARES] = squared_truncation(tally, frame);
 #endif
@@ -178,6 +185,9 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
         for (int i = 0; i < PATH_GROUPS; i++) {
             const int g = first_group + i;
             mask seen = GLINT_TRANSPARENT ? t->place[g] >= (lane_int)0 : mask_all();
+#if GLINT_FACETS
+            seen = seen & inside[g];
+#endif
             sum->color[g] = add(sum->color[g], all.radiance[SLOT(i)]);
             sum->alpha[g] += SELECT(seen, real_of(1), real_of(0));
 #if SEES_THROUGH
@@ -226,6 +236,50 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
 
 #define FOLLOWS_PATHS (!GLINT_HITS && !ONE_LOOKUP)
 
+#if GLINT_FACETS
+#define ROUNDS(frame) ((frame)->rounds)
+
+// Keeps those of the pixels inside whose paths met rough glass; false: there are none.
+static inline bool keep_faceted(const tally *tally, mask *inside)
+{
+    bool any = false;
+    for (int g = 0; g < TILE_GROUPS; g++) {
+        lanes_int faceted = int_of(0);
+        for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+            LANE_INT(faceted, lane) = tally->faceted[g * GLINT_WIDTH + lane];
+        }
+        inside[g] = inside[g] & (faceted != (lane_int)0);
+        any |= any_lane(inside[g]);
+    }
+    return any;
+}
+
+// Takes pixels that all rounds were added up of to the mean of the rounds.
+static inline void level_rounds(const tally *tally, const glint_frame_record *frame, scalar *sums,
+                                gathered *sum)
+{
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        const scalar share = share_of_round(tally, frame, i);
+        const int g = i / GLINT_WIDTH, lane = i % GLINT_WIDTH;
+        vstore4(vload4(i, sums) * share, i, sums);
+        if (GATHERS) {
+            LANE(sum->color[g].x, lane) *= share;
+            LANE(sum->color[g].y, lane) *= share;
+            LANE(sum->color[g].z, lane) *= share;
+            LANE(sum->alpha[g], lane) *= share;
+        }
+#if GLINT_DIAGNOSTICS
+        glint_layers_record *record = &tally->layers->of_pixel[i];
+        record->truncated *= (float)share;
+        record->total_reflections =
+            (int)((scalar)record->total_reflections * share + R(0.5));
+#endif
+    }
+}
+#else
+#define ROUNDS(frame) 1
+#endif
+
 // Adds up the samples of a tile's pixels: `sums` is what look-ups bring, `sum` the rest.
 static inline void sample_tile(const scene_buffers *scene, const glint_frame_record *frame,
                                int column, int row, scalar *sums, gathered *sum, tally *tally)
@@ -244,17 +298,26 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
     lookups later;
     begin_lookups(&later, &scene->environment, sums);
 #endif
-    const int k = SAMPLES_PER_AXIS(frame);
-    for (int sample = 0; sample < k * k; sample++) {
-        tile t;
+    const int k = SAMPLES_PER_AXIS(frame), count = k * k;
+    tile t;
+    for (int i = 0; i < ROUNDS(frame) * count; i++) {
+        const int sample = i % count;
+#if GLINT_FACETS
+        if (i > 0 && sample == 0 && !keep_faceted(tally, inside)) {
+            break;
+        }
+        tally->facets = choose_facets(i, ROUNDS(frame) * count);
+#endif
         const scalar right = ((scalar)(sample % k) + R(0.5)) / (scalar)k;
         const scalar down = ((scalar)(sample / k) + R(0.5)) / (scalar)k;
-        begin_tile(&image, frame, scene->pixels, column, row, right, down, &t);
-        if (GLINT_GEOMETRY) {
-            trace_tile(&image, &t, scene);
+        if (count > 1 ? true : i == 0) { // else the rays meet what they have met
+            begin_tile(&image, frame, scene->pixels, column, row, right, down, &t);
+            if (GLINT_GEOMETRY) {
+                trace_tile(&image, &t, scene);
+            }
         }
 #if GLINT_DIAGNOSTICS
-        tally->layers->is_middle = sample == k / 2 * (k + 1);
+        tally->layers->is_middle = i == k / 2 * (k + 1);
         note_first_surfaces(tally->layers, scene, frame, &image, &t);
 #endif
 #if GLINT_HITS
@@ -267,6 +330,9 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
     }
 #if FOLLOWS_PATHS
     finish_lookups(&later, &scene->environment);
+#endif
+#if GLINT_FACETS
+    level_rounds(tally, frame, sums, sum);
 #endif
 }
 

@@ -156,6 +156,9 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
 #if GLINT_ROUGH
         smooth = smooth & !out->rough;
 #endif
+#if GLINT_FACETS
+        smooth = smooth | s->facet.there;
+#endif
         const real reflectance = surface_reflectance(s->cosine, s->ior);
         const real gloss = SELECT(smooth, share * reflectance, real_of(0));
         out->reflected_weight = add(out->reflected_weight, real3_of(gloss, gloss, gloss));
@@ -200,6 +203,32 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
     out->total_reflection = out->total_reflection & !partly;
     out->eta = SELECT(partly, real_of(1), out->eta);
     out->bend = SELECT(partly, real_of(0), out->bend);
+}
+#endif
+
+#if GLINT_FACETS
+// Rough glass, rule 12: of what the facets reflect and transmit, what no other facet stops. A thin
+// wall transmits the mirror image of what it reflects.
+static inline void scatter_from_facets(const surface *s, real3 v, scattering *out)
+{
+    const facet *f = &s->facet;
+    if (!any_lane(f->there)) {
+        return;
+    }
+    const real3 r = reflect_direction(v, s->normal, s->cosine);
+    const real away = dot3(f->normal, r), open_r = facet_openness(f, away);
+    const real beyond = fused(out->eta, f->cosine, -out->bend * dot3(f->normal, s->normal));
+    real open_t = facet_openness(f, beyond);
+    if (GLINT_THIN_WALL) {
+        const mask thin = f->there & HAS_FLAG(*s, GLINT_MATERIAL_THIN);
+        const real3 mirrored = scale_add(f->normal, R(-2.0) * away, r);
+        const real3 t = renormalized(fold_to_side(mirrored, s->geometric_normal, R(-1.0)));
+        out->transmitted = select3(thin, t, out->transmitted);
+        open_t = SELECT(thin, open_r, open_t);
+    }
+    const real one = real_of(1);
+    out->reflected_weight = scale(out->reflected_weight, SELECT(f->there, open_r, one));
+    out->transmitted_weight = scale(out->transmitted_weight, SELECT(f->there, open_t, one));
 }
 #endif
 
@@ -264,6 +293,9 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     const real3 shine = add(multiply(add(result.lobe_base, grey_base), s->shine_base),
                             multiply(add(result.lobe_edge, grey_edge), s->shine_edge));
     result.emitted = select3(result.rough, add(result.emitted, shine), result.emitted);
+#endif
+#if GLINT_FACETS
+    scatter_from_facets(s, v, &result);
 #endif
     if (GLINT_BLEND) {
         scatter_blend(s, irradiance, &result);

@@ -25,7 +25,22 @@ typedef struct path {
     real3 held; // light that it brings where it ends
     real shown; // how much of the environment's light it brings there: 1, or less beside that
 #endif
+#if GLINT_FACETS
+    cone lobe; // what of the lobes of rough glass its direction stands for; 0 before any
+#endif
 } path;
+
+#if GLINT_FACETS
+// What stands in a surface's place where it is rough glass, see facets.cl.
+typedef struct facet {
+    mask there;
+    real3 normal;       // of the surface: shading normal with n·v ≥ 0; the facet's is the surface's
+    real cosine;        // n·v
+    real alpha_squared; // α²
+    real root;          // √(α² + (1 − α²) (n·v)²)
+    real width;         // what a direction's facets turn within, an angle
+} facet;
+#endif
 
 // A hit, ready for optics.
 typedef struct surface {
@@ -35,14 +50,17 @@ typedef struct surface {
     real3 lit_normal;       // unit shading normal, of which light is received
     real3 normal;           // the same with n·v ≥ 0
     real cosine;            // n·v
-#if CARRIES_CONES
+#if HEEDS_CURVATURE
     real curvature; // seen from the viewer's side: more than 0 where it is convex
 #endif
     mask outside; // the viewer is on the side from which the triangle winds left
     real3 base_color, emission;
     real metallic, transmission, ior, blend;
-#if GLINT_ROUGH
+#if GLINT_ROUGH || GLINT_FACETS
     real roughness;
+#endif
+#if GLINT_FACETS
+    facet facet; // none is there until take_facet
 #endif
 #if GLINT_ALPHA
     real coverage; // how much of the surface is there; its alpha until cover_surface
@@ -239,7 +257,7 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
     s->outside = facing > R(0.0);
     s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
     s->lit_normal = s->geometric_normal;
-#if CARRIES_CONES
+#if HEEDS_CURVATURE
     s->curvature = real_of(0);
 #endif
 #if GLINT_SMOOTH_NORMALS
@@ -265,7 +283,7 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
     real cosine = dot3(s->lit_normal, v);
     mask away = cosine < R(0.0);
     s->normal = select3(away, negate(s->lit_normal), s->lit_normal);
-#if CARRIES_CONES && GLINT_SMOOTH_NORMALS
+#if HEEDS_CURVATURE && GLINT_SMOOTH_NORMALS
     // Flat where a vertex has no normal.
     const real curvature = curvature_of(t->vertices, normals);
     mask turned = dot3(interpolate(normals, hit->b1, hit->b2), s->normal) < R(0.0);
@@ -293,7 +311,7 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->metallic = SELECT(yes, real_of(m->metallic), s->metallic);
     s->transmission = SELECT(yes, real_of(m->transmission), s->transmission);
     s->ior = SELECT(yes, real_of(m->ior), s->ior);
-#if GLINT_ROUGH
+#if GLINT_ROUGH || GLINT_FACETS
     s->roughness = SELECT(yes, real_of(m->roughness), s->roughness);
 #endif
     s->blend = SELECT(yes, real_of(m->blend), s->blend);
@@ -330,7 +348,7 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
         break;
     case GLINT_SLOT_METALLIC_ROUGHNESS:
         s->metallic = SELECT(here, s->metallic * c->b, s->metallic);
-#if GLINT_ROUGH
+#if GLINT_ROUGH || GLINT_FACETS
         s->roughness = SELECT(here, s->roughness * c->g, s->roughness);
 #endif
         break;
@@ -409,8 +427,12 @@ static inline void texture_surface(const scene_buffers *scene, const path *ray, 
 #if GLINT_NORMAL_MAPS
     s->bump = real3_of(real_of(0), real_of(0), real_of(1));
 #endif
-    const ellipse seen = ellipse_on(t->vertices, s->geometric_normal, ray->direction,
-                                    fabs(width_after(&ray->cone, hit->t)));
+    real width = fabs(width_after(&ray->cone, hit->t));
+#if GLINT_FACETS
+    width = joined_width(width, width_after(&ray->lobe, hit->t));
+#endif
+    const ellipse seen =
+        ellipse_on(t->vertices, s->geometric_normal, ray->direction, width);
     texture_spot spots[1 + GLINT_SECOND_TEXCOORDS];
     for (int set = 0; set <= GLINT_SECOND_TEXCOORDS; set++) {
         const corner_values c =
@@ -473,6 +495,9 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
         place_on_triangle(vertices, hit, &s);
     }
     load_materials(scene, t, &s);
+#if GLINT_FACETS
+    s.facet.there = mask_none();
+#endif
 #if GLINT_LIGHTS
     s.direct = real3_of(real_of(0), real_of(0), real_of(0));
 #if GLINT_ROUGH

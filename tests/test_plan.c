@@ -88,8 +88,8 @@ static bool compiles(const glint_plan *plan, glint_feature feature)
     return plan->features[feature].compiled;
 }
 
-// Lobes are for rough metal and paint alone. Without Fresnel's term there is no coat, but metal
-// that is paint in part has its lobe.
+// Lobes are for rough metal and paint alone, facets for rough glass. Without Fresnel's term there
+// is no coat, but metal that is paint in part has its lobe.
 static void rough_materials_reflect_lobes(void **state)
 {
     (void)state;
@@ -97,16 +97,19 @@ static void rough_materials_reflect_lobes(void **state)
         float metallic, roughness, transmission;
         glint_fresnel fresnel;
         glint_roughness setting;
-        bool lobes;
+        bool lobes, facets;
     } kinds[] = {
-        {1, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, true},
-        {1, 0.009F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, false},
-        {1, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_SMOOTH, false},
-        {1, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_EXACT, true},
-        {0, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, true},
-        {0, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_FAST, false},
-        {0.5F, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_FAST, true},
-        {0, 0.5F, 1, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, false},
+        {1, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, true, false},
+        {1, 0.009F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, false, false},
+        {1, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_SMOOTH, false, false},
+        {1, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_EXACT, true, false},
+        {0, 0.5F, 0, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, true, false},
+        {0, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_FAST, false, false},
+        {0.5F, 0.5F, 0, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_FAST, true, false},
+        {0, 0.5F, 1, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, false, true},
+        {0, 0.5F, 0.5F, GLINT_FRESNEL_NONE, GLINT_ROUGHNESS_EXACT, false, true},
+        {0, 0.009F, 1, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_FAST, false, false},
+        {0, 0.5F, 1, GLINT_FRESNEL_EXACT, GLINT_ROUGHNESS_SMOOTH, false, false},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         glint_material material = white_paint;
@@ -120,7 +123,8 @@ static void rough_materials_reflect_lobes(void **state)
         make_scene(&s, &material, 1);
         glint_plan plan;
         assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
-        if (compiles(&plan, GLINT_FEATURE_ROUGH) != kinds[i].lobes) {
+        if (compiles(&plan, GLINT_FEATURE_ROUGH) != kinds[i].lobes ||
+            compiles(&plan, GLINT_FEATURE_FACETS) != kinds[i].facets) {
             fail_msg("kind %zu", i);
         }
     }
@@ -255,6 +259,7 @@ static void the_stack_holds_every_branch_that_the_least_weight_allows(void **sta
     (void)state;
     glint_material glass = white_paint;
     glass.transmission = 1;
+    glass.roughness = 0;
     test_scene s;
     make_scene(&s, &glass, 1);
     glint_settings settings = glint_settings_default;
@@ -281,6 +286,10 @@ static void the_stack_holds_every_branch_that_the_least_weight_allows(void **sta
     settings.filter = GLINT_FILTER_MIP; // whose branches take 120
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_non_null(strstr(plan.tiles_reason, "branches of a tile would take 1950 KiB"));
+    glass.roughness = 0.5F; // likewise, of 136
+    make_scene(&s, &glass, 1);
+    assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+    assert_non_null(strstr(plan.tiles_reason, "branches of a tile would take 2210 KiB"));
 }
 
 static void the_plan_says_how_secondary_rays_are_traced(void **state)

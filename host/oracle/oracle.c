@@ -1,8 +1,9 @@
-// The oracle's camera and its walk along the tree of paths, rule by rule as ARCHITECTURE.md ("Light
+// The oracle's walk along the tree of paths, rule by rule as ARCHITECTURE.md ("Light
 // transport") counts them.
 #include "oracle/oracle.h"
 #include "oracle/hit.h"
 #include "oracle/lights.h"
+#include "oracle/media.h"
 #include "oracle/rough.h"
 #include "oracle/surface.h"
 #include "oracle/vector.h"
@@ -23,13 +24,6 @@ const oracle_material oracle_material_default = {
     .occlusion_strength = 1.0,
 };
 
-// Rule 5: the solids that a path is inside, by material, innermost last. A path meets at most
-// ORACLE_DEPTH_LIMIT surfaces and enters at most one solid at each; one more for where it began.
-typedef struct media {
-    int solid[ORACLE_DEPTH_LIMIT + 1];
-    int count;
-} media;
-
 typedef struct path {
     vector origin, direction; // of the ray to be traced
     vector weight;            // what radiance along it counts for in the sample
@@ -49,6 +43,8 @@ typedef struct walk {
     vector radiance;  // sum so far
     double uncovered; // weight of what met no surface at all, where the view is transparent
     int depth;        // N
+    int direction;    // rule 12: which facets of rough glass the path meets
+    bool faceted;     // it met some
 } walk;
 
 static void follow(walk *w, const path *p);
@@ -109,30 +105,6 @@ static vector mirror_direction(const surface *s)
 
 // Rule 5.
 
-static double top_ior(const oracle_scene *scene, const media *inside)
-{
-    return inside->count > 0 ? scene->materials[inside->solid[inside->count - 1]].ior : 1.0;
-}
-
-static void media_enter(media *inside, int material)
-{
-    if (inside->count <= ORACLE_DEPTH_LIMIT)
-        inside->solid[inside->count++] = material;
-}
-
-// Removes the topmost entry of the material, if there is one.
-static void media_leave(media *inside, int material)
-{
-    for (int i = inside->count - 1; i >= 0; i--) {
-        if (inside->solid[i] != material)
-            continue;
-        size_t above = (size_t)(inside->count - 1 - i);
-        memmove(&inside->solid[i], &inside->solid[i + 1], above * sizeof(int));
-        inside->count--;
-        return;
-    }
-}
-
 // The segment that ends at this surface was inside the topmost solid. Meeting a solid's back face
 // while inside none means that the path began inside that solid.
 static void absorb(const oracle_scene *scene, path *p, const surface *s, double distance)
@@ -186,8 +158,9 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
 // Rule 4: what glass does with light that meets it, F and the way through.
 typedef struct interface {
     double fresnel;
-    vector through; // t, where fresnel < 1
-    path beyond;    // what goes through: with the media on the other side
+    vector through;  // t, where fresnel < 1
+    vector unfolded; // t before it is folded
+    path beyond;     // what goes through: with the media on the other side
 } interface;
 
 static interface interface_at(walk *w, const path *p, const surface *s)
@@ -215,6 +188,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
         glass.fresnel = 1.0;
         w->report->total_reflections++;
     }
+    glass.unfolded = glass.through;
     double bend = eta * s->cosine + dot(glass.through, s->normal); // η cos θi − cos θt
     glass.beyond = leaving(&glass.beyond, s, eta, bend);
     glass.through = folded(glass.through, s->geometric, -1.0);
@@ -330,10 +304,14 @@ static vector radiance(const void *scene, vector d)
     return environment(scene, ((const oracle_scene *)scene)->radiance, d);
 }
 
+static bool is_glass(const surface *s)
+{
+    return oracle_is_solid(s->material) || oracle_is_thin(s->material);
+}
+
 static bool is_rough(const walk *w, const surface *s)
 {
-    return w->view->roughness > 0 && s->roughness >= 0.01 && !oracle_is_solid(s->material) &&
-           !oracle_is_thin(s->material);
+    return w->view->roughness > 0 && s->roughness >= 0.01;
 }
 
 // Adds what lobes show of the lights: of their two parts `base` and `edge`. A light is a point, and
@@ -383,37 +361,69 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
     reflect(w, p, s, times(p->weight, weight), &held);
 }
 
-// Rules 3, 4 and 6, mixed: metallic first, then transmission. The reflected parts share one
-// direction and so are one branch; so are what a thin wall transmits and what passes it (`past`).
-static void scatter(walk *w, const path *p, const surface *s, vector past)
+// Rules 3, 4 and 6, mixed: metallic first, then transmission. What a surface sends on of light that
+// meets it. The reflected parts share one direction and so are one branch.
+typedef struct shares {
+    vector matte, reflected, through;
+    interface glass;
+} shares;
+
+static shares shares_at(walk *w, const path *p, const surface *s)
 {
-    if (is_rough(w, s)) {
-        scatter_lobes(w, p, s);
-        return;
-    }
     const oracle_material *m = s->material;
     double as_metal = s->coverage * s->metallic;
     double as_glass = s->coverage * (1.0 - s->metallic) * s->transmission;
     double as_paint = s->coverage * (1.0 - s->metallic) * (1.0 - s->transmission);
-    vector reflected = scaled(schlick(w, s), as_metal);
-    vector matte = {{0.0, 0.0, 0.0}}, through = past;
-    interface glass = {.through = scaled(s->viewer, -1.0), .beyond = *p};
-
+    shares of = {.reflected = scaled(schlick(w, s), as_metal),
+                 .glass = {.through = scaled(s->viewer, -1.0), .beyond = *p}};
     if (as_paint > 0.0) {
-        bool smooth = !(s->roughness >= 0.01) && !w->view->no_fresnel;
-        double f = smooth ? oracle_fresnel(s->cosine, 1.0, m->ior) : 0.0;
-        reflected = plus(reflected, (vector){{as_paint * f, as_paint * f, as_paint * f}});
-        matte = scaled(s->base, as_paint * (1.0 - f));
+        bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // and shown without a coat
+        double f = !rough && !w->view->no_fresnel ? oracle_fresnel(s->cosine, 1.0, m->ior) : 0.0;
+        of.reflected = plus(of.reflected, (vector){{as_paint * f, as_paint * f, as_paint * f}});
+        of.matte = scaled(s->base, as_paint * (1.0 - f));
     }
     if (as_glass > 0.0) {
-        glass = interface_at(w, p, s);
-        double f = as_glass * glass.fresnel;
-        reflected = plus(reflected, (vector){{f, f, f}});
-        through = plus(past, scaled(s->base, as_glass * (1.0 - glass.fresnel)));
+        of.glass = interface_at(w, p, s);
+        double f = as_glass * of.glass.fresnel;
+        of.reflected = plus(of.reflected, (vector){{f, f, f}});
+        of.through = scaled(s->base, as_glass * (1.0 - of.glass.fresnel));
     }
-    add_matte(w, p, s, matte);
-    reflect(w, p, s, times(p->weight, reflected), NULL);
-    branch(w, &glass.beyond, s, glass.through, times(p->weight, through));
+    return of;
+}
+
+static int facets_of(const oracle_view *view)
+{
+    return view->roughness * view->roughness;
+}
+
+// Rule 12, rough glass, by one of its facets. A thin wall transmits the mirror image of what it
+// reflects.
+static void scatter_by_facet(walk *w, const path *p, const surface *s)
+{
+    w->faceted = true;
+    surface facet = oracle_facet(s, w->direction, facets_of(w->view), p->met);
+    shares of = shares_at(w, p, &facet);
+    vector r = {{0.0, 0.0, 0.0}};
+    oracle_reflect(facet.normal.at, s->viewer.at, r.at);
+    double height = dot(s->normal, r);
+    double reflects = oracle_opening(s, height), transmits = reflects;
+    if (oracle_is_solid(s->material))
+        transmits = oracle_opening(s, -dot(s->normal, of.glass.unfolded));
+    else
+        of.glass.through = folded(minus(r, scaled(s->normal, 2.0 * height)), s->geometric, -1.0);
+    add_matte(w, p, s, of.matte);
+    reflect(w, p, &facet, times(p->weight, scaled(of.reflected, reflects)), NULL);
+    branch(w, &of.glass.beyond, s, of.glass.through,
+           times(p->weight, scaled(of.through, transmits)));
+}
+
+// What a thin wall transmits and what passes it (`past`) are one branch.
+static void scatter(walk *w, const path *p, const surface *s, vector past)
+{
+    shares of = shares_at(w, p, s);
+    add_matte(w, p, s, of.matte);
+    reflect(w, p, s, times(p->weight, of.reflected), NULL);
+    branch(w, &of.glass.beyond, s, of.glass.through, times(p->weight, plus(past, of.through)));
 }
 
 // The lecture's blend: (1 − m)·base·irradiance/π + m·L(r).
@@ -429,13 +439,18 @@ static void meet(walk *w, const path *p, const surface *s)
 {
     double gone = 1.0 - s->coverage;
     vector none = {{0.0, 0.0, 0.0}}, past = {{gone, gone, gone}};
-    bool together = oracle_is_thin(s->material) && s->coverage > 0.0;
+    bool faceted = is_rough(w, s) && is_glass(s);
+    bool together = oracle_is_thin(s->material) && s->coverage > 0.0 && !faceted;
     if (s->material->unlit) {
         add(w, scaled(p->weight, s->coverage), s->base);
     } else {
         add(w, scaled(p->weight, s->coverage), s->emission);
         if (s->material->mirror >= 0.0)
             blend(w, p, s);
+        else if (faceted)
+            scatter_by_facet(w, p, s);
+        else if (is_rough(w, s))
+            scatter_lobes(w, p, s);
         else
             scatter(w, p, s, together ? past : none);
     }
@@ -478,66 +493,20 @@ static void follow(walk *w, const path *p)
         meet(w, &here, &s);
 }
 
-// The cone of a primary ray: as wide, at every distance, as neighbouring samples are apart.
-static cone primary_cone(const oracle_view *view, vector direction)
-{
-    if (view->height <= 0)
-        return (cone){0.0, 0.0};
-    double apart = (view->yfov == 0.0 ? 2.0 * view->ymag : 2.0 * tan(0.5 * view->yfov)) /
-                   view->height / (view->samples > 0 ? view->samples : 1);
-    if (view->yfov == 0.0)
-        return (cone){apart, 0.0};
-    return (cone){0.0, -apart * dot(direction, vector_of(view->back))};
-}
-
 static walk walk_along(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
-                       oracle_report *report)
+                       int direction, oracle_report *report)
 {
     bool cut = view->depth <= 0 || view->depth > ORACLE_DEPTH_LIMIT;
-    walk w = {.scene = scene, .view = view, .report = report};
+    walk w = {.scene = scene, .view = view, .report = report, .direction = direction};
     w.depth = cut ? ORACLE_DEPTH_LIMIT : view->depth;
     path primary = {.origin = vector_of(ray->origin),
                     .direction = unit(vector_of(ray->direction)),
                     .weight = {{1.0, 1.0, 1.0}},
                     .left = -1};
-    primary.cone = primary_cone(view, primary.direction);
+    primary.cone = oracle_primary_cone(view, primary.direction);
     report_clear(report);
     follow(&w, &primary);
     return w;
-}
-
-bool oracle_radiance(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
-                     double rgb[3], oracle_report *report)
-{
-    oracle_report ignored;
-    walk w = walk_along(scene, view, ray, report ? report : &ignored);
-    vector_store(w.radiance, rgb);
-    return w.report->surfaces > 0;
-}
-
-oracle_ray oracle_primary_ray(const oracle_view *view, const double position[2])
-{
-    bool orthographic = view->yfov == 0.0;
-    double half_height = orthographic ? view->ymag : tan(0.5 * view->yfov);
-    double half_width = half_height * view->width / view->height;
-    double x = (2.0 * position[0] / view->width - 1.0) * half_width;
-    double y = (1.0 - 2.0 * position[1] / view->height) * half_height;
-    vector across = plus(scaled(vector_of(view->right), x), scaled(vector_of(view->up), y));
-    vector forward = scaled(vector_of(view->back), -1.0), eye = vector_of(view->eye);
-    oracle_ray ray = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-    vector_store(orthographic ? plus(eye, across) : eye, ray.origin);
-    vector_store(orthographic ? forward : unit(plus(across, forward)), ray.direction);
-    return ray;
-}
-
-void oracle_sample(const oracle_scene *scene, const oracle_view *view, const double position[2],
-                   double rgba[4], oracle_report *report)
-{
-    oracle_report ignored;
-    oracle_ray ray = oracle_primary_ray(view, position);
-    walk w = walk_along(scene, view, &ray, report ? report : &ignored);
-    vector_store(w.radiance, rgba);
-    rgba[3] = 1.0 - w.uncovered;
 }
 
 static void report_add(oracle_report *sum, const oracle_report *sample, double share)
@@ -553,6 +522,47 @@ static void report_add(oracle_report *sum, const oracle_report *sample, double s
     sum->critical = fmin(sum->critical, sample->critical);
     sum->threshold = fmin(sum->threshold, sample->threshold);
     sum->jump = fmin(sum->jump, sample->jump);
+}
+
+// The mean of the walks along a ray: one or, where it meets rough glass, one for each of its
+// facets.
+static walk mean_walk(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
+                      oracle_report *report)
+{
+    oracle_report one;
+    walk mean = walk_along(scene, view, ray, 0, &one);
+    int count = mean.faceted ? facets_of(view) : 1;
+    double share = 1.0 / count;
+    mean.radiance = scaled(mean.radiance, share);
+    mean.uncovered *= share;
+    report_clear(report);
+    report_add(report, &one, share);
+    for (int i = 1; i < count; i++) {
+        walk w = walk_along(scene, view, ray, i, &one);
+        mean.radiance = plus(mean.radiance, scaled(w.radiance, share));
+        mean.uncovered += share * w.uncovered;
+        report_add(report, &one, share);
+    }
+    return mean;
+}
+
+bool oracle_radiance(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
+                     double rgb[3], oracle_report *report)
+{
+    oracle_report own = {.surfaces = 0};
+    oracle_report *given = report ? report : &own;
+    vector_store(mean_walk(scene, view, ray, given).radiance, rgb);
+    return given->surfaces > 0;
+}
+
+void oracle_sample(const oracle_scene *scene, const oracle_view *view, const double position[2],
+                   double rgba[4], oracle_report *report)
+{
+    oracle_report ignored;
+    oracle_ray ray = oracle_primary_ray(view, position);
+    walk w = mean_walk(scene, view, &ray, report ? report : &ignored);
+    vector_store(w.radiance, rgba);
+    rgba[3] = 1.0 - w.uncovered;
 }
 
 void oracle_pixel(const oracle_scene *scene, const oracle_view *view, const int pixel[2],

@@ -64,3 +64,58 @@ lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const
     }
     return sum;
 }
+
+// The place of a path's `met`th facet among `count`: each comes once, in another order at each
+// surface.
+static int place_at(int number, int count, int met)
+{
+    // Odd multiples run through a power of two; the next one holds the count.
+    unsigned size = 1, at = (unsigned)number;
+    while (size < (unsigned)count)
+        size *= 2;
+    for (int turn = 1; met > 1 && turn <= 3;) {
+        at = (at * (2654435769u + 2u * (unsigned)met) + (unsigned)(turn * 40503 * met)) % size;
+        at ^= at / 32;
+        turn += at < (unsigned)count; // else once more, until it is one of them
+    }
+    return (int)at;
+}
+
+surface oracle_facet(const surface *s, int number, int count, int met)
+{
+    // A spiral of points that fills a disk evenly.
+    int at = place_at(number, count, met);
+    double radius = sqrt((at + 0.5) / count), turn = at * PI * (3.0 - sqrt(5.0));
+    // Heitz, Sampling the GGX distribution of visible normals, 2018: stretched to a hemisphere,
+    // what v sees is a half disk and half an ellipse, across v.
+    double alpha = s->roughness * s->roughness;
+    vector n = s->normal, v = s->viewer, least = {{0.0, 0.0, 0.0}};
+    vector stretched = unit(plus(scaled(v, alpha), scaled(n, (1.0 - alpha) * s->cosine)));
+    vector level = cross(n, stretched);
+    least.at[fabs(n.at[0]) < 0.6 ? 0 : 1] = 1.0;
+    level = unit(dot(level, level) > 1e-20 ? level : cross(n, least));
+    double x = radius * cos(turn), y = radius * sin(turn), half = 0.5 * (1.0 + dot(n, stretched));
+    y = (1.0 - half) * sqrt(1.0 - x * x) + half * y;
+    vector h = plus(scaled(level, x), scaled(cross(stretched, level), y));
+    h = plus(h, scaled(stretched, sqrt(fmax(0.0, 1.0 - x * x - y * y))));
+    double up = fmax(0.0, dot(n, h));
+    h = unit(plus(scaled(minus(h, scaled(n, dot(n, h))), alpha), scaled(n, up)));
+    surface facet = *s;
+    facet.normal = h;
+    facet.cosine = fmin(1.0, fmax(0.0, dot(h, v)));
+    return facet;
+}
+
+static double smith_root(double alpha, double cosine)
+{
+    return sqrt(alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine);
+}
+
+double oracle_opening(const surface *s, double cosine)
+{
+    double alpha = s->roughness * s->roughness;
+    if (!(cosine > 0.0))
+        return 0.0;
+    double of_v = smith_root(alpha, s->cosine), of_l = smith_root(alpha, cosine);
+    return cosine * (s->cosine + of_v) / (cosine * of_v + s->cosine * of_l);
+}

@@ -21,4 +21,12 @@ lobe_integrals oracle_lobe_towards(const surface *s, double roughness, vector di
 // plane.
 lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context);
 
+// The surface as one of the facets that the viewer sees: number `number` of `count`, at a path's
+// `met`th surface.
+surface oracle_facet(const surface *s, int number, int count, int met);
+
+// What Smith's height-correlated G leaves, of what its part for the viewer does, of light that a
+// facet sends on at this cosine to the surface's normal; 0 where it leaves on the other side.
+double oracle_opening(const surface *s, double cosine);
+
 #endif

@@ -11,6 +11,9 @@ typedef struct cone {
     double width, spread;
 } cone;
 
+// The cone of a primary ray: as wide, at every distance, as neighbouring samples are apart.
+cone oracle_primary_cone(const oracle_view *view, vector direction);
+
 typedef struct surface {
     const oracle_material *material; // its factors
     int triangle, index;             // of the triangle, of the material

@@ -54,6 +54,7 @@ typedef struct glint_plan {
     int media_capacity;  // entries of that stack
     int traversal_stack; // entries of the traversal's stack; set once the tree is built
     size_t environment_bytes; // device memory for the environment
+    bool has_facets;          // rough glass is to be seen, but for terms
     int cells_last;           // the finest level of cells that rough surfaces need; −1: none do
     uint32_t build_tag;       // the settings'
 } glint_plan;
@@ -117,6 +118,12 @@ void glint_plan_heed_sight(glint_plan *plan, bool heed);
 static inline bool glint_plan_shades_vertices(const glint_plan *plan)
 {
     return plan->shading != GLINT_SHADING_PIXEL;
+}
+
+// Whether kernels of the plan, or of a variation of it, read coarser levels of the environment.
+static inline bool glint_plan_reads_levels(const glint_plan *plan)
+{
+    return plan->features[GLINT_FEATURE_MIP_LEVELS].compiled || plan->has_facets;
 }
 
 // Bytes of a number of the plan's precision.

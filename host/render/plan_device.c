@@ -89,7 +89,8 @@ static void limit_branches(glint_plan *plan)
                                              plan->features[GLINT_FEATURE_MIP_LEVELS].compiled ||
                                                  plan->features[GLINT_FEATURE_TEXTURES].compiled,
                                              plan->features[GLINT_FEATURE_ALPHA].compiled,
-                                             plan->features[GLINT_FEATURE_ROUGH].compiled);
+                                             plan->features[GLINT_FEATURE_ROUGH].compiled,
+                                             plan->features[GLINT_FEATURE_FACETS].compiled);
     const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
     if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
         plan->tiles = false;
@@ -186,7 +187,7 @@ glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *p
     const char *reason = NULL;
     plan->half_texels = false;
     plan->texels_rmse = 0;
-    plan->environment_bytes = sizeof(float) * (plan->features[GLINT_FEATURE_MIP_LEVELS].compiled
+    plan->environment_bytes = sizeof(float) * (glint_plan_reads_levels(plan)
                                                    ? glint_mip_levels_size(in->environment->edge)
                                                    : glint_cube_size(in->environment));
     if (asked == GLINT_TEXELS_FLOAT) {

@@ -28,6 +28,7 @@ typedef struct material_census {
     size_t metal_and_glass;               // both at once
     size_t partly_there, partly_reflects; // by alpha; of these, those that reflect as well
     size_t rough, rough_coats;            // that reflect lobes; of these, no metal
+    size_t faceted;                       // of rough glass
     double least_roughness;               // of these; 0 where textures say it
 } material_census;
 
@@ -54,6 +55,7 @@ static void count_material(const glint_material *material, bool heeds_roughness,
         lobes.covers && (lobes.metal || lobes.gloss || lobes.blend_mirror || lobes.glass ||
                          (lobes.rough_path && heeds_roughness));
     if (heeds_roughness) {
+        census->faceted += lobes.facets;
         count_roughness(material, &lobes, census);
     }
 #define COUNT(feature, lobe, what) census->needing[GLINT_FEATURE_##feature] += lobes.lobe;
@@ -293,6 +295,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     decide_by_count(plan, GLINT_FEATURE_ALPHA, census.partly_there, census.used, "alpha");
     decide_optics(&census, in->settings->fresnel, plan);
     choose_cells(&census, in->settings->fresnel, plan);
+    plan->has_facets = census.faceted > 0;
     decide_scene(in, plan);
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);
@@ -316,15 +319,28 @@ void glint_plan_decide_paths(glint_plan *plan)
            plan->depth);
 }
 
+// What becomes of roughness.
+static void decide_roughness(const glint_settings *settings, glint_plan *plan)
+{
+    const bool heeded = glint_settings_heed_roughness(settings) && settings->terms == 0;
+    const bool rough = plan->cells_last >= 0 && heeded, facets = plan->has_facets && heeded;
+    decide(plan, GLINT_FEATURE_ROUGH, rough, "%s",
+           rough    ? "rough metal or paint"
+           : heeded ? "no rough metal or paint"
+                    : "these settings show all as smooth");
+    if (facets) {
+        decide(plan, GLINT_FEATURE_FACETS, true, "rough glass: %d directions a pixel",
+               glint_settings_directions(settings));
+    } else {
+        decide(plan, GLINT_FEATURE_FACETS, false, "%s",
+               heeded ? "no rough glass" : "these settings show all as smooth");
+    }
+}
+
 // What is told of a frame beside its colours.
 void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
 {
-    const bool rough = plan->cells_last >= 0 && settings->terms == 0;
-    decide(plan, GLINT_FEATURE_ROUGH, rough, "%s",
-           rough ? "rough metal or paint"
-           : glint_settings_heed_roughness(settings) && settings->terms == 0
-               ? "no rough metal or paint"
-               : "these settings show all as smooth");
+    decide_roughness(settings, plan);
     if (settings->terms > 0) {
         decide(plan, GLINT_FEATURE_TERMS, true, "%d directions of a pixel are kept",
                settings->terms);

@@ -65,9 +65,9 @@ typedef enum glint_scattering {
 
 // What becomes of rough surfaces that pixels shade, without terms and proxy; else they are smooth.
 typedef enum glint_roughness {
-    GLINT_ROUGHNESS_FAST,   // lobes, to about a hundredth
-    GLINT_ROUGHNESS_EXACT,  // to a few thousandths
-    GLINT_ROUGHNESS_SMOOTH, // metal is as smooth, and paint reflects nothing
+    GLINT_ROUGHNESS_FAST,   // lobes, to about a hundredth; glass, to a few hundredths
+    GLINT_ROUGHNESS_EXACT,  // to a few thousandths; to about a hundredth
+    GLINT_ROUGHNESS_SMOOTH, // metal and glass are as smooth, and paint reflects nothing
 } glint_roughness;
 
 // Whether the file's punctual lights shine.
@@ -78,6 +78,7 @@ typedef enum glint_lights {
 
 #define GLINT_LIST_COLUMNS 16
 #define GLINT_SAMPLES_PER_AXIS_MAX 64
+#define GLINT_FACETS_MAX 65536
 #define GLINT_DEPTH_MAX 64   // what --depth auto stops at; larger depths may be asked for by number
 #define GLINT_SIDE_MAX 65536 // pixels: what the hard cases ask for, and formats hold
 
@@ -116,6 +117,7 @@ typedef struct glint_settings {
     glint_lights lights;
     glint_roughness roughness;
     glint_scattering scattering;
+    int facets;            // directions of a pixel that meets rough glass, at least; 0: auto
     bool proxy;            // the environment has one (environment.h), which is heeded: with the
                            // bilinear filter, shading pixel and no terms
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers
@@ -151,6 +153,11 @@ glint_status glint_settings_check(const glint_settings *settings, const glint_ca
 
 // Whether rough surfaces are to be seen, but for terms.
 bool glint_settings_heed_roughness(const glint_settings *settings);
+
+// Directions that a pixel takes where it meets rough glass: those of all its samples, which go over
+// them in so many rounds.
+int glint_settings_directions(const glint_settings *settings);
+int glint_settings_rounds(const glint_settings *settings);
 
 // How far off a cell of the environment may be (kernels/layout.h, Lobes), of its brightness.
 double glint_lobe_tolerance(glint_roughness roughness);

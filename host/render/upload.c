@@ -20,7 +20,7 @@ _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps"
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_light_record) == 112, "glint_light_record has gaps");
 _Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 31 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 32 * 4, "glint_frame_record has gaps");
 
 static size_t attribute_bytes(const glint_scene *scene)
 {
@@ -94,7 +94,7 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
         .alpha_cutoff = m->alpha_cutoff,
         .normal_scale = m->normal_scale,
         .occlusion_strength = m->occlusion_strength,
-        .roughness = lobes.rough ? m->roughness : 0,
+        .roughness = lobes.rough || lobes.facets ? m->roughness : 0,
     };
     memcpy(record.base_color, m->base_color, sizeof m->base_color);
     record.base_color[3] = m->alpha;
@@ -256,7 +256,7 @@ glint_status glint_environment_upload(const struct glint_device *device, const g
                                       glint_error *error)
 {
     *texels = (glint_shared_buffer){0};
-    if (plan->features[GLINT_FEATURE_MIP_LEVELS].compiled) {
+    if (glint_plan_reads_levels(plan)) {
         return upload_levels(device, plan->half_texels, environment, texels, error);
     }
     if (plan->half_texels) {

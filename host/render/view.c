@@ -65,6 +65,7 @@ static void note_settings(const glint_settings *settings, glint_frame_record *re
     record->image_height = settings->height;
     record->step = settings->grid_step > 0 ? settings->grid_step : 1;
     record->first_pixel = settings->grid_step / 2;
+    record->rounds = glint_settings_rounds(settings);
     record->samples_per_axis = settings->samples_per_axis;
     record->anisotropy = (float)settings->anisotropy;
     record->compensation = settings->scattering == GLINT_SCATTERING_MULTIPLE;

@@ -431,9 +431,6 @@ void survey_material(const json &root, std::ptrdiff_t index, const UsedMaterial 
     const Tally::About about(tally, used.material.index);
     const std::string where = where_is(root, index);
     const glint_lobes lobes = glint_material_lobes(&used.material);
-    if (used.material.roughness > 0 && lobes.glass) {
-        tally.add("roughness above 0 on glass is rendered smooth for now", where);
-    }
     if (lobes.solid && used.material.alpha_mode != GLINT_ALPHA_OPAQUE) {
         tally.add("alphaMode counts for nothing in glass with a volume: it is all there", where);
     }

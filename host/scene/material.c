@@ -72,7 +72,8 @@ static glint_lobes sharing_lobes(const glint_material *m)
         (lobes.metal || lobes.paint) && !lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
     lobes.rough_path = lobes.rough && (lobes.metal || m->roughness < GLINT_COAT_MATTE ||
                                        has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS));
-    lobes.gloss = lobes.paint && (!(m->roughness >= GLINT_ROUGHNESS_LEAST) ||
+    lobes.facets = lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
+    lobes.gloss = lobes.paint && (!(m->roughness >= GLINT_ROUGHNESS_LEAST) || lobes.facets ||
                                   has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS));
     return lobes;
 }

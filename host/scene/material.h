@@ -72,6 +72,7 @@ typedef struct glint_lobes {
     bool gloss;      // and reflects, as it is smooth
     bool rough;      // metal, and the coat of paint, reflect lobes
     bool rough_path; // for which paths go on
+    bool facets;     // glass is rough, and so is what beside it reflects
     // Beside all of these: some of the surface may not be there.
     bool masked; // by alpha_cutoff
     bool covers; // by its alpha; never of a solid, which is all there

@@ -43,10 +43,10 @@ cat >in/mirror.gltf <<JSON
  "bufferViews": [{"buffer": 0, "byteLength": 36}],
  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,$buffer"}]}
 JSON
-# The same with a rough mirror, and of rough glass, which is said once.
+# The same with a rough mirror, and with a coat that is not modelled, which is said once.
 sed 's/"roughnessFactor": 0/"roughnessFactor": 0.5/' in/mirror.gltf >in/rough.gltf
-sed 's/"name": "chrome",/& "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}},/
-     s/"metallicFactor": 1/"metallicFactor": 0/' in/rough.gltf >in/frosted.gltf
+sed 's/"name": "chrome",/& "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}},/' \
+    in/mirror.gltf >in/coated.gltf
 # Radiance, flat: 8 × 4 pixels of (1, 1, 1), and of 2¹⁷, more than half can hold.
 {
     printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
@@ -363,11 +363,11 @@ run render in/mirror.gltf --size 4x4 --size 8x8 -o out/y.png --output=out/x.png 
 check 'the last value of an option counts' stat_is 8 settings width
 check 'also across its two names' test -s out/x.png -a ! -e out/y.png
 clean
-run render in/frosted.gltf --size 8x8 -o out/x.png --progress none
-check 'a warning is said once' test "$(grep -c '^glint: warning: .*rough' stderr)" -eq 1
-check 'with its share of the picture' grep -q 'rough.* ([1-9][0-9]*% of the picture)$' stderr
-run render in/frosted.gltf --eye 0,0,9 --look-at 0,0,99 --size 8x8 -o out/x.png --progress none
-check 'also where that is nothing' grep -q 'rough.* (not in view)$' stderr
+run render in/coated.gltf --size 8x8 -o out/x.png --progress none
+check 'a warning is said once' test "$(grep -c '^glint: warning: .*clearcoat' stderr)" -eq 1
+check 'with its share of the picture' grep -q 'clearcoat.* ([1-9][0-9]*% of the picture)$' stderr
+run render in/coated.gltf --eye 0,0,9 --look-at 0,0,99 --size 8x8 -o out/x.png --progress none
+check 'also where that is nothing' grep -q 'clearcoat.* (not in view)$' stderr
 clean
 run render in/mirror.gltf --size 8x8 -o out/x.exr --exposure 1 --progress none
 check 'an exposure that is left out is said' grep -q 'warning: .*exposure' stderr
@@ -519,9 +519,9 @@ check 'info --json: memory' stat_is_positive device_bytes
 check 'info --json: clusters' stat_is 1 bvh clusters
 check 'info --json: fill' stat_is 0.0625 bvh fill
 check 'info --json: bytes per triangle' stat_is_positive bvh bytes_per_triangle
-run info in/frosted.gltf --json
-cp stdout out/frosted.json
-check 'info --json: the warning' "$json_get" out/frosted.json warnings 0
+run info in/coated.gltf --json
+cp stdout out/coated.json
+check 'info --json: the warning' "$json_get" out/coated.json warnings 0
 run info in/mirror.gltf --env in/sun.hdr
 check 'info says why texels are float' grep -q 'float texels: .* 131072' stdout
 clean

@@ -109,6 +109,6 @@ kernel void probe_levels(global const scalar *in, global scalar *out, global con
     c.width = real_of(0);
     c.spread = load(in, 0);
     const real3 d = real3_of(real_of(0), -load(in, 1), real_of(0));
-    const level_choice choice = choose_level(&c, d, 64, 6);
+    const level_choice choice = choose_level(c.spread, d, 64, 6);
     store3(out, real3_of(to_real(choice.level), choice.blend, real_of(0)), real_of(0));
 }

@@ -1,0 +1,40 @@
+// Between the oracle's own files: rule 5, the solids that a path is inside.
+#ifndef GLINT_ORACLE_MEDIA_H
+#define GLINT_ORACLE_MEDIA_H
+
+#include "oracle/oracle.h"
+
+#include <string.h>
+
+// By material, innermost last. A path meets at most
+// ORACLE_DEPTH_LIMIT surfaces and enters at most one solid at each; one more for where it began.
+typedef struct media {
+    int solid[ORACLE_DEPTH_LIMIT + 1];
+    int count;
+} media;
+
+static inline double top_ior(const oracle_scene *scene, const media *inside)
+{
+    return inside->count > 0 ? scene->materials[inside->solid[inside->count - 1]].ior : 1.0;
+}
+
+static inline void media_enter(media *inside, int material)
+{
+    if (inside->count <= ORACLE_DEPTH_LIMIT)
+        inside->solid[inside->count++] = material;
+}
+
+// Removes the topmost entry of the material, if there is one.
+static inline void media_leave(media *inside, int material)
+{
+    for (int i = inside->count - 1; i >= 0; i--) {
+        if (inside->solid[i] != material)
+            continue;
+        size_t above = (size_t)(inside->count - 1 - i);
+        memmove(&inside->solid[i], &inside->solid[i + 1], above * sizeof(int));
+        inside->count--;
+        return;
+    }
+}
+
+#endif

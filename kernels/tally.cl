@@ -1,0 +1,91 @@
+// What a work-item counts of its tile's paths, and notes of its pixels.
+
+// What cuts paths short.
+enum cut { BY_DEPTH, BY_MIN_WEIGHT, BY_STACK, CUTS };
+
+// What one work-item counts, which is added to the counters at its end, and what it notes.
+typedef struct tally {
+    ulong counts[GLINT_COUNTERS];
+    lanes_int deepest; // surfaces that a path has met
+#if GLINT_FACETS
+    facet_choice facets;
+    bool faceted[TILE_PIXELS];      // their paths met rough glass
+    scalar cut[CUTS][TILE_PIXELS];  // weight that they were cut short of
+#else
+    real cut[CUTS]; // weight that paths were cut short of
+#endif
+#if GLINT_TRUNCATION_SQUARES
+    scalar truncated[TILE_PIXELS]; // weight that the pixels' paths were cut short of
+#endif
+#if GLINT_DIAGNOSTICS
+    layers *layers; // of the tile's pixels
+#endif
+#if GLINT_TERMS
+    terms *terms; // likewise
+#endif
+} tally;
+
+static inline tally no_tally(void)
+{
+    tally t;
+    for (int i = 0; i < GLINT_COUNTERS; i++) {
+        t.counts[i] = 0;
+    }
+    t.deepest = int_of(0);
+#if GLINT_FACETS
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        t.faceted[i] = false;
+        t.cut[BY_DEPTH][i] = t.cut[BY_MIN_WEIGHT][i] = t.cut[BY_STACK][i] = 0;
+    }
+#else
+    t.cut[BY_DEPTH] = t.cut[BY_MIN_WEIGHT] = t.cut[BY_STACK] = real_of(0);
+#endif
+#if GLINT_TRUNCATION_SQUARES
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        t.truncated[i] = 0;
+    }
+#endif
+    return t;
+}
+
+// The rays in `these` take the environment untraced for want of depth, weight or room.
+static inline void count_truncated(tally *tally, const pixels *pixels, mask these, real weight)
+{
+#if GLINT_TRUNCATION_SQUARES
+    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        tally->truncated[pixel_of(*pixels, lane)] += LANE(weight, lane);
+    }
+#endif
+}
+
+// The rays in `these` are cut short.
+static inline void count_cut(tally *tally, const pixels *pixels, mask these, real weight,
+                             enum cut by)
+{
+#if GLINT_FACETS
+    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        tally->cut[by][pixel_of(*pixels, lane)] += LANE(weight, lane);
+    }
+#else
+    tally->cut[by] += SELECT(these, weight, real_of(0));
+#endif
+}
+
+#if GLINT_FACETS
+static inline void note_facets(tally *tally, const pixels *pixels, mask these)
+{
+    for (uint left = mask_bits(these); left != 0; left &= left - 1) {
+        tally->faceted[pixel_of(*pixels, lowest_bit(left))] = true;
+    }
+}
+
+// The share that a round has of a pixel.
+static inline scalar share_of_round(const tally *tally, const glint_frame_record *frame, int pixel)
+{
+    return tally->faceted[pixel] ? R(1.0) / (scalar)frame->rounds : R(1.0);
+}
+#else
+#define share_of_round(tally, frame, pixel) R(1.0)
+#endif
