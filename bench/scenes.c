@@ -257,6 +257,7 @@ void bench_scene_set_material(bench_scene *scene, bench_job job)
 {
     const bool glass = job == BENCH_REFRACT || job == BENCH_GLASS;
     scene->scene.materials[0] = (glint_material){
+        GLINT_MATERIAL_SPECULAR,
         .base_color = {1, 1, 1},
         .metallic = glass ? 0 : 1,
         .transmission = glass ? 1 : 0,

@@ -36,6 +36,8 @@
             0, IDLE)                                                                               \
     FEATURE(PAINT, "matte paint is lit by the environment's irradiance", GLINT_GEOMETRY, 0, IDLE)  \
     FEATURE(GLOSS, "smooth paint reflects under its Fresnel term", GLINT_PAINT, 0, IDLE)           \
+    FEATURE(SPECULAR, "what paint and glass reflect is weighed and coloured", GLINT_FRESNEL, 0,    \
+            ACTIVE)                                                                                \
     FEATURE(ROUGH, "rough surfaces reflect lobes of the environment", GLINT_MIRROR || GLINT_PAINT, \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
                 GLINT_PROXY,                                                                       \

@@ -458,6 +458,10 @@ static inline real3 select3(mask yes, real3 a, real3 b)
     return real3_of(SELECT(yes, a.x, b.x), SELECT(yes, a.y, b.y), SELECT(yes, a.z, b.z));
 }
 
+static inline real3 smaller3(real3 a, real3 b)
+{
+    return real3_of(SMALLER(a.x, b.x), SMALLER(a.y, b.y), SMALLER(a.z, b.z));
+}
 static inline real largest3(real3 a)
 {
     real xy = LARGER(a.x, a.y);

@@ -129,7 +129,9 @@ typedef struct glint_split_vector {
 #define GLINT_SLOT_NORMAL 3
 #define GLINT_SLOT_EMISSION 4
 #define GLINT_SLOT_TRANSMISSION 5
-#define GLINT_MATERIAL_TEXTURES 6
+#define GLINT_SLOT_SPECULAR 6
+#define GLINT_SLOT_SPECULAR_COLOR 7
+#define GLINT_MATERIAL_TEXTURES 8
 
 typedef struct glint_material_record {
     float base_color[4]; // linear R, G, B; A
@@ -144,6 +146,8 @@ typedef struct glint_material_record {
     float normal_scale;  // of the normal texture
     float occlusion_strength;
     float roughness;                       // [0, 1]
+    float specular;                        // [0, 1], with GLINT_SPECULAR
+    float specular_color[3];               // ≥ 0, likewise
     int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
 

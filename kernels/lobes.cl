@@ -27,7 +27,7 @@ static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_r
                              largest3(ray->weight) * out->lobe_weight);
     const lobe_light light = integrate_lobe(scene, &l, rough);
     const real3 matte =
-        scale_add(light.base, out->matte_base, scale(light.edge, out->matte_edge));
+        add(multiply(out->matte_base, light.base), multiply(out->matte_edge, light.edge));
     const real3 by_path =
         add(multiply(out->lobe_base, light.base), multiply(out->lobe_edge, light.edge));
     seen.matte = select3(rough, multiply(ray->weight, matte), none);

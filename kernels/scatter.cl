@@ -13,10 +13,36 @@ typedef struct scattering {
 #if GLINT_ROUGH
     mask rough;                   // reflects a lobe
     real3 lobe_base, lobe_edge;   // what of lobe_light's parts paths bring
-    real matte_base, matte_edge;  // and what comes without one
+    real3 matte_base, matte_edge; // and what comes without one
     real lobe_weight;             // how much of the lobe that is together
 #endif
 } scattering;
+
+// What a dielectric reflects at right angles, F0, of each colour. KHR_materials_specular colours it.
+static inline real3 specular_at_right_angles(const surface *s, real f0)
+{
+#if GLINT_SPECULAR
+    const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
+    return smaller3(scale(s->specular_color, f0), one);
+#else
+    return real3_of(f0, f0, f0);
+#endif
+}
+
+// What a dielectric reflects of each colour whose Fresnel term is `reflectance`. With
+// KHR_materials_specular that says how far it is between F0 and 1, and a share of it all is left.
+static inline real3 specular_reflectance(const surface *s, real reflectance, real eta)
+{
+#if GLINT_SPECULAR
+    const real root = (R(1.0) - eta) / (R(1.0) + eta), f0 = root * root;
+    const real way = LARGER((reflectance - f0) / (R(1.0) - f0), real_of(0));
+    const real3 from = specular_at_right_angles(s, f0);
+    const real3 rest = real3_of(R(1.0) - from.x, R(1.0) - from.y, R(1.0) - from.z);
+    return scale(scale_add(rest, way, from), s->specular);
+#else
+    return real3_of(reflectance, reflectance, reflectance);
+#endif
+}
 
 // Rule 4, glass: reflectance and transmitted direction. A thin wall is one interface from empty
 // space, whatever the side, and lets light pass straight on.
@@ -71,6 +97,9 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
     }
     const real reflectance =
         glass_reflectance(s, v, eta, &out->transmitted, &out->bend, &out->total_reflection);
+    const real3 all = real3_of(share, share, share);
+    real3 reflected = scale(specular_reflectance(s, reflectance, eta), share);
+    reflected = select3(out->total_reflection, all, reflected);
     if (GLINT_THIN_WALL) {
         const mask thin = HAS_FLAG(*s, GLINT_MATERIAL_THIN);
         out->transmitted = select3(thin, negate(v), out->transmitted);
@@ -78,9 +107,8 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
         eta = SELECT(thin, real_of(1), eta);
     }
     out->eta = eta;
-    const real reflected = share * reflectance;
-    out->reflected_weight = add(out->reflected_weight, real3_of(reflected, reflected, reflected));
-    out->transmitted_weight = scale(s->base_color, share - reflected);
+    out->reflected_weight = add(out->reflected_weight, reflected);
+    out->transmitted_weight = scale(s->base_color, share - largest3(reflected));
     out->total_reflection = out->total_reflection & (share > R(0.0));
 }
 
@@ -123,25 +151,31 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
     const real3 metal = scale(scale_add(tint, lost, one), s->metallic);
     out->lobe_base = multiply(tint, metal);
     out->lobe_edge = GLINT_FRESNEL ? metal : out->lobe_base;
-    out->matte_base = out->matte_edge = zero;
+    out->matte_base = out->matte_edge = real3_of(zero, zero, zero);
     real coat = zero;
     if (GLINT_PAINT && GLINT_FRESNEL) {
         const real root = (s->ior - R(1.0)) / (s->ior + R(1.0));
-        const real f0 = root * root, gain = fused(f0, lost, real_of(1));
-        const real whole_edge = paint * gain, own = whole_edge * f0;
+        const real3 f0 = specular_at_right_angles(s, root * root);
+        real3 gain = scale_add(f0, lost, one);
+#if GLINT_SPECULAR
+        gain = scale(gain, s->specular);
+#endif
+        const real3 whole_edge = scale(gain, paint), own = multiply(whole_edge, f0);
         const real by_path = share_of_path(s->roughness);
-        const real base = own * by_path, edge = whole_edge * by_path;
-        coat = gain * fused(f0, albedo.base, albedo.edge);
-        out->lobe_base = add(out->lobe_base, real3_of(base, base, base));
-        out->lobe_edge = add(out->lobe_edge, real3_of(edge, edge, edge));
-        out->matte_base = own - base;
-        out->matte_edge = whole_edge - edge;
+        const real3 base = scale(own, by_path), edge = scale(whole_edge, by_path);
+        const real3 edges = real3_of(albedo.edge, albedo.edge, albedo.edge);
+        coat = largest3(multiply(gain, scale_add(f0, albedo.base, edges)));
+        out->lobe_base = add(out->lobe_base, base);
+        out->lobe_edge = add(out->lobe_edge, edge);
+        out->matte_base = subtract(own, base);
+        out->matte_edge = subtract(whole_edge, edge);
     }
     const real3 weight =
         scale_add(out->lobe_base, albedo.base, scale(out->lobe_edge, albedo.edge));
     out->reflected_weight = select3(out->rough, weight, out->reflected_weight);
-    const real matte = fused(out->matte_base, albedo.base, out->matte_edge * albedo.edge);
-    out->lobe_weight = (largest3(weight) + matte) / (albedo.base + albedo.edge);
+    const real3 matte =
+        scale_add(out->matte_base, albedo.base, scale(out->matte_edge, albedo.edge));
+    out->lobe_weight = (largest3(weight) + largest3(matte)) / (albedo.base + albedo.edge);
     return R(1.0) - coat;
 }
 #endif
@@ -159,10 +193,11 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
 #if GLINT_FACETS
         smooth = smooth | s->facet.there;
 #endif
-        const real reflectance = surface_reflectance(s->cosine, s->ior);
-        const real gloss = SELECT(smooth, share * reflectance, real_of(0));
-        out->reflected_weight = add(out->reflected_weight, real3_of(gloss, gloss, gloss));
-        kept = SELECT(smooth, R(1.0) - reflectance, kept);
+        const real3 reflectance = specular_reflectance(
+            s, surface_reflectance(s->cosine, s->ior), R(1.0) / s->ior);
+        const real3 gloss = scale(reflectance, SELECT(smooth, share, real_of(0)));
+        out->reflected_weight = add(out->reflected_weight, gloss);
+        kept = SELECT(smooth, R(1.0) - largest3(reflectance), kept);
     }
     out->emitted = scale(multiply(s->base_color, irradiance), share * kept);
 }
@@ -192,8 +227,8 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
 #if GLINT_ROUGH
     out->lobe_base = scale(out->lobe_base, left);
     out->lobe_edge = scale(out->lobe_edge, left);
-    out->matte_base *= left;
-    out->matte_edge *= left;
+    out->matte_base = scale(out->matte_base, left);
+    out->matte_edge = scale(out->matte_edge, left);
     out->lobe_weight *= left;
 #endif
     out->transmitted_weight =
@@ -288,10 +323,8 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
         scatter_paint(s, irradiance, dielectric - glass, kept, &result);
     }
 #if GLINT_ROUGH && GLINT_LIGHTS
-    const real3 grey_base = real3_of(result.matte_base, result.matte_base, result.matte_base);
-    const real3 grey_edge = real3_of(result.matte_edge, result.matte_edge, result.matte_edge);
-    const real3 shine = add(multiply(add(result.lobe_base, grey_base), s->shine_base),
-                            multiply(add(result.lobe_edge, grey_edge), s->shine_edge));
+    const real3 shine = add(multiply(add(result.lobe_base, result.matte_base), s->shine_base),
+                            multiply(add(result.lobe_edge, result.matte_edge), s->shine_edge));
     result.emitted = select3(result.rough, add(result.emitted, shine), result.emitted);
 #endif
 #if GLINT_FACETS

@@ -59,6 +59,10 @@ typedef struct surface {
 #if GLINT_ROUGH || GLINT_FACETS
     real roughness;
 #endif
+#if GLINT_SPECULAR
+    real specular;        // of a dielectric's reflection
+    real3 specular_color; // of what it reflects at right angles
+#endif
 #if GLINT_FACETS
     facet facet; // none is there until take_facet
 #endif
@@ -314,6 +318,12 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
 #if GLINT_ROUGH || GLINT_FACETS
     s->roughness = SELECT(yes, real_of(m->roughness), s->roughness);
 #endif
+#if GLINT_SPECULAR
+    s->specular = SELECT(yes, real_of(m->specular), s->specular);
+    s->specular_color.x = SELECT(yes, real_of(m->specular_color[0]), s->specular_color.x);
+    s->specular_color.y = SELECT(yes, real_of(m->specular_color[1]), s->specular_color.y);
+    s->specular_color.z = SELECT(yes, real_of(m->specular_color[2]), s->specular_color.z);
+#endif
     s->blend = SELECT(yes, real_of(m->blend), s->blend);
     s->flags = SELECT(yes, int_of((lane_int)m->flags), s->flags);
     s->medium = SELECT(yes, int_of((lane_int)m->medium), s->medium);
@@ -369,6 +379,15 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
     case GLINT_SLOT_EMISSION:
         s->emission = select3(here, multiply(s->emission, rgb), s->emission);
         break;
+#if GLINT_SPECULAR
+    case GLINT_SLOT_SPECULAR:
+        s->specular = SELECT(here, s->specular * c->a, s->specular);
+        break;
+    case GLINT_SLOT_SPECULAR_COLOR:
+        s->specular_color =
+            select3(here, multiply(s->specular_color, rgb), s->specular_color);
+        break;
+#endif
     case GLINT_SLOT_TRANSMISSION:
         s->transmission = SELECT(here, s->transmission * c->r, s->transmission);
         break;

@@ -155,8 +155,11 @@ static inline real3 light_passing(const surface *s)
 #if GLINT_GLASS
     const mask glass = HAS_FLAG(*s, GLINT_MATERIAL_SOLID) | HAS_FLAG(*s, GLINT_MATERIAL_THIN);
     const real share = (R(1.0) - s->metallic) * s->transmission;
-    const real reflectance =
-        GLINT_FRESNEL ? surface_reflectance(s->cosine, s->ior) : real_of(0);
+    real reflectance = real_of(0);
+    if (GLINT_FRESNEL) {
+        reflectance = largest3(specular_reflectance(
+            s, surface_reflectance(s->cosine, s->ior), R(1.0) / s->ior));
+    }
     passing = scale(s->base_color, SELECT(glass, share - share * reflectance, real_of(0)));
 #endif
 #if GLINT_ALPHA

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#define NO_BLEND .mirror = (-1)
+#define NO_BLEND GLINT_MATERIAL_SPECULAR, .mirror = (-1)
 #define WHITE .base_color = {1, 1, 1}
 #define RED .base_color = {1, 0, 0}
 #define SOLID NO_BLEND, .transmission = 1, .thickness = 1
@@ -53,6 +53,15 @@ static const struct {
     {"a rough wall that is paint in part, whose coat is its facets'",
      {NO_BLEND, .transmission = 0.5F, .roughness = 0.5F},
      {.glass = true, .thin = true, .facets = true, .paint = true, .gloss = true}},
+    {"paint that reflects less",
+     {.mirror = -1, RED, .specular = 0.5F, .specular_color = {1, 1, 1}},
+     {.paint = true, .gloss = true, .specular = true}},
+    {"a wall of coloured reflection",
+     {.mirror = -1, .transmission = 1, .specular = 1, .specular_color = {1, 1, 0}},
+     {.glass = true, .thin = true, .specular = true}},
+    {"metal, of which specular says nothing",
+     {.mirror = -1, WHITE, .metallic = 1, .specular = 0},
+     {.metal = true}},
     {"a clear solid", {SOLID, CLEAR}, {HAS_SOLID}},
     {"a solid that absorbs green",
      {SOLID, .attenuation_distance = 2, .attenuation_color = {1, 0.5F, 1}},

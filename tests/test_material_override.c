@@ -15,8 +15,7 @@
 
 static const glint_option option = {.kind = GLINT_OPTION_CUSTOM, .name = "material"};
 
-#define FILE_MATERIAL                                                                              \
-    .ior = 1.5F, .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}, .mirror = (-1)
+#define FILE_MATERIAL GLINT_MATERIAL_CLEAR, .mirror = (-1)
 
 // As a file might hold them.
 static void file_materials(glint_material materials[4])

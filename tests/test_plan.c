@@ -29,6 +29,7 @@ typedef struct test_scene {
 static const glint_material white_paint = {.base_color = {1, 1, 1},
                                            .roughness = 1,
                                            .ior = 1.5f,
+                                           GLINT_MATERIAL_SPECULAR,
                                            .attenuation_distance = INFINITY,
                                            .attenuation_color = {1, 1, 1},
                                            .mirror = -1};

@@ -45,8 +45,9 @@ typedef struct judged {
     float roughness; // of all materials; less than 0: as they are
     float metallic;  // likewise
     glint_settings settings;
-    int strata;  // of the oracle's facets along each axis; 0: there is no rough glass
-    float alpha; // of glass, less than 1: how much of it is there
+    int strata;    // of the oracle's facets along each axis; 0: there is no rough glass
+    float alpha;   // of glass, less than 1: how much of it is there
+    bool specular; // with KHR_materials_specular
 } judged;
 
 static double judge(const judged *j)
@@ -65,10 +66,17 @@ static double judge(const judged *j)
             m->alpha = j->alpha;
         }
         m->metallic = j->metallic < 0 ? m->metallic : j->metallic;
+        if (j->specular) {
+            m->specular = 0.6F;
+            m->specular_color[0] = 40; // more than all
+            m->specular_color[1] = 0.5F;
+        }
     }
     test_frame frame;
     test_render(&scene, j->environment, NULL, &j->settings, &frame);
-    const glint_feature feature = j->strata > 0 ? GLINT_FEATURE_FACETS : GLINT_FEATURE_ROUGH;
+    const glint_feature feature = j->specular     ? GLINT_FEATURE_SPECULAR
+                                  : j->strata > 0 ? GLINT_FEATURE_FACETS
+                                                  : GLINT_FEATURE_ROUGH;
     assert_true(frame.plan.features[feature].compiled);
     bridge *b = bridge_create(&scene, j->environment);
     glint_cube irradiance = {0};
@@ -114,7 +122,8 @@ static void check_spheres(float metallic, glint_roughness roughness, double allo
                           metallic,
                           rough_frame(roughness, 1),
                           0,
-                          1};
+                          1,
+                          false};
         const double error = judge(&j);
         print_message("metallic %g, roughness %4g, %s: %.4f\n", (double)metallic,
                       (double)roughnesses[i], roughness == GLINT_ROUGHNESS_FAST ? "fast" : "exact",
@@ -160,7 +169,8 @@ static void in_a_white_furnace_lobes_are_their_albedo(void **state)
                           1,
                           rough_frame(GLINT_ROUGHNESS_FAST, 1),
                           0,
-                          1};
+                          1,
+                          false};
         const double error = judge(&j);
         print_message("furnace, roughness %4g: %.4f\n", (double)roughnesses[i], error);
         assert_true(error <= 0.01);
@@ -208,7 +218,7 @@ static void paths_go_on_from_rough_surfaces(void **state)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         for (int variant = 0; variant < 5; variant++) {
             judged j = {names[i], &environment, 0.4F, -1, rough_frame(GLINT_ROUGHNESS_EXACT, 3), 0,
-                        1};
+                        1,        false};
             j.settings.env_rotate = variant == 1 ? 70 : 0;
             j.settings.fresnel = variant == 2 ? GLINT_FRESNEL_NONE : GLINT_FRESNEL_EXACT;
             j.settings.precision = variant == 3 ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
@@ -270,6 +280,44 @@ static void rough_glass_is_what_the_oracle_sees(void **state)
     glint_environment_free(&environment);
 }
 
+// KHR_materials_specular: on smooth and rough paint, beside metal, on glass, and where lights
+// shine. The oracle's quadrature is plain, and lobes have their own error (above).
+static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene;
+        float roughness, metallic;
+        int strata;
+        double allowed;
+    } kinds[] = {
+        {"mirror_sphere", 0, 0, 0, 1e-6},      {"mirror_sphere", 0.3F, 0, 0, 0.004},
+        {"mirror_sphere", 0.8F, 0, 0, 0.004},  {"mirror_sphere", 0.8F, 0.5F, 0, 0.004},
+        {"lights", 0.4F, -1, 0, 0.004},        {"glass_sphere", 0, -1, 0, 1e-5},
+        {"nested_glass", 0, -1, 0, 1e-5},      {"thin_wall", 0, -1, 0, 3e-5},
+        {"glass_sphere", 0.3F, -1, 24, 0.016},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        judged j = {kinds[i].scene,
+                    &environment,
+                    kinds[i].roughness,
+                    kinds[i].metallic,
+                    rough_frame(GLINT_ROUGHNESS_EXACT, 3),
+                    kinds[i].strata,
+                    1,
+                    true};
+        j.settings.width = 16;
+        j.settings.height = 12;
+        j.settings.facets = 1024;
+        const double error = judge(&j);
+        print_message("specular, %s, roughness %g: %.7f\n", j.scene, (double)j.roughness, error);
+        assert_true(error <= kinds[i].allowed);
+    }
+    glint_environment_free(&environment);
+}
+
 static void check_widths(const char *name)
 {
     static const int widths[] = {1, 8, 16};
@@ -307,6 +355,7 @@ int main(void)
         cmocka_unit_test(all_scattering_loses_nothing),
         cmocka_unit_test(paths_go_on_from_rough_surfaces),
         cmocka_unit_test(rough_glass_is_what_the_oracle_sees),
+        cmocka_unit_test(specular_weighs_and_colours_what_paint_and_glass_reflect),
         cmocka_unit_test(all_widths_take_the_same_cells_and_facets),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

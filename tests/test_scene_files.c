@@ -112,6 +112,7 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
         "{\"name\":\"glass\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,0.5],"
         "\"metallicFactor\":0,\"roughnessFactor\":0},\"extensions\":{"
         "\"KHR_materials_transmission\":{\"transmissionFactor\":0.75},"
+        "\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularColorFactor\":[0,1,40]},"
         "\"KHR_materials_ior\":{\"ior\":2.4},\"KHR_materials_volume\":{\"thicknessFactor\":1,"
         "\"attenuationDistance\":0.5,\"attenuationColor\":[1,0.5,0]}}},"
         "{\"name\":\"lamp\",\"emissiveFactor\":[1,0.5,0],\"extensions\":{"
@@ -125,12 +126,15 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
     assert_true(glass->metallic == 0 && glass->roughness == 0 && glass->transmission == 0.75f);
     assert_true(glass->ior == 2.4f && glass->thickness == 1 && glass->mirror == -1);
     assert_true(glass->attenuation_distance == 0.5f && glass->attenuation_color[1] == 0.5f);
-    assert_true(glint_material_lobes(glass).solid);
+    assert_true(glint_material_lobes(glass).solid && glint_material_lobes(glass).specular);
+    assert_true(glass->specular == 0.5f && glass->specular_color[0] == 0 &&
+                glass->specular_color[2] == 40);
     const glint_material *lamp = &scene.materials[1];
     assert_string_equal(lamp->name, "lamp");
     assert_true(lamp->emission[0] == 8 && lamp->emission[1] == 4 && lamp->emission[2] == 0);
     assert_true(lamp->unlit && lamp->mirror == 0.25f && isinf(lamp->attenuation_distance));
     assert_null(scene.materials[2].name); // the default
+    assert_true(scene.materials[2].specular == 1 && scene.materials[2].specular_color[2] == 1);
     assert_int_equal(scene.instances[0].material, 1);
     assert_int_equal(scene.instances[1].material, 2);
     assert_int_equal(scene.instances[2].material, 0);

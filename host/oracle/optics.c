@@ -1,5 +1,5 @@
 // The oracle's optics: reflection, refraction, Fresnel, absorption.
-#include "oracle/oracle.h"
+#include "oracle/surface.h"
 #include "oracle/vector.h"
 
 void oracle_reflect(const double normal[3], const double viewer[3], double reflected[3])
@@ -46,4 +46,21 @@ double oracle_transmittance(double colour, double colour_distance, double length
     if (colour <= 0.0)
         return 0.0; // σ is infinite
     return exp(log(colour) / colour_distance * length_inside);
+}
+
+vector oracle_tinted(const surface *s, double f0)
+{
+    vector f = {{0.0, 0.0, 0.0}};
+    for (int i = 0; i < 3; i++)
+        f.at[i] = fmin(1.0, f0 * s->specular_color.at[i]);
+    return f;
+}
+
+vector oracle_dielectric(const surface *s, double f, double f0)
+{
+    vector reflected = {{0.0, 0.0, 0.0}}, from = oracle_tinted(s, f0);
+    double way = fmax(0.0, (f - f0) / (1.0 - f0));
+    for (int i = 0; i < 3; i++)
+        reflected.at[i] = s->specular * (from.at[i] + (1.0 - from.at[i]) * way);
+    return reflected;
 }

@@ -15,6 +15,8 @@ static const double PI = 3.14159265358979323846;
 const oracle_material oracle_material_default = {
     .base = {1.0, 1.0, 1.0},
     .ior = 1.5,
+    .specular = 1.0,
+    .specular_color = {1.0, 1.0, 1.0},
     .attenuation = {1.0, 1.0, 1.0},
     .attenuation_distance = INFINITY,
     .mirror = -1.0,
@@ -157,8 +159,8 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
 
 // Rule 4: what glass does with light that meets it, F and the way through.
 typedef struct interface {
-    double fresnel;
-    vector through;  // t, where fresnel < 1
+    vector fresnel;
+    vector through;  // t, where not all is reflected
     vector unfolded; // t before it is folded
     path beyond;     // what goes through: with the media on the other side
 } interface;
@@ -177,7 +179,9 @@ static interface interface_at(walk *w, const path *p, const surface *s)
         ior_there = top_ior(w->scene, &glass.beyond.inside);
     }
     double eta = ior_here / ior_there;
-    glass.fresnel = w->view->no_fresnel ? 0.0 : oracle_fresnel(s->cosine, ior_here, ior_there);
+    if (!w->view->no_fresnel)
+        glass.fresnel = oracle_dielectric(s, oracle_fresnel(s->cosine, ior_here, ior_there),
+                                          oracle_fresnel(1.0, ior_here, ior_there));
     double margin = fabs(1.0 - eta * eta * (1.0 - s->cosine * s->cosine));
     w->report->critical = fmin(w->report->critical, margin);
     glass.through = scaled(s->viewer, -1.0);
@@ -185,7 +189,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
         return glass;
     bool passes = oracle_refract(s->normal.at, s->viewer.at, eta, glass.through.at);
     if (!passes) {
-        glass.fresnel = 1.0;
+        glass.fresnel = (vector){{1.0, 1.0, 1.0}};
         w->report->total_reflections++;
     }
     glass.unfolded = glass.through;
@@ -235,7 +239,10 @@ static vector pass_straight(void *state, const oracle_hit *hit, vector direction
         media_enter(&way->inside, s.index);
     else if (oracle_is_solid(m))
         media_leave(&way->inside, s.index);
-    double f = w->view->no_fresnel ? 0.0 : oracle_fresnel(s.cosine, 1.0, m->ior);
+    double f = 0.0;
+    if (!w->view->no_fresnel)
+        f = largest(oracle_dielectric(&s, oracle_fresnel(s.cosine, 1.0, m->ior),
+                                      oracle_fresnel(1.0, 1.0, m->ior)));
     double glass = m->unlit || m->mirror >= 0.0 ? 0.0 : (1.0 - s.metallic) * s.transmission;
     double gone = 1.0 - s.coverage;
     vector there = scaled(s.base, s.coverage * glass * (1.0 - f)), past = {{gone, gone, gone}};
@@ -339,22 +346,23 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
 {
     double as_metal = s->coverage * s->metallic, as_paint = s->coverage * (1.0 - s->metallic);
     lobe_integrals lobe = oracle_lobe(s, w->view->roughness, radiance, w->scene);
-    double n = s->material->ior, f0 = (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0));
-    double coat = w->view->no_fresnel ? 0.0 : 1.0;
+    double n = s->material->ior;
+    vector f0 = oracle_tinted(s, (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0)));
+    vector white = {{1.0, 1.0, 1.0}};
     // Turquin 2019: of what leaves to other microfacets F0 is reflected again, and so on.
     double lost = w->view->all_scattering ? 1.0 / (lobe.white_base + lobe.white_edge) - 1.0 : 0.0;
-    coat *= 1.0 + f0 * lost;
+    vector coat = scaled(plus(white, scaled(f0, lost)), w->view->no_fresnel ? 0.0 : s->specular);
     double by_path = fmin(1.0, fmax(0.0, (0.6 - s->roughness) / 0.3)); // the rest as matte light
-    double paths = coat * as_paint * by_path, matte = coat * as_paint * (1.0 - by_path);
-    vector white = {{1.0, 1.0, 1.0}};
+    vector paths = scaled(coat, as_paint * by_path),
+           matte = scaled(coat, as_paint * (1.0 - by_path));
     vector metal = scaled(plus(white, scaled(s->base, lost)), as_metal);
-    vector base = plus(times(s->base, metal), scaled(white, paths * f0));
-    vector edge = w->view->no_fresnel ? base : plus(metal, scaled(white, paths));
-    vector matte_light = plus(scaled(lobe.base, matte * f0), scaled(lobe.edge, matte));
+    vector base = plus(times(s->base, metal), times(paths, f0));
+    vector edge = w->view->no_fresnel ? base : plus(metal, paths);
+    vector matte_light = plus(times(lobe.base, times(matte, f0)), times(lobe.edge, matte));
     w->radiance = plus(w->radiance, times(p->weight, matte_light));
-    vector all = {{matte, matte, matte}};
-    add_highlights(w, p, s, plus(base, scaled(all, f0)), plus(edge, all));
-    double kept = 1.0 - coat * (f0 * lobe.white_base + lobe.white_edge);
+    add_highlights(w, p, s, plus(base, times(matte, f0)), plus(edge, matte));
+    vector seen = times(coat, plus(scaled(f0, lobe.white_base), scaled(white, lobe.white_edge)));
+    double kept = 1.0 - largest(seen);
     add_matte(w, p, s, scaled(s->base, as_paint * kept));
     vector held = plus(times(base, lobe.base), times(edge, lobe.edge));
     vector weight = plus(scaled(base, lobe.white_base), scaled(edge, lobe.white_edge));
@@ -378,15 +386,17 @@ static shares shares_at(walk *w, const path *p, const surface *s)
                  .glass = {.through = scaled(s->viewer, -1.0), .beyond = *p}};
     if (as_paint > 0.0) {
         bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // and shown without a coat
-        double f = !rough && !w->view->no_fresnel ? oracle_fresnel(s->cosine, 1.0, m->ior) : 0.0;
-        of.reflected = plus(of.reflected, (vector){{as_paint * f, as_paint * f, as_paint * f}});
-        of.matte = scaled(s->base, as_paint * (1.0 - f));
+        vector coat = {{0.0, 0.0, 0.0}};
+        if (!rough && !w->view->no_fresnel)
+            coat = oracle_dielectric(s, oracle_fresnel(s->cosine, 1.0, m->ior),
+                                     oracle_fresnel(1.0, 1.0, m->ior));
+        of.reflected = plus(of.reflected, scaled(coat, as_paint));
+        of.matte = scaled(s->base, as_paint * (1.0 - largest(coat)));
     }
     if (as_glass > 0.0) {
         of.glass = interface_at(w, p, s);
-        double f = as_glass * of.glass.fresnel;
-        of.reflected = plus(of.reflected, (vector){{f, f, f}});
-        of.through = scaled(s->base, as_glass * (1.0 - of.glass.fresnel));
+        of.reflected = plus(of.reflected, scaled(of.glass.fresnel, as_glass));
+        of.through = scaled(s->base, as_glass * (1.0 - largest(of.glass.fresnel)));
     }
     return of;
 }

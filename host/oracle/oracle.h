@@ -38,12 +38,14 @@ typedef struct oracle_corner {
 
 // What textures are for: by which their values multiply a factor, if not said otherwise.
 typedef enum oracle_role {
-    ORACLE_BASE,         // R, G, B the base colour, A the alpha
-    ORACLE_METALLIC,     // B; G: the roughness
-    ORACLE_NORMAL,       // R, G, B are a normal's components along tangent, bitangent and normal
-    ORACLE_OCCLUSION,    // R: what is left of the irradiance
-    ORACLE_EMISSION,     // R, G, B
-    ORACLE_TRANSMISSION, // R
+    ORACLE_BASE,           // R, G, B the base colour, A the alpha
+    ORACLE_METALLIC,       // B; G: the roughness
+    ORACLE_NORMAL,         // R, G, B are a normal's components along tangent, bitangent and normal
+    ORACLE_OCCLUSION,      // R: what is left of the irradiance
+    ORACLE_EMISSION,       // R, G, B
+    ORACLE_TRANSMISSION,   // R
+    ORACLE_SPECULAR,       // A
+    ORACLE_SPECULAR_COLOR, // R, G, B
     ORACLE_ROLES
 } oracle_role;
 
@@ -55,6 +57,8 @@ typedef struct oracle_material {
     double metallic, roughness;
     double emission[3];          // radiance, strength included
     double transmission, ior;    // KHR_materials_transmission, _ior
+    double specular;             // KHR_materials_specular: the factor
+    double specular_color[3];    // and the colour's
     double thickness;            // KHR_materials_volume: > 0 bounds a solid, 0 is a thin wall
     double attenuation[3];       // colour that white light has after attenuation_distance
     double attenuation_distance; // metres; INFINITY: clear

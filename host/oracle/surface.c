@@ -127,6 +127,10 @@ static void take_material(const place *p, const arrival *by, surface *s)
     s->metallic = m->metallic * metal.rgba[2];
     s->roughness = m->roughness * metal.rgba[1];
     s->transmission = m->transmission * glance_at(p, by, ORACLE_TRANSMISSION, s).rgba[0];
+    s->specular = m->specular * glance_at(p, by, ORACLE_SPECULAR, s).rgba[3];
+    oracle_glance tint = glance_at(p, by, ORACLE_SPECULAR_COLOR, s);
+    for (int c = 0; c < 3; c++)
+        s->specular_color.at[c] = m->specular_color[c] * tint.rgba[c];
     double open = glance_at(p, by, ORACLE_OCCLUSION, s).rgba[0];
     s->occlusion = 1.0 - m->occlusion_strength * (1.0 - open);
     cover(m->alpha * color[3] * base.rgba[3], m->alpha * (slope + base.slope), by, s);

@@ -28,7 +28,8 @@ typedef struct surface {
                       // convex; 0 where a vertex has none
     // The factors, as textures and the vertices' colours change them.
     vector base, emission;
-    double metallic, roughness, transmission, occlusion, coverage;
+    vector specular_color;
+    double metallic, roughness, transmission, specular, occlusion, coverage;
     double jump; // see oracle_report
 } surface;
 
@@ -46,5 +47,12 @@ surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, cons
 // count.
 bool oracle_is_solid(const oracle_material *m);
 bool oracle_is_thin(const oracle_material *m);
+
+// F0 as KHR_materials_specular colours it, before the factor.
+vector oracle_tinted(const surface *s, double f0);
+
+// What a dielectric reflects where Fresnel's term is f, and f0 at right angles. The extension keeps
+// how far f is on its way from f0 to 1.
+vector oracle_dielectric(const surface *s, double f, double f0);
 
 #endif

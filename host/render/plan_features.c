@@ -18,6 +18,7 @@
     LOBE(ABSORPTION, absorption, "absorption inside")                                              \
     LOBE(PAINT, paint, "a share of paint")                                                         \
     LOBE(GLOSS, gloss, "paint of roughness 0, or textured")                                        \
+    LOBE(SPECULAR, specular, "KHR_materials_specular")                                             \
     LOBE(BLEND, blend, "the lecture's blend")                                                      \
     LOBE(UNLIT, unlit, "KHR_materials_unlit")                                                      \
     LOBE(EMISSION, emission, "emission")
@@ -141,6 +142,7 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     }
     if (!exact) {
         decide(plan, GLINT_FEATURE_GLOSS, false, "no Fresnel term was asked for");
+        decide(plan, GLINT_FEATURE_SPECULAR, false, "no Fresnel term was asked for");
     }
 }
 

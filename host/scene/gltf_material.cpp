@@ -205,6 +205,26 @@ void read_specular_glossiness(const json &object, const Place &place, glint_mate
     result.alpha = diffuse[3];
 }
 
+// Colours that may be brighter than white.
+void read_specular_color(const json &object, const Place &object_place, float *result)
+{
+    const json *found = member(object, "specularColorFactor");
+    if (found == nullptr) {
+        return;
+    }
+    const Place place = object_place / "specularColorFactor";
+    if (!found->is_array() || found->size() != 3) {
+        refuse(place, "not an array of 3 numbers");
+    }
+    for (std::size_t i = 0; i < 3; i++) {
+        const double value = number_of((*found)[i], place[i]);
+        if (!(value >= -1e-6 && value <= FLT_MAX)) { // less by an exporter's rounding is 0
+            refuse(place[i], shown(value) + " is out of range (give 0 or more)");
+        }
+        result[i] = static_cast<float>(std::max(value, 0.0));
+    }
+}
+
 void read_extensions(const json &material, const Place &place, glint_material &result)
 {
     Place at = place / "extensions";
@@ -220,6 +240,11 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     }
     if (const json *found = extension_of(material, place, "KHR_materials_volume")) {
         read_volume(*found, at / "KHR_materials_volume", result);
+    }
+    if (const json *found = extension_of(material, place, "KHR_materials_specular")) {
+        Place in = at / "KHR_materials_specular";
+        result.specular = factor(*found, in, "specularFactor", 1);
+        read_specular_color(*found, in, result.specular_color);
     }
     if (const json *found = extension_of(material, place, "KHR_materials_emissive_strength")) {
         float strength =
@@ -290,6 +315,8 @@ void make_grey(glint_material &material)
     material.textures[GLINT_TEXTURE_BASE_COLOR] = {};
     material.textures[GLINT_TEXTURE_METALLIC_ROUGHNESS] = {};
     material.textures[GLINT_TEXTURE_TRANSMISSION] = {};
+    material.textures[GLINT_TEXTURE_SPECULAR] = {};
+    material.textures[GLINT_TEXTURE_SPECULAR_COLOR] = {};
 }
 
 // What stands for a texture that cannot be shown. Returns what is said of it.
@@ -307,6 +334,9 @@ const char *do_without(glint_texture_slot slot, UsedMaterial &used)
     case GLINT_TEXTURE_EMISSION:
         std::fill(material.emission, material.emission + 3, 0.0F);
         return "nothing is emitted";
+    case GLINT_TEXTURE_SPECULAR:
+    case GLINT_TEXTURE_SPECULAR_COLOR:
+        return "its factor alone is used";
     default:
         make_grey(material);
         return "the surface is rendered as grey paint";

@@ -43,6 +43,13 @@ static bool has_alpha(const glint_material *m)
     return m->alpha < 1 || m->has_vertex_colors || has_texture(m, GLINT_TEXTURE_BASE_COLOR);
 }
 
+// Whether KHR_materials_specular says anything.
+static bool is_specular(const glint_material *m)
+{
+    return m->specular != 1 || !is_white(m->specular_color) ||
+           has_texture(m, GLINT_TEXTURE_SPECULAR) || has_texture(m, GLINT_TEXTURE_SPECULAR_COLOR);
+}
+
 // The lobes that share the light.
 static glint_lobes sharing_lobes(const glint_material *m)
 {
@@ -68,6 +75,7 @@ static glint_lobes sharing_lobes(const glint_material *m)
     lobes.absorption = lobes.solid && absorbs(m);
     lobes.thin = lobes.glass && !lobes.solid;
     lobes.paint = dielectric && (m->transmission < 1 || has_texture(m, GLINT_TEXTURE_TRANSMISSION));
+    lobes.specular = (lobes.paint || lobes.glass) && is_specular(m);
     lobes.rough =
         (lobes.metal || lobes.paint) && !lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
     lobes.rough_path = lobes.rough && (lobes.metal || m->roughness < GLINT_COAT_MATTE ||

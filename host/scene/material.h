@@ -33,6 +33,8 @@ typedef struct glint_material {
     float thickness;            // KHR_materials_volume: > 0 makes the mesh the boundary of a solid
     float attenuation_distance; // metres; INFINITY where the file gives none
     float attenuation_color[3]; // what is left of white after attenuation_distance
+    float specular;             // KHR_materials_specular, [0, 1]: of what paint and glass reflect
+    float specular_color[3];    // likewise, ≥ 0: of that at right angles
     bool unlit;                 // KHR_materials_unlit
     float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
     glint_alpha_mode alpha_mode;
@@ -45,9 +47,12 @@ typedef struct glint_material {
     uint64_t warnings; // that loading gave first: bit i is set if the i-th concerns this material
 } glint_material;
 
-// What glTF 2.0 and its extensions give a material that says nothing of glass, for initialisers.
+// What glTF 2.0 and its extensions give a material that says nothing of them, for initialisers: of
+// KHR_materials_specular; and of that and of glass.
+#define GLINT_MATERIAL_SPECULAR .specular = 1, .specular_color = {1, 1, 1}
 #define GLINT_MATERIAL_CLEAR                                                                       \
-    .ior = 1.5F, .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}
+    GLINT_MATERIAL_SPECULAR, .ior = 1.5F, .attenuation_distance = INFINITY,                        \
+                             .attenuation_color = {1, 1, 1}
 
 // glTF's default material: rough, white metal.
 extern const glint_material glint_material_default;
@@ -70,6 +75,7 @@ typedef struct glint_lobes {
     bool thin;       // a wall without thickness: light passes straight
     bool paint;      // is lit by the environment's irradiance
     bool gloss;      // and reflects, as it is smooth
+    bool specular;   // what paint and glass reflect is weighed or coloured
     bool rough;      // metal, and the coat of paint, reflect lobes
     bool rough_path; // for which paths go on
     bool facets;     // glass is rough, and so is what beside it reflects

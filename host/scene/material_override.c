@@ -14,7 +14,8 @@
 #define OPAQUE GLINT_MATERIAL_CLEAR, .mirror = (-1)
 #define SOLID(n)                                                                                   \
     .base_color = {1, 1, 1}, .transmission = 1, .thickness = 1, .ior = (n),                        \
-    .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}, .mirror = (-1)
+    .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}, GLINT_MATERIAL_SPECULAR,     \
+    .mirror = (-1)
 
 // Indices of refraction at 589 nm: diamond, and water at 20 °C.
 static const struct preset {

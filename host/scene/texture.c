@@ -16,6 +16,8 @@ const char *glint_texture_slot_name(glint_texture_slot slot)
         [GLINT_TEXTURE_NORMAL] = "normal",
         [GLINT_TEXTURE_EMISSION] = "emission",
         [GLINT_TEXTURE_TRANSMISSION] = "transmission",
+        [GLINT_TEXTURE_SPECULAR] = "specular",
+        [GLINT_TEXTURE_SPECULAR_COLOR] = "specular colour",
     };
     return names[slot];
 }

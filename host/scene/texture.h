@@ -34,7 +34,9 @@ typedef enum glint_texture_slot {
     GLINT_TEXTURE_OCCLUSION = GLINT_SLOT_OCCLUSION, // R: what is left of the irradiance
     GLINT_TEXTURE_NORMAL = GLINT_SLOT_NORMAL,       // R, G, B: a normal in the tangent's frame
     GLINT_TEXTURE_EMISSION = GLINT_SLOT_EMISSION,   // R, G, B times the emission
-    GLINT_TEXTURE_TRANSMISSION = GLINT_SLOT_TRANSMISSION, // R times transmission
+    GLINT_TEXTURE_TRANSMISSION = GLINT_SLOT_TRANSMISSION,     // R times transmission
+    GLINT_TEXTURE_SPECULAR = GLINT_SLOT_SPECULAR,             // A times specular
+    GLINT_TEXTURE_SPECULAR_COLOR = GLINT_SLOT_SPECULAR_COLOR, // R, G, B times specular_color
     GLINT_TEXTURE_SLOTS = GLINT_MATERIAL_TEXTURES
 } glint_texture_slot;
 

@@ -91,6 +91,8 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         [ORACLE_OCCLUSION] = GLINT_TEXTURE_OCCLUSION,
         [ORACLE_EMISSION] = GLINT_TEXTURE_EMISSION,
         [ORACLE_TRANSMISSION] = GLINT_TEXTURE_TRANSMISSION,
+        [ORACLE_SPECULAR] = GLINT_TEXTURE_SPECULAR,
+        [ORACLE_SPECULAR_COLOR] = GLINT_TEXTURE_SPECULAR_COLOR,
     };
     static const oracle_alpha modes[] = {[GLINT_ALPHA_OPAQUE] = ORACLE_OPAQUE,
                                          [GLINT_ALPHA_MASK] = ORACLE_MASK,
@@ -100,6 +102,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         .roughness = (double)m->roughness,
         .transmission = (double)m->transmission,
         .ior = (double)m->ior,
+        .specular = (double)m->specular,
         .thickness = (double)m->thickness,
         .attenuation_distance = (double)m->attenuation_distance,
         .unlit = m->unlit,
@@ -113,6 +116,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
     copy_numbers(m->base_color, 3, o.base);
     copy_numbers(m->emission, 3, o.emission);
     copy_numbers(m->attenuation_color, 3, o.attenuation);
+    copy_numbers(m->specular_color, 3, o.specular_color);
     for (int role = 0; role < ORACLE_ROLES; role++) {
         o.texture[role] = texture_of(&m->textures[slots[role]], images);
     }

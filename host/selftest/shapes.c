@@ -142,6 +142,7 @@ static bool add_materials(shape *s)
 {
     static const glint_material clear = {.base_color = {1, 1, 1},
                                          .ior = (float)SHAPE_GLASS_IOR,
+                                         GLINT_MATERIAL_SPECULAR,
                                          .attenuation_distance = INFINITY,
                                          .attenuation_color = {1, 1, 1},
                                          .mirror = -1};

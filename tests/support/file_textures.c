@@ -124,6 +124,8 @@ static const json_t *info_of(const json_t *material, oracle_role role)
         [ORACLE_OCCLUSION] = {"occlusionTexture"},
         [ORACLE_EMISSION] = {"emissiveTexture"},
         [ORACLE_TRANSMISSION] = {"extensions", "KHR_materials_transmission", "transmissionTexture"},
+        [ORACLE_SPECULAR] = {"extensions", "KHR_materials_specular", "specularTexture"},
+        [ORACLE_SPECULAR_COLOR] = {"extensions", "KHR_materials_specular", "specularColorTexture"},
     };
     for (size_t i = 0; i < 3 && keys[role][i] != NULL; i++) {
         material = json_object_get(material, keys[role][i]);
@@ -149,7 +151,8 @@ static void read_texture(const file_textures *t, const json_t *material, oracle_
     take_sampler(sampler != NULL ? item(t, "samplers", json_number_value(sampler)) : NULL, texture);
     take_transform(transform, texture);
     read_image(t, item(t, "images", number(named, "source", -1)),
-               role == ORACLE_BASE || role == ORACLE_EMISSION, is_coverage, image);
+               role == ORACLE_BASE || role == ORACLE_EMISSION || role == ORACLE_SPECULAR_COLOR,
+               is_coverage, image);
     texture->image = image;
 }
 

@@ -84,11 +84,13 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
                               (double)m->alpha,
                               (double)m->alpha_cutoff,
                               (double)m->normal_scale,
-                              (double)m->occlusion_strength};
+                              (double)m->occlusion_strength,
+                              (double)m->specular};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
     add_array(state, m->base_color, sizeof *m->base_color, 3);
     add_array(state, m->emission, sizeof *m->emission, 3);
     add_array(state, m->attenuation_color, sizeof *m->attenuation_color, 3);
+    add_array(state, m->specular_color, sizeof *m->specular_color, 3);
     for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
         add_texture_use(state, &m->textures[slot]);
     }

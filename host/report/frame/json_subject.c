@@ -196,6 +196,8 @@ static json_t *material_object(const glint_material *material)
     // null: no attenuation at any distance
     glint_json_put_real(object, "attenuation_distance", (double)material->attenuation_distance);
     glint_json_put(object, "attenuation_color", color(material->attenuation_color));
+    glint_json_put_real(object, "specular", (double)material->specular);
+    glint_json_put(object, "specular_color", color(material->specular_color));
     glint_json_put_flag(object, "unlit", material->unlit);
     static const char *const modes[] = {"opaque", "mask", "blend"};
     glint_json_put_text(object, "alpha_mode", modes[material->alpha_mode]);
