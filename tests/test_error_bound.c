@@ -53,7 +53,7 @@ static double error_of(stage *s, const glint_image *image)
     glint_metrics metrics;
     if (s->reference.pixels == NULL) {
         glint_rung rung;
-        glint_rung_reference(&s->at.settings, true, false, &rung);
+        glint_rung_reference(&s->at.settings, true, &rung);
         assert_int_equal(glint_renderer_set_settings(s->at.renderer, &rung.settings, NULL),
                          GLINT_OK);
         assert_int_equal(glint_renderer_frame(&(glint_frame_request){s->at.renderer, &s->at.camera,

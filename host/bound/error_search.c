@@ -97,7 +97,7 @@ static glint_status try_rung(glint_error_search *s, const glint_rung *rung, glin
 void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *t)
 {
     *t = (glint_error_trial){.is_reference = true};
-    glint_rung_reference(&s->asked->settings, s->rough, s->faceted, &t->rung);
+    glint_rung_reference(&s->asked->settings, s->rough, &t->rung);
 }
 
 // ---- Where paths split -------------------------------------------------------------------------
@@ -397,15 +397,14 @@ static void learn(glint_error_search *s)
     }
 }
 
-// Rough surfaces exact, where those of the settings take half of the bound.
+// Exact lobes, where those of the settings take half of the bound.
 static glint_status choose_lobes(glint_error_search *s, glint_error *error)
 {
-    if (!s->rough && !s->faceted) {
+    if (!s->rough) {
         return GLINT_OK;
     }
     glint_settings settings = s->of_reference;
     settings.roughness = s->base.roughness;
-    settings.facets = s->base.facets;
     glint_grid_error found;
     TRY(glint_error_grid_measure(&s->grid, &settings, &found, error));
     if (!(2 * found.at_most <= s->asked->bound)) { // NaN as well
@@ -421,10 +420,9 @@ glint_status glint_error_search_begin(glint_error_search *s, const glint_error_b
     s->splits = plan->features[GLINT_FEATURE_SPLIT].compiled;
     s->glass = plan->features[GLINT_FEATURE_GLASS].compiled;
     s->rough = plan->features[GLINT_FEATURE_ROUGH].compiled;
-    s->faceted = plan->features[GLINT_FEATURE_FACETS].compiled;
     s->base = asked->settings;
     glint_rung reference;
-    glint_rung_reference(&asked->settings, s->rough, s->faceted, &reference);
+    glint_rung_reference(&asked->settings, s->rough, &reference);
     s->of_reference = reference.settings;
     if (s->grid.step > 1) { // one that is the frame is a small one, and has time for all
         const double least = fmin(1, asked->bound / REFERENCE_SHARE);

@@ -35,8 +35,7 @@ typedef struct glint_error_search {
     glint_error_grid grid;
     glint_settings of_reference; // of the grid
     glint_settings base;         // asked->settings, with lobes that keep the bound
-    bool splits, glass;          // paths split; there is glass
-    bool rough, faceted;         // lobes are seen; rough glass is
+    bool splits, glass, rough;   // paths split; there is glass; lobes are seen
     uint32_t deepest;            // surfaces of the longest path of the grid's reference
     uint64_t rays;               // of the grid's reference
     double truncation;           // of the grid's reference, see glint_truncation.rms

@@ -143,21 +143,16 @@ static void add_exact(const glint_plan *plan, const glint_settings *settings, gl
         GLINT_PRECISION_DOUBLE;
 }
 
-void glint_rung_reference(const glint_settings *settings, bool rough, bool faceted,
-                          glint_rung *reference)
+void glint_rung_reference(const glint_settings *settings, bool rough, glint_rung *reference)
 {
     glint_settings best = *settings;
     best.precision = GLINT_PRECISION_DOUBLE;
     best.depth = GLINT_REFERENCE_DEPTH;
     best.min_weight = GLINT_REFERENCE_MIN_WEIGHT;
-    best.roughness = rough || faceted ? GLINT_ROUGHNESS_EXACT : best.roughness;
-    best.facets = faceted ? GLINT_REFERENCE_FACETS : best.facets;
-    char options[96], facets[24] = "";
-    if (faceted) {
-        snprintf(facets, sizeof facets, " --facets %d", GLINT_REFERENCE_FACETS);
-    }
-    snprintf(options, sizeof options, "--precision double --depth %d --min-weight %.12g%s",
-             GLINT_REFERENCE_DEPTH, GLINT_REFERENCE_MIN_WEIGHT, facets);
+    best.roughness = rough ? GLINT_ROUGHNESS_EXACT : best.roughness;
+    char options[96];
+    snprintf(options, sizeof options, "--precision double --depth %d --min-weight %.12g",
+             GLINT_REFERENCE_DEPTH, GLINT_REFERENCE_MIN_WEIGHT);
     glint_rung_of(&best, "the reference", options, reference);
 }
 
@@ -167,21 +162,21 @@ static void add_lobes(const glint_settings *settings, glint_ladder *ladder)
     smooth.roughness = GLINT_ROUGHNESS_SMOOTH;
     exact.roughness = GLINT_ROUGHNESS_EXACT;
     add(ladder, &smooth, "rough surfaces smooth", "--roughness smooth");
-    add(ladder, &exact, "rough surfaces exact", "");
+    add(ladder, &exact, "exact lobes", "");
 }
 
 void glint_ladder_make(const glint_plan *plan, const glint_settings *settings, glint_ladder *ladder)
 {
     *ladder = (glint_ladder){0};
-    const bool rough = has(plan, GLINT_FEATURE_ROUGH), faceted = has(plan, GLINT_FEATURE_FACETS);
-    glint_rung_reference(settings, rough, faceted, &ladder->reference);
+    const bool rough = has(plan, GLINT_FEATURE_ROUGH);
+    glint_rung_reference(settings, rough, &ladder->reference);
     if (!has(plan, GLINT_FEATURE_GEOMETRY)) {
         add_exact(plan, settings, ladder);
         return;
     }
     add_vertices(plan, settings, ladder);
     add_depth(settings, 1, ladder);
-    if (rough || faceted) {
+    if (rough) {
         add_lobes(settings, ladder);
     }
     if (has(plan, GLINT_FEATURE_SPLIT)) {

@@ -17,7 +17,6 @@
 // glass differ by 2·10⁻⁴ and 6·10⁻⁴ (relative RMSE), other scenes not at all.
 #define GLINT_REFERENCE_DEPTH GLINT_DEPTH_MAX
 #define GLINT_REFERENCE_MIN_WEIGHT (1.0 / 65536)
-#define GLINT_REFERENCE_FACETS 4096
 
 typedef struct glint_rung {
     char name[64];     // "weights of 1/64"
@@ -36,8 +35,7 @@ void glint_rung_by_weight(const glint_settings *settings, glint_precision precis
                           glint_texels texels, double min_weight, glint_rung *rung);
 // A rung in single precision, mended by so much, to three digits; 0: not at all.
 void glint_rung_mend(double mend, glint_rung *rung);
-void glint_rung_reference(const glint_settings *settings, bool rough, bool faceted,
-                          glint_rung *reference);
+void glint_rung_reference(const glint_settings *settings, bool rough, glint_rung *reference);
 
 // Plain data.
 typedef struct glint_ladder {

@@ -39,15 +39,10 @@ bool glint_settings_heed_roughness(const glint_settings *settings)
            !settings->proxy;
 }
 
-#define FACETS_FAST 64
-#define FACETS_EXACT 1024
-
 int glint_settings_rounds(const glint_settings *settings)
 {
     const int samples = settings->samples_per_axis * settings->samples_per_axis;
-    const int usual = settings->roughness == GLINT_ROUGHNESS_EXACT ? FACETS_EXACT : FACETS_FAST;
-    const int wanted = settings->facets > 0 ? settings->facets : usual;
-    return (wanted + samples - 1) / samples;
+    return (settings->facets + samples - 1) / samples;
 }
 
 int glint_settings_directions(const glint_settings *settings)

@@ -65,8 +65,8 @@ typedef enum glint_scattering {
 
 // What becomes of rough surfaces that pixels shade, without terms and proxy; else they are smooth.
 typedef enum glint_roughness {
-    GLINT_ROUGHNESS_FAST,   // lobes, to about a hundredth; glass, to a few hundredths
-    GLINT_ROUGHNESS_EXACT,  // to a few thousandths; to about a hundredth
+    GLINT_ROUGHNESS_FAST,   // lobes, to about a hundredth
+    GLINT_ROUGHNESS_EXACT,  // to a few thousandths
     GLINT_ROUGHNESS_SMOOTH, // metal and glass are as smooth, and paint reflects nothing
 } glint_roughness;
 
@@ -117,7 +117,7 @@ typedef struct glint_settings {
     glint_lights lights;
     glint_roughness roughness;
     glint_scattering scattering;
-    int facets;            // directions of a pixel that meets rough glass, at least; 0: auto
+    int facets;            // directions of a pixel that meets rough glass, 1 or more
     bool proxy;            // the environment has one (environment.h), which is heeded: with the
                            // bilinear filter, shading pixel and no terms
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers

@@ -113,6 +113,7 @@ const glint_settings glint_settings_default = {
     .samples_per_axis = 1,
     .min_weight = 1.0 / 1024,
     .anisotropy = 8,
+    .facets = 64,
 };
 
 static const char *const shadings[] = {[GLINT_SHADING_PIXEL] = "pixel",
@@ -230,10 +231,9 @@ const glint_setting glint_setting_table[] = {
     {GLINT_SETTINGS_OF_FRAME, MEMBER(roughness), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "roughness", .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "roughness", .argument = "KIND",
-                .help = "How rough surfaces look: fast, metal and paint are right to about 0.01, "
-                        "glass to a few hundredths; exact, to about 0.003 and 0.02, in some three "
-                        "and sixteen times the time; smooth, metal is like a mirror, paint "
-                        "reflects nothing, glass is clear.",
+                .help = "How rough surfaces look: fast, metal and paint are right to about 0.01; "
+                        "exact, to about 0.003, in some three times the time; smooth, metal is "
+                        "like a mirror, paint reflects nothing, glass is clear.",
                 .choices = GLINT_CHOICES("fast", "exact", "smooth")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(scattering), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "scattering",
@@ -244,12 +244,12 @@ const glint_setting glint_setting_table[] = {
                     "leaves, so white metal reflects all.",
                 .choices = GLINT_CHOICES("single", "multiple")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(facets), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
-     .key = "facets", .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
+     .key = "facets", .roles = GLINT_SETTING_VARIES,
      .option = {GLINT_OPTION_INT, .name = "facets", .argument = "N",
                 .help = "Directions that a pixel takes where it meets rough glass: more take more "
-                        "time, and show fewer of the single directions.",
-                .fallback = "64, with --roughness exact 1024", .zero = "auto", .minimum = 1,
-                .maximum = GLINT_FACETS_MAX}},
+                        "time, and show fewer of the single directions. --max-error does not "
+                        "choose them.",
+                .minimum = 1, .maximum = GLINT_FACETS_MAX}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(shading), .fingerprint = 15, .key = "shading",
      .no_capture = "a capture shows what surfaces see of each other, which vertices do not",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,

@@ -79,6 +79,7 @@ static glint_status render_ball(trial *t, const rough_ball *ball)
     settings.height = 12;
     settings.depth = ball->depth;
     settings.roughness = GLINT_ROUGHNESS_EXACT;
+    settings.facets = 1024;
     const glint_camera camera = shape_camera(eye, target, 0.75, 0);
     glint_status status;
     TRY_OR(cleanup, status, make_ball(ball, &scene, t->error));
@@ -110,7 +111,7 @@ static glint_status rough_balls(trial *t)
         {"paint, roughness 0.4, half of its coat", MATERIAL_PAINT, 0.4F, 0.5F, 1, 64, 0.001},
         {"glass, roughness 0.4: one surface", MATERIAL_GLASS, 0.4F, 1, 1, 24, 0.0015},
         {"glass, roughness 0.4, half of what it reflects", MATERIAL_GLASS, 0.4F, 0.5F, 2, 24,
-         0.016},
+         0.012},
     };
     for (size_t i = 0; i < sizeof balls / sizeof *balls; i++) {
         TRY(render_ball(t, &balls[i]));
