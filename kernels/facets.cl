@@ -53,11 +53,6 @@ static inline real chosen_of(const scalar values[FACET_CHOICES], lanes_int met)
     return value;
 }
 
-static inline real facet_root(real alpha_squared, real cosine)
-{
-    return sqrt(fused((R(1.0) - alpha_squared) * cosine, cosine, alpha_squared));
-}
-
 static inline mask are_faceted(const surface *s)
 {
     const lane_int glass = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN;
@@ -126,7 +121,7 @@ static inline void take_facet(const glint_frame_record *frame, const facet_choic
     f->normal = s->normal;
     f->cosine = s->cosine;
     f->alpha_squared = alpha * alpha;
-    f->root = facet_root(f->alpha_squared, f->cosine);
+    f->root = smith_root(f->alpha_squared, f->cosine);
     const real3 h = facet_normals(frame, chosen, ray->met, s, alpha, v);
     const real toward = dot3(h, v);
     // The facets that are seen have the density 2 v·h D/(n·v + √…), D = α²/(π A²).
@@ -144,7 +139,7 @@ static inline void take_facet(const glint_frame_record *frame, const facet_choic
 // Smith's height-correlated G over that of what arrives.
 static inline real facet_openness(const facet *f, real cosine)
 {
-    const real root = facet_root(f->alpha_squared, cosine);
+    const real root = smith_root(f->alpha_squared, cosine);
     const real open = cosine * (f->cosine + f->root) / fused(cosine, f->root, f->cosine * root);
     return SELECT(cosine > R(0.0), open, real_of(0));
 }

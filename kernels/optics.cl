@@ -60,6 +60,12 @@ static inline real3 metal_reflectance(real3 f0, real cosine)
                     fused(R(1.0) - f0.z, m5, f0.z));
 }
 
+// √(α² + (1 − α²) cos²), of which Smith's shadowing by GGX's microfacets is made.
+static inline real smith_root(real alpha_squared, real cosine)
+{
+    return sqrt(fused((R(1.0) - alpha_squared) * cosine, cosine, alpha_squared));
+}
+
 // A direction that ends on the wrong side of the surface is folded back across its plane:
 // q − 2(q·n_g)n_g, which is continuous and keeps the length. `sign` is +1 where q belongs on the
 // side of the geometric normal, −1 where on the other.

@@ -24,11 +24,6 @@ typedef struct lobe_light {
     real3 base, edge; // ∫ D V (1 − m) E n·l dl, ∫ D V m E n·l dl
 } lobe_light;
 
-static inline real smith_root(const lobe *l, real cosine)
-{
-    return sqrt(fused((R(1.0) - l->alpha_squared) * cosine, cosine, l->alpha_squared));
-}
-
 // n and v are unit vectors, in axes of the environment; n·v is the cosine. A pixel sees the lobe's
 // light by `weight`.
 static inline lobe find_lobe(const cell_map *map, real3 normal, real3 v, real cosine,
@@ -51,7 +46,7 @@ static inline lobe find_lobe(const cell_map *map, real3 normal, real3 v, real co
     l.alpha_squared = l.alpha * l.alpha;
     l.widest = fused(real_of(GLINT_LOBE_WIDEST * GLINT_LOBE_TAIL), R(1.0) / l.alpha_squared,
                      real_of(GLINT_LOBE_WIDEST));
-    l.smith = smith_root(&l, cosine);
+    l.smith = smith_root(l.alpha_squared, cosine);
     const real inverse = R(1.0) / LARGER(weight, real_of(R(1e-4)));
     const real more = l.alpha * (sqrt(inverse) - R(1.0));
     const real usual = real_of(GLINT_CELL_LARGEST);
@@ -131,7 +126,7 @@ typedef struct lobe_parts {
 static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, real width,
                                          scalar variance, mask these)
 {
-    const real shadowing = fused(h->up, l->smith, l->cosine * smith_root(l, h->up));
+    const real shadowing = fused(h->up, l->smith, l->cosine * smith_root(l->alpha_squared, h->up));
     const real above = R(0.15915494309189535) * l->alpha_squared * h->up * h->whole * h->whole;
     const real inverse = R(1.0) / (width * width * shadowing);
     const real factor = spread_factor(l, h, variance, inverse * shadowing);
@@ -231,7 +226,7 @@ static inline lobe_parts weigh_light(real3 normal, real cosine, real roughness, 
     l.cosine = cosine;
     l.alpha = rho * rho;
     l.alpha_squared = l.alpha * l.alpha;
-    l.smith = smith_root(&l, cosine);
+    l.smith = smith_root(l.alpha_squared, cosine);
     const real3 both = add(v, to_light), across = cross3(normal, both);
     half_vector h;
     h.up = dot3(normal, to_light);

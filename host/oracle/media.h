@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-// By material, innermost last. A path meets at most
-// ORACLE_DEPTH_LIMIT surfaces and enters at most one solid at each; one more for where it began.
+// By material, innermost last. A path meets at most ORACLE_DEPTH_LIMIT surfaces and enters at most
+// one solid at each; one more for where it began.
 typedef struct media {
     int solid[ORACLE_DEPTH_LIMIT + 1];
     int count;
