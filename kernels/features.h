@@ -24,7 +24,7 @@
             GLINT_INTERREFLECTION, GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION,     \
             ACTIVE)                                                                                \
     FEATURE(SPLIT, "a path may go on both ways: reflected and transmitted",                        \
-            GLINT_GLASS || GLINT_ALPHA, 0, IDLE)                                                   \
+            GLINT_GLASS || GLINT_ALPHA || GLINT_CLEARCOAT, 0, IDLE)                                \
     FEATURE(SOLID, "light refracts into and out of solids by Snell's law", GLINT_GLASS, 0, IDLE)   \
     FEATURE(THIN_WALL, "light passes straight through walls without thickness", GLINT_GLASS, 0,    \
             IDLE)                                                                                  \
@@ -38,7 +38,10 @@
     FEATURE(GLOSS, "smooth paint reflects under its Fresnel term", GLINT_PAINT, 0, IDLE)           \
     FEATURE(SPECULAR, "what paint and glass reflect is weighed and coloured", GLINT_FRESNEL, 0,    \
             ACTIVE)                                                                                \
-    FEATURE(ROUGH, "rough surfaces reflect lobes of the environment", GLINT_MIRROR || GLINT_PAINT, \
+    FEATURE(CLEARCOAT, "a clear coat reflects, and what is below gets the rest", GLINT_FRESNEL,    \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
+    FEATURE(ROUGH, "rough surfaces reflect lobes of the environment",                              \
+            GLINT_MIRROR || GLINT_PAINT || GLINT_CLEARCOAT,                                        \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
                 GLINT_PROXY,                                                                       \
             ACTIVE)                                                                                \

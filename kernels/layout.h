@@ -131,7 +131,10 @@ typedef struct glint_split_vector {
 #define GLINT_SLOT_TRANSMISSION 5
 #define GLINT_SLOT_SPECULAR 6
 #define GLINT_SLOT_SPECULAR_COLOR 7
-#define GLINT_MATERIAL_TEXTURES 8
+#define GLINT_SLOT_CLEARCOAT 8
+#define GLINT_SLOT_CLEARCOAT_ROUGHNESS 9
+#define GLINT_SLOT_CLEARCOAT_NORMAL 10
+#define GLINT_MATERIAL_TEXTURES 11
 
 typedef struct glint_material_record {
     float base_color[4]; // linear R, G, B; A
@@ -148,6 +151,9 @@ typedef struct glint_material_record {
     float roughness;                       // [0, 1]
     float specular;                        // [0, 1], with GLINT_SPECULAR
     float specular_color[3];               // ≥ 0, likewise
+    float clearcoat;                       // [0, 1], with GLINT_CLEARCOAT, as the next two
+    float clearcoat_roughness;             // [0, 1]
+    float clearcoat_normal_scale;          // of the clear coat's normal texture
     int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
 

@@ -1,6 +1,17 @@
 // What paths bring of the lobes of rough surfaces (rule 11 of ARCHITECTURE.md, Light transport).
 #if GLINT_ROUGH
 
+// A lobe, and what is wanted of its light's parts.
+typedef struct wanted_lobe {
+    mask there;
+    real3 normal; // of the surface, n·v ≥ 0
+    real cosine;  // n·v
+    real roughness;
+    real weight;                // how much of the lobe is wanted, together
+    real3 path_base, path_edge; // by a path
+    real3 matte_base, matte_edge;
+} wanted_lobe;
+
 // What lobes show of the environment.
 typedef struct seen_lobe {
     real3 matte; // without a path
@@ -8,41 +19,77 @@ typedef struct seen_lobe {
     real shown;  // how much of the environment's light it brings there beside that
 } seen_lobe;
 
-// Rule 11, for the rays in `met`.
-static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const surface *s, const scattering *out, mask met,
-                                 const path *ray)
+static inline wanted_lobe lobe_of_surface(const surface *s, const scattering *out, mask met)
 {
-    const mask rough = met & out->rough;
+    const wanted_lobe w = {met & out->rough, s->normal,       s->cosine,
+                           s->roughness,     out->lobe_weight, out->lobe_base,
+                           out->lobe_edge,   out->matte_base,  out->matte_edge};
+    return w;
+}
+
+// Rule 11, for the rays that want it.
+static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_record *frame,
+                                 const wanted_lobe *w, const path *ray)
+{
     const real3 none = real3_of(real_of(0), real_of(0), real_of(0));
     seen_lobe seen = {none, none, real_of(1)};
-    if (!any_lane(rough)) {
+    if (!any_lane(w->there)) {
         return seen;
     }
-    const real3 normal = turn_into_environment(frame, s->normal);
+    const real3 normal = turn_into_environment(frame, w->normal);
     const real3 v = turn_into_environment(frame, negate(ray->direction));
-    const real share = share_of_lobe(s->roughness);
+    const real share = share_of_lobe(w->roughness);
     const real least = real_of((scalar)GLINT_ROUGHNESS_NARROW);
-    const lobe l = find_lobe(&scene->cells, normal, v, s->cosine, LARGER(s->roughness, least),
-                             largest3(ray->weight) * out->lobe_weight);
-    const lobe_light light = integrate_lobe(scene, &l, rough);
+    const lobe l = find_lobe(&scene->cells, normal, v, w->cosine, LARGER(w->roughness, least),
+                             largest3(ray->weight) * w->weight);
+    const lobe_light light = integrate_lobe(scene, &l, w->there);
     const real3 matte =
-        add(multiply(out->matte_base, light.base), multiply(out->matte_edge, light.edge));
+        add(multiply(w->matte_base, light.base), multiply(w->matte_edge, light.edge));
     const real3 by_path =
-        add(multiply(out->lobe_base, light.base), multiply(out->lobe_edge, light.edge));
-    seen.matte = select3(rough, multiply(ray->weight, matte), none);
-    seen.held = select3(rough, multiply(ray->weight, scale(by_path, share)), none);
-    seen.shown = SELECT(rough, R(1.0) - share, real_of(1));
+        add(multiply(w->path_base, light.base), multiply(w->path_edge, light.edge));
+    seen.matte = select3(w->there, multiply(ray->weight, matte), none);
+    seen.held = select3(w->there, multiply(ray->weight, scale(by_path, share)), none);
+    seen.shown = SELECT(w->there, R(1.0) - share, real_of(1));
     return seen;
 }
+
+#if GLINT_CLEARCOAT
+static inline wanted_lobe lobe_of_coat(const surface *s, const scattering *out, mask met)
+{
+    const real edge = s->clearcoat * out->coat_gain, base = edge * CLEARCOAT_F0;
+    const real share = share_of_path(s->clearcoat_roughness);
+    const real3 bases = real3_of(base, base, base), edges = real3_of(edge, edge, edge);
+    wanted_lobe w = {met & out->coat_rough, s->clearcoat_normal, s->clearcoat_cosine,
+                     s->clearcoat_roughness};
+    w.weight = edge;
+    w.path_base = scale(bases, share);
+    w.path_edge = scale(edges, share);
+    w.matte_base = subtract(bases, w.path_base);
+    w.matte_edge = subtract(edges, w.path_edge);
+    return w;
+}
+
+// Joins what the coat shows to what is below it shows, where both go one way: each brings its
+// share of the environment's light.
+static inline void join_lobes(const surface *s, const scattering *out, const seen_lobe *coat,
+                              seen_lobe *below)
+{
+    const mask joined = (s->clearcoat > R(0.0)) & !out->coat_apart;
+    const real whole = LARGER(largest3(out->reflected_weight), real_of(R(1e-30)));
+    const real share = out->coat_weight / whole;
+    below->held = select3(joined, add(below->held, coat->held), below->held);
+    below->shown = SELECT(joined, fused(share, coat->shown - below->shown, below->shown),
+                          below->shown);
+}
+#endif
 
 #if CARRIES_CONES
 // A lobe is about 2α wide, and so is what the reflected ray sees; but not below ROUGHNESS_NARROW,
 // where it shows what a mirror does.
-static inline real widened_by_lobe(const surface *s, mask rough, real spread)
+static inline real widened_by_lobe(real roughness, mask rough, real spread)
 {
-    const real width = R(2.0) * s->roughness * s->roughness;
-    const mask wide = rough & (s->roughness >= (scalar)GLINT_ROUGHNESS_NARROW);
+    const real width = R(2.0) * roughness * roughness;
+    const mask wide = rough & (roughness >= (scalar)GLINT_ROUGHNESS_NARROW);
     return SELECT(wide, joined_width(spread, width), spread);
 }
 #endif

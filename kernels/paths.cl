@@ -64,10 +64,9 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
     return ray;
 }
 
-// One branch that leaves the surface: a ray along `direction`, on the side that `sign` says (+1 the
-// viewer's, −1 the other).
+// One branch that leaves the surface: a ray along `direction`, on the viewer's side or `beyond`.
 static inline path make_branch(const path *ray, const surface *s, const closest *hit,
-                               real3 direction, scalar sign)
+                               real3 direction, mask beyond)
 {
     path branch = *ray;
     branch.direction = direction;
@@ -77,11 +76,12 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     branch.shown = real_of(1);
 #endif
     if (GLINT_CONVEX_SOLID) {
-        const mask leaves = sign > R(0.0) ? s->outside : !s->outside;
+        const mask leaves = (s->outside & !beyond) | (beyond & !s->outside);
         branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
     }
     if (HAS_PLACES) {
-        branch.origin = scale_add(s->geometric_normal, s->offset * sign, s->position);
+        const real offset = SELECT(beyond, -s->offset, s->offset);
+        branch.origin = scale_add(s->geometric_normal, offset, s->position);
         branch.from = hit->place;
     }
 #if GLINT_ABSORPTION
@@ -310,6 +310,36 @@ static inline cone leave_facet(const path *ray, real t, const surface *s, const 
 }
 #endif
 
+#if GLINT_ROUGH && CARRIES_CONES
+// What leaves by a lobe: the surface's, or that of a coat that goes the same way.
+static inline real widened_by_reflection(const surface *s, const scattering *out, real spread)
+{
+    real roughness = s->roughness;
+    mask rough = out->rough;
+#if GLINT_CLEARCOAT
+    const mask by_coat = (s->clearcoat > R(0.0)) & !out->coat_apart;
+    roughness = SELECT(by_coat, s->clearcoat_roughness, roughness);
+    rough = (rough & !by_coat) | (out->coat_rough & by_coat);
+#endif
+    return widened_by_lobe(roughness, rough, spread);
+}
+#endif
+
+#if COATS_APART && GLINT_ROUGH
+// What a branch that leaves a coat apart brings of its lobe.
+static inline void leave_coat(const surface *s, const scattering *out, const seen_lobe *coat,
+                              path *branch)
+{
+    const mask apart = out->coat_apart;
+    branch->held = select3(apart, coat->held, branch->held);
+    branch->shown = SELECT(apart, coat->shown, branch->shown);
+#if CARRIES_CONES
+    branch->cone.spread = widened_by_lobe(s->clearcoat_roughness, apart & out->coat_rough,
+                                          branch->cone.spread);
+#endif
+}
+#endif
+
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
@@ -345,8 +375,15 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     gather(all, slot, multiply(ray->weight, out.emitted), met);
 #endif
 #if GLINT_ROUGH
-    const seen_lobe seen = see_lobe(scene, frame, &s, &out, met, ray);
+    const wanted_lobe wanted = lobe_of_surface(&s, &out, met);
+    seen_lobe seen = see_lobe(scene, frame, &wanted, ray);
     gather(all, slot, seen.matte, met);
+#if GLINT_CLEARCOAT
+    const wanted_lobe of_coat = lobe_of_coat(&s, &out, met);
+    const seen_lobe coat = see_lobe(scene, frame, &of_coat, ray);
+    gather(all, slot, coat.matte, met);
+    join_lobes(&s, &out, &coat, &seen);
+#endif
 #endif
 #if GLINT_TERMS && GATHERS
     note_emission(tally->terms, scene, &s, negate(ray->direction), ray, met, &all->pixels[slot]);
@@ -356,7 +393,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     const real spread = ray->cone.spread;
 #endif
 
-    path reflected = make_branch(ray, &s, hit, out.reflected, R(1.0));
+    path reflected = make_branch(ray, &s, hit, out.reflected, mask_none());
     reflected.weight = multiply(ray->weight, out.reflected_weight);
     reflected.media = out.media_reflected;
 #if GLINT_ROUGH
@@ -366,7 +403,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #if CARRIES_CONES
     reflected.cone = leave_surface(width, spread, real_of(1), real_of(2), s.curvature);
 #if GLINT_ROUGH
-    reflected.cone.spread = widened_by_lobe(&s, out.rough, reflected.cone.spread);
+    reflected.cone.spread = widened_by_reflection(&s, &out, reflected.cone.spread);
 #endif
 #endif
 #if GLINT_FACETS
@@ -377,15 +414,22 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, &all->pixels[slot], tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
-    if (!TRANSMITS) {
+    if (!TWO_WAYS) {
         assign_path(ray, &reflected, reflects);
         return reflects;
     }
-    path transmitted = make_branch(ray, &s, hit, out.transmitted, R(-1.0));
+    mask through = mask_all();
+#if COATS_APART
+    through = !out.coat_apart;
+#endif
+    path transmitted = make_branch(ray, &s, hit, out.transmitted, through);
     transmitted.weight = multiply(ray->weight, out.transmitted_weight);
     transmitted.media = out.media_transmitted;
 #if CARRIES_CONES
     transmitted.cone = leave_surface(width, spread, out.eta, out.bend, s.curvature);
+#endif
+#if COATS_APART && GLINT_ROUGH
+    leave_coat(&s, &out, &coat, &transmitted);
 #endif
 #if GLINT_FACETS
     const real turn = SELECT(HAS_FLAG(s, GLINT_MATERIAL_THIN), real_of(2), out.bend);
@@ -399,7 +443,8 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
     end_branch(frame, &transmitted, transmits, &all->pixels[slot], tally);
-    count_transmissions(&s, transmits, tally);
+    count_transmissions(&s, transmits & through, tally);
+    tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(transmits & !through);
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);
 #if GLINT_DIAGNOSTICS

@@ -88,10 +88,24 @@ static inline mask is_matte(const surface *s)
 // Surfaces whose lobes show lights.
 static inline mask may_shine(const surface *s)
 {
+    mask rough = are_rough(s);
+#if GLINT_CLEARCOAT
+    rough = rough | is_coat_rough(s);
+#endif
 #if GLINT_ALPHA
-    return are_rough(s) & (s->coverage > R(0.0));
+    rough = rough & (s->coverage > R(0.0));
+#endif
+    return rough;
+}
+
+// Whether a light is in front of something that shows it.
+static inline mask is_before(const surface *s, real3 direction)
+{
+    const mask before = dot3(s->normal, direction) > R(0.0);
+#if GLINT_CLEARCOAT
+    return before | (is_coat_rough(s) & (dot3(s->clearcoat_normal, direction) > R(0.0)));
 #else
-    return are_rough(s);
+    return before;
 #endif
 }
 
@@ -103,6 +117,14 @@ static inline void shine(const path *ray, const arrival *a, real3 left, mask lit
                                          negate(ray->direction), a->direction, lit);
     s->shine_base = select3(lit, scale_add(light, parts.base, s->shine_base), s->shine_base);
     s->shine_edge = select3(lit, scale_add(light, parts.edge, s->shine_edge), s->shine_edge);
+#if GLINT_CLEARCOAT
+    const lobe_parts coat =
+        weigh_light(s->clearcoat_normal, s->clearcoat_cosine, s->clearcoat_roughness,
+                    negate(ray->direction), a->direction, lit);
+    const real shown = fused(coat.base, real_of(CLEARCOAT_F0), coat.edge);
+    s->clearcoat_shine =
+        select3(lit, scale_add(light, shown, s->clearcoat_shine), s->clearcoat_shine);
+#endif
 }
 #endif
 
@@ -124,8 +146,10 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
          light++) {
         const arrival a = arrive(light, s);
         const mask on_paint = matte & (largest3(a.irradiance) > R(0.0));
-        const mask shines = rough & (largest3(a.radiance) > R(0.0)) &
-                            (dot3(s->normal, a.direction) > R(0.0));
+        mask shines = mask_none();
+#if GLINT_ROUGH
+        shines = rough & (largest3(a.radiance) > R(0.0)) & is_before(s, a.direction);
+#endif
         const mask lit = on_paint | shines;
         if (!any_lane(lit)) {
             continue;

@@ -16,6 +16,14 @@ typedef struct scattering {
     real3 matte_base, matte_edge; // and what comes without one
     real lobe_weight;             // how much of the lobe that is together
 #endif
+#if GLINT_CLEARCOAT
+    mask coat_apart;  // `transmitted` is what the clear coat reflects; else that is in `reflected`
+    real coat_weight; // of that
+#if GLINT_ROUGH
+    mask coat_rough; // it reflects a lobe,
+    real coat_gain;  // of F0 this, and of the edge's part likewise
+#endif
+#endif
 } scattering;
 
 // What a dielectric reflects at right angles, F0, of each colour. KHR_materials_specular colours it.
@@ -214,6 +222,106 @@ static inline void scatter_blend(const surface *s, real3 irradiance, scattering 
     out->transmitted_weight = select3(blended, zero, out->transmitted_weight);
 }
 
+#if GLINT_CLEARCOAT
+#define CLEARCOAT_IOR R(1.5)
+#define CLEARCOAT_F0 R(0.04)
+
+#if GLINT_ROUGH
+static inline mask is_coat_rough(const surface *s)
+{
+    return (s->clearcoat > R(0.0)) &
+           (s->clearcoat_roughness >= (scalar)GLINT_ROUGHNESS_LEAST);
+}
+#endif
+
+// How much of what meets a whole coat it reflects, and by a path.
+typedef struct coat_reflectance {
+    real whole, by_path;
+} coat_reflectance;
+
+static inline coat_reflectance reflect_from_coat(const scene_buffers *scene, const surface *s,
+                                                 scattering *out)
+{
+    coat_reflectance f;
+    f.whole = f.by_path = surface_reflectance(s->clearcoat_cosine, real_of(CLEARCOAT_IOR));
+#if GLINT_ROUGH
+    const mask rough = out->coat_rough = is_coat_rough(s);
+    const lobe_parts albedo =
+        find_albedo(scene, s->clearcoat_cosine, s->clearcoat_roughness, rough);
+    out->coat_gain = fused(light_lost(scene, &albedo), real_of(CLEARCOAT_F0), real_of(1));
+    const real lobe = out->coat_gain * fused(albedo.base, real_of(CLEARCOAT_F0), albedo.edge);
+    f.whole = SELECT(rough, lobe, f.whole);
+    f.by_path = SELECT(rough, lobe * share_of_path(s->clearcoat_roughness), f.by_path);
+#endif
+    return f;
+}
+
+// What is below a coat sends on no more than the coat leaves of the light.
+static inline void scale_below(real kept, scattering *out)
+{
+    out->emitted = scale(out->emitted, kept);
+    out->reflected_weight = scale(out->reflected_weight, kept);
+    out->transmitted_weight = scale(out->transmitted_weight, kept);
+#if GLINT_ROUGH
+    out->lobe_base = scale(out->lobe_base, kept);
+    out->lobe_edge = scale(out->lobe_edge, kept);
+    out->matte_base = scale(out->matte_base, kept);
+    out->matte_edge = scale(out->matte_edge, kept);
+    out->lobe_weight *= kept;
+#endif
+}
+
+#if COATS_APART
+// Coats that reflect another way than what is below, where no other branch goes on.
+static inline mask are_coats_apart(const surface *s, const scattering *out, mask coated)
+{
+    const real3 n = s->normal, c = s->clearcoat_normal;
+    mask apart = (n.x != c.x) | (n.y != c.y) | (n.z != c.z);
+#if GLINT_ROUGH
+    apart = apart | out->rough | out->coat_rough;
+#endif
+#if GLINT_ALPHA
+    coated = coated & !(s->coverage < R(1.0));
+#endif
+    return coated & apart & (largest3(out->reflected_weight) > R(0.0)) &
+           !(largest3(out->transmitted_weight) > R(0.0));
+}
+#endif
+
+// Rule 13: a clear coat above all that the surface does. Where it has no branch of its own, what is
+// reflected below goes its way.
+static inline void scatter_from_coat(const scene_buffers *scene, const surface *s, real3 v,
+                                     lanes_int media, scattering *out)
+{
+    const mask coated = s->clearcoat > R(0.0);
+    out->coat_apart = mask_none();
+    const coat_reflectance f = reflect_from_coat(scene, s, out);
+    out->coat_weight = s->clearcoat * f.by_path;
+    scale_below(fused(-s->clearcoat, f.whole, real_of(1)), out);
+#if GLINT_ROUGH && GLINT_LIGHTS
+    const real gain = s->clearcoat * out->coat_gain;
+    out->emitted = select3(out->coat_rough, scale_add(s->clearcoat_shine, gain, out->emitted),
+                           out->emitted);
+#endif
+    const real3 r = reflect_direction(v, s->clearcoat_normal, s->clearcoat_cosine);
+    const real3 direction = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
+    const real3 weight = real3_of(out->coat_weight, out->coat_weight, out->coat_weight);
+    mask together = coated;
+#if COATS_APART
+    const mask apart = out->coat_apart = are_coats_apart(s, out, coated);
+    out->transmitted = select3(apart, direction, out->transmitted);
+    out->transmitted_weight = select3(apart, weight, out->transmitted_weight);
+    out->media_transmitted = SELECT(apart, media, out->media_transmitted);
+    out->eta = SELECT(apart, real_of(1), out->eta);
+    out->bend = SELECT(apart, real_of(2), out->bend);
+    together = coated & !apart;
+#endif
+    out->reflected = select3(together, direction, out->reflected);
+    out->reflected_weight =
+        select3(together, add(out->reflected_weight, weight), out->reflected_weight);
+}
+#endif
+
 #if GLINT_ALPHA
 // Rule 9: of a surface that is there in part only its share does what it does. The rest of the light
 // goes straight on, as it does through a thin wall.
@@ -230,6 +338,12 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
     out->matte_base = scale(out->matte_base, left);
     out->matte_edge = scale(out->matte_edge, left);
     out->lobe_weight *= left;
+#endif
+#if GLINT_CLEARCOAT
+    out->coat_weight *= left;
+#if GLINT_ROUGH
+    out->coat_gain *= left;
+#endif
 #endif
     out->transmitted_weight =
         add(scale(out->transmitted_weight, left), real3_of(gone, gone, gone));
@@ -306,7 +420,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     if (GLINT_GLASS) {
         scatter_glass(scene, s, v, glass, media, &result, media_lost);
     }
-#if GLINT_ALPHA && !GLINT_GLASS
+#if (GLINT_ALPHA || COATS_APART) && !GLINT_GLASS
     result.transmitted = negate(v);
     result.media_transmitted = *media;
     result.total_reflection = mask_none();
@@ -342,6 +456,9 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
         result.reflected_weight = select3(unlit, zero, result.reflected_weight);
         result.transmitted_weight = select3(unlit, zero, result.transmitted_weight);
     }
+#if GLINT_CLEARCOAT
+    scatter_from_coat(scene, s, v, *media, &result);
+#endif
 #if GLINT_ALPHA
     scatter_covered(s, v, *media, &result);
 #endif

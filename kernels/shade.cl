@@ -63,6 +63,12 @@ typedef struct surface {
     real specular;        // of a dielectric's reflection
     real3 specular_color; // of what it reflects at right angles
 #endif
+#if GLINT_CLEARCOAT
+    real clearcoat; // how much of a clear coat there is, which is not to be seen from within a solid
+    real clearcoat_roughness;
+    real3 clearcoat_normal; // as `normal`
+    real clearcoat_cosine;  // n·v of that
+#endif
 #if GLINT_FACETS
     facet facet; // none is there until take_facet
 #endif
@@ -75,11 +81,17 @@ typedef struct surface {
 #endif
 #if GLINT_NORMAL_MAPS
     real3 bump; // the normal along tangent, bitangent and normal
+#if GLINT_CLEARCOAT
+    real3 clearcoat_bump; // likewise
+#endif
 #endif
 #if GLINT_LIGHTS
     real3 direct; // irradiance over π that lights send; 0 until meet_surfaces
 #if GLINT_ROUGH
     real3 shine_base, shine_edge; // lobe_light's parts of the lights; likewise
+#if GLINT_CLEARCOAT
+    real3 clearcoat_shine; // what a whole coat shows of the lights; likewise
+#endif
 #endif
 #endif
     lanes_int flags, medium;
@@ -89,6 +101,13 @@ typedef struct surface {
 #define HAS_PLACES (GLINT_INTERREFLECTION || GLINT_PROXY || GLINT_LIGHTS)
 // Light may pass surfaces.
 #define TRANSMITS (GLINT_GLASS || GLINT_ALPHA)
+// Paths may go on from a clear coat beside those from what is below.
+#define COATS_APART (GLINT_CLEARCOAT && GLINT_SPLIT)
+#if TRANSMITS || COATS_APART
+#define TWO_WAYS 1
+#else
+#define TWO_WAYS 0
+#endif
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 
 // The corners of the triangles hit, and their normals; zeros for rays that hit nothing.
@@ -284,6 +303,12 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
     const real3 bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
     s->lit_normal = select3(turned_round, negate(bent), bent);
 #endif
+#if GLINT_CLEARCOAT && GLINT_NORMAL_MAPS
+    const real3 coat = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->clearcoat_bump);
+    const real up = dot3(coat, v);
+    s->clearcoat_normal = select3(up < R(0.0), negate(coat), coat);
+    s->clearcoat_cosine = SMALLER(fabs(up), real_of(1));
+#endif
     real cosine = dot3(s->lit_normal, v);
     mask away = cosine < R(0.0);
     s->normal = select3(away, negate(s->lit_normal), s->lit_normal);
@@ -295,6 +320,10 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #endif
     cosine = fabs(cosine);
     s->cosine = SMALLER(cosine, real_of(1));
+#if GLINT_CLEARCOAT && !GLINT_NORMAL_MAPS
+    s->clearcoat_normal = s->normal;
+    s->clearcoat_cosine = s->cosine;
+#endif
 }
 
 // Sets what the compiled features need of a material, for the rays in `yes`.
@@ -324,6 +353,11 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->specular_color.y = SELECT(yes, real_of(m->specular_color[1]), s->specular_color.y);
     s->specular_color.z = SELECT(yes, real_of(m->specular_color[2]), s->specular_color.z);
 #endif
+#if GLINT_CLEARCOAT
+    s->clearcoat = SELECT(yes, real_of(m->clearcoat), s->clearcoat);
+    s->clearcoat_roughness =
+        SELECT(yes, real_of(m->clearcoat_roughness), s->clearcoat_roughness);
+#endif
     s->blend = SELECT(yes, real_of(m->blend), s->blend);
     s->flags = SELECT(yes, int_of((lane_int)m->flags), s->flags);
     s->medium = SELECT(yes, int_of((lane_int)m->medium), s->medium);
@@ -344,6 +378,14 @@ static inline void load_materials(const scene_buffers *scene, const triangle *t,
 
 #if GLINT_TEXTURES
 
+#if GLINT_NORMAL_MAPS
+static inline real3 bump_of(const texture_color *c, float normal_scale)
+{
+    const scalar across = R(2.0) * (scalar)normal_scale;
+    return real3_of(across * (c->r - R(0.5)), across * (c->g - R(0.5)), R(2.0) * c->b - R(1.0));
+}
+#endif
+
 // What a material's textures say of the rays in `here`: it multiplies what the material says.
 static inline void take_texture(int slot, const texture_color *c, mask here,
                                 global const glint_material_record *m, surface *s)
@@ -363,13 +405,9 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
 #endif
         break;
 #if GLINT_NORMAL_MAPS
-    case GLINT_SLOT_NORMAL: {
-        const scalar across = R(2.0) * (scalar)m->normal_scale;
-        const real3 bump = real3_of(across * (c->r - R(0.5)), across * (c->g - R(0.5)),
-                                    R(2.0) * c->b - R(1.0));
-        s->bump = select3(here, bump, s->bump);
+    case GLINT_SLOT_NORMAL:
+        s->bump = select3(here, bump_of(c, m->normal_scale), s->bump);
         break;
-    }
 #endif
     case GLINT_SLOT_OCCLUSION: {
         const real left = fused(real_of(m->occlusion_strength), c->r - R(1.0), real_of(1));
@@ -387,6 +425,21 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
         s->specular_color =
             select3(here, multiply(s->specular_color, rgb), s->specular_color);
         break;
+#endif
+#if GLINT_CLEARCOAT
+    case GLINT_SLOT_CLEARCOAT:
+        s->clearcoat = SELECT(here, s->clearcoat * c->r, s->clearcoat);
+        break;
+    case GLINT_SLOT_CLEARCOAT_ROUGHNESS:
+        s->clearcoat_roughness =
+            SELECT(here, s->clearcoat_roughness * c->g, s->clearcoat_roughness);
+        break;
+#if GLINT_NORMAL_MAPS
+    case GLINT_SLOT_CLEARCOAT_NORMAL:
+        s->clearcoat_bump =
+            select3(here, bump_of(c, m->clearcoat_normal_scale), s->clearcoat_bump);
+        break;
+#endif
 #endif
     case GLINT_SLOT_TRANSMISSION:
         s->transmission = SELECT(here, s->transmission * c->r, s->transmission);
@@ -445,6 +498,9 @@ static inline void texture_surface(const scene_buffers *scene, const path *ray, 
     s->occlusion = real_of(1);
 #if GLINT_NORMAL_MAPS
     s->bump = real3_of(real_of(0), real_of(0), real_of(1));
+#if GLINT_CLEARCOAT
+    s->clearcoat_bump = s->bump;
+#endif
 #endif
     real width = fabs(width_after(&ray->cone, hit->t));
 #if GLINT_FACETS
@@ -521,6 +577,9 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     s.direct = real3_of(real_of(0), real_of(0), real_of(0));
 #if GLINT_ROUGH
     s.shine_base = s.shine_edge = s.direct;
+#if GLINT_CLEARCOAT
+    s.clearcoat_shine = s.direct;
+#endif
 #endif
 #endif
 #if GLINT_COLORED_VERTICES
@@ -533,5 +592,9 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     cover_surface(&s);
 #endif
     orient_normals(scene, t, ray, hit, &s);
+#if GLINT_CLEARCOAT
+    const mask within = HAS_FLAG(s, GLINT_MATERIAL_SOLID) & !s.outside;
+    s.clearcoat = SELECT(within, real_of(0), s.clearcoat);
+#endif
     return s;
 }

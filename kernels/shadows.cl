@@ -160,7 +160,11 @@ static inline real3 light_passing(const surface *s)
         reflectance = largest3(specular_reflectance(
             s, surface_reflectance(s->cosine, s->ior), R(1.0) / s->ior));
     }
-    passing = scale(s->base_color, SELECT(glass, share - share * reflectance, real_of(0)));
+    real left = share - share * reflectance;
+#if GLINT_CLEARCOAT
+    left *= R(1.0) - s->clearcoat * surface_reflectance(s->clearcoat_cosine, real_of(CLEARCOAT_IOR));
+#endif
+    passing = scale(s->base_color, SELECT(glass, left, real_of(0)));
 #endif
 #if GLINT_ALPHA
     const mask partly = s->coverage < R(1.0);

@@ -48,6 +48,8 @@ typedef struct judged {
     int strata;    // of the oracle's facets along each axis; 0: there is no rough glass
     float alpha;   // of glass, less than 1: how much of it is there
     bool specular; // with KHR_materials_specular
+    float coat;    // with a clear coat, so much of it,
+    float coat_roughness;
 } judged;
 
 static double judge(const judged *j)
@@ -71,10 +73,13 @@ static double judge(const judged *j)
             m->specular_color[0] = 40; // more than all
             m->specular_color[1] = 0.5F;
         }
+        m->clearcoat = j->coat;
+        m->clearcoat_roughness = j->coat_roughness;
     }
     test_frame frame;
     test_render(&scene, j->environment, NULL, &j->settings, &frame);
-    const glint_feature feature = j->specular     ? GLINT_FEATURE_SPECULAR
+    const glint_feature feature = j->coat > 0     ? GLINT_FEATURE_CLEARCOAT
+                                  : j->specular   ? GLINT_FEATURE_SPECULAR
                                   : j->strata > 0 ? GLINT_FEATURE_FACETS
                                                   : GLINT_FEATURE_ROUGH;
     assert_true(frame.plan.features[feature].compiled);
@@ -123,7 +128,9 @@ static void check_spheres(float metallic, glint_roughness roughness, double allo
                           rough_frame(roughness, 1),
                           0,
                           1,
-                          false};
+                          false,
+                          0,
+                          0};
         const double error = judge(&j);
         print_message("metallic %g, roughness %4g, %s: %.4f\n", (double)metallic,
                       (double)roughnesses[i], roughness == GLINT_ROUGHNESS_FAST ? "fast" : "exact",
@@ -170,7 +177,9 @@ static void in_a_white_furnace_lobes_are_their_albedo(void **state)
                           rough_frame(GLINT_ROUGHNESS_FAST, 1),
                           0,
                           1,
-                          false};
+                          false,
+                          0,
+                          0};
         const double error = judge(&j);
         print_message("furnace, roughness %4g: %.4f\n", (double)roughnesses[i], error);
         assert_true(error <= 0.01);
@@ -218,7 +227,7 @@ static void paths_go_on_from_rough_surfaces(void **state)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         for (int variant = 0; variant < 5; variant++) {
             judged j = {names[i], &environment, 0.4F, -1, rough_frame(GLINT_ROUGHNESS_EXACT, 3), 0,
-                        1,        false};
+                        1,        false,        0,    0};
             j.settings.env_rotate = variant == 1 ? 70 : 0;
             j.settings.fresnel = variant == 2 ? GLINT_FRESNEL_NONE : GLINT_FRESNEL_EXACT;
             j.settings.precision = variant == 3 ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
@@ -307,12 +316,65 @@ static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **stat
                     rough_frame(GLINT_ROUGHNESS_EXACT, 3),
                     kinds[i].strata,
                     1,
-                    true};
+                    true,
+                    0,
+                    0};
         j.settings.width = 16;
         j.settings.height = 12;
         j.settings.facets = 1024;
         const double error = judge(&j);
         print_message("specular, %s, roughness %g: %.7f\n", j.scene, (double)j.roughness, error);
+        assert_true(error <= kinds[i].allowed);
+    }
+    glint_environment_free(&environment);
+}
+
+// Clear coats above metal, paint, glass and what is there in part, with lights.
+static void clear_coats_are_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene;
+        float roughness, metallic, coat, coat_roughness, alpha;
+        int strata;
+        double allowed;
+    } kinds[] = {
+        {"mirror_sphere", 0, 1, 0.7F, 0, 1, 0, 1e-6},  // one branch
+        {"mirror_sphere", 0, 0, 1, 0, 1, 0, 1e-6},     // of smooth paint, too
+        {"mirror_sphere", 1, 0, 1, 0, 1, 0, 0.001},    // matte paint has none
+        {"mirror_sphere", 0.4F, 1, 1, 0, 1, 0, 0.004}, // two
+        {"mirror_sphere", 0.4F, 0.5F, 1, 0.2F, 1, 0, 0.004},
+        {"mirror_sphere", 0, 1, 1, 0.4F, 1, 0, 0.004},
+        {"mirror_sphere", 0, 1, 1, 0.8F, 1, 0, 0.004},  // whose lobe takes no path
+        {"mirror_sphere", 1, 0, 1, 0.05F, 1, 0, 0.004}, // of which a mirror shows a share
+        {"facing_mirrors", 0.3F, 1, 1, 0, 1, 0, 0.004},
+        {"lights", 0.4F, -1, 1, 0.3F, 1, 0, 0.004},
+        {"glass_sphere", 0, -1, 1, 0, 1, 0, 1e-5},
+        {"nested_glass", 0, -1, 0.5F, 0, 1, 0, 1e-5},
+        {"thin_wall", 0, -1, 1, 0, 1, 0, 3e-5},
+        {"thin_wall", 0, -1, 1, 0.2F, 0.6F, 0, 0.004},
+        {"glass_sphere", 0.3F, -1, 1, 0, 1, 24, 0.016},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        judged j = {kinds[i].scene,
+                    &environment,
+                    kinds[i].roughness,
+                    kinds[i].metallic,
+                    rough_frame(GLINT_ROUGHNESS_EXACT, 3),
+                    kinds[i].strata,
+                    kinds[i].alpha,
+                    false,
+                    kinds[i].coat,
+                    kinds[i].coat_roughness};
+        j.settings.width = 16;
+        j.settings.height = 12;
+        j.settings.min_weight = 0; // the oracle follows a coat by itself
+        j.settings.facets = 1024;
+        const double error = judge(&j);
+        print_message("coat %g of roughness %g, %s, roughness %g: %.7f\n", (double)j.coat,
+                      (double)j.coat_roughness, j.scene, (double)j.roughness, error);
         assert_true(error <= kinds[i].allowed);
     }
     glint_environment_free(&environment);
@@ -356,6 +418,7 @@ int main(void)
         cmocka_unit_test(paths_go_on_from_rough_surfaces),
         cmocka_unit_test(rough_glass_is_what_the_oracle_sees),
         cmocka_unit_test(specular_weighs_and_colours_what_paint_and_glass_reflect),
+        cmocka_unit_test(clear_coats_are_what_the_oracle_sees),
         cmocka_unit_test(all_widths_take_the_same_cells_and_facets),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

@@ -113,6 +113,8 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
         "\"metallicFactor\":0,\"roughnessFactor\":0},\"extensions\":{"
         "\"KHR_materials_transmission\":{\"transmissionFactor\":0.75},"
         "\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularColorFactor\":[0,1,40]},"
+        "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5,\"clearcoatRoughnessFactor\":0.25,"
+        "\"clearcoatNormalTexture\":{\"index\":0,\"scale\":-2}},"
         "\"KHR_materials_ior\":{\"ior\":2.4},\"KHR_materials_volume\":{\"thicknessFactor\":1,"
         "\"attenuationDistance\":0.5,\"attenuationColor\":[1,0.5,0]}}},"
         "{\"name\":\"lamp\",\"emissiveFactor\":[1,0.5,0],\"extensions\":{"
@@ -129,6 +131,8 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
     assert_true(glint_material_lobes(glass).solid && glint_material_lobes(glass).specular);
     assert_true(glass->specular == 0.5f && glass->specular_color[0] == 0 &&
                 glass->specular_color[2] == 40);
+    assert_true(glass->clearcoat == 0.5f && glass->clearcoat_roughness == 0.25f &&
+                glass->clearcoat_normal_scale == -2);
     const glint_material *lamp = &scene.materials[1];
     assert_string_equal(lamp->name, "lamp");
     assert_true(lamp->emission[0] == 8 && lamp->emission[1] == 4 && lamp->emission[2] == 0);
@@ -157,11 +161,11 @@ static const char much_that_is_not_modelled[] = TETRAHEDRON_STORAGE
     "\"textures\":[{}],\"materials\":[{\"name\":\"gold\",\"alphaMode\":\"MASK\","
     "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}},"
     "\"extras\":{\"glint\":{\"miror\":1}}},"
-    "{\"name\":\"lens\",\"extensions\":{\"KHR_materials_clearcoat\":{},"
+    "{\"name\":\"lens\",\"extensions\":{\"KHR_materials_sheen\":{},"
     "\"KHR_materials_transmission\":{\"transmissionTexture\":{\"index\":0}},"
     "\"KHR_materials_volume\":{\"thicknessFactor\":1,\"thicknessTexture\":{\"index\":0}}}}],"
     "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\"}]}},"
-    "\"extensionsUsed\":[\"KHR_materials_clearcoat\"]";
+    "\"extensionsUsed\":[\"KHR_materials_sheen\"]";
 
 static const char *const said_of_it[] = {
     ": 2 point and 2 line primitives are skipped",
@@ -172,17 +176,17 @@ static const char *const said_of_it[] = {
     "materials[0] \"gold\": baseColorTexture: it names no image of a kind that is read",
     "materials[1] \"lens\": transmissionTexture: it names no image of a kind that is read",
     "materials[0] \"gold\": extras.glint.\"miror\" is unknown",
-    "materials[1] \"lens\": KHR_materials_clearcoat is not modelled",
+    "materials[1] \"lens\": KHR_materials_sheen is not modelled",
 };
 
 static const struct {
     const char *name;
     glint_treatment treatment;
 } used_of_it[] = {
-    {"KHR_materials_clearcoat", GLINT_IGNORED}, {"roughness", GLINT_RENDERED},
-    {"alphaMode MASK", GLINT_RENDERED},         {"COLOR_0", GLINT_RENDERED},
-    {"baseColorTexture", GLINT_IGNORED},        {"transmissionTexture", GLINT_IGNORED},
-    {"thicknessTexture", GLINT_APPROXIMATED},   {"morph targets", GLINT_RENDERED},
+    {"KHR_materials_sheen", GLINT_IGNORED},   {"roughness", GLINT_RENDERED},
+    {"alphaMode MASK", GLINT_RENDERED},       {"COLOR_0", GLINT_RENDERED},
+    {"baseColorTexture", GLINT_IGNORED},      {"transmissionTexture", GLINT_IGNORED},
+    {"thicknessTexture", GLINT_APPROXIMATED}, {"morph targets", GLINT_RENDERED},
     {"points and lines", GLINT_IGNORED},
 };
 

@@ -46,6 +46,9 @@ typedef enum oracle_role {
     ORACLE_TRANSMISSION,   // R
     ORACLE_SPECULAR,       // A
     ORACLE_SPECULAR_COLOR, // R, G, B
+    ORACLE_CLEARCOAT,      // R
+    ORACLE_CLEARCOAT_ROUGHNESS, // G
+    ORACLE_CLEARCOAT_NORMAL,    // as ORACLE_NORMAL
     ORACLE_ROLES
 } oracle_role;
 
@@ -62,12 +65,13 @@ typedef struct oracle_material {
     double thickness;            // KHR_materials_volume: > 0 bounds a solid, 0 is a thin wall
     double attenuation[3];       // colour that white light has after attenuation_distance
     double attenuation_distance; // metres; INFINITY: clear
+    double clearcoat, clearcoat_roughness; // KHR_materials_clearcoat
     bool unlit;
     double mirror; // the lecture's blend, in [0, 1]; < 0: not asked for
     oracle_alpha alpha_mode;
     double alpha, alpha_cutoff; // of the base colour; of ORACLE_MASK
     oracle_texture texture[ORACLE_ROLES];
-    double normal_scale, occlusion_strength;
+    double normal_scale, occlusion_strength, clearcoat_normal_scale;
 } oracle_material;
 
 // White, rough 0, metallic 0, opaque, ior 1.5, clear, no blend, no textures: smooth white paint.

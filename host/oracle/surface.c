@@ -4,6 +4,21 @@
 
 #include <stddef.h>
 
+const oracle_material oracle_material_default = {
+    .base = {1.0, 1.0, 1.0},
+    .ior = 1.5,
+    .specular = 1.0,
+    .specular_color = {1.0, 1.0, 1.0},
+    .attenuation = {1.0, 1.0, 1.0},
+    .attenuation_distance = INFINITY,
+    .mirror = -1.0,
+    .alpha = 1.0,
+    .alpha_cutoff = 0.5,
+    .normal_scale = 1.0,
+    .clearcoat_normal_scale = 1.0,
+    .occlusion_strength = 1.0,
+};
+
 // What is known of the triangle that was met.
 typedef struct place {
     const oracle_triangle *triangle;
@@ -131,6 +146,9 @@ static void take_material(const place *p, const arrival *by, surface *s)
     oracle_glance tint = glance_at(p, by, ORACLE_SPECULAR_COLOR, s);
     for (int c = 0; c < 3; c++)
         s->specular_color.at[c] = m->specular_color[c] * tint.rgba[c];
+    s->clearcoat = m->clearcoat * glance_at(p, by, ORACLE_CLEARCOAT, s).rgba[0];
+    s->clearcoat_roughness =
+        m->clearcoat_roughness * glance_at(p, by, ORACLE_CLEARCOAT_ROUGHNESS, s).rgba[1];
     double open = glance_at(p, by, ORACLE_OCCLUSION, s).rgba[0];
     s->occlusion = 1.0 - m->occlusion_strength * (1.0 - open);
     cover(m->alpha * color[3] * base.rgba[3], m->alpha * (slope + base.slope), by, s);
@@ -152,14 +170,15 @@ static bool interpolated_normal(const place *p, vector *n)
     return isfinite(n->at[0] + n->at[1] + n->at[2]);
 }
 
-// The normal as its texture bends it. It stays where a corner has no tangent, or where tangents
+// The normal as a texture bends it. It stays where a corner has no tangent, or where tangents
 // turn different ways.
-static vector bent(const place *p, const arrival *by, vector n, surface *s)
+static vector bent(const place *p, const arrival *by, oracle_role role, vector n, surface *s)
 {
     const oracle_material *m = s->material;
-    if (!m->texture[ORACLE_NORMAL].image || !p->corners)
+    if (!m->texture[role].image || !p->corners)
         return n;
-    oracle_glance glance = glance_at(p, by, ORACLE_NORMAL, s);
+    oracle_glance glance = glance_at(p, by, role, s);
+    double scale = role == ORACLE_NORMAL ? m->normal_scale : m->clearcoat_normal_scale;
     double turn = p->corners[0].tangent[3];
     vector tangent = {{0.0, 0.0, 0.0}};
     for (int i = 0; i < 3; i++) {
@@ -169,8 +188,8 @@ static vector bent(const place *p, const arrival *by, vector n, surface *s)
     }
     tangent = unit(tangent);
     vector bitangent = scaled(cross(n, tangent), turn);
-    double x = m->normal_scale * (2.0 * glance.rgba[0] - 1.0);
-    double y = m->normal_scale * (2.0 * glance.rgba[1] - 1.0);
+    double x = scale * (2.0 * glance.rgba[0] - 1.0);
+    double y = scale * (2.0 * glance.rgba[1] - 1.0);
     double z = 2.0 * glance.rgba[2] - 1.0;
     vector to = unit(plus(plus(scaled(tangent, x), scaled(bitangent, y)), scaled(n, z)));
     bool flat = x == 0.0 && y == 0.0;
@@ -200,10 +219,14 @@ static void take_normals(const place *p, const arrival *by, surface *s)
     bool smooth = interpolated_normal(p, &own);
     own = smooth ? own : p->winding;
     double side = dot(own, s->geometric) < 0.0 ? -1.0 : 1.0;
-    s->lit = scaled(bent(p, by, own, s), side);
+    s->lit = scaled(bent(p, by, ORACLE_NORMAL, own, s), side);
     double cosine = dot(s->lit, s->viewer);
     s->normal = scaled(s->lit, cosine < 0.0 ? -1.0 : 1.0);
     s->cosine = fmin(fabs(cosine), 1.0);
+    vector coat = bent(p, by, ORACLE_CLEARCOAT_NORMAL, own, s);
+    double up = dot(coat, s->viewer);
+    s->clearcoat_normal = scaled(coat, up < 0.0 ? -1.0 : 1.0);
+    s->clearcoat_cosine = fmin(fabs(up), 1.0);
     if (smooth)
         s->curvature = curvature_of(p->triangle) * (dot(own, s->normal) < 0.0 ? -1.0 : 1.0);
     if (smooth && p->corners)

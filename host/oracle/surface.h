@@ -18,18 +18,21 @@ typedef struct surface {
     const oracle_material *material; // its factors
     int triangle, index;             // of the triangle, of the material
     vector point;
-    vector geometric; // n_g on the viewer's side
-    vector lit;       // n: what receives light
-    vector normal;    // n, on the viewer's side: n·v ≥ 0
-    vector viewer;    // v
-    double cosine;    // n·v
-    bool front;       // met from outside
+    vector geometric;        // n_g on the viewer's side
+    vector lit;              // n: what receives light
+    vector normal;           // n, on the viewer's side: n·v ≥ 0
+    vector viewer;           // v
+    double cosine;           // n·v
+    bool front;              // met from outside
+    vector clearcoat_normal; // likewise
+    double clearcoat_cosine;
     double curvature; // how fast normals turn along the triangle, > 0 where the viewer's side is
                       // convex; 0 where a vertex has none
     // The factors, as textures and the vertices' colours change them.
     vector base, emission;
     vector specular_color;
     double metallic, roughness, transmission, specular, occlusion, coverage;
+    double clearcoat, clearcoat_roughness;
     double jump; // see oracle_report
 } surface;
 

@@ -19,6 +19,7 @@
     LOBE(PAINT, paint, "a share of paint")                                                         \
     LOBE(GLOSS, gloss, "paint of roughness 0, or textured")                                        \
     LOBE(SPECULAR, specular, "KHR_materials_specular")                                             \
+    LOBE(CLEARCOAT, clearcoat, "KHR_materials_clearcoat")                                          \
     LOBE(BLEND, blend, "the lecture's blend")                                                      \
     LOBE(UNLIT, unlit, "KHR_materials_unlit")                                                      \
     LOBE(EMISSION, emission, "emission")
@@ -28,21 +29,43 @@ typedef struct material_census {
     size_t needing[GLINT_FEATURE_COUNT];  // of these, for a lobe
     size_t metal_and_glass;               // both at once
     size_t partly_there, partly_reflects; // by alpha; of these, those that reflect as well
+    size_t coats_apart;                   // clear coats that reflect another way than what is below
     size_t rough, rough_coats;            // that reflect lobes; of these, no metal
     size_t faceted;                       // of rough glass
     double least_roughness;               // of these; 0 where textures say it
 } material_census;
 
+static void note_roughness(const glint_material *material, float roughness, glint_texture_slot slot,
+                           material_census *census)
+{
+    const double least = material->textures[slot].image != 0 ? 0 : (double)roughness;
+    census->least_roughness = fmin(census->least_roughness, least);
+}
+
 static void count_roughness(const glint_material *material, const glint_lobes *lobes,
                             material_census *census)
 {
     if (lobes->rough) {
-        const bool is_textured = material->textures[GLINT_TEXTURE_METALLIC_ROUGHNESS].image != 0;
-        const double least = is_textured ? 0 : (double)material->roughness;
         census->rough++;
         census->rough_coats += !lobes->metal;
-        census->least_roughness = fmin(census->least_roughness, least);
+        note_roughness(material, material->roughness, GLINT_TEXTURE_METALLIC_ROUGHNESS, census);
     }
+    if (lobes->rough_clearcoat) {
+        census->rough++;
+        census->rough_coats++;
+        note_roughness(material, material->clearcoat_roughness, GLINT_TEXTURE_CLEARCOAT_ROUGHNESS,
+                       census);
+    }
+}
+
+// Whether the coat's reflection is a branch beside that of what is below. Glass has no branch left.
+static bool is_coat_apart(const glint_material *material, const glint_lobes *lobes,
+                          bool heeds_roughness)
+{
+    const bool below = lobes->metal || lobes->gloss || (lobes->rough_path && heeds_roughness);
+    const bool lobe = heeds_roughness && (lobes->rough || lobes->rough_clearcoat);
+    const bool bends = glint_material_normal_texture(material)->image != 0;
+    return lobes->clearcoat && below && (lobe || bends);
 }
 
 static void count_material(const glint_material *material, bool heeds_roughness,
@@ -52,9 +75,10 @@ static void count_material(const glint_material *material, bool heeds_roughness,
     census->used++;
     census->metal_and_glass += lobes.metal && lobes.glass;
     census->partly_there += lobes.masked || lobes.covers;
+    census->coats_apart += is_coat_apart(material, &lobes, heeds_roughness);
     census->partly_reflects +=
         lobes.covers && (lobes.metal || lobes.gloss || lobes.blend_mirror || lobes.glass ||
-                         (lobes.rough_path && heeds_roughness));
+                         lobes.clearcoat || (lobes.rough_path && heeds_roughness));
     if (heeds_roughness) {
         census->faceted += lobes.facets;
         count_roughness(material, &lobes, census);
@@ -126,16 +150,20 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     const bool exact = fresnel == GLINT_FRESNEL_EXACT;
     const size_t glass = c->needing[GLINT_FEATURE_GLASS];
     const bool angular = c->needing[GLINT_FEATURE_TINT] > 0 || glass > 0 ||
-                         c->needing[GLINT_FEATURE_GLOSS] > 0 || c->rough > 0;
+                         c->needing[GLINT_FEATURE_GLOSS] > 0 || c->rough > 0 ||
+                         c->needing[GLINT_FEATURE_CLEARCOAT] > 0;
     decide(plan, GLINT_FEATURE_FRESNEL, exact && angular, "%s",
            !exact    ? "no Fresnel term was asked for"
-           : angular ? "coloured metal, glass, or what reflects lobes or is smooth paint"
-                     : "no coloured metal, glass, lobes or smooth paint");
+           : angular ? "coloured metal, glass, coats, or what reflects lobes or is smooth paint"
+                     : "no coloured metal, glass, coats, lobes or smooth paint");
     if (glass > 0 && exact) {
         decide_by_count(plan, GLINT_FEATURE_SPLIT, glass, c->used, "transmission and Fresnel");
     } else if (c->partly_reflects > 0) {
         decide_by_count(plan, GLINT_FEATURE_SPLIT, c->partly_reflects, c->used,
                         "alpha that reflect");
+    } else if (c->coats_apart > 0 && exact && !glint_plan_shades_vertices(plan)) {
+        decide_by_count(plan, GLINT_FEATURE_SPLIT, c->coats_apart, c->used,
+                        "a clear coat over what reflects");
     } else {
         decide_by_count(plan, GLINT_FEATURE_SPLIT, c->metal_and_glass, c->used,
                         "both metal and transmission");
@@ -143,6 +171,9 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     if (!exact) {
         decide(plan, GLINT_FEATURE_GLOSS, false, "no Fresnel term was asked for");
         decide(plan, GLINT_FEATURE_SPECULAR, false, "no Fresnel term was asked for");
+        decide(plan, GLINT_FEATURE_CLEARCOAT, false, "no Fresnel term was asked for");
+    } else if (glint_plan_shades_vertices(plan)) {
+        decide(plan, GLINT_FEATURE_CLEARCOAT, false, "vertices are shaded, without coats");
     }
 }
 
@@ -327,8 +358,8 @@ static void decide_roughness(const glint_settings *settings, glint_plan *plan)
     const bool heeded = glint_settings_heed_roughness(settings) && settings->terms == 0;
     const bool rough = plan->cells_last >= 0 && heeded, facets = plan->has_facets && heeded;
     decide(plan, GLINT_FEATURE_ROUGH, rough, "%s",
-           rough    ? "rough metal or paint"
-           : heeded ? "no rough metal or paint"
+           rough    ? "rough metal, paint or clear coats"
+           : heeded ? "no rough metal, paint or clear coats"
                     : "these settings show all as smooth");
     if (facets) {
         decide(plan, GLINT_FEATURE_FACETS, true, "rough glass: %d directions a pixel",

@@ -14,7 +14,7 @@
 #include <string.h>
 
 // Both compilers must lay the shared structs out alike: 32-bit scalars without gaps.
-_Static_assert(sizeof(glint_material_record) == 120, "glint_material_record has gaps");
+_Static_assert(sizeof(glint_material_record) == 144, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_texture_record) == 112, "glint_texture_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
@@ -95,6 +95,9 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
         .normal_scale = m->normal_scale,
         .occlusion_strength = m->occlusion_strength,
         .specular = m->specular,
+        .clearcoat = lobes.clearcoat ? m->clearcoat : 0,
+        .clearcoat_roughness = m->clearcoat_roughness,
+        .clearcoat_normal_scale = m->clearcoat_normal_scale,
         .roughness = lobes.rough || lobes.facets ? m->roughness : 0,
     };
     memcpy(record.base_color, m->base_color, sizeof m->base_color);

@@ -77,7 +77,7 @@ glint_attributes attributes_of(const Load &load)
             set.second_texcoords = set.second_texcoords || (use.image != 0 && use.texcoord == 1);
         }
         set.tangents =
-            set.tangents || one.second.material.textures[GLINT_TEXTURE_NORMAL].image != 0;
+            set.tangents || glint_material_normal_texture(&one.second.material)->image != 0;
         set.colors = set.colors || one.second.material.has_vertex_colors;
     }
     return set;

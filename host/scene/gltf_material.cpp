@@ -133,18 +133,29 @@ void read_alpha(const json &material, const Place &place, glint_material &result
     result.alpha_cutoff = factor_from(material, place, "alphaCutoff", 0, 0.5);
 }
 
+void read_normal_scale(const json &object, const Place &place, const char *key, float &result)
+{
+    const json *normal = optional_object(object, place, key);
+    const json *scale = normal == nullptr ? nullptr : member(*normal, "scale");
+    if (scale != nullptr) {
+        result =
+            static_cast<float>(number_within(*scale, place / key / "scale", -FLT_MAX, FLT_MAX));
+    }
+}
+
 void read_texture_factors(const json &material, const Place &place, glint_material &result)
 {
-    if (const json *normal = optional_object(material, place, "normalTexture")) {
-        const json *scale = member(*normal, "scale");
-        if (scale != nullptr) {
-            result.normal_scale = static_cast<float>(
-                number_within(*scale, place / "normalTexture" / "scale", -FLT_MAX, FLT_MAX));
-        }
-    }
+    read_normal_scale(material, place, "normalTexture", result.normal_scale);
     if (const json *occlusion = optional_object(material, place, "occlusionTexture")) {
         result.occlusion_strength = factor(*occlusion, place / "occlusionTexture", "strength", 1);
     }
+}
+
+void read_clearcoat(const json &object, const Place &place, glint_material &result)
+{
+    result.clearcoat = factor(object, place, "clearcoatFactor", 0);
+    result.clearcoat_roughness = factor(object, place, "clearcoatRoughnessFactor", 0);
+    read_normal_scale(object, place, "clearcoatNormalTexture", result.clearcoat_normal_scale);
 }
 
 void read_volume(const json &object, const Place &place, glint_material &result)
@@ -246,6 +257,9 @@ void read_extensions(const json &material, const Place &place, glint_material &r
         result.specular = factor(*found, in, "specularFactor", 1);
         read_specular_color(*found, in, result.specular_color);
     }
+    if (const json *found = extension_of(material, place, "KHR_materials_clearcoat")) {
+        read_clearcoat(*found, at / "KHR_materials_clearcoat", result);
+    }
     if (const json *found = extension_of(material, place, "KHR_materials_emissive_strength")) {
         float strength =
             factor_from(*found, at / "KHR_materials_emissive_strength", "emissiveStrength", 0, 1);
@@ -312,11 +326,13 @@ void make_grey(glint_material &material)
     material.metallic = 0;
     material.roughness = 1;
     material.transmission = 0;
-    material.textures[GLINT_TEXTURE_BASE_COLOR] = {};
-    material.textures[GLINT_TEXTURE_METALLIC_ROUGHNESS] = {};
-    material.textures[GLINT_TEXTURE_TRANSMISSION] = {};
-    material.textures[GLINT_TEXTURE_SPECULAR] = {};
-    material.textures[GLINT_TEXTURE_SPECULAR_COLOR] = {};
+    material.clearcoat = 0;
+    for (const glint_texture_slot slot :
+         {GLINT_TEXTURE_BASE_COLOR, GLINT_TEXTURE_METALLIC_ROUGHNESS, GLINT_TEXTURE_TRANSMISSION,
+          GLINT_TEXTURE_SPECULAR, GLINT_TEXTURE_SPECULAR_COLOR, GLINT_TEXTURE_CLEARCOAT,
+          GLINT_TEXTURE_CLEARCOAT_ROUGHNESS, GLINT_TEXTURE_CLEARCOAT_NORMAL}) {
+        material.textures[slot] = {};
+    }
 }
 
 // What stands for a texture that cannot be shown. Returns what is said of it.
@@ -334,8 +350,12 @@ const char *do_without(glint_texture_slot slot, UsedMaterial &used)
     case GLINT_TEXTURE_EMISSION:
         std::fill(material.emission, material.emission + 3, 0.0F);
         return "nothing is emitted";
+    case GLINT_TEXTURE_CLEARCOAT_NORMAL:
+        return "the coat has the mesh's own normals";
     case GLINT_TEXTURE_SPECULAR:
     case GLINT_TEXTURE_SPECULAR_COLOR:
+    case GLINT_TEXTURE_CLEARCOAT:
+    case GLINT_TEXTURE_CLEARCOAT_ROUGHNESS:
         return "its factor alone is used";
     default:
         make_grey(material);

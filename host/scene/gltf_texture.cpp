@@ -273,9 +273,9 @@ void read_image_in_thread(std::size_t i, void *context)
 
 } // namespace
 
-const std::array<TextureSlot, 9> &texture_slots()
+const std::array<TextureSlot, 12> &texture_slots()
 {
-    static const std::array<TextureSlot, 9> slots = {{
+    static const std::array<TextureSlot, 12> slots = {{
         {"pbrMetallicRoughness", "baseColorTexture", GLINT_TEXTURE_BASE_COLOR, true},
         {"pbrMetallicRoughness", "metallicRoughnessTexture", GLINT_TEXTURE_METALLIC_ROUGHNESS,
          false},
@@ -285,6 +285,11 @@ const std::array<TextureSlot, 9> &texture_slots()
         {"KHR_materials_transmission", "transmissionTexture", GLINT_TEXTURE_TRANSMISSION, false},
         {"KHR_materials_specular", "specularTexture", GLINT_TEXTURE_SPECULAR, false},
         {"KHR_materials_specular", "specularColorTexture", GLINT_TEXTURE_SPECULAR_COLOR, true},
+        {"KHR_materials_clearcoat", "clearcoatTexture", GLINT_TEXTURE_CLEARCOAT, false},
+        {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", GLINT_TEXTURE_CLEARCOAT_ROUGHNESS,
+         false},
+        {"KHR_materials_clearcoat", "clearcoatNormalTexture", GLINT_TEXTURE_CLEARCOAT_NORMAL,
+         false},
         {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", GLINT_TEXTURE_BASE_COLOR, true},
     }};
     return slots;

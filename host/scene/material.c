@@ -5,11 +5,16 @@
 
 #include <math.h>
 
-const glint_material glint_material_default = {GLINT_MATERIAL_CLEAR,   .base_color = {1, 1, 1},
-                                               .metallic = 1,          .roughness = 1,
-                                               .mirror = -1,           .alpha = 1,
-                                               .alpha_cutoff = 0.5F,   .normal_scale = 1,
-                                               .occlusion_strength = 1};
+const glint_material glint_material_default = {GLINT_MATERIAL_CLEAR,
+                                               .base_color = {1, 1, 1},
+                                               .metallic = 1,
+                                               .roughness = 1,
+                                               .mirror = -1,
+                                               .alpha = 1,
+                                               .alpha_cutoff = 0.5F,
+                                               .normal_scale = 1,
+                                               .occlusion_strength = 1,
+                                               .clearcoat_normal_scale = 1};
 
 static bool is_white(const float color[3])
 {
@@ -37,6 +42,12 @@ static bool has_texture(const glint_material *m, glint_texture_slot slot)
     return m->textures[slot].image != 0;
 }
 
+const glint_texture_use *glint_material_normal_texture(const glint_material *m)
+{
+    return &m->textures[has_texture(m, GLINT_TEXTURE_NORMAL) ? GLINT_TEXTURE_NORMAL
+                                                             : GLINT_TEXTURE_CLEARCOAT_NORMAL];
+}
+
 // Whether alpha can be less than 1.
 static bool has_alpha(const glint_material *m)
 {
@@ -48,6 +59,21 @@ static bool is_specular(const glint_material *m)
 {
     return m->specular != 1 || !is_white(m->specular_color) ||
            has_texture(m, GLINT_TEXTURE_SPECULAR) || has_texture(m, GLINT_TEXTURE_SPECULAR_COLOR);
+}
+
+// A lobe as the environment shows it needs no path where it is wide.
+static bool needs_path(const glint_material *m, float roughness, glint_texture_slot slot)
+{
+    return roughness < GLINT_COAT_MATTE || has_texture(m, slot);
+}
+
+static void add_clearcoat(const glint_material *m, glint_lobes *lobes)
+{
+    lobes->clearcoat = m->clearcoat > 0;
+    lobes->rough_clearcoat = lobes->clearcoat && m->clearcoat_roughness >= GLINT_ROUGHNESS_LEAST;
+    lobes->rough_clearcoat_path =
+        lobes->rough_clearcoat &&
+        needs_path(m, m->clearcoat_roughness, GLINT_TEXTURE_CLEARCOAT_ROUGHNESS);
 }
 
 // The lobes that share the light.
@@ -78,11 +104,12 @@ static glint_lobes sharing_lobes(const glint_material *m)
     lobes.specular = (lobes.paint || lobes.glass) && is_specular(m);
     lobes.rough =
         (lobes.metal || lobes.paint) && !lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
-    lobes.rough_path = lobes.rough && (lobes.metal || m->roughness < GLINT_COAT_MATTE ||
-                                       has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS));
+    lobes.rough_path = lobes.rough && (lobes.metal || needs_path(m, m->roughness,
+                                                                 GLINT_TEXTURE_METALLIC_ROUGHNESS));
     lobes.facets = lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
     lobes.gloss = lobes.paint && (!(m->roughness >= GLINT_ROUGHNESS_LEAST) || lobes.facets ||
                                   has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS));
+    add_clearcoat(m, &lobes);
     return lobes;
 }
 

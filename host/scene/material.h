@@ -35,15 +35,18 @@ typedef struct glint_material {
     float attenuation_color[3]; // what is left of white after attenuation_distance
     float specular;             // KHR_materials_specular, [0, 1]: of what paint and glass reflect
     float specular_color[3];    // likewise, ≥ 0: of that at right angles
+    float clearcoat;            // KHR_materials_clearcoat, [0, 1]: how much of a coat there is
+    float clearcoat_roughness;  // its roughness, [0, 1]
     bool unlit;                 // KHR_materials_unlit
     float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
     glint_alpha_mode alpha_mode;
     float alpha;        // baseColorFactor's A, [0, 1]
     float alpha_cutoff; // of GLINT_ALPHA_MASK
     glint_texture_use textures[GLINT_TEXTURE_SLOTS];
-    float normal_scale;       // of x and y of the normal texture's normals
-    float occlusion_strength; // [0, 1]
-    bool has_vertex_colors;   // some of its triangles have colours at their vertices
+    float normal_scale;           // of x and y of the normal texture's normals
+    float clearcoat_normal_scale; // likewise, of the clear coat's
+    float occlusion_strength;     // [0, 1]
+    bool has_vertex_colors;       // some of its triangles have colours at their vertices
     uint64_t warnings; // that loading gave first: bit i is set if the i-th concerns this material
 } glint_material;
 
@@ -79,12 +82,20 @@ typedef struct glint_lobes {
     bool rough;      // metal, and the coat of paint, reflect lobes
     bool rough_path; // for which paths go on
     bool facets;     // glass is rough, and so is what beside it reflects
+    // Above these, but for unlit surfaces and the blend:
+    bool clearcoat;            // a clear coat reflects
+    bool rough_clearcoat;      // a lobe
+    bool rough_clearcoat_path; // for which paths go on
     // Beside all of these: some of the surface may not be there.
     bool masked; // by alpha_cutoff
     bool covers; // by its alpha; never of a solid, which is all there
 } glint_lobes;
 
 glint_lobes glint_material_lobes(const glint_material *material);
+
+// The texture whose coordinates tangents follow: the normal texture, or else the clear coat's; its
+// image is 0 where there is neither.
+const glint_texture_use *glint_material_normal_texture(const glint_material *material);
 
 bool glint_material_is_textured(const glint_material *material);
 

@@ -25,8 +25,10 @@ static fate fate_at(const glint_material *m, bool rough)
     if (lobes.glass) {
         return lobes.solid ? FATE_REFRACTED : FATE_PASSES;
     }
-    const bool reflects = lobes.metal || lobes.gloss || lobes.blend_mirror;
-    return reflects || (rough && lobes.rough_path) ? FATE_REFLECTED : FATE_ENDS;
+    const bool smooth_coat = lobes.clearcoat && !(rough && lobes.rough_clearcoat);
+    const bool reflects = lobes.metal || lobes.gloss || lobes.blend_mirror || smooth_coat;
+    const bool by_lobe = rough && (lobes.rough_path || lobes.rough_clearcoat_path);
+    return reflects || by_lobe ? FATE_REFLECTED : FATE_ENDS;
 }
 
 typedef struct census {

@@ -54,7 +54,7 @@ static float *tangent_of(const tangents *t, size_t triangle, int corner)
 static const glint_texture_use *normal_texture(const tangents *t, size_t triangle)
 {
     const glint_scene *scene = t->scene;
-    return &scene->materials[scene->material_of[triangle]].textures[GLINT_TEXTURE_NORMAL];
+    return glint_material_normal_texture(&scene->materials[scene->material_of[triangle]]);
 }
 
 static bool is_wanted(const tangents *t, size_t triangle)

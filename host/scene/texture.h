@@ -37,6 +37,10 @@ typedef enum glint_texture_slot {
     GLINT_TEXTURE_TRANSMISSION = GLINT_SLOT_TRANSMISSION,     // R times transmission
     GLINT_TEXTURE_SPECULAR = GLINT_SLOT_SPECULAR,             // A times specular
     GLINT_TEXTURE_SPECULAR_COLOR = GLINT_SLOT_SPECULAR_COLOR, // R, G, B times specular_color
+    GLINT_TEXTURE_CLEARCOAT = GLINT_SLOT_CLEARCOAT,           // R times clearcoat
+    GLINT_TEXTURE_CLEARCOAT_ROUGHNESS =
+        GLINT_SLOT_CLEARCOAT_ROUGHNESS,                           // G times clearcoat_roughness
+    GLINT_TEXTURE_CLEARCOAT_NORMAL = GLINT_SLOT_CLEARCOAT_NORMAL, // as NORMAL, of the coat
     GLINT_TEXTURE_SLOTS = GLINT_MATERIAL_TEXTURES
 } glint_texture_slot;
 

@@ -85,7 +85,10 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
                               (double)m->alpha_cutoff,
                               (double)m->normal_scale,
                               (double)m->occlusion_strength,
-                              (double)m->specular};
+                              (double)m->specular,
+                              (double)m->clearcoat,
+                              (double)m->clearcoat_roughness,
+                              (double)m->clearcoat_normal_scale};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
     add_array(state, m->base_color, sizeof *m->base_color, 3);
     add_array(state, m->emission, sizeof *m->emission, 3);

@@ -198,6 +198,8 @@ static json_t *material_object(const glint_material *material)
     glint_json_put(object, "attenuation_color", color(material->attenuation_color));
     glint_json_put_real(object, "specular", (double)material->specular);
     glint_json_put(object, "specular_color", color(material->specular_color));
+    glint_json_put_real(object, "clearcoat", (double)material->clearcoat);
+    glint_json_put_real(object, "clearcoat_roughness", (double)material->clearcoat_roughness);
     glint_json_put_flag(object, "unlit", material->unlit);
     static const char *const modes[] = {"opaque", "mask", "blend"};
     glint_json_put_text(object, "alpha_mode", modes[material->alpha_mode]);

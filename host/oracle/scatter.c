@@ -1,0 +1,455 @@
+// What surfaces do with light on the oracle's walk, rules 2 to 4, 6 and 9 to 13 as ARCHITECTURE.md
+// ("Light transport") counts them.
+#include "oracle/lights.h"
+#include "oracle/rough.h"
+#include "oracle/vector.h"
+#include "oracle/walk.h"
+
+static const double PI = 3.14159265358979323846;
+
+// E′(d) = E(R(−angle) d), R(a) the right-handed turn about +Y by a.
+static vector environment(const oracle_scene *scene, oracle_light light, vector d)
+{
+    double angle = -scene->environment_rotation * PI / 180.0;
+    double c = cos(angle), s = sin(angle);
+    double turned[3] = {d.at[0], d.at[1], d.at[2]};
+    if (scene->environment_rotation != 0.0) {
+        turned[0] = c * d.at[0] + s * d.at[2];
+        turned[2] = c * d.at[2] - s * d.at[0];
+    }
+    vector rgb = {{0.0, 0.0, 0.0}};
+    light(scene->context, turned, rgb.at);
+    return rgb;
+}
+
+static void add(walk *w, vector weight, vector radiance)
+{
+    w->radiance = plus(w->radiance, times(weight, radiance));
+}
+
+// What a path takes along its direction where it ends; rule 9 where it has met nothing.
+void oracle_escape(walk *w, const path *p, vector direction, vector weight)
+{
+    if (p->holds)
+        w->radiance = plus(w->radiance, p->held);
+    else if (w->view->transparent && p->met == 0)
+        w->uncovered += largest(weight);
+    else
+        add(w, weight, environment(w->scene, w->scene->radiance, direction));
+}
+// Rule 5.
+
+// The segment that ends at this surface was inside the topmost solid. Meeting a solid's back face
+// while inside none means that the path began inside that solid.
+void oracle_absorb(const oracle_scene *scene, path *p, const surface *s, double distance)
+{
+    if (p->inside.count == 0 && !s->front && oracle_is_solid(s->material))
+        media_enter(&p->inside, s->index);
+    if (p->inside.count == 0)
+        return;
+    const oracle_material *m = &scene->materials[p->inside.solid[p->inside.count - 1]];
+    for (int i = 0; i < 3; i++)
+        p->weight.at[i] *=
+            oracle_transmittance(m->attenuation[i], m->attenuation_distance, distance);
+}
+
+// Rule 7: the end, or on to the next surface.
+static void branch(walk *w, const path *from, const surface *s, vector direction, vector weight)
+{
+    double share = largest(weight);
+    if (share == 0.0)
+        return;
+    oracle_report *report = w->report;
+    bool by_depth = from->met >= w->depth;
+    bool by_weight = !by_depth && share < w->view->min_weight;
+    if (!by_depth && w->view->min_weight > 0.0)
+        report->threshold = fmin(report->threshold, fabs(share / w->view->min_weight - 1.0));
+    bool exhausted = !by_depth && !by_weight && report->rays >= ORACLE_RAY_LIMIT;
+    if (by_depth || by_weight || exhausted) {
+        report->truncated_by_depth += by_depth ? share : 0.0;
+        report->truncated_by_weight += by_depth ? 0.0 : share;
+        report->exhausted = report->exhausted || exhausted;
+        oracle_escape(w, from, direction, weight);
+        return;
+    }
+    path next = *from;
+    next.origin = s->point;
+    next.direction = direction;
+    next.weight = weight;
+    next.left = s->triangle;
+    w->follow(w, &next);
+}
+
+// Rule 2.
+
+// q ← q − 2(q·n_g)n_g where q ends on the wrong side: `side` is +1 for reflected directions,
+// −1 for refracted ones.
+static vector folded(vector q, vector geometric, double side)
+{
+    double height = dot(q, geometric);
+    return height * side < 0.0 ? minus(q, scaled(geometric, 2.0 * height)) : q;
+}
+
+static vector mirror_direction(const surface *s)
+{
+    vector r = {{0.0, 0.0, 0.0}};
+    oracle_reflect(s->normal.at, s->viewer.at, r.at);
+    return folded(r, s->geometric, 1.0);
+}
+// What leaves a surface: the path, with its cone. `scaled` is what becomes of the spread by itself,
+// `bend` how much the ray turns for each turn of the normal.
+static path leaving(const path *here, const surface *s, double by_itself, double bend)
+{
+    path next = *here;
+    next.cone.spread = by_itself * next.cone.spread + bend * s->curvature * next.cone.width;
+    return next;
+}
+// Rule 4: what glass does with light that meets it, F and the way through.
+typedef struct interface {
+    vector fresnel;
+    vector through;  // t, where not all is reflected
+    vector unfolded; // t before it is folded
+    path beyond;     // what goes through: with the media on the other side
+} interface;
+
+static interface interface_at(walk *w, const path *p, const surface *s)
+{
+    interface glass = {.beyond = *p};
+    double ior_here = 1.0, ior_there = s->material->ior; // a thin wall, from both sides
+    bool solid = oracle_is_solid(s->material);
+    if (solid && s->front) {
+        ior_here = top_ior(w->scene, &p->inside);
+        media_enter(&glass.beyond.inside, s->index);
+    } else if (solid) {
+        ior_here = top_ior(w->scene, &p->inside);
+        media_leave(&glass.beyond.inside, s->index);
+        ior_there = top_ior(w->scene, &glass.beyond.inside);
+    }
+    double eta = ior_here / ior_there;
+    if (!w->view->no_fresnel)
+        glass.fresnel = oracle_dielectric(s, oracle_fresnel(s->cosine, ior_here, ior_there),
+                                          oracle_fresnel(1.0, ior_here, ior_there));
+    double margin = fabs(1.0 - eta * eta * (1.0 - s->cosine * s->cosine));
+    w->report->critical = fmin(w->report->critical, margin);
+    glass.through = scaled(s->viewer, -1.0);
+    if (!solid)
+        return glass;
+    bool passes = oracle_refract(s->normal.at, s->viewer.at, eta, glass.through.at);
+    if (!passes) {
+        glass.fresnel = (vector){{1.0, 1.0, 1.0}};
+        w->report->total_reflections++;
+    }
+    glass.unfolded = glass.through;
+    double bend = eta * s->cosine + dot(glass.through, s->normal); // η cos θi − cos θt
+    glass.beyond = leaving(&glass.beyond, s, eta, bend);
+    glass.through = folded(glass.through, s->geometric, -1.0);
+    return glass;
+}
+
+// Rule 3: F0 + (1 − F0)(1 − n·v)⁵.
+static vector schlick(const walk *w, const surface *s)
+{
+    vector f = s->base;
+    if (w->view->no_fresnel)
+        return f;
+    for (int i = 0; i < 3; i++)
+        f.at[i] += (1.0 - f.at[i]) * pow(1.0 - s->cosine, 5.0);
+    return f;
+}
+
+// E(n)/π, as the occlusion leaves it.
+static vector irradiance(const walk *w, const surface *s)
+{
+    return scaled(environment(w->scene, w->scene->irradiance, s->lit), s->occlusion);
+}
+
+// Rule 13: how much of a clear coat there is. From within a solid none is seen.
+static double clearcoat_of(const walk *w, const surface *s)
+{
+    const oracle_material *m = s->material;
+    bool none =
+        w->view->no_fresnel || m->unlit || m->mirror >= 0.0 || (oracle_is_solid(m) && !s->front);
+    return none ? 0.0 : s->clearcoat;
+}
+
+// Rule 10: punctual lights.
+
+// The way of a light's to a surface: what is left of it, and the solids that it is inside.
+typedef struct shadow {
+    const walk *walk;
+    path way;
+} shadow;
+
+// Straight on: through what is not there, and through glass by its Fresnel term and colour.
+static vector pass_straight(void *state, const oracle_hit *hit, vector direction)
+{
+    shadow *to_light = state;
+    path *way = &to_light->way;
+    const walk *w = to_light->walk;
+    arrival by = {direction, 0.0, way->travelled + hit->distance, 1};
+    surface s = oracle_surface_at(w->scene, hit, &by);
+    const oracle_material *m = s.material;
+    w->report->jump = fmin(w->report->jump, s.jump);
+    oracle_absorb(w->scene, way, &s, hit->distance);
+    if (oracle_is_solid(m) && s.front)
+        media_enter(&way->inside, s.index);
+    else if (oracle_is_solid(m))
+        media_leave(&way->inside, s.index);
+    double f = 0.0;
+    if (!w->view->no_fresnel)
+        f = largest(oracle_dielectric(&s, oracle_fresnel(s.cosine, 1.0, m->ior),
+                                      oracle_fresnel(1.0, 1.0, m->ior)));
+    f += (1.0 - f) * clearcoat_of(w, &s) * oracle_fresnel(s.clearcoat_cosine, 1.0, 1.5);
+    double glass = m->unlit || m->mirror >= 0.0 ? 0.0 : (1.0 - s.metallic) * s.transmission;
+    double gone = 1.0 - s.coverage;
+    vector there = scaled(s.base, s.coverage * glass * (1.0 - f)), past = {{gone, gone, gone}};
+    way->weight = times(way->weight, plus(there, past));
+    return way->weight;
+}
+
+static receiver receiver_at(walk *w, const path *p, const surface *s, vector lit)
+{
+    return (receiver){.scene = w->scene,
+                      .point = s->point,
+                      .geometric = s->geometric,
+                      .lit = lit,
+                      .triangle = s->triangle,
+                      .travelled = p->travelled,
+                      .edges = w->view->edges,
+                      .report = w->report};
+}
+
+// Adds what the lights send to paint, of which `matte` comes back.
+static void add_lights(walk *w, const path *p, const surface *s, vector matte)
+{
+    receiver r = receiver_at(w, p, s, s->lit);
+    for (int i = 0; i < w->scene->light_count; i++) {
+        shadow to_light = {w, *p};
+        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
+        add(w, times(p->weight, matte), oracle_light_at(&r, i, pass_straight, &to_light));
+    }
+}
+
+// What comes back of the light that paint receives: of the environment's, as the occlusion leaves
+// it, and of the lights'.
+static void add_matte(walk *w, const path *p, const surface *s, vector matte)
+{
+    if (largest(matte) > 0.0) {
+        add(w, times(p->weight, matte), irradiance(w, s));
+        add_lights(w, p, s, matte);
+    }
+}
+
+// The reflected branch, which brings `held` where it ends, if that is not NULL.
+static void reflect(walk *w, const path *p, const surface *s, vector weight, const vector *held)
+{
+    path back = leaving(p, s, 1.0, 2.0);
+    back.holds = held != NULL;
+    if (held) {
+        back.held = times(p->weight, *held);
+        if (s->roughness >= 0.07)
+            back.cone.spread = hypot(back.cone.spread, 2.0 * s->roughness * s->roughness);
+    }
+    branch(w, &back, s, mirror_direction(s), weight);
+}
+
+// Rule 9: the light that goes straight on past what is not there. It has not met the surface.
+static void pass(walk *w, const path *p, const surface *s, vector weight)
+{
+    path past = *p;
+    past.met--;
+    branch(w, &past, s, scaled(s->viewer, -1.0), weight);
+}
+
+// Rule 11.
+
+static vector radiance(const void *scene, vector d)
+{
+    return environment(scene, ((const oracle_scene *)scene)->radiance, d);
+}
+
+static bool is_glass(const surface *s)
+{
+    return oracle_is_solid(s->material) || oracle_is_thin(s->material);
+}
+
+static bool is_rough(const walk *w, const surface *s)
+{
+    return w->view->roughness > 0 && s->roughness >= 0.01;
+}
+
+// Adds what lobes show of the lights: of their two parts `base` and `edge`. A light is a point, and
+// so lobes have a least width.
+static void add_highlights(walk *w, const path *p, const surface *s, vector base, vector edge)
+{
+    receiver r = receiver_at(w, p, s, s->normal);
+    for (int i = 0; i < w->scene->light_count; i++) {
+        vector to = oracle_direction_to_light(&r, i);
+        double cosine = dot(s->normal, to);
+        if (!(cosine > 0.0))
+            continue;
+        shadow to_light = {w, *p};
+        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
+        vector light = oracle_light_at(&r, i, pass_straight, &to_light);
+        lobe_integrals l = oracle_lobe_towards(s, fmax(s->roughness, 0.07), to);
+        vector seen = plus(scaled(base, l.white_base), scaled(edge, l.white_edge));
+        add(w, times(p->weight, seen), scaled(light, PI / cosine));
+    }
+}
+
+// Metal and the coat of paint as lobes.
+static void scatter_lobes(walk *w, const path *p, const surface *s)
+{
+    double as_metal = s->coverage * s->metallic, as_paint = s->coverage * (1.0 - s->metallic);
+    lobe_integrals lobe = oracle_lobe(s, w->view->roughness, radiance, w->scene);
+    double n = s->material->ior;
+    vector f0 = oracle_tinted(s, (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0)));
+    vector white = {{1.0, 1.0, 1.0}};
+    // Turquin 2019: of what leaves to other microfacets F0 is reflected again, and so on.
+    double lost = w->view->all_scattering ? 1.0 / (lobe.white_base + lobe.white_edge) - 1.0 : 0.0;
+    vector coat = scaled(plus(white, scaled(f0, lost)), w->view->no_fresnel ? 0.0 : s->specular);
+    double by_path = fmin(1.0, fmax(0.0, (0.6 - s->roughness) / 0.3)); // the rest as matte light
+    vector paths = scaled(coat, as_paint * by_path),
+           matte = scaled(coat, as_paint * (1.0 - by_path));
+    vector metal = scaled(plus(white, scaled(s->base, lost)), as_metal);
+    vector base = plus(times(s->base, metal), times(paths, f0));
+    vector edge = w->view->no_fresnel ? base : plus(metal, paths);
+    vector matte_light = plus(times(lobe.base, times(matte, f0)), times(lobe.edge, matte));
+    w->radiance = plus(w->radiance, times(p->weight, matte_light));
+    add_highlights(w, p, s, plus(base, times(matte, f0)), plus(edge, matte));
+    vector seen = times(coat, plus(scaled(f0, lobe.white_base), scaled(white, lobe.white_edge)));
+    double kept = 1.0 - largest(seen);
+    add_matte(w, p, s, scaled(s->base, as_paint * kept));
+    vector held = plus(times(base, lobe.base), times(edge, lobe.edge));
+    vector weight = plus(scaled(base, lobe.white_base), scaled(edge, lobe.white_edge));
+    reflect(w, p, s, times(p->weight, weight), &held);
+}
+
+// Rules 3, 4 and 6, mixed: metallic first, then transmission. What a surface sends on of light that
+// meets it. The reflected parts share one direction and so are one branch.
+typedef struct shares {
+    vector matte, reflected, through;
+    interface glass;
+} shares;
+
+static shares shares_at(walk *w, const path *p, const surface *s)
+{
+    const oracle_material *m = s->material;
+    double as_metal = s->coverage * s->metallic;
+    double as_glass = s->coverage * (1.0 - s->metallic) * s->transmission;
+    double as_paint = s->coverage * (1.0 - s->metallic) * (1.0 - s->transmission);
+    shares of = {.reflected = scaled(schlick(w, s), as_metal),
+                 .glass = {.through = scaled(s->viewer, -1.0), .beyond = *p}};
+    if (as_paint > 0.0) {
+        bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // and shown without a coat
+        vector coat = {{0.0, 0.0, 0.0}};
+        if (!rough && !w->view->no_fresnel)
+            coat = oracle_dielectric(s, oracle_fresnel(s->cosine, 1.0, m->ior),
+                                     oracle_fresnel(1.0, 1.0, m->ior));
+        of.reflected = plus(of.reflected, scaled(coat, as_paint));
+        of.matte = scaled(s->base, as_paint * (1.0 - largest(coat)));
+    }
+    if (as_glass > 0.0) {
+        of.glass = interface_at(w, p, s);
+        of.reflected = plus(of.reflected, scaled(of.glass.fresnel, as_glass));
+        of.through = scaled(s->base, as_glass * (1.0 - largest(of.glass.fresnel)));
+    }
+    return of;
+}
+
+int oracle_facets_of(const oracle_view *view)
+{
+    return view->roughness * view->roughness;
+}
+
+// Rule 12, rough glass, by one of its facets. A thin wall transmits the mirror image of what it
+// reflects.
+static void scatter_by_facet(walk *w, const path *p, const surface *s)
+{
+    w->faceted = true;
+    surface facet = oracle_facet(s, w->direction, oracle_facets_of(w->view), p->met);
+    shares of = shares_at(w, p, &facet);
+    vector r = {{0.0, 0.0, 0.0}};
+    oracle_reflect(facet.normal.at, s->viewer.at, r.at);
+    double height = dot(s->normal, r);
+    double reflects = oracle_opening(s, height), transmits = reflects;
+    if (oracle_is_solid(s->material))
+        transmits = oracle_opening(s, -dot(s->normal, of.glass.unfolded));
+    else
+        of.glass.through = folded(minus(r, scaled(s->normal, 2.0 * height)), s->geometric, -1.0);
+    add_matte(w, p, s, of.matte);
+    reflect(w, p, &facet, times(p->weight, scaled(of.reflected, reflects)), NULL);
+    branch(w, &of.glass.beyond, s, of.glass.through,
+           times(p->weight, scaled(of.through, transmits)));
+}
+
+// What a thin wall transmits and what passes it (`past`) are one branch.
+static void scatter(walk *w, const path *p, const surface *s, vector past)
+{
+    shares of = shares_at(w, p, s);
+    add_matte(w, p, s, of.matte);
+    reflect(w, p, s, times(p->weight, of.reflected), NULL);
+    branch(w, &of.glass.beyond, s, of.glass.through, times(p->weight, plus(past, of.through)));
+}
+
+// The lecture's blend: (1 − m)·base·irradiance/π + m·L(r).
+static void blend(walk *w, const path *p, const surface *s)
+{
+    double m = s->material->mirror;
+    add_matte(w, p, s, scaled(s->base, s->coverage * (1.0 - m)));
+    reflect(w, p, s, scaled(p->weight, s->coverage * m), NULL);
+}
+
+// Rule 13: a clear coat is paint of index 1.5 without a base. Adds what it shows, and returns what
+// it leaves of the light. Without roughness it is a smooth one.
+static double add_clearcoat(walk *w, const path *p, const surface *s)
+{
+    double there = clearcoat_of(w, s);
+    if (there == 0.0)
+        return 1.0;
+    surface coat = *s;
+    coat.material = &oracle_material_default;
+    coat.base = coat.emission = (vector){{0.0, 0.0, 0.0}};
+    coat.specular_color = (vector){{1.0, 1.0, 1.0}};
+    coat.specular = 1.0;
+    coat.metallic = coat.transmission = 0.0;
+    coat.normal = s->clearcoat_normal;
+    coat.cosine = s->clearcoat_cosine;
+    coat.roughness = w->view->roughness > 0 ? s->clearcoat_roughness : 0.0;
+    coat.coverage = s->coverage * there;
+    if (!is_rough(w, &coat)) {
+        scatter(w, p, &coat, coat.base);
+        return 1.0 - there * oracle_fresnel(coat.cosine, 1.0, 1.5);
+    }
+    scatter_lobes(w, p, &coat);
+    lobe_integrals lobe = oracle_lobe(&coat, w->view->roughness, radiance, w->scene);
+    double lost = w->view->all_scattering ? 1.0 / (lobe.white_base + lobe.white_edge) - 1.0 : 0.0;
+    return 1.0 - there * (1.0 + 0.04 * lost) * (0.04 * lobe.white_base + lobe.white_edge);
+}
+
+// What a surface does with the light of a path that has met it.
+void oracle_meet(walk *w, const path *p, const surface *s)
+{
+    double gone = 1.0 - s->coverage;
+    double left = s->coverage > 0.0 ? add_clearcoat(w, p, s) : 1.0;
+    vector none = {{0.0, 0.0, 0.0}}, past = {{gone, gone, gone}};
+    path below = *p;
+    below.weight = scaled(p->weight, left);
+    bool faceted = is_rough(w, s) && is_glass(s);
+    bool together = oracle_is_thin(s->material) && s->coverage > 0.0 && !faceted;
+    if (s->material->unlit) {
+        add(w, scaled(p->weight, s->coverage), s->base);
+    } else {
+        add(w, scaled(below.weight, s->coverage), s->emission);
+        if (s->material->mirror >= 0.0)
+            blend(w, &below, s);
+        else if (faceted)
+            scatter_by_facet(w, &below, s);
+        else if (is_rough(w, s))
+            scatter_lobes(w, &below, s);
+        else
+            scatter(w, &below, s, together ? scaled(past, 1.0 / left) : none);
+    }
+    if (!together)
+        pass(w, p, s, times(p->weight, past));
+}
