@@ -31,6 +31,7 @@ typedef struct rough_ball {
     float roughness, specular;
     int depth, strata; // of the oracle, along each axis
     double bound;
+    float clearcoat, clearcoat_roughness;
 } rough_ball;
 
 static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_error *error)
@@ -42,6 +43,8 @@ static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_er
     glint_material *m = &scene->materials[of->material];
     m->roughness = of->roughness;
     m->specular = of->specular;
+    m->clearcoat = of->clearcoat;
+    m->clearcoat_roughness = of->clearcoat_roughness;
     return GLINT_OK;
 }
 
@@ -106,12 +109,14 @@ cleanup:
 static glint_status rough_balls(trial *t)
 {
     static const rough_ball balls[] = {
-        {"metal, roughness 0.15", MATERIAL_TINTED, 0.15F, 1, 1, 96, 0.003},
-        {"metal, roughness 0.6", MATERIAL_TINTED, 0.6F, 1, 1, 96, 0.003},
-        {"paint, roughness 0.4, half of its coat", MATERIAL_PAINT, 0.4F, 0.5F, 1, 64, 0.001},
-        {"glass, roughness 0.4: one surface", MATERIAL_GLASS, 0.4F, 1, 1, 24, 0.0015},
-        {"glass, roughness 0.4, half of what it reflects", MATERIAL_GLASS, 0.4F, 0.5F, 2, 24,
-         0.012},
+        {"metal, roughness 0.15", MATERIAL_TINTED, 0.15F, 1, 1, 96, 0.003, 0, 0},
+        {"metal, roughness 0.6", MATERIAL_TINTED, 0.6F, 1, 1, 96, 0.003, 0, 0},
+        {"paint, roughness 0.4, half of its coat", MATERIAL_PAINT, 0.4F, 0.5F, 1, 64, 0.001, 0, 0},
+        {"glass, roughness 0.4: one surface", MATERIAL_GLASS, 0.4F, 1, 1, 24, 0.0015, 0, 0},
+        {"glass, roughness 0.4, half of what it reflects", MATERIAL_GLASS, 0.4F, 0.5F, 2, 24, 0.012,
+         0, 0},
+        {"metal, roughness 0.4, a smooth coat", MATERIAL_TINTED, 0.4F, 1, 1, 64, 0.003, 0.7F, 0},
+        {"glass, a coat of roughness 0.3", MATERIAL_GLASS, 0, 1, 2, 64, 0.003, 1, 0.3F},
     };
     for (size_t i = 0; i < sizeof balls / sizeof *balls; i++) {
         TRY(render_ball(t, &balls[i]));
@@ -120,7 +125,7 @@ static glint_status rough_balls(trial *t)
 }
 
 const trial_case rough_cases[] = {
-    {"rough_balls", "metal, paint and glass of several roughnesses: the oracle's colours",
+    {"rough_balls", "metal, paint, glass and coats of several roughnesses: the oracle's colours",
      rough_balls},
     {0},
 };
