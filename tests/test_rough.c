@@ -52,12 +52,10 @@ typedef struct judged {
     float coat_roughness;
 } judged;
 
-static double judge(const judged *j)
+static void set_materials(const judged *j, glint_scene *scene)
 {
-    glint_scene scene = {0};
-    test_scene_load(j->scene, &scene);
-    for (size_t i = 0; i < scene.material_count; i++) {
-        glint_material *m = &scene.materials[i];
+    for (size_t i = 0; i < scene->material_count; i++) {
+        glint_material *m = &scene->materials[i];
         if (j->roughness >= 0 && glint_material_lobes(m).glass == (j->strata > 0)) {
             m->roughness = j->roughness;
         } else if (j->strata > 0) {
@@ -76,6 +74,13 @@ static double judge(const judged *j)
         m->clearcoat = j->coat;
         m->clearcoat_roughness = j->coat_roughness;
     }
+}
+
+static double judge(const judged *j)
+{
+    glint_scene scene = {0};
+    test_scene_load(j->scene, &scene);
+    set_materials(j, &scene);
     test_frame frame;
     test_render(&scene, j->environment, NULL, &j->settings, &frame);
     const glint_feature feature = j->coat > 0     ? GLINT_FEATURE_CLEARCOAT
