@@ -74,7 +74,7 @@ static inline wanted_lobe lobe_of_coat(const surface *s, const scattering *out, 
 static inline void join_lobes(const surface *s, const scattering *out, const seen_lobe *coat,
                               seen_lobe *below)
 {
-    const mask joined = (s->clearcoat > R(0.0)) & !out->coat_apart;
+    const mask joined = are_coats_joined(s, out);
     const real whole = LARGER(largest3(out->reflected_weight), real_of(R(1e-30)));
     const real share = out->coat_weight / whole;
     below->held = select3(joined, add(below->held, coat->held), below->held);

@@ -317,7 +317,7 @@ static inline real widened_by_reflection(const surface *s, const scattering *out
     real roughness = s->roughness;
     mask rough = out->rough;
 #if GLINT_CLEARCOAT
-    const mask by_coat = (s->clearcoat > R(0.0)) & !out->coat_apart;
+    const mask by_coat = are_coats_joined(s, out);
     roughness = SELECT(by_coat, s->clearcoat_roughness, roughness);
     rough = (rough & !by_coat) | (out->coat_rough & by_coat);
 #endif
@@ -407,7 +407,11 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
 #endif
 #if GLINT_FACETS
-    const real back[3] = {real_of(1), real_of(2), real_of(2)};
+    real turn_back = real_of(2);
+#if GLINT_CLEARCOAT
+    turn_back = SELECT(are_coats_joined(&s, &out), real_of(0), turn_back); // it has no facets
+#endif
+    const real back[3] = {real_of(1), real_of(2), turn_back};
     reflected.lobe = leave_facet(ray, hit->t, &s, back);
 #endif
     // A weight of exactly 0 adds nothing; NaN compares false and ends the path.

@@ -20,8 +20,8 @@ typedef struct scattering {
     mask coat_apart;  // `transmitted` is what the clear coat reflects; else that is in `reflected`
     real coat_weight; // of that
 #if GLINT_ROUGH
-    mask coat_rough; // it reflects a lobe,
-    real coat_gain;  // of F0 this, and of the edge's part likewise
+    mask coat_rough; // the clear coat reflects a lobe,
+    real coat_gain;  // whose parts are this times F0, and this
 #endif
 #endif
 } scattering;
@@ -222,6 +222,23 @@ static inline void scatter_blend(const surface *s, real3 irradiance, scattering 
     out->transmitted_weight = select3(blended, zero, out->transmitted_weight);
 }
 
+#if GLINT_CLEARCOAT || GLINT_ALPHA
+// Of all that a surface does so far a share is left.
+static inline void leave_share(real left, scattering *out)
+{
+    out->emitted = scale(out->emitted, left);
+    out->reflected_weight = scale(out->reflected_weight, left);
+    out->transmitted_weight = scale(out->transmitted_weight, left);
+#if GLINT_ROUGH
+    out->lobe_base = scale(out->lobe_base, left);
+    out->lobe_edge = scale(out->lobe_edge, left);
+    out->matte_base = scale(out->matte_base, left);
+    out->matte_edge = scale(out->matte_edge, left);
+    out->lobe_weight *= left;
+#endif
+}
+#endif
+
 #if GLINT_CLEARCOAT
 #define CLEARCOAT_IOR R(1.5)
 #define CLEARCOAT_F0 R(0.04)
@@ -256,19 +273,10 @@ static inline coat_reflectance reflect_from_coat(const scene_buffers *scene, con
     return f;
 }
 
-// What is below a coat sends on no more than the coat leaves of the light.
-static inline void scale_below(real kept, scattering *out)
+// Coats whose reflection goes one way with what is reflected below.
+static inline mask are_coats_joined(const surface *s, const scattering *out)
 {
-    out->emitted = scale(out->emitted, kept);
-    out->reflected_weight = scale(out->reflected_weight, kept);
-    out->transmitted_weight = scale(out->transmitted_weight, kept);
-#if GLINT_ROUGH
-    out->lobe_base = scale(out->lobe_base, kept);
-    out->lobe_edge = scale(out->lobe_edge, kept);
-    out->matte_base = scale(out->matte_base, kept);
-    out->matte_edge = scale(out->matte_edge, kept);
-    out->lobe_weight *= kept;
-#endif
+    return (s->clearcoat > R(0.0)) & !out->coat_apart;
 }
 
 #if COATS_APART
@@ -293,11 +301,10 @@ static inline mask are_coats_apart(const surface *s, const scattering *out, mask
 static inline void scatter_from_coat(const scene_buffers *scene, const surface *s, real3 v,
                                      lanes_int media, scattering *out)
 {
-    const mask coated = s->clearcoat > R(0.0);
     out->coat_apart = mask_none();
     const coat_reflectance f = reflect_from_coat(scene, s, out);
     out->coat_weight = s->clearcoat * f.by_path;
-    scale_below(fused(-s->clearcoat, f.whole, real_of(1)), out);
+    leave_share(fused(-s->clearcoat, f.whole, real_of(1)), out);
 #if GLINT_ROUGH && GLINT_LIGHTS
     const real gain = s->clearcoat * out->coat_gain;
     out->emitted = select3(out->coat_rough, scale_add(s->clearcoat_shine, gain, out->emitted),
@@ -306,19 +313,18 @@ static inline void scatter_from_coat(const scene_buffers *scene, const surface *
     const real3 r = reflect_direction(v, s->clearcoat_normal, s->clearcoat_cosine);
     const real3 direction = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
     const real3 weight = real3_of(out->coat_weight, out->coat_weight, out->coat_weight);
-    mask together = coated;
 #if COATS_APART
-    const mask apart = out->coat_apart = are_coats_apart(s, out, coated);
+    const mask apart = out->coat_apart = are_coats_apart(s, out, s->clearcoat > R(0.0));
     out->transmitted = select3(apart, direction, out->transmitted);
     out->transmitted_weight = select3(apart, weight, out->transmitted_weight);
     out->media_transmitted = SELECT(apart, media, out->media_transmitted);
     out->eta = SELECT(apart, real_of(1), out->eta);
     out->bend = SELECT(apart, real_of(2), out->bend);
-    together = coated & !apart;
 #endif
-    out->reflected = select3(together, direction, out->reflected);
+    const mask joined = are_coats_joined(s, out);
+    out->reflected = select3(joined, direction, out->reflected);
     out->reflected_weight =
-        select3(together, add(out->reflected_weight, weight), out->reflected_weight);
+        select3(joined, add(out->reflected_weight, weight), out->reflected_weight);
 }
 #endif
 
@@ -330,23 +336,14 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
     const mask partly = s->coverage < R(1.0);
     const real gone = SELECT(partly, R(1.0) - s->coverage, real_of(0));
     const real left = SELECT(partly, s->coverage, real_of(1));
-    out->emitted = scale(out->emitted, left);
-    out->reflected_weight = scale(out->reflected_weight, left);
-#if GLINT_ROUGH
-    out->lobe_base = scale(out->lobe_base, left);
-    out->lobe_edge = scale(out->lobe_edge, left);
-    out->matte_base = scale(out->matte_base, left);
-    out->matte_edge = scale(out->matte_edge, left);
-    out->lobe_weight *= left;
-#endif
+    leave_share(left, out);
 #if GLINT_CLEARCOAT
     out->coat_weight *= left;
 #if GLINT_ROUGH
     out->coat_gain *= left;
 #endif
 #endif
-    out->transmitted_weight =
-        add(scale(out->transmitted_weight, left), real3_of(gone, gone, gone));
+    out->transmitted_weight = add(out->transmitted_weight, real3_of(gone, gone, gone));
     out->transmitted = select3(partly, negate(v), out->transmitted);
     out->media_transmitted = SELECT(partly, media, out->media_transmitted);
     out->total_reflection = out->total_reflection & !partly;

@@ -122,6 +122,16 @@ static glint_settings rough_frame(glint_roughness roughness, int depth)
     return settings;
 }
 
+// Three surfaces, with as many facets as the oracle's few pixels are worth.
+static glint_settings small_frame(void)
+{
+    glint_settings settings = rough_frame(GLINT_ROUGHNESS_EXACT, 3);
+    settings.width = 16;
+    settings.height = 12;
+    settings.facets = 1024;
+    return settings;
+}
+
 // A sphere under the studio.
 static void check_spheres(float metallic, glint_roughness roughness, double allowed)
 {
@@ -318,15 +328,12 @@ static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **stat
                     &environment,
                     kinds[i].roughness,
                     kinds[i].metallic,
-                    rough_frame(GLINT_ROUGHNESS_EXACT, 3),
+                    small_frame(),
                     kinds[i].strata,
                     1,
                     true,
                     0,
                     0};
-        j.settings.width = 16;
-        j.settings.height = 12;
-        j.settings.facets = 1024;
         const double error = judge(&j);
         print_message("specular, %s, roughness %g: %.7f\n", j.scene, (double)j.roughness, error);
         assert_true(error <= kinds[i].allowed);
@@ -363,20 +370,10 @@ static void clear_coats_are_what_the_oracle_sees(void **state)
     glint_environment environment;
     bridge_direction_environment(64, &environment);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        judged j = {kinds[i].scene,
-                    &environment,
-                    kinds[i].roughness,
-                    kinds[i].metallic,
-                    rough_frame(GLINT_ROUGHNESS_EXACT, 3),
-                    kinds[i].strata,
-                    kinds[i].alpha,
-                    false,
-                    kinds[i].coat,
-                    kinds[i].coat_roughness};
-        j.settings.width = 16;
-        j.settings.height = 12;
+        judged j = {kinds[i].scene, &environment,           kinds[i].roughness, kinds[i].metallic,
+                    small_frame(),  kinds[i].strata,        kinds[i].alpha,     false,
+                    kinds[i].coat,  kinds[i].coat_roughness};
         j.settings.min_weight = 0; // the oracle follows a coat by itself
-        j.settings.facets = 1024;
         const double error = judge(&j);
         print_message("coat %g of roughness %g, %s, roughness %g: %.7f\n", (double)j.coat,
                       (double)j.coat_roughness, j.scene, (double)j.roughness, error);

@@ -37,6 +37,7 @@ void oracle_escape(walk *w, const path *p, vector direction, vector weight)
     else
         add(w, weight, environment(w->scene, w->scene->radiance, direction));
 }
+
 // Rule 5.
 
 // The segment that ends at this surface was inside the topmost solid. Meeting a solid's back face
@@ -96,6 +97,7 @@ static vector mirror_direction(const surface *s)
     oracle_reflect(s->normal.at, s->viewer.at, r.at);
     return folded(r, s->geometric, 1.0);
 }
+
 // What leaves a surface: the path, with its cone. `scaled` is what becomes of the spread by itself,
 // `bend` how much the ray turns for each turn of the normal.
 static path leaving(const path *here, const surface *s, double by_itself, double bend)
@@ -104,6 +106,7 @@ static path leaving(const path *here, const surface *s, double by_itself, double
     next.cone.spread = by_itself * next.cone.spread + bend * s->curvature * next.cone.width;
     return next;
 }
+
 // Rule 4: what glass does with light that meets it, F and the way through.
 typedef struct interface {
     vector fresnel;
@@ -383,13 +386,15 @@ static void scatter_by_facet(walk *w, const path *p, const surface *s)
            times(p->weight, scaled(of.through, transmits)));
 }
 
-// What a thin wall transmits and what passes it (`past`) are one branch.
-static void scatter(walk *w, const path *p, const surface *s, vector past)
+// Of what comes in `left` gets past a clear coat. What a thin wall transmits and what passes it
+// (`past`) are one branch.
+static void scatter(walk *w, const path *p, const surface *s, double left, vector past)
 {
     shares of = shares_at(w, p, s);
-    add_matte(w, p, s, of.matte);
-    reflect(w, p, s, times(p->weight, of.reflected), NULL);
-    branch(w, &of.glass.beyond, s, of.glass.through, times(p->weight, plus(past, of.through)));
+    add_matte(w, p, s, scaled(of.matte, left));
+    reflect(w, p, s, times(p->weight, scaled(of.reflected, left)), NULL);
+    branch(w, &of.glass.beyond, s, of.glass.through,
+           times(p->weight, plus(past, scaled(of.through, left))));
 }
 
 // The lecture's blend: (1 − m)·base·irradiance/π + m·L(r).
@@ -418,7 +423,7 @@ static double add_clearcoat(walk *w, const path *p, const surface *s)
     coat.roughness = w->view->roughness > 0 ? s->clearcoat_roughness : 0.0;
     coat.coverage = s->coverage * there;
     if (!is_rough(w, &coat)) {
-        scatter(w, p, &coat, coat.base);
+        scatter(w, p, &coat, 1.0, coat.base);
         return 1.0 - there * oracle_fresnel(coat.cosine, 1.0, 1.5);
     }
     scatter_lobes(w, p, &coat);
@@ -448,7 +453,7 @@ void oracle_meet(walk *w, const path *p, const surface *s)
         else if (is_rough(w, s))
             scatter_lobes(w, &below, s);
         else
-            scatter(w, &below, s, together ? scaled(past, 1.0 / left) : none);
+            scatter(w, p, s, left, together ? past : none);
     }
     if (!together)
         pass(w, p, s, times(p->weight, past));

@@ -34,7 +34,7 @@ static bool goes_on(const glint_plan *plan)
 {
     return has(plan, GLINT_FEATURE_MIRROR) || has(plan, GLINT_FEATURE_GLASS) ||
            has(plan, GLINT_FEATURE_GLOSS) || has(plan, GLINT_FEATURE_BLEND) ||
-           has(plan, GLINT_FEATURE_ROUGH);
+           has(plan, GLINT_FEATURE_CLEARCOAT) || has(plan, GLINT_FEATURE_ROUGH);
 }
 
 // Not where lights shine, which vertices do not show.

@@ -58,7 +58,7 @@ static void count_roughness(const glint_material *material, const glint_lobes *l
     }
 }
 
-// Whether the coat's reflection is a branch beside that of what is below. Glass has no branch left.
+// Whether a clear coat's reflection may be a branch beside that of what is below.
 static bool is_coat_apart(const glint_material *material, const glint_lobes *lobes,
                           bool heeds_roughness)
 {

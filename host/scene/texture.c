@@ -17,10 +17,10 @@ const char *glint_texture_slot_name(glint_texture_slot slot)
         [GLINT_TEXTURE_EMISSION] = "emission",
         [GLINT_TEXTURE_TRANSMISSION] = "transmission",
         [GLINT_TEXTURE_SPECULAR] = "specular",
+        [GLINT_TEXTURE_SPECULAR_COLOR] = "specular colour",
         [GLINT_TEXTURE_CLEARCOAT] = "clearcoat",
         [GLINT_TEXTURE_CLEARCOAT_ROUGHNESS] = "clearcoat roughness",
         [GLINT_TEXTURE_CLEARCOAT_NORMAL] = "clearcoat normal",
-        [GLINT_TEXTURE_SPECULAR_COLOR] = "specular colour",
     };
     return names[slot];
 }

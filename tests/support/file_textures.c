@@ -125,12 +125,12 @@ static const json_t *info_of(const json_t *material, oracle_role role)
         [ORACLE_EMISSION] = {"emissiveTexture"},
         [ORACLE_TRANSMISSION] = {"extensions", "KHR_materials_transmission", "transmissionTexture"},
         [ORACLE_SPECULAR] = {"extensions", "KHR_materials_specular", "specularTexture"},
+        [ORACLE_SPECULAR_COLOR] = {"extensions", "KHR_materials_specular", "specularColorTexture"},
         [ORACLE_CLEARCOAT] = {"extensions", "KHR_materials_clearcoat", "clearcoatTexture"},
         [ORACLE_CLEARCOAT_ROUGHNESS] = {"extensions", "KHR_materials_clearcoat",
                                         "clearcoatRoughnessTexture"},
         [ORACLE_CLEARCOAT_NORMAL] = {"extensions", "KHR_materials_clearcoat",
                                      "clearcoatNormalTexture"},
-        [ORACLE_SPECULAR_COLOR] = {"extensions", "KHR_materials_specular", "specularColorTexture"},
     };
     for (size_t i = 0; i < 3 && keys[role][i] != NULL; i++) {
         material = json_object_get(material, keys[role][i]);
