@@ -38,6 +38,9 @@ typedef struct branch {
 #if GLINT_ALPHA
     int passed;
 #endif
+#if GLINT_DISPERSION
+    int dispersed;
+#endif
 #if GLINT_FACETS
     scalar lobe_width, lobe_spread;
 #endif
@@ -48,7 +51,10 @@ typedef struct branch {
 
 // By which the host knows how much room a tile's branches take.
 typedef char branch_is_as_large_as_layout_h_says
-    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA, GLINT_ROUGH, GLINT_FACETS) ? 1 : -1];
+    [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA, GLINT_ROUGH,
+                                          GLINT_FACETS, GLINT_DISPERSION)
+         ? 1
+         : -1];
 
 typedef struct branches {
     int next_count, waiting_count;
@@ -116,6 +122,9 @@ static inline void save_branch(const path *ray, const pixels *pixels, lanes_int 
     b->met = (int)LANE_INT(ray->met, lane);
 #if GLINT_ALPHA
     b->passed = (int)LANE_INT(ray->passed, lane);
+#endif
+#if GLINT_DISPERSION
+    b->dispersed = (int)LANE_INT(ray->dispersed, lane);
 #endif
 #if GLINT_FACETS
     b->lobe_width = LANE(ray->lobe.width, lane);
@@ -199,6 +208,9 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
         LANE_INT(ray->media, lane) = list[i].media;
 #if GLINT_ALPHA
         LANE_INT(ray->passed, lane) = list[i].passed;
+#endif
+#if GLINT_DISPERSION
+        LANE_INT(ray->dispersed, lane) = list[i].dispersed;
 #endif
 #if GLINT_FACETS
         LANE(ray->lobe.width, lane) = list[i].lobe_width;

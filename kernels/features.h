@@ -50,6 +50,9 @@
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
                 GLINT_PROXY,                                                                       \
             ACTIVE)                                                                                \
+    FEATURE(DISPERSION, "solids divide light into wavelengths, each with its index of refraction", \
+            GLINT_SOLID,                                                                           \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS, ACTIVE)     \
     FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, IDLE)             \
     FEATURE(LIGHTS, "punctual lights shine on matte paint, and cast shadows",                      \
             GLINT_PAINT || GLINT_BLEND,                                                            \

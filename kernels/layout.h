@@ -114,13 +114,14 @@ typedef struct glint_split_vector {
 #define GLINT_TRIANGLES_MAX ((1u << 27) - 1)
 
 // ---- Materials ---------------------------------------------------------------------------------
-#define GLINT_MATERIAL_SOLID 1u  // transmits, and bounds a solid
-#define GLINT_MATERIAL_THIN 2u   // transmits, without thickness
-#define GLINT_MATERIAL_UNLIT 4u  // the base colour, and the path ends
-#define GLINT_MATERIAL_BLEND 8u  // the lecture's blend: `blend` is the mirror's share
-#define GLINT_MATERIAL_GLOSS 16u // paint of roughness 0: reflects under its Fresnel term
-#define GLINT_MATERIAL_MASK 32u  // is there where its alpha is alpha_cutoff or more
-#define GLINT_MATERIAL_COVER 64u // its alpha is how much of it is there
+#define GLINT_MATERIAL_SOLID 1u        // transmits, and bounds a solid
+#define GLINT_MATERIAL_THIN 2u         // transmits, without thickness
+#define GLINT_MATERIAL_UNLIT 4u        // the base colour, and the path ends
+#define GLINT_MATERIAL_BLEND 8u        // the lecture's blend: `blend` is the mirror's share
+#define GLINT_MATERIAL_GLOSS 16u       // paint of roughness 0: reflects under its Fresnel term
+#define GLINT_MATERIAL_MASK 32u        // is there where its alpha is alpha_cutoff or more
+#define GLINT_MATERIAL_COVER 64u       // its alpha is how much of it is there
+#define GLINT_MATERIAL_DISPERSIVE 128u // a solid whose index of refraction depends on wavelength
 
 // Slots of a material's textures: glint_texture_slot of host/scene/texture.h.
 #define GLINT_SLOT_BASE_COLOR 0
@@ -190,8 +191,18 @@ typedef struct glint_medium_record {
     float absorption_high[4]; // R, G, B; 0
     float absorption_low[4];
     float ior;
-    float unused[3];
+    float dispersion; // with GLINT_DISPERSION: what is added to that, see glint_wavelength_record
+    float unused[2];
 } glint_medium_record;
+
+// One of the wavelengths that light is divided into by solids that disperse it. A medium has the
+// index ior + dispersion × ior_step there, or 1 if that is more. `share` is how much of R, G and B
+// it has: the shares of all wavelengths add up to 1.
+#define GLINT_WAVELENGTHS_MAX 16
+typedef struct glint_wavelength_record {
+    float ior_step;
+    float share[3];
+} glint_wavelength_record;
 
 // ---- Lights ------------------------------------------------------------------------------------
 // The scene's punctual lights, behind the last of which stands one of the kind NONE.
@@ -252,8 +263,12 @@ typedef struct glint_frame_record {
     int image_width, image_height;
     int step, first_pixel;
     int samples_per_axis; // k
-    int rounds;           // of all samples, with GLINT_FACETS: in later ones, those whose paths met
-                          // rough glass in the first alone
+    // All samples are rendered so often, with GLINT_FACETS and with GLINT_DISPERSION (then so often
+    // for each wavelength); after the first time, of pixels alone whose paths met rough glass, or
+    // what disperses light.
+    int facet_rounds;
+    int wavelengths;
+    glint_wavelength_record wavelength[GLINT_WAVELENGTHS_MAX];
     int depth;            // surfaces that a path meets at most, 1 or more
     int depth_counts;     // with GLINT_TRUNCATION_SQUARES: what that cuts short counts, too
     int environment_edge; // texels, without border
@@ -281,11 +296,11 @@ typedef struct glint_frame_record {
 // ---- Branches ----------------------------------------------------------------------------------
 // What a branch that waits takes (branches.cl, with GLINT_SPLIT), in bytes, where a number of the
 // precision takes `number`: eleven of these, two more where rays carry cones, three ints, and one
-// more with GLINT_ALPHA; with GLINT_ROUGH four more numbers, with GLINT_FACETS two; rounded up to
-// whole numbers.
-#define GLINT_BRANCH_BYTES(number, cones, alpha, rough, facets)                                    \
-    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u) + ((facets) ? 2u : 0u)) +        \
-      ((alpha) ? 16u : 12u) + (number)-1) /                                                        \
+// more each with GLINT_ALPHA and GLINT_DISPERSION; with GLINT_ROUGH four more numbers, with
+// GLINT_FACETS two; rounded up to whole numbers.
+#define GLINT_BRANCH_BYTES(number, cones, alpha, rough, facets, dispersion)                        \
+    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u) + ((facets) ? 2u : 0u)) + 12u +  \
+      ((alpha) ? 4u : 0u) + ((dispersion) ? 4u : 0u) + (number)-1) /                               \
      (number) * (number))
 
 // ---- Layers ------------------------------------------------------------------------------------

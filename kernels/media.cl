@@ -38,14 +38,20 @@ static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
     return left;
 }
 
-static inline real medium_ior(global const glint_medium_record *media, lanes_int medium)
+// The index of refraction at a wavelength, of which `step` is the ior_step.
+static inline real medium_ior(global const glint_medium_record *media, lanes_int medium,
+                              scalar step)
 {
     real ior = real_of(1);
     uint left = mask_bits(mask_all());
     while (left != 0) {
         int number;
         mask alike = next_alike(medium, &left, &number);
-        ior = SELECT(alike, real_of(media[number].ior), ior);
+        scalar of_medium = media[number].ior;
+#if GLINT_DISPERSION
+        of_medium = max(of_medium + step * (scalar)media[number].dispersion, R(1.0));
+#endif
+        ior = SELECT(alike, real_of(of_medium), ior);
     }
     return ior;
 }

@@ -58,69 +58,13 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
     ray.held = real3_of(real_of(0), real_of(0), real_of(0));
     ray.shown = real_of(1);
 #endif
+#if GLINT_DISPERSION
+    ray.dispersed = int_of(0);
+#endif
 #if GLINT_FACETS
     ray.lobe.width = ray.lobe.spread = real_of(0);
 #endif
     return ray;
-}
-
-// One branch that leaves the surface: a ray along `direction`, on the viewer's side or `beyond`.
-static inline path make_branch(const path *ray, const surface *s, const closest *hit,
-                               real3 direction, mask beyond)
-{
-    path branch = *ray;
-    branch.direction = direction;
-    branch.met = ray->met + (lane_int)1;
-#if GLINT_ROUGH
-    branch.held = real3_of(real_of(0), real_of(0), real_of(0));
-    branch.shown = real_of(1);
-#endif
-    if (GLINT_CONVEX_SOLID) {
-        const mask leaves = (s->outside & !beyond) | (beyond & !s->outside);
-        branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
-    }
-    if (HAS_PLACES) {
-        const real offset = SELECT(beyond, -s->offset, s->offset);
-        branch.origin = scale_add(s->geometric_normal, offset, s->position);
-        branch.from = hit->place;
-    }
-#if GLINT_ABSORPTION
-    branch.travelled = real_of(0);
-#endif
-    return branch;
-}
-
-// Rule 7: which of the branches that exist have met all the surfaces they may, or weigh too little.
-// What that leaves out is counted.
-static inline mask ended(const glint_frame_record *frame, real weight, lanes_int met, mask exists,
-                         const pixels *pixels, tally *tally)
-{
-    mask deep = exists & (met >= (lane_int)frame->depth);
-    mask light = exists & !deep & (weight < (scalar)frame->min_weight);
-    count_cut(tally, pixels, deep, weight, BY_DEPTH);
-    count_cut(tally, pixels, light, weight, BY_MIN_WEIGHT);
-    count_truncated(tally, pixels, frame->depth_counts != 0 ? deep | light : light, weight);
-    return deep | light;
-}
-
-// Such a branch takes the environment along its direction; one that would not be traced anyway is
-// none of them.
-// How many surfaces that are there a path has met.
-static inline lanes_int surfaces_met(const path *ray)
-{
-#if GLINT_ALPHA
-    return ray->met - ray->passed;
-#else
-    return ray->met;
-#endif
-}
-
-static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
-                              const pixels *pixels, tally *tally)
-{
-    mask traced = branch->looked_up == (lane_int)0;
-    mask ends = ended(frame, largest3(branch->weight), surfaces_met(branch), exists & traced, pixels, tally);
-    branch->looked_up = SELECT(ends, int_of(1), branch->looked_up);
 }
 
 #if GLINT_ABSORPTION
@@ -155,6 +99,9 @@ static inline void assign_path(path *ray, const path *branch, mask yes)
 #if GLINT_ROUGH
     ray->held = select3(yes, branch->held, ray->held);
     ray->shown = SELECT(yes, branch->shown, ray->shown);
+#endif
+#if GLINT_DISPERSION
+    ray->dispersed = SELECT(yes, branch->dispersed, ray->dispersed);
 #endif
 #if GLINT_FACETS
     ray->lobe.width = SELECT(yes, branch->lobe.width, ray->lobe.width);
@@ -297,49 +244,6 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
     return out;
 }
 
-#if GLINT_FACETS
-// What of lobes a branch's direction stands for. `how`: scaled and bend as in leave_surface, and by
-// how much the branch turns for each turn of a facet.
-static inline cone leave_facet(const path *ray, real t, const surface *s, const real how[3])
-{
-    const real width = width_after(&ray->lobe, t);
-    cone lobe = leave_surface(width, ray->lobe.spread, how[0], how[1], s->curvature);
-    const real own = joined_width(lobe.spread, how[2] * s->facet.width);
-    lobe.spread = SELECT(s->facet.there, own, lobe.spread);
-    return lobe;
-}
-#endif
-
-#if GLINT_ROUGH && CARRIES_CONES
-// What leaves by a lobe: the surface's, or that of a coat that goes the same way.
-static inline real widened_by_reflection(const surface *s, const scattering *out, real spread)
-{
-    real roughness = s->roughness;
-    mask rough = out->rough;
-#if GLINT_CLEARCOAT
-    const mask by_coat = are_coats_joined(s, out);
-    roughness = SELECT(by_coat, s->clearcoat_roughness, roughness);
-    rough = (rough & !by_coat) | (out->coat_rough & by_coat);
-#endif
-    return widened_by_lobe(roughness, rough, spread);
-}
-#endif
-
-#if COATS_APART && GLINT_ROUGH
-// What a branch that leaves a coat apart brings of its lobe.
-static inline void leave_coat(const surface *s, const scattering *out, const seen_lobe *coat,
-                              path *branch)
-{
-    const mask apart = out->coat_apart;
-    branch->held = select3(apart, coat->held, branch->held);
-    branch->shown = SELECT(apart, coat->shown, branch->shown);
-#if CARRIES_CONES
-    branch->cone.spread = widened_by_lobe(s->clearcoat_roughness, apart & out->coat_rough,
-                                          branch->cone.spread);
-#endif
-}
-#endif
-
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
@@ -350,8 +254,11 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     surface s = find_surface(scene, ray, hit, triangles);
 #if GLINT_FACETS
     const mask faceted = met & are_faceted(&s);
-    note_facets(tally, &all->pixels[slot], faceted);
+    note_pixels(tally, &all->pixels[slot], faceted, tally->faceted);
     take_facet(frame, &tally->facets, ray, faceted, &s);
+#endif
+#if GLINT_DISPERSION
+    disperse(frame, met, &all->pixels[slot], ray, &s, tally);
 #endif
 #if GLINT_ALPHA
     const mask there = met & (s.coverage > R(0.0));

@@ -21,6 +21,9 @@ GLINT_FEATURES(CHECK)
      (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT ||          \
       GLINT_ROUGH || GLINT_VERTEX_COLOR))
 
+// Some pixels are rendered in several rounds.
+#define HAS_ROUNDS (GLINT_FACETS || GLINT_DISPERSION)
+
 #include "layout.h"
 #include "arguments.h"
 #include "lanes.cl"
@@ -36,6 +39,7 @@ GLINT_FEATURES(CHECK)
 #include "traverse_tile.cl"
 #include "light.cl"
 #include "cones.cl"
+#include "path.cl"
 #include "textures.cl"
 #include "shade.cl"
 #include "rough.cl"
@@ -52,6 +56,7 @@ GLINT_FEATURES(CHECK)
 #include "corners.cl"
 #include "lobes.cl"
 #include "tally.cl"
+#include "leaving.cl"
 #include "paths.cl"
 #include "vertices.cl"
 #include "mirrors.cl"
@@ -73,7 +78,7 @@ static inline void add_to_counter(global uint *counter, ulong amount)
 // The weight that paths were cut short of, in the counters' unit.
 static inline ulong cut_units(const tally *tally, const glint_frame_record *frame, enum cut by)
 {
-#if GLINT_FACETS
+#if HAS_ROUNDS
     scalar sum = 0;
     for (int i = 0; i < TILE_PIXELS; i++) {
         sum += tally->cut[by][i] * share_of_round(tally, frame, i);
@@ -185,7 +190,7 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
         for (int i = 0; i < PATH_GROUPS; i++) {
             const int g = first_group + i;
             mask seen = GLINT_TRANSPARENT ? t->place[g] >= (lane_int)0 : mask_all();
-#if GLINT_FACETS
+#if HAS_ROUNDS
             seen = seen & inside[g];
 #endif
             sum->color[g] = add(sum->color[g], all.radiance[SLOT(i)]);
@@ -236,19 +241,33 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
 
 #define FOLLOWS_PATHS (!GLINT_HITS && !ONE_LOOKUP)
 
-#if GLINT_FACETS
-#define ROUNDS(frame) ((frame)->rounds)
+#define FACET_ROUNDS(frame) (GLINT_FACETS ? (frame)->facet_rounds : 1)
+#define ROUNDS(frame) (GLINT_DISPERSION ? FACET_ROUNDS(frame) * (frame)->wavelengths             \
+                                        : FACET_ROUNDS(frame))
 
-// Keeps those of the pixels inside whose paths met rough glass; false: there are none.
-static inline bool keep_faceted(const tally *tally, mask *inside)
+#if HAS_ROUNDS
+// Takes a round's wavelength, one after the other for all facets; `inside`: which pixels need it.
+// False: none do.
+static inline bool begin_round(const glint_frame_record *frame, int round, const mask *in_image,
+                               tally *tally, mask *inside)
 {
+#if GLINT_DISPERSION
+    tally->wavelength = round / FACET_ROUNDS(frame);
+#endif
     bool any = false;
     for (int g = 0; g < TILE_GROUPS; g++) {
-        lanes_int faceted = int_of(0);
+        lanes_int needed = int_of(1);
         for (int lane = 0; lane < GLINT_WIDTH; lane++) {
-            LANE_INT(faceted, lane) = tally->faceted[g * GLINT_WIDTH + lane];
+            bool is_needed = true;
+#if GLINT_FACETS
+            is_needed &= round % FACET_ROUNDS(frame) == 0 || tally->faceted[g * GLINT_WIDTH + lane];
+#endif
+#if GLINT_DISPERSION
+            is_needed &= tally->wavelength == 0 || tally->dispersed[g * GLINT_WIDTH + lane];
+#endif
+            LANE_INT(needed, lane) = is_needed;
         }
-        inside[g] = inside[g] & (faceted != (lane_int)0);
+        inside[g] = in_image[g] & (needed != (lane_int)0);
         any |= any_lane(inside[g]);
     }
     return any;
@@ -276,8 +295,6 @@ static inline void level_rounds(const tally *tally, const glint_frame_record *fr
 #endif
     }
 }
-#else
-#define ROUNDS(frame) 1
 #endif
 
 // Adds up the samples of a tile's pixels: `sums` is what look-ups bring, `sum` the rest.
@@ -286,15 +303,20 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 {
     const image_space image = make_image_space(frame);
 #if FOLLOWS_PATHS
-    mask inside[TILE_GROUPS];
+    mask in_image[TILE_GROUPS];
     for (int g = 0; g < TILE_GROUPS; g++) {
         if (GATHERS) {
             const real zero = real_of(0);
             sum->color[g] = real3_of(zero, zero, zero);
             sum->alpha[g] = zero;
         }
-        inside[g] = group_in_image(frame, column, row, g);
+        in_image[g] = group_in_image(frame, column, row, g);
     }
+#if HAS_ROUNDS
+    mask inside[TILE_GROUPS];
+#else
+    const mask *inside = in_image;
+#endif
     lookups later;
     begin_lookups(&later, &scene->environment, sums);
 #endif
@@ -302,11 +324,16 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
     tile t;
     for (int i = 0; i < ROUNDS(frame) * count; i++) {
         const int sample = i % count;
-#if GLINT_FACETS
-        if (i > 0 && sample == 0 && !keep_faceted(tally, inside)) {
-            break;
+#if HAS_ROUNDS
+        if (sample == 0 && !begin_round(frame, i / count, in_image, tally, inside)) {
+            const int left = FACET_ROUNDS(frame) - i / count % FACET_ROUNDS(frame);
+            i += left * count - 1; // on to the next wavelength
+            continue;
         }
-        tally->facets = choose_facets(i, ROUNDS(frame) * count);
+#endif
+#if GLINT_FACETS
+        const int facets = FACET_ROUNDS(frame) * count;
+        tally->facets = choose_facets(i % facets, facets);
 #endif
         const scalar right = ((scalar)(sample % k) + R(0.5)) / (scalar)k;
         const scalar down = ((scalar)(sample / k) + R(0.5)) / (scalar)k;
@@ -331,7 +358,7 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #if FOLLOWS_PATHS
     finish_lookups(&later, &scene->environment);
 #endif
-#if GLINT_FACETS
+#if HAS_ROUNDS
     level_rounds(tally, frame, sums, sum);
 #endif
 }

@@ -86,8 +86,8 @@ static inline real cross_solid(const scene_buffers *scene, const surface *s, mas
     lanes_int left = leave_medium(*media, s->medium);
     *beyond = SELECT(solid, SELECT(s->outside, entered, left), *media);
     *lost = *lost & solid & s->outside;
-    real n_i = medium_ior(scene->media, medium_on_top(*media));
-    real n_t = medium_ior(scene->media, medium_on_top(*beyond));
+    real n_i = medium_ior(scene->media, medium_on_top(*media), IOR_STEP(s));
+    real n_t = medium_ior(scene->media, medium_on_top(*beyond), IOR_STEP(s));
     return n_i / n_t;
 }
 

@@ -1,35 +1,6 @@
 // What happens where a ray meets a surface: light that is added there, and the directions in which
 // the path goes on. The rules are those of ARCHITECTURE.md, "Light transport".
 
-#define ESCAPES 2
-
-// A path on its way: a ray, its weight and what it has passed.
-typedef struct path {
-    real3 origin, direction; // the direction is a unit vector
-    real3 weight;            // what a unit of radiance that arrives now adds to the pixel
-#if GLINT_ABSORPTION
-    real travelled; // the segment's length before its origin: primary rays start late
-#endif
-#if CARRIES_CONES
-    cone cone;
-#endif
-    lanes_int from;      // place of the triangle that the ray starts on, −1: none
-    lanes_int met;       // surfaces met so far
-#if GLINT_ALPHA
-    lanes_int passed; // of these, those that were not there where the ray met them
-#endif
-    lanes_int media;     // see media.cl
-    lanes_int looked_up; // takes the environment along its direction, without being traced: 1 as
-                         // it is cut short, ESCAPES as it meets nothing; else 0
-#if GLINT_ROUGH
-    real3 held; // light that it brings where it ends
-    real shown; // how much of the environment's light it brings there: 1, or less beside that
-#endif
-#if GLINT_FACETS
-    cone lobe; // what of the lobes of rough glass its direction stands for; 0 before any
-#endif
-} path;
-
 #if GLINT_FACETS
 // What stands in a surface's place where it is rough glass, see facets.cl.
 typedef struct facet {
@@ -69,6 +40,9 @@ typedef struct surface {
     real3 clearcoat_normal; // as `normal`
     real clearcoat_cosine;  // n·v of that
 #endif
+#if GLINT_DISPERSION
+    scalar ior_step; // of the path's wavelength; set by disperse
+#endif
 #if GLINT_FACETS
     facet facet; // none is there until take_facet
 #endif
@@ -107,6 +81,11 @@ typedef struct surface {
 #define TWO_WAYS 1
 #else
 #define TWO_WAYS 0
+#endif
+#if GLINT_DISPERSION
+#define IOR_STEP(surface) (surface)->ior_step
+#else
+#define IOR_STEP(surface) R(0.0)
 #endif
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 

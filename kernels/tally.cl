@@ -9,8 +9,14 @@ typedef struct tally {
     lanes_int deepest; // surfaces that a path has met
 #if GLINT_FACETS
     facet_choice facets;
-    bool faceted[TILE_PIXELS];      // their paths met rough glass
-    scalar cut[CUTS][TILE_PIXELS];  // weight that they were cut short of
+    bool faceted[TILE_PIXELS]; // their paths met rough glass
+#endif
+#if GLINT_DISPERSION
+    int wavelength;
+    bool dispersed[TILE_PIXELS]; // their paths met a solid that disperses light
+#endif
+#if HAS_ROUNDS
+    scalar cut[CUTS][TILE_PIXELS]; // weight that they were cut short of
 #else
     real cut[CUTS]; // weight that paths were cut short of
 #endif
@@ -32,9 +38,17 @@ static inline tally no_tally(void)
         t.counts[i] = 0;
     }
     t.deepest = int_of(0);
-#if GLINT_FACETS
+#if GLINT_DISPERSION
+    t.wavelength = 0;
+#endif
+#if HAS_ROUNDS
     for (int i = 0; i < TILE_PIXELS; i++) {
+#if GLINT_FACETS
         t.faceted[i] = false;
+#endif
+#if GLINT_DISPERSION
+        t.dispersed[i] = false;
+#endif
         t.cut[BY_DEPTH][i] = t.cut[BY_MIN_WEIGHT][i] = t.cut[BY_STACK][i] = 0;
     }
 #else
@@ -63,7 +77,7 @@ static inline void count_truncated(tally *tally, const pixels *pixels, mask thes
 static inline void count_cut(tally *tally, const pixels *pixels, mask these, real weight,
                              enum cut by)
 {
-#if GLINT_FACETS
+#if HAS_ROUNDS
     for (uint left = mask_bits(these); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left);
         tally->cut[by][pixel_of(*pixels, lane)] += LANE(weight, lane);
@@ -73,18 +87,33 @@ static inline void count_cut(tally *tally, const pixels *pixels, mask these, rea
 #endif
 }
 
-#if GLINT_FACETS
-static inline void note_facets(tally *tally, const pixels *pixels, mask these)
+#if HAS_ROUNDS
+// Notes of the pixels of the rays in `these` that they need more rounds. Those of the first
+// wavelength say so for all: then each adds as much.
+static inline void note_pixels(const tally *tally, const pixels *pixels, mask these,
+                               bool of_tile[TILE_PIXELS])
 {
+#if GLINT_DISPERSION
+    if (tally->wavelength > 0) {
+        return;
+    }
+#endif
     for (uint left = mask_bits(these); left != 0; left &= left - 1) {
-        tally->faceted[pixel_of(*pixels, lowest_bit(left))] = true;
+        of_tile[pixel_of(*pixels, lowest_bit(left))] = true;
     }
 }
 
 // The share that a round has of a pixel.
 static inline scalar share_of_round(const tally *tally, const glint_frame_record *frame, int pixel)
 {
-    return tally->faceted[pixel] ? R(1.0) / (scalar)frame->rounds : R(1.0);
+    int rounds = 1;
+#if GLINT_FACETS
+    rounds *= tally->faceted[pixel] ? frame->facet_rounds : 1;
+#endif
+#if GLINT_DISPERSION
+    rounds *= tally->dispersed[pixel] ? frame->wavelengths : 1;
+#endif
+    return R(1.0) / (scalar)rounds;
 }
 #else
 #define share_of_round(tally, frame, pixel) R(1.0)

@@ -130,7 +130,8 @@ static void every_value_is_in_the_help(void **state)
         "body=glass,ior=2",
         "body=glass,thickness=0",
         "body=glass,attenuation-color=0,0,0,attenuation-distance=1",
-        "body=glass,attenuation-distance=1,attenuation-color=0,0,0"};
+        "body=glass,attenuation-distance=1,attenuation-color=0,0,0",
+        "body=glass,dispersion=0.36"};
     char all[512] = "";
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         glint_material m[4];

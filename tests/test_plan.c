@@ -131,6 +131,36 @@ static void rough_materials_reflect_lobes(void **state)
     }
 }
 
+// Solids alone disperse light, in pixels whose colours are wanted.
+static void dispersion_is_compiled_where_it_is_seen(void **state)
+{
+    (void)state;
+    static const struct {
+        float thickness, dispersion;
+        int wavelengths, terms;
+        bool disperses;
+    } kinds[] = {
+        {1, 1, 3, 0, true},  {0, 1, 3, 0, false},  {1, 0, 3, 0, false},
+        {1, 1, 1, 0, false}, {1, 1, 16, 4, false},
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        glint_material material = white_paint;
+        material.transmission = 1;
+        material.thickness = kinds[i].thickness;
+        material.dispersion = kinds[i].dispersion;
+        glint_settings settings = glint_settings_default;
+        settings.wavelengths = kinds[i].wavelengths;
+        settings.terms = kinds[i].terms;
+        test_scene s;
+        make_scene(&s, &material, 1);
+        glint_plan plan;
+        assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
+        if (compiles(&plan, GLINT_FEATURE_DISPERSION) != kinds[i].disperses) {
+            fail_msg("kind %zu", i);
+        }
+    }
+}
+
 static void a_mirror_compiles_no_glass_and_no_paint(void **state)
 {
     (void)state;
@@ -518,6 +548,7 @@ static void every_feature_is_passed_to_the_compiler_as_0_or_1(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dispersion_is_compiled_where_it_is_seen),
         cmocka_unit_test(a_mirror_compiles_no_glass_and_no_paint),
         cmocka_unit_test(rough_materials_reflect_lobes),
         cmocka_unit_test(glass_compiles_what_its_volume_asks_for),

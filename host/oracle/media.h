@@ -13,9 +13,10 @@ typedef struct media {
     int count;
 } media;
 
-static inline double top_ior(const oracle_scene *scene, const media *inside)
+// The material of the solid on top; NULL: empty space.
+static inline const oracle_material *top_material(const oracle_scene *scene, const media *inside)
 {
-    return inside->count > 0 ? scene->materials[inside->solid[inside->count - 1]].ior : 1.0;
+    return inside->count > 0 ? &scene->materials[inside->solid[inside->count - 1]] : NULL;
 }
 
 static inline void media_enter(media *inside, int material)

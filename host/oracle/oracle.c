@@ -44,16 +44,21 @@ static void follow(walk *w, const path *p)
         report->deepest = here.met > report->deepest ? here.met : report->deepest;
     }
     oracle_absorb(w->scene, &here, &s, hit.distance);
+    oracle_disperse(w, &here, &s);
     if (largest(here.weight) > 0.0)
         oracle_meet(w, &here, &s);
 }
 
 static walk walk_along(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
-                       int direction, oracle_report *report)
+                       const int turn[2], oracle_report *report)
 {
     bool cut = view->depth <= 0 || view->depth > ORACLE_DEPTH_LIMIT;
-    walk w = {
-        .scene = scene, .view = view, .report = report, .direction = direction, .follow = follow};
+    walk w = {.scene = scene,
+              .view = view,
+              .report = report,
+              .direction = turn[0],
+              .wavelength = turn[1],
+              .follow = follow};
     w.depth = cut ? ORACLE_DEPTH_LIMIT : view->depth;
     path primary = {.origin = vector_of(ray->origin),
                     .direction = unit(vector_of(ray->direction)),
@@ -81,24 +86,33 @@ static void report_add(oracle_report *sum, const oracle_report *sample, double s
 }
 
 // The mean of the walks along a ray: one or, where it meets rough glass, one for each of its
-// facets.
+// facets; and where it meets a solid that disperses light, as many for each wavelength.
 static walk mean_walk(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
                       oracle_report *report)
 {
-    oracle_report one;
-    walk mean = walk_along(scene, view, ray, 0, &one);
-    int count = mean.faceted ? oracle_facets_of(view) : 1;
-    double share = 1.0 / count;
+    oracle_report one, sum;
+    walk mean = {.radiance = {{0.0, 0.0, 0.0}}};
+    int facets = 1, wavelengths = 1;
+    report_clear(&sum);
+    for (int turn[2] = {0, 0}; turn[1] < wavelengths; turn[1]++) {
+        for (turn[0] = 0; turn[0] < facets; turn[0]++) {
+            walk w = walk_along(scene, view, ray, turn, &one);
+            mean.radiance = plus(mean.radiance, w.radiance);
+            mean.uncovered += w.uncovered;
+            report_add(&sum, &one, 1.0);
+            if (turn[1] == 0 && w.faceted)
+                facets = oracle_facets_of(view);
+            if (turn[1] == 0 && w.disperses)
+                wavelengths = view->wavelengths;
+        }
+    }
+    double share = 1.0 / facets / wavelengths;
     mean.radiance = scaled(mean.radiance, share);
     mean.uncovered *= share;
     report_clear(report);
-    report_add(report, &one, share);
-    for (int i = 1; i < count; i++) {
-        walk w = walk_along(scene, view, ray, i, &one);
-        mean.radiance = plus(mean.radiance, scaled(w.radiance, share));
-        mean.uncovered += share * w.uncovered;
-        report_add(report, &one, share);
-    }
+    report_add(report, &sum, 1.0);
+    report->truncated_by_depth *= share;
+    report->truncated_by_weight *= share;
     return mean;
 }
 

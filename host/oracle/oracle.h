@@ -65,6 +65,7 @@ typedef struct oracle_material {
     double thickness;            // KHR_materials_volume: > 0 bounds a solid, 0 is a thin wall
     double attenuation[3];       // colour that white light has after attenuation_distance
     double attenuation_distance; // metres; INFINITY: clear
+    double dispersion;           // KHR_materials_dispersion: 20 over Abbe's number; of solids
     double clearcoat, clearcoat_roughness; // KHR_materials_clearcoat
     bool unlit;
     double mirror; // the lecture's blend, in [0, 1]; < 0: not asked for
@@ -106,6 +107,14 @@ typedef struct oracle_scene {
     const oracle_tree *tree; // NULL: every ray tries every triangle
 } oracle_scene;
 
+// One of the wavelengths that solids divide light into.
+typedef struct oracle_wavelength {
+    double nm;
+    double share[3]; // of R, G and B
+} oracle_wavelength;
+
+enum { ORACLE_WAVELENGTHS = 16 };
+
 typedef struct oracle_view {
     double eye[3];
     double right[3], up[3], back[3]; // orthonormal; the camera looks along −back
@@ -120,8 +129,10 @@ typedef struct oracle_view {
     bool all_scattering; // lobes have what microfacets reflect more than once
     int roughness;       // directions along each axis of a lobe's quadrature; 0: rough metal is as
                          // smooth, and rough paint reflects nothing
-    bool transparent;    // what meets nothing is left out, and of alpha
-    bool edges;          // measure oracle_report.edge, at about twice the time
+    int wavelengths;     // 0: no solid disperses light
+    oracle_wavelength wavelength[ORACLE_WAVELENGTHS];
+    bool transparent; // what meets nothing is left out, and of alpha
+    bool edges;       // measure oracle_report.edge, at about twice the time
 } oracle_view;
 
 typedef struct oracle_ray {

@@ -1,4 +1,4 @@
-// What surfaces do with light on the oracle's walk, rules 2 to 4, 6 and 9 to 13 as ARCHITECTURE.md
+// What surfaces do with light on the oracle's walk, rules 2 to 4, 6 and 9 to 14 as ARCHITECTURE.md
 // ("Light transport") counts them.
 #include "oracle/lights.h"
 #include "oracle/rough.h"
@@ -107,6 +107,33 @@ static path leaving(const path *here, const surface *s, double by_itself, double
     return next;
 }
 
+// Rule 14.
+
+// The index of refraction: n(λ) = A + B/λ², with Abbe's number (n_d − 1)/(n_F − n_C) =
+// 20/dispersion.
+static double ior_of(const walk *w, const oracle_material *m)
+{
+    if (m == NULL)
+        return 1.0;
+    if (w->view->wavelengths == 0 || m->dispersion == 0.0)
+        return m->ior;
+    double f = 1.0 / (486.1 * 486.1), d = 1.0 / (587.6 * 587.6), c = 1.0 / (656.3 * 656.3);
+    double b = (m->ior - 1.0) / (20.0 / m->dispersion) / (f - c), a = m->ior - b * d;
+    double nm = w->view->wavelength[w->wavelength].nm;
+    return fmax(1.0, a + b / (nm * nm));
+}
+
+void oracle_disperse(walk *w, path *p, const surface *s)
+{
+    if (w->view->wavelengths == 0 || p->dispersed || !oracle_is_solid(s->material) ||
+        s->material->dispersion == 0.0)
+        return;
+    const double *share = w->view->wavelength[w->wavelength].share;
+    for (int i = 0; i < 3; i++)
+        p->weight.at[i] *= share[i] * w->view->wavelengths;
+    p->dispersed = w->disperses = true;
+}
+
 // Rule 4: what glass does with light that meets it, F and the way through.
 typedef struct interface {
     vector fresnel;
@@ -121,12 +148,13 @@ static interface interface_at(walk *w, const path *p, const surface *s)
     double ior_here = 1.0, ior_there = s->material->ior; // a thin wall, from both sides
     bool solid = oracle_is_solid(s->material);
     if (solid && s->front) {
-        ior_here = top_ior(w->scene, &p->inside);
+        ior_here = ior_of(w, top_material(w->scene, &p->inside));
+        ior_there = ior_of(w, s->material);
         media_enter(&glass.beyond.inside, s->index);
     } else if (solid) {
-        ior_here = top_ior(w->scene, &p->inside);
+        ior_here = ior_of(w, top_material(w->scene, &p->inside));
         media_leave(&glass.beyond.inside, s->index);
-        ior_there = top_ior(w->scene, &glass.beyond.inside);
+        ior_there = ior_of(w, top_material(w->scene, &glass.beyond.inside));
     }
     double eta = ior_here / ior_there;
     if (!w->view->no_fresnel)

@@ -13,6 +13,7 @@ typedef struct path {
     int left;         // triangle that it leaves, or −1
     int met;          // surfaces met so far, but for those that were not there
     double travelled; // length of the path so far
+    bool dispersed;   // it is of the walk's wavelength alone
     bool holds;       // brings `held` where it ends, in place of the environment's light
     vector held;
 } path;
@@ -28,6 +29,8 @@ struct walk {
     int depth;        // N
     int direction;    // rule 12: which facets of rough glass the path meets
     bool faceted;     // it met some
+    int wavelength;   // rule 14: which one the path is of once a solid has dispersed it
+    bool disperses;   // one has
     void (*follow)(walk *, const path *); // rule 7: goes on to the next surface
 };
 
@@ -36,6 +39,9 @@ void oracle_escape(walk *w, const path *p, vector direction, vector weight);
 
 // Rule 5: absorbs along the segment that ends at this surface, of this length.
 void oracle_absorb(const oracle_scene *scene, path *p, const surface *s, double distance);
+
+// Rule 14: a path that meets a solid which disperses light is of one wavelength from there on.
+void oracle_disperse(walk *w, path *p, const surface *s);
 
 // What a surface does with the light of a path that has met it.
 void oracle_meet(walk *w, const path *p, const surface *s);

@@ -1,5 +1,6 @@
 // How the kernels suit the device: packets, tiles, stacks and texels. See plan_parts.h.
 #include "render/plan_parts.h"
+#include "render/wavelengths.h"
 
 #include "base/half.h"
 #include "environment/mip_levels.h"
@@ -64,7 +65,11 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
         snprintf(plan->stack_reason, sizeof plan->stack_reason, "no path splits");
         return;
     }
-    double by_weight = settings->min_weight > 0 ? floor(-log2(settings->min_weight)) + 1 : INFINITY;
+    double most = plan->features[GLINT_FEATURE_DISPERSION].compiled
+                      ? glint_wavelengths_most(settings->wavelengths)
+                      : 1;
+    double by_weight =
+        settings->min_weight > 0 ? floor(log2(most / settings->min_weight)) + 1 : INFINITY;
     double need = fmin(by_weight, plan->depth) + 1;
     plan->stack_capacity = (int)fmax(STACK_LEAST, fmin(need, GLINT_DEPTH_MAX + 1));
     if (need > plan->stack_capacity) {
@@ -90,7 +95,8 @@ static void limit_branches(glint_plan *plan)
                                                  plan->features[GLINT_FEATURE_TEXTURES].compiled,
                                              plan->features[GLINT_FEATURE_ALPHA].compiled,
                                              plan->features[GLINT_FEATURE_ROUGH].compiled,
-                                             plan->features[GLINT_FEATURE_FACETS].compiled);
+                                             plan->features[GLINT_FEATURE_FACETS].compiled,
+                                             plan->features[GLINT_FEATURE_DISPERSION].compiled);
     const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
     if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
         plan->tiles = false;

@@ -16,6 +16,7 @@
     LOBE(SOLID, solid, "a volume")                                                                 \
     LOBE(THIN_WALL, thin, "transmission and no volume")                                            \
     LOBE(ABSORPTION, absorption, "absorption inside")                                              \
+    LOBE(DISPERSION, dispersion, "KHR_materials_dispersion")                                       \
     LOBE(PAINT, paint, "a share of paint")                                                         \
     LOBE(GLOSS, gloss, "paint of roughness 0, or textured")                                        \
     LOBE(SPECULAR, specular, "KHR_materials_specular")                                             \
@@ -329,6 +330,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     decide_optics(&census, in->settings->fresnel, plan);
     choose_cells(&census, in->settings->fresnel, plan);
     plan->has_facets = census.faceted > 0;
+    plan->disperses = census.needing[GLINT_FEATURE_DISPERSION] > 0;
     decide_scene(in, plan);
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);
@@ -370,10 +372,24 @@ static void decide_roughness(const glint_settings *settings, glint_plan *plan)
     }
 }
 
+// What becomes of the solids that disperse light, if there are any.
+static void decide_dispersion(const glint_settings *settings, glint_plan *plan)
+{
+    if (!plan->disperses) {
+        return;
+    }
+    if (glint_settings_heed_dispersion(settings)) {
+        decide(plan, GLINT_FEATURE_DISPERSION, true, "%d wavelengths", settings->wavelengths);
+    } else {
+        decide(plan, GLINT_FEATURE_DISPERSION, false, "these settings show no dispersion");
+    }
+}
+
 // What is told of a frame beside its colours.
 void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
 {
     decide_roughness(settings, plan);
+    decide_dispersion(settings, plan);
     if (settings->terms > 0) {
         decide(plan, GLINT_FEATURE_TERMS, true, "%d directions of a pixel are kept",
                settings->terms);

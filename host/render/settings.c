@@ -39,6 +39,12 @@ bool glint_settings_heed_roughness(const glint_settings *settings)
            !settings->proxy;
 }
 
+bool glint_settings_heed_dispersion(const glint_settings *settings)
+{
+    return settings->wavelengths > 1 && settings->output == GLINT_OUTPUT_COLOR &&
+           settings->shading == GLINT_SHADING_PIXEL && settings->terms == 0;
+}
+
 int glint_settings_rounds(const glint_settings *settings)
 {
     const int samples = settings->samples_per_axis * settings->samples_per_axis;

@@ -118,6 +118,8 @@ typedef struct glint_settings {
     glint_roughness roughness;
     glint_scattering scattering;
     int facets;            // directions of a pixel that meets rough glass, 1 or more
+    int wavelengths;       // that light is divided into by solids that disperse it: 1 to
+                           // GLINT_WAVELENGTHS_MAX; 1: it is not
     bool proxy;            // the environment has one (environment.h), which is heeded: with the
                            // bilinear filter, shading pixel and no terms
     glint_shading shading; // other than pixel: depth 0 or 1, the bilinear filter, no layers
@@ -153,6 +155,9 @@ glint_status glint_settings_check(const glint_settings *settings, const glint_ca
 
 // Whether rough surfaces are to be seen, but for terms.
 bool glint_settings_heed_roughness(const glint_settings *settings);
+
+// Whether dispersion is to be seen.
+bool glint_settings_heed_dispersion(const glint_settings *settings);
 
 // Directions that a pixel takes where it meets rough glass: those of all its samples, which go over
 // them in so many rounds.

@@ -114,6 +114,7 @@ const glint_settings glint_settings_default = {
     .min_weight = 1.0 / 1024,
     .anisotropy = 8,
     .facets = 64,
+    .wavelengths = 3,
 };
 
 static const char *const shadings[] = {[GLINT_SHADING_PIXEL] = "pixel",
@@ -250,6 +251,13 @@ const glint_setting glint_setting_table[] = {
                         "time, and show fewer of the single directions. --max-error does not "
                         "choose them.",
                 .minimum = 1, .maximum = GLINT_FACETS_MAX}},
+    {GLINT_SETTINGS_OF_FRAME, MEMBER(wavelengths), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
+     .key = "wavelengths",
+     .option = {GLINT_OPTION_INT, .name = "wavelengths", .argument = "N",
+                .help = "Wavelengths that a pixel takes where it meets glass that disperses light: "
+                        "3 are one each for red, green and blue; more turn fringes into rainbows, "
+                        "and take more time; 1 shows no dispersion.",
+                .minimum = 1, .maximum = GLINT_WAVELENGTHS_MAX}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(shading), .fingerprint = 15, .key = "shading",
      .no_capture = "a capture shows what surfaces see of each other, which vertices do not",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,

@@ -20,7 +20,8 @@ _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps"
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_light_record) == 112, "glint_light_record has gaps");
 _Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 32 * 4, "glint_frame_record has gaps");
+_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 33 * 4 + GLINT_WAVELENGTHS_MAX * 16,
+               "glint_frame_record has gaps");
 
 static size_t attribute_bytes(const glint_scene *scene)
 {
@@ -89,7 +90,8 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
             (lobes.solid ? GLINT_MATERIAL_SOLID : 0) | (lobes.thin ? GLINT_MATERIAL_THIN : 0) |
             (lobes.unlit ? GLINT_MATERIAL_UNLIT : 0) | (lobes.blend ? GLINT_MATERIAL_BLEND : 0) |
             (lobes.gloss ? GLINT_MATERIAL_GLOSS : 0) | (lobes.masked ? GLINT_MATERIAL_MASK : 0) |
-            (lobes.covers ? GLINT_MATERIAL_COVER : 0),
+            (lobes.covers ? GLINT_MATERIAL_COVER : 0) |
+            (lobes.dispersion ? GLINT_MATERIAL_DISPERSIVE : 0),
         .medium = lobes.solid ? ++*media : 0,
         .alpha_cutoff = m->alpha_cutoff,
         .normal_scale = m->normal_scale,
@@ -114,7 +116,7 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
 // finite σ large enough for any distance, as ∞ times a distance of 0 would give NaN.
 static glint_medium_record medium_record(const glint_material *m, double unit)
 {
-    glint_medium_record record = {.ior = m->ior};
+    glint_medium_record record = {.ior = m->ior, .dispersion = (m->ior - 1) * m->dispersion};
     for (int k = 0; k < 3; k++) {
         double sigma = 0;
         if (isfinite(m->attenuation_distance) && m->attenuation_color[k] < 1) {

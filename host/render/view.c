@@ -3,6 +3,7 @@
 #include "render/view.h"
 
 #include "render/split.h"
+#include "render/wavelengths.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,6 +55,19 @@ static depth_range depth_of(const glint_stored_space *space, const glint_camera 
     return (depth_range){depth, farthest - depth};
 }
 
+static void note_wavelengths(int count, glint_frame_record *record)
+{
+    glint_wavelength wavelengths[GLINT_WAVELENGTHS_MAX];
+    glint_wavelengths_choose(count, wavelengths);
+    record->wavelengths = count;
+    for (int i = 0; i < count; i++) {
+        record->wavelength[i].ior_step = (float)glint_wavelength_ior_step(wavelengths[i].nm);
+        for (int c = 0; c < 3; c++) {
+            record->wavelength[i].share[c] = (float)wavelengths[i].share[c];
+        }
+    }
+}
+
 static void note_settings(const glint_settings *settings, glint_frame_record *record)
 {
     record->min_weight = (float)settings->min_weight;
@@ -65,7 +79,8 @@ static void note_settings(const glint_settings *settings, glint_frame_record *re
     record->image_height = settings->height;
     record->step = settings->grid_step > 0 ? settings->grid_step : 1;
     record->first_pixel = settings->grid_step / 2;
-    record->rounds = glint_settings_rounds(settings);
+    record->facet_rounds = glint_settings_rounds(settings);
+    note_wavelengths(settings->wavelengths, record);
     record->samples_per_axis = settings->samples_per_axis;
     record->anisotropy = (float)settings->anisotropy;
     record->compensation = settings->scattering == GLINT_SCATTERING_MULTIPLE;

@@ -18,10 +18,11 @@ struct Extension {
     glint_treatment treatment;
 };
 
-constexpr std::array<Extension, 18> extensions = {{
+constexpr std::array<Extension, 19> extensions = {{
     {"KHR_materials_transmission", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_ior", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_volume", Holder::material, true, nullptr, GLINT_RENDERED},
+    {"KHR_materials_dispersion", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_emissive_strength", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_specular", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_clearcoat", Holder::material, true, nullptr, GLINT_RENDERED},

@@ -252,6 +252,10 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     if (const json *found = extension_of(material, place, "KHR_materials_volume")) {
         read_volume(*found, at / "KHR_materials_volume", result);
     }
+    if (const json *found = extension_of(material, place, "KHR_materials_dispersion")) {
+        result.dispersion =
+            factor_from(*found, at / "KHR_materials_dispersion", "dispersion", 0, 0);
+    }
     if (const json *found = extension_of(material, place, "KHR_materials_specular")) {
         Place in = at / "KHR_materials_specular";
         result.specular = factor(*found, in, "specularFactor", 1);

@@ -99,6 +99,7 @@ static glint_lobes sharing_lobes(const glint_material *m)
     lobes.glass = dielectric && m->transmission > 0;
     lobes.solid = lobes.glass && m->thickness > 0;
     lobes.absorption = lobes.solid && absorbs(m);
+    lobes.dispersion = lobes.solid && m->dispersion > 0;
     lobes.thin = lobes.glass && !lobes.solid;
     lobes.paint = dielectric && (m->transmission < 1 || has_texture(m, GLINT_TEXTURE_TRANSMISSION));
     lobes.specular = (lobes.paint || lobes.glass) && is_specular(m);

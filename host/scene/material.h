@@ -33,6 +33,7 @@ typedef struct glint_material {
     float thickness;            // KHR_materials_volume: > 0 makes the mesh the boundary of a solid
     float attenuation_distance; // metres; INFINITY where the file gives none
     float attenuation_color[3]; // what is left of white after attenuation_distance
+    float dispersion;           // KHR_materials_dispersion, 20/Abbe number, ≥ 0; of solids
     float specular;             // KHR_materials_specular, [0, 1]: of what paint and glass reflect
     float specular_color[3];    // likewise, ≥ 0: of that at right angles
     float clearcoat;            // KHR_materials_clearcoat, [0, 1]: how much of a coat there is
@@ -75,6 +76,7 @@ typedef struct glint_lobes {
     bool glass;      // transmits and reflects: solid or thin
     bool solid;      // the mesh bounds a solid, which refracts
     bool absorption; // and absorbs
+    bool dispersion; // and refracts by the wavelength
     bool thin;       // a wall without thickness: light passes straight
     bool paint;      // is lit by the environment's irradiance
     bool gloss;      // and reflects, as it is smooth

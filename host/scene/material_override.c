@@ -56,6 +56,8 @@ static const struct value {
      "solid glass has it, with an attenuation-distance"},
     {"attenuation-distance", OF(attenuation_distance), 1, FLT_MIN, FLT_MAX, "metres, more than 0",
      "solid glass has it, with an attenuation-color other than white"},
+    {"dispersion", OF(dispersion), 1, 0, FLT_MAX, "20 over Abbe's number, 0 or more",
+     "solid glass has it"},
 #undef OF
 };
 
@@ -81,6 +83,8 @@ static bool depends_on(const glint_material *material, const struct value *value
     case offsetof(glint_material, attenuation_color):
     case offsetof(glint_material, attenuation_distance):
         return lobes.absorption;
+    case offsetof(glint_material, dispersion):
+        return lobes.solid;
     default:
         return true;
     }

@@ -23,9 +23,9 @@ extern "C" {
     "mirror, metal, glass, thin-glass, diamond, water, paint, glossy-paint, unlit"
 #define GLINT_MATERIAL_VALUES                                                                      \
     "color, metallic, roughness, emission, transmission, ior, thickness, attenuation-color, "      \
-    "attenuation-distance"
+    "attenuation-distance, dispersion"
 
-enum { GLINT_MATERIAL_VALUE_COUNT = 9, GLINT_MATERIAL_OVERRIDES_MAX = 64 };
+enum { GLINT_MATERIAL_VALUE_COUNT = 10, GLINT_MATERIAL_OVERRIDES_MAX = 64 };
 
 typedef struct glint_material_override {
     const char *text;   // as it was given; borrowed

@@ -1,6 +1,8 @@
 // The oracle as the self-test asks it. See judge.h.
 #include "selftest/judge.h"
 
+#include "render/wavelengths.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -106,6 +108,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         .transmission = (double)m->transmission,
         .ior = (double)m->ior,
         .specular = (double)m->specular,
+        .dispersion = (double)m->dispersion,
         .clearcoat = (double)m->clearcoat,
         .clearcoat_roughness = (double)m->clearcoat_roughness,
         .clearcoat_normal_scale = (double)m->clearcoat_normal_scale,
@@ -260,6 +263,15 @@ oracle_view judge_view(const glint_camera *camera, const glint_settings *setting
                         .roughness = glint_settings_heed_roughness(settings) ? LOBE_STRATA : 0,
                         .all_scattering = settings->scattering == GLINT_SCATTERING_MULTIPLE,
                         .depth = 1};
+    if (glint_settings_heed_dispersion(settings)) {
+        view.wavelengths = settings->wavelengths;
+        glint_wavelength chosen[GLINT_WAVELENGTHS_MAX];
+        glint_wavelengths_choose(settings->wavelengths, chosen);
+        for (int i = 0; i < settings->wavelengths; i++) {
+            view.wavelength[i].nm = chosen[i].nm;
+            memcpy(view.wavelength[i].share, chosen[i].share, sizeof chosen[i].share);
+        }
+    }
     copy_vector(camera->eye, view.eye);
     copy_vector(camera->right, view.right);
     copy_vector(camera->up, view.up);

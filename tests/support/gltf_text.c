@@ -159,3 +159,26 @@ bool any_warning_has(const glint_warnings *warnings, const char *part)
     }
     return false;
 }
+
+void assert_refused(const char *path, const char *said)
+{
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    glint_error error = {0};
+    glint_status status = glint_scene_load(path, NULL, &scene, &warnings, &error);
+    if (status != GLINT_BAD_INPUT || strstr(error.message, said) == NULL) {
+        fail_msg("said \"%s\" (%d), expected \"%s\"", error.message, (int)status, said);
+    }
+    assert_memory_equal(error.message, path, strlen(path));
+    assert_int_equal(warnings.count, 0);
+    assert_null(scene.positions);
+    glint_error_free(&error);
+    glint_warnings_free(&warnings);
+}
+
+void assert_rest_refused(const char *folder, const char *rest, const char *said)
+{
+    char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, rest);
+    assert_refused(write_bytes(folder, "bad.gltf", text, strlen(text)), said);
+    free(text);
+}

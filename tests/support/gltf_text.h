@@ -54,6 +54,12 @@ extern const tetrahedron the_tetrahedron;
     TETRAHEDRON_STORAGE ",\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE "}]}]"
 #define ONE_SCENE "\"scenes\":[{\"nodes\":[0]}]"
 
+// The file must be refused, with a line that begins with its path and has `said` in it.
+void assert_refused(const char *path, const char *said);
+
+// The same of the tetrahedron's data with `rest`.
+void assert_rest_refused(const char *folder, const char *rest, const char *said);
+
 // The tetrahedron with the node, scenes and so on that `rest` gives.
 glint_scene load_tetrahedron(const char *folder, const char *rest);
 

@@ -1,0 +1,125 @@
+// Branches that leave a surface: where they start, what they carry, and which of them end there.
+
+// One branch that leaves the surface: a ray along `direction`, on the viewer's side or `beyond`.
+static inline path make_branch(const path *ray, const surface *s, const closest *hit,
+                               real3 direction, mask beyond)
+{
+    path branch = *ray;
+    branch.direction = direction;
+    branch.met = ray->met + (lane_int)1;
+#if GLINT_ROUGH
+    branch.held = real3_of(real_of(0), real_of(0), real_of(0));
+    branch.shown = real_of(1);
+#endif
+    if (GLINT_CONVEX_SOLID) {
+        const mask leaves = (s->outside & !beyond) | (beyond & !s->outside);
+        branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
+    }
+    if (HAS_PLACES) {
+        const real offset = SELECT(beyond, -s->offset, s->offset);
+        branch.origin = scale_add(s->geometric_normal, offset, s->position);
+        branch.from = hit->place;
+    }
+#if GLINT_ABSORPTION
+    branch.travelled = real_of(0);
+#endif
+    return branch;
+}
+
+// Rule 7: which of the branches that exist have met all the surfaces they may, or weigh too little.
+// What that leaves out is counted.
+static inline mask ended(const glint_frame_record *frame, real weight, lanes_int met, mask exists,
+                         const pixels *pixels, tally *tally)
+{
+    mask deep = exists & (met >= (lane_int)frame->depth);
+    mask light = exists & !deep & (weight < (scalar)frame->min_weight);
+    count_cut(tally, pixels, deep, weight, BY_DEPTH);
+    count_cut(tally, pixels, light, weight, BY_MIN_WEIGHT);
+    count_truncated(tally, pixels, frame->depth_counts != 0 ? deep | light : light, weight);
+    return deep | light;
+}
+
+// How many surfaces that are there a path has met.
+static inline lanes_int surfaces_met(const path *ray)
+{
+#if GLINT_ALPHA
+    return ray->met - ray->passed;
+#else
+    return ray->met;
+#endif
+}
+
+// Such a branch takes the environment along its direction; one that would not be traced anyway is
+// none of them.
+static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
+                              const pixels *pixels, tally *tally)
+{
+    mask traced = branch->looked_up == (lane_int)0;
+    mask ends = ended(frame, largest3(branch->weight), surfaces_met(branch), exists & traced,
+                      pixels, tally);
+    branch->looked_up = SELECT(ends, int_of(1), branch->looked_up);
+}
+
+#if GLINT_FACETS
+// What of lobes a branch's direction stands for. `how`: scaled and bend as in leave_surface, and by
+// how much the branch turns for each turn of a facet.
+static inline cone leave_facet(const path *ray, real t, const surface *s, const real how[3])
+{
+    const real width = width_after(&ray->lobe, t);
+    cone lobe = leave_surface(width, ray->lobe.spread, how[0], how[1], s->curvature);
+    const real own = joined_width(lobe.spread, how[2] * s->facet.width);
+    lobe.spread = SELECT(s->facet.there, own, lobe.spread);
+    return lobe;
+}
+#endif
+
+#if GLINT_ROUGH && CARRIES_CONES
+// What leaves by a lobe: the surface's, or that of a coat that goes the same way.
+static inline real widened_by_reflection(const surface *s, const scattering *out, real spread)
+{
+    real roughness = s->roughness;
+    mask rough = out->rough;
+#if GLINT_CLEARCOAT
+    const mask by_coat = are_coats_joined(s, out);
+    roughness = SELECT(by_coat, s->clearcoat_roughness, roughness);
+    rough = (rough & !by_coat) | (out->coat_rough & by_coat);
+#endif
+    return widened_by_lobe(roughness, rough, spread);
+}
+#endif
+
+#if COATS_APART && GLINT_ROUGH
+// What a branch that leaves a coat apart brings of its lobe.
+static inline void leave_coat(const surface *s, const scattering *out, const seen_lobe *coat,
+                              path *branch)
+{
+    const mask apart = out->coat_apart;
+    branch->held = select3(apart, coat->held, branch->held);
+    branch->shown = SELECT(apart, coat->shown, branch->shown);
+#if CARRIES_CONES
+    branch->cone.spread = widened_by_lobe(s->clearcoat_roughness, apart & out->coat_rough,
+                                          branch->cone.spread);
+#endif
+}
+#endif
+
+#if GLINT_DISPERSION
+// Of the rays in `met`, those that meet a solid which disperses light, and have not yet, are of the
+// round's wavelength from here on: each stands for the shares of R, G and B of as many rounds as
+// there are wavelengths.
+static inline void disperse(const glint_frame_record *frame, mask met, const pixels *pixels,
+                            path *ray, surface *s, tally *tally)
+{
+    const glint_wavelength_record *w = &frame->wavelength[tally->wavelength];
+    s->ior_step = w->ior_step;
+    const mask here = met & HAS_FLAG(*s, GLINT_MATERIAL_DISPERSIVE) &
+                      (ray->dispersed == (lane_int)0);
+    note_pixels(tally, pixels, here, tally->dispersed);
+    const scalar count = frame->wavelengths;
+    const real3 share = real3_of(real_of(count * (scalar)w->share[0]),
+                                 real_of(count * (scalar)w->share[1]),
+                                 real_of(count * (scalar)w->share[2]));
+    ray->weight = select3(here, multiply(ray->weight, share), ray->weight);
+    ray->dispersed = SELECT(here, int_of(1), ray->dispersed);
+}
+#endif

@@ -1,0 +1,33 @@
+// What a path carries on its way.
+
+#define ESCAPES 2
+
+// A path on its way: a ray, its weight and what it has passed.
+typedef struct path {
+    real3 origin, direction; // the direction is a unit vector
+    real3 weight;            // what a unit of radiance that arrives now adds to the pixel
+#if GLINT_ABSORPTION
+    real travelled; // the segment's length before its origin: primary rays start late
+#endif
+#if CARRIES_CONES
+    cone cone;
+#endif
+    lanes_int from;      // place of the triangle that the ray starts on, −1: none
+    lanes_int met;       // surfaces met so far
+#if GLINT_ALPHA
+    lanes_int passed; // of these, those that were not there where the ray met them
+#endif
+    lanes_int media;     // see media.cl
+    lanes_int looked_up; // takes the environment along its direction, without being traced: 1 as
+                         // it is cut short, ESCAPES as it meets nothing; else 0
+#if GLINT_ROUGH
+    real3 held; // light that it brings where it ends
+    real shown; // how much of the environment's light it brings there: 1, or less beside that
+#endif
+#if GLINT_DISPERSION
+    lanes_int dispersed; // 1: its light is of one wavelength
+#endif
+#if GLINT_FACETS
+    cone lobe; // what of the lobes of rough glass its direction stands for; 0 before any
+#endif
+} path;

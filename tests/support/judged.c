@@ -1,0 +1,103 @@
+// The device's frames against the oracle's. See judged.h.
+#include "support/judged.h"
+
+#include "environment/irradiance.h"
+#include "support/bridge.h"
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+glint_settings judged_frame(int width, int height, int depth)
+{
+    glint_settings settings = glint_settings_default;
+    settings.width = width;
+    settings.height = height;
+    settings.depth = depth;
+    settings.texels = GLINT_TEXELS_FLOAT;
+    settings.roughness = GLINT_ROUGHNESS_EXACT;
+    settings.facets = 1024;
+    return settings;
+}
+
+// `edge`: what nearness to a triangle's edge counts as a decision.
+static double error_of(const oracle_scene *scene, const oracle_view *view, double edge,
+                       const test_frame *frame)
+{
+    double squares = 0, light = 0;
+    size_t count = 0;
+    for (int i = 0; i < view->width * view->height; i++) {
+        double rgba[4];
+        oracle_report report;
+        oracle_pixel(scene, view, (const int[]){i % view->width, i / view->width}, rgba, &report);
+        if (report.surfaces == 0 || report.edge < edge) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const double off = frame->exact[4 * i + k] - rgba[k];
+            assert_true(isfinite(frame->exact[4 * i + k]));
+            squares += off * off;
+            light += rgba[k];
+            count++;
+        }
+    }
+    assert_true(count > (size_t)(view->width * view->height * 3 / 8));
+    return sqrt(squares * (double)count) / light;
+}
+
+static void set_materials(const judged *j, glint_scene *scene)
+{
+    for (size_t i = 0; i < scene->material_count; i++) {
+        glint_material *m = &scene->materials[i];
+        if (j->roughness >= 0 && glint_material_lobes(m).glass == (j->strata > 0)) {
+            m->roughness = j->roughness;
+        } else if (j->strata > 0) {
+            m->roughness = 0;
+        }
+        if (j->alpha < 1 && glint_material_lobes(m).thin) {
+            m->alpha_mode = GLINT_ALPHA_BLEND;
+            m->alpha = j->alpha;
+        }
+        m->metallic = j->metallic < 0 ? m->metallic : j->metallic;
+        if (j->change != NULL) {
+            j->change(j->kind, m);
+        }
+    }
+}
+
+double judge(const judged *j)
+{
+    glint_scene scene = {0};
+    test_scene_load(j->scene, &scene);
+    set_materials(j, &scene);
+    test_frame frame;
+    test_render(&scene, j->environment, NULL, &j->settings, &frame);
+    assert_true(frame.plan.features[j->feature].compiled);
+    bridge *b = bridge_create(&scene, j->environment);
+    glint_cube irradiance = {0};
+    assert_int_equal(
+        glint_irradiance_map(&j->environment->radiance, GLINT_IRRADIANCE_EDGE, &irradiance, NULL),
+        GLINT_OK);
+    bridge_use_irradiance_map(b, &irradiance);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
+    oracle_view view = bridge_view(&camera, &j->settings);
+    if (j->strata > 0) {
+        view.roughness = j->strata;
+        view.edges = false; // any is near to some facet's path
+    }
+    oracle_scene turned = *bridge_scene(b);
+    turned.environment_rotation = j->settings.env_rotate;
+    const double error = error_of(
+        &turned, &view, j->settings.precision == GLINT_PRECISION_DOUBLE ? 1e-9 : 1e-4, &frame);
+    bridge_free(b);
+    glint_cube_free(&irradiance);
+    test_frame_free(&frame);
+    glint_scene_free(&scene);
+    return error;
+}

@@ -1,0 +1,177 @@
+// What lies above and within surfaces by glTF's extensions, against the oracle: specular, clear
+// coats, dispersion.
+#include "support/bridge.h"
+#include "support/judged.h"
+#include "support/render.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static void add_specular(const void *kind, glint_material *m)
+{
+    (void)kind;
+    m->specular = 0.6F;
+    m->specular_color[0] = 40; // more than all
+    m->specular_color[1] = 0.5F;
+}
+
+// KHR_materials_specular: on smooth and rough paint, beside metal, on glass, and where lights
+// shine. The oracle's quadrature is plain, and lobes have their own error (above).
+static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene;
+        float roughness, metallic;
+        int strata;
+        double allowed;
+    } kinds[] = {
+        {"mirror_sphere", 0, 0, 0, 1e-6},      {"mirror_sphere", 0.3F, 0, 0, 0.004},
+        {"mirror_sphere", 0.8F, 0, 0, 0.004},  {"mirror_sphere", 0.8F, 0.5F, 0, 0.004},
+        {"lights", 0.4F, -1, 0, 0.004},        {"glass_sphere", 0, -1, 0, 1e-5},
+        {"nested_glass", 0, -1, 0, 1e-5},      {"thin_wall", 0, -1, 0, 3e-5},
+        {"glass_sphere", 0.3F, -1, 24, 0.016},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const judged j = {.scene = kinds[i].scene,
+                          .environment = &environment,
+                          .settings = judged_frame(16, 12, 3),
+                          .feature = GLINT_FEATURE_SPECULAR,
+                          .strata = kinds[i].strata,
+                          .roughness = kinds[i].roughness,
+                          .metallic = kinds[i].metallic,
+                          .alpha = 1,
+                          .change = add_specular};
+        const double error = judge(&j);
+        print_message("specular, %s, roughness %g: %.7f\n", j.scene, (double)j.roughness, error);
+        assert_true(error <= kinds[i].allowed);
+    }
+    glint_environment_free(&environment);
+}
+
+typedef struct coated {
+    const char *scene;
+    float roughness, metallic, coat, coat_roughness, alpha;
+    int strata;
+    double allowed;
+} coated;
+
+static void add_coat(const void *kind, glint_material *m)
+{
+    m->clearcoat = ((const coated *)kind)->coat;
+    m->clearcoat_roughness = ((const coated *)kind)->coat_roughness;
+}
+
+// Clear coats above metal, paint, glass and what is there in part, with lights.
+static void clear_coats_are_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    static const coated kinds[] = {
+        {"mirror_sphere", 0, 1, 0.7F, 0, 1, 0, 1e-6},  // one branch
+        {"mirror_sphere", 0, 0, 1, 0, 1, 0, 1e-6},     // of smooth paint, too
+        {"mirror_sphere", 1, 0, 1, 0, 1, 0, 0.001},    // matte paint has none
+        {"mirror_sphere", 0.4F, 1, 1, 0, 1, 0, 0.004}, // two
+        {"mirror_sphere", 0.4F, 0.5F, 1, 0.2F, 1, 0, 0.004},
+        {"mirror_sphere", 0, 1, 1, 0.4F, 1, 0, 0.004},
+        {"mirror_sphere", 0, 1, 1, 0.8F, 1, 0, 0.004},  // whose lobe takes no path
+        {"mirror_sphere", 1, 0, 1, 0.05F, 1, 0, 0.004}, // of which a mirror shows a share
+        {"facing_mirrors", 0.3F, 1, 1, 0, 1, 0, 0.004},
+        {"lights", 0.4F, -1, 1, 0.3F, 1, 0, 0.004},
+        {"glass_sphere", 0, -1, 1, 0, 1, 0, 1e-5},
+        {"nested_glass", 0, -1, 0.5F, 0, 1, 0, 1e-5},
+        {"thin_wall", 0, -1, 1, 0, 1, 0, 3e-5},
+        {"thin_wall", 0, -1, 1, 0.2F, 0.6F, 0, 0.004},
+        {"glass_sphere", 0.3F, -1, 1, 0, 1, 24, 0.016},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        judged j = {.scene = kinds[i].scene,
+                    .environment = &environment,
+                    .settings = judged_frame(16, 12, 3),
+                    .feature = GLINT_FEATURE_CLEARCOAT,
+                    .strata = kinds[i].strata,
+                    .roughness = kinds[i].roughness,
+                    .metallic = kinds[i].metallic,
+                    .alpha = kinds[i].alpha,
+                    .change = add_coat,
+                    .kind = &kinds[i]};
+        j.settings.min_weight = 0; // the oracle follows a coat by itself
+        const double error = judge(&j);
+        print_message("coat %g of roughness %g, %s, roughness %g: %.7f\n", (double)kinds[i].coat,
+                      (double)kinds[i].coat_roughness, j.scene, (double)j.roughness, error);
+        assert_true(error <= kinds[i].allowed);
+    }
+    glint_environment_free(&environment);
+}
+
+typedef struct dispersed {
+    const char *scene;
+    float dispersion, roughness, alpha;
+    int wavelengths, depth, samples, strata;
+    glint_precision precision;
+    double allowed;
+} dispersed;
+
+static void add_dispersion(const void *kind, glint_material *m)
+{
+    m->dispersion = ((const dispersed *)kind)->dispersion;
+}
+
+// KHR_materials_dispersion: glass of one solid, of nested ones, that absorbs; beside thin walls and
+// metal, which have none; rough; with few wavelengths and with many, and more samples than one.
+static void solids_disperse_light_as_the_oracle_does(void **state)
+{
+    (void)state;
+    static const dispersed kinds[] = {
+        {"glass_sphere", 1, 0, 1, 3, 1, 1, 0, GLINT_PRECISION_FLOAT, 1e-5},
+        {"glass_sphere", 1, 0, 1, 3, 4, 1, 0, GLINT_PRECISION_FLOAT, 1e-5},
+        {"glass_sphere", 5, 0, 1, 16, 4, 1, 0, GLINT_PRECISION_DOUBLE, 1e-7},
+        {"prism", 0.4F, 0, 1, 5, 5, 2, 0, GLINT_PRECISION_DOUBLE, 1e-7},
+        {"nested_glass", 2, 0, 1, 3, 5, 1, 0, GLINT_PRECISION_DOUBLE, 1e-7},
+        {"absorption_box", 30, 0, 1, 2, 4, 1, 0, GLINT_PRECISION_FLOAT, 1e-5}, // index 1 for red
+        {"gallery", 1, 0, 0.5F, 3, 4, 1, 0, GLINT_PRECISION_DOUBLE, 1e-4},
+        {"glass_sphere", 2, 0.3F, 1, 3, 2, 1, 24, GLINT_PRECISION_FLOAT, 0.016},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const dispersed *kind = &kinds[i];
+        judged j = {.scene = kind->scene,
+                    .environment = &environment,
+                    .settings = judged_frame(16, 12, kind->depth),
+                    .feature = GLINT_FEATURE_DISPERSION,
+                    .strata = kind->strata,
+                    .roughness = kind->roughness,
+                    .metallic = -1,
+                    .alpha = kind->alpha,
+                    .change = add_dispersion,
+                    .kind = kind};
+        j.settings.samples_per_axis = kind->samples;
+        j.settings.wavelengths = kind->wavelengths;
+        j.settings.precision = kind->precision;
+        j.settings.min_weight = 0;
+        const double error = judge(&j);
+        print_message("dispersion %g, %d wavelengths, %s, roughness %g, depth %d: %.9f\n",
+                      (double)kind->dispersion, kind->wavelengths, kind->scene,
+                      (double)kind->roughness, kind->depth, error);
+        assert_true(error <= kind->allowed);
+    }
+    glint_environment_free(&environment);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(specular_weighs_and_colours_what_paint_and_glass_reflect),
+        cmocka_unit_test(clear_coats_are_what_the_oracle_sees),
+        cmocka_unit_test(solids_disperse_light_as_the_oracle_does),
+    };
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
