@@ -40,6 +40,8 @@
             ACTIVE)                                                                                \
     FEATURE(CLEARCOAT, "a clear coat reflects, and what is below gets the rest", GLINT_FRESNEL,    \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
+    FEATURE(IRIDESCENCE, "films on surfaces, as thin as waves, colour what they reflect",          \
+            GLINT_FRESNEL, GLINT_HITS, ACTIVE)                                                     \
     FEATURE(ROUGH, "rough surfaces reflect lobes of the environment",                              \
             GLINT_MIRROR || GLINT_PAINT || GLINT_CLEARCOAT,                                        \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \

@@ -135,7 +135,9 @@ typedef struct glint_split_vector {
 #define GLINT_SLOT_CLEARCOAT 8
 #define GLINT_SLOT_CLEARCOAT_ROUGHNESS 9
 #define GLINT_SLOT_CLEARCOAT_NORMAL 10
-#define GLINT_MATERIAL_TEXTURES 11
+#define GLINT_SLOT_IRIDESCENCE 11
+#define GLINT_SLOT_IRIDESCENCE_THICKNESS 12
+#define GLINT_MATERIAL_TEXTURES 13
 
 typedef struct glint_material_record {
     float base_color[4]; // linear R, G, B; A
@@ -155,6 +157,9 @@ typedef struct glint_material_record {
     float clearcoat;                       // [0, 1], with GLINT_CLEARCOAT, as the next two
     float clearcoat_roughness;             // [0, 1]
     float clearcoat_normal_scale;          // of the clear coat's normal texture
+    float iridescence;                     // [0, 1], with GLINT_IRIDESCENCE, as the next two
+    float iridescence_ior;                 // of the film, ≥ 1
+    float iridescence_thickness[2];        // nm: where the texture is 0 and 1; without one the last
     int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
 

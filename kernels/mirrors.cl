@@ -5,7 +5,7 @@
 #define ONE_LOOKUP                                                                                 \
     (!GLINT_INTERREFLECTION && !GLINT_GLASS && !GLINT_MIP_LEVELS && !GATHERS && !GLINT_HITS &&     \
      !GLINT_TERMS && !GLINT_VERTEX_DIRECTION && !GLINT_PROXY && !GLINT_TEXTURES &&                 \
-     !GLINT_COLORED_VERTICES && !GLINT_CLEARCOAT &&                                                \
+     !GLINT_COLORED_VERTICES && !GLINT_CLEARCOAT && !GLINT_IRIDESCENCE &&                          \
      (GLINT_MIRROR || !GLINT_GEOMETRY))
 #if ONE_LOOKUP
 

@@ -30,6 +30,7 @@ GLINT_FEATURES(CHECK)
 #include "blocks.cl"
 #include "cubemap.cl"
 #include "optics.cl"
+#include "film.cl"
 #include "media.cl"
 #include "frustum.cl"
 #include "stack.cl"

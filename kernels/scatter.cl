@@ -37,19 +37,136 @@ static inline real3 specular_at_right_angles(const surface *s, real f0)
 #endif
 }
 
+#if GLINT_IRIDESCENCE
+// Rule 15: what a surface reflects that reflects `bare` without its film; `weight` is that of all
+// dielectrics reflect. As film_reflectance; `outer` is the outer medium's index of refraction.
+static inline real3 reflect_by_film(const surface *s, real3 bare, real weight, real3 roots,
+                                    real outer, real cosine)
+{
+    const real film = s->film_ior / outer;
+    // A film in a denser medium may reflect all, and is left out there.
+    const mask seen = (s->film > R(0.0)) &
+                      ((R(1.0) - cosine) * (R(1.0) + cosine) < film * film);
+    if (!any_lane(seen)) {
+        return bare;
+    }
+    const real way = s->film_ior * s->film_thickness * R(2e-9);
+    const real3 filmed = scale(film_reflectance(film, roots, cosine, way), weight);
+    return select3(seen, scale_add(subtract(filmed, bare), s->film, bare), bare);
+}
+
+// (n − 1)/(n + 1) of a base denser than what is above it, by what it reflects at right angles.
+static inline real3 film_roots(real3 f0)
+{
+    const real most = real_of(R(0.9999));
+    return real3_of(SMALLER(sqrt(f0.x), most), SMALLER(sqrt(f0.y), most),
+                    SMALLER(sqrt(f0.z), most));
+}
+
+#if GLINT_ROUGH
+// Of microfacets that are seen: at an even part of the cap from its top (see facets.cl), and turned
+// by these cosines, which are even, too.
+#define FILM_FACETS 8
+constant scalar film_facet_turns[FILM_FACETS] = {R(0.980785), R(-0.195090), R(0.555570), R(-0.831470), R(0.831470), R(-0.555570), R(0.195090), R(-0.980785)};
+
+static inline real3 within_one(real3 a)
+{
+    const real zero = real_of(0), one = real_of(1);
+    return real3_of(SMALLER(LARGER(a.x, zero), one), SMALLER(LARGER(a.y, zero), one),
+                    SMALLER(LARGER(a.z, zero), one));
+}
+
+// A film on what reflects a lobe: the F0 with which that reflects as much of a white environment as
+// the film does, in the mean over facets by what of their light no other facet stops.
+static inline real3 film_of_lobe(const surface *s, real3 f0)
+{
+    const real alpha = s->roughness * s->roughness;
+    const real sine = sqrt(LARGER((R(1.0) - s->cosine) * (R(1.0) + s->cosine), real_of(0)));
+    const real length = R(1.0) / sqrt(fused(alpha * sine, alpha * sine, s->cosine * s->cosine));
+    const real aside = alpha * sine * length, upwards = s->cosine * length;
+    const real3 roots = film_roots(f0);
+    const real root = smith_root(alpha * alpha, s->cosine);
+    real3 sum = real3_of(real_of(0), real_of(0), real_of(0));
+    real edges = real_of(0), weights = real_of(R(1e-9));
+    for (int i = 0; i < FILM_FACETS; i++) {
+        const scalar down = ((scalar)i + R(0.5)) / (scalar)FILM_FACETS, turn = film_facet_turns[i];
+        const real z = fused(real_of(-down), R(1.0) + upwards, real_of(1));
+        const real ring = sqrt(LARGER((R(1.0) - z) * (R(1.0) + z), real_of(0)));
+        // The facet's normal, in the plane of v, across it and along the surface's normal.
+        const real x = alpha * fused(ring, real_of(turn), aside), up = z + upwards;
+        const real across = alpha * alpha * ring * ring * ((R(1.0) - turn) * (R(1.0) + turn));
+        const real inverse = R(1.0) / sqrt(fused(x, x, fused(up, up, across)) + R(1e-12));
+        const real toward = fused(x, sine, up * s->cosine) * inverse;
+        const real away = fused(R(2.0) * toward, up * inverse, -s->cosine);
+        const real open = away * (s->cosine + root) /
+                          fused(away, root, s->cosine * smith_root(alpha * alpha, away));
+        const real weight = SELECT(away > R(0.0), open, real_of(0));
+        const real cosine = SMALLER(LARGER(toward, real_of(0)), real_of(1));
+        const real m = R(1.0) - cosine, m2 = m * m, edge = m2 * m2 * m;
+        const real3 filmed = reflect_by_film(s, metal_reflectance(f0, cosine), real_of(1), roots,
+                                             real_of(1), cosine);
+        sum = scale_add(filmed, weight, sum);
+        edges = fused(edge, weight, edges);
+        weights += weight;
+    }
+    const real left = LARGER(weights - edges, real_of(R(1e-9)));
+    const real3 least = real3_of(edges, edges, edges);
+    const real3 found = within_one(scale(subtract(sum, least), R(1.0) / left));
+    return select3(s->film > R(0.0), found, f0);
+}
+#endif
+#endif
+
+// What a metal reflects of each colour.
+static inline real3 reflect_from_metal(const surface *s)
+{
+    const real3 bare = metal_reflectance(s->base_color, s->cosine);
+#if GLINT_IRIDESCENCE
+    return reflect_by_film(s, bare, real_of(1), film_roots(s->base_color), real_of(1), s->cosine);
+#else
+    return bare;
+#endif
+}
+
+// The two sides of a dielectric surface, seen from the side of its normal.
+typedef struct sides {
+    real eta;    // the outer medium's index of refraction over the inner one's
+    real outer;  // the outer one
+    real cosine; // of the angle to the normal that light has in it
+} sides;
+
 // What a dielectric reflects of each colour whose Fresnel term is `reflectance`. With
 // KHR_materials_specular that says how far it is between F0 and 1, and a share of it all is left.
-static inline real3 specular_reflectance(const surface *s, real reflectance, real eta)
+static inline real3 specular_reflectance(const surface *s, real reflectance, const sides *at)
 {
+    const real root = (R(1.0) - at->eta) / (R(1.0) + at->eta);
+    real3 reflected = real3_of(reflectance, reflectance, reflectance);
 #if GLINT_SPECULAR
-    const real root = (R(1.0) - eta) / (R(1.0) + eta), f0 = root * root;
+    const real f0 = root * root;
     const real way = LARGER((reflectance - f0) / (R(1.0) - f0), real_of(0));
     const real3 from = specular_at_right_angles(s, f0);
     const real3 rest = real3_of(R(1.0) - from.x, R(1.0) - from.y, R(1.0) - from.z);
-    return scale(scale_add(rest, way, from), s->specular);
-#else
-    return real3_of(reflectance, reflectance, reflectance);
+    reflected = scale(scale_add(rest, way, from), s->specular);
 #endif
+#if GLINT_IRIDESCENCE
+#if GLINT_SPECULAR
+    const real sign = SELECT(root < R(0.0), real_of(-1), real_of(1));
+    const real3 roots = scale(film_roots(from), sign);
+    const real weight = s->specular;
+#else
+    const real3 roots = real3_of(root, root, root);
+    const real weight = real_of(1);
+#endif
+    reflected = reflect_by_film(s, reflected, weight, roots, at->outer, at->cosine);
+#endif
+    return reflected;
+}
+
+// The same of a surface that is met from empty space.
+static inline real3 specular_from_space(const surface *s)
+{
+    const sides at = {R(1.0) / s->ior, real_of(1), s->cosine};
+    return specular_reflectance(s, surface_reflectance(s->cosine, s->ior), &at);
 }
 
 // Rule 4, glass: reflectance and transmitted direction. A thin wall is one interface from empty
@@ -76,10 +193,10 @@ static inline lanes_int media_met_in(const surface *s, mask solid, lanes_int med
     return SELECT(solid & !s->outside & (media == (lane_int)0), s->medium, media);
 }
 
-// Rule 5: the media on both sides of a solid's surface. Sets the stacks of both branches and
-// returns η = n_i/n_t.
+// Rule 5: the media on both sides of a solid's surface. Sets the stacks of both branches and the
+// outer medium's index of refraction, and returns η = n_i/n_t.
 static inline real cross_solid(const scene_buffers *scene, const surface *s, mask solid,
-                               lanes_int *media, lanes_int *beyond, mask *lost)
+                               lanes_int *media, lanes_int *beyond, real *outer, mask *lost)
 {
     *media = media_met_in(s, solid, *media);
     lanes_int entered = enter_medium(*media, s->medium, lost);
@@ -88,6 +205,7 @@ static inline real cross_solid(const scene_buffers *scene, const surface *s, mas
     *lost = *lost & solid & s->outside;
     real n_i = medium_ior(scene->media, medium_on_top(*media), IOR_STEP(s));
     real n_t = medium_ior(scene->media, medium_on_top(*beyond), IOR_STEP(s));
+    *outer = SELECT(s->outside, n_i, n_t);
     return n_i / n_t;
 }
 
@@ -95,18 +213,25 @@ static inline real cross_solid(const scene_buffers *scene, const surface *s, mas
 static inline void scatter_glass(const scene_buffers *scene, const surface *s, real3 v, real share,
                                  lanes_int *media, scattering *out, mask *media_lost)
 {
-    real eta = R(1.0) / s->ior;
+    real eta = R(1.0) / s->ior, outer = real_of(1);
+    mask within = mask_none();
     out->media_transmitted = *media;
     if (GLINT_SOLID) {
         const mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
-        const real solid_eta =
-            cross_solid(scene, s, solid, media, &out->media_transmitted, media_lost);
+        real outer_of_solid;
+        const real solid_eta = cross_solid(scene, s, solid, media, &out->media_transmitted,
+                                           &outer_of_solid, media_lost);
         eta = SELECT(solid, solid_eta, eta);
+        outer = SELECT(solid, outer_of_solid, outer);
+        within = solid & !s->outside;
     }
     const real reflectance =
         glass_reflectance(s, v, eta, &out->transmitted, &out->bend, &out->total_reflection);
     const real3 all = real3_of(share, share, share);
-    real3 reflected = scale(specular_reflectance(s, reflectance, eta), share);
+    // From within, light has the transmitted ray's angle outside.
+    const sides at = {SELECT(within, R(1.0) / eta, eta), outer,
+                      SELECT(within, fused(eta, s->cosine, -out->bend), s->cosine)};
+    real3 reflected = scale(specular_reflectance(s, reflectance, &at), share);
     reflected = select3(out->total_reflection, all, reflected);
     if (GLINT_THIN_WALL) {
         const mask thin = HAS_FLAG(*s, GLINT_MATERIAL_THIN);
@@ -155,7 +280,10 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
     const lobe_parts albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
     const real lost = light_lost(scene, &albedo);
     const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
-    const real3 tint = GLINT_TINT ? s->base_color : one;
+    real3 tint = GLINT_TINT ? s->base_color : one;
+#if GLINT_IRIDESCENCE
+    tint = film_of_lobe(s, tint);
+#endif
     const real3 metal = scale(scale_add(tint, lost, one), s->metallic);
     out->lobe_base = multiply(tint, metal);
     out->lobe_edge = GLINT_FRESNEL ? metal : out->lobe_base;
@@ -163,7 +291,10 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
     real coat = zero;
     if (GLINT_PAINT && GLINT_FRESNEL) {
         const real root = (s->ior - R(1.0)) / (s->ior + R(1.0));
-        const real3 f0 = specular_at_right_angles(s, root * root);
+        real3 f0 = specular_at_right_angles(s, root * root);
+#if GLINT_IRIDESCENCE
+        f0 = film_of_lobe(s, f0);
+#endif
         real3 gain = scale_add(f0, lost, one);
 #if GLINT_SPECULAR
         gain = scale(gain, s->specular);
@@ -201,8 +332,7 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
 #if GLINT_FACETS
         smooth = smooth | s->facet.there;
 #endif
-        const real3 reflectance = specular_reflectance(
-            s, surface_reflectance(s->cosine, s->ior), R(1.0) / s->ior);
+        const real3 reflectance = specular_from_space(s);
         const real3 gloss = scale(reflectance, SELECT(smooth, share, real_of(0)));
         out->reflected_weight = add(out->reflected_weight, gloss);
         kept = SELECT(smooth, R(1.0) - largest3(reflectance), kept);
@@ -410,7 +540,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     real3 r = reflect_direction(v, s->normal, s->cosine);
     result.reflected = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
     if (GLINT_TINT) {
-        result.reflected_weight = scale(metal_reflectance(s->base_color, s->cosine), s->metallic);
+        result.reflected_weight = scale(reflect_from_metal(s), s->metallic);
     } else if (GLINT_MIRROR) {
         result.reflected_weight = real3_of(s->metallic, s->metallic, s->metallic);
     }

@@ -40,6 +40,10 @@ typedef struct surface {
     real3 clearcoat_normal; // as `normal`
     real clearcoat_cosine;  // n·v of that
 #endif
+#if GLINT_IRIDESCENCE
+    real film; // how much of a thin film there is
+    real film_ior, film_thickness; // nm
+#endif
 #if GLINT_DISPERSION
     scalar ior_step; // of the path's wavelength; set by disperse
 #endif
@@ -337,6 +341,11 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->clearcoat_roughness =
         SELECT(yes, real_of(m->clearcoat_roughness), s->clearcoat_roughness);
 #endif
+#if GLINT_IRIDESCENCE
+    s->film = SELECT(yes, real_of(m->iridescence), s->film);
+    s->film_ior = SELECT(yes, real_of(m->iridescence_ior), s->film_ior);
+    s->film_thickness = SELECT(yes, real_of(m->iridescence_thickness[1]), s->film_thickness);
+#endif
     s->blend = SELECT(yes, real_of(m->blend), s->blend);
     s->flags = SELECT(yes, int_of((lane_int)m->flags), s->flags);
     s->medium = SELECT(yes, int_of((lane_int)m->medium), s->medium);
@@ -419,6 +428,17 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
             select3(here, bump_of(c, m->clearcoat_normal_scale), s->clearcoat_bump);
         break;
 #endif
+#endif
+#if GLINT_IRIDESCENCE
+    case GLINT_SLOT_IRIDESCENCE:
+        s->film = SELECT(here, s->film * c->r, s->film);
+        break;
+    case GLINT_SLOT_IRIDESCENCE_THICKNESS: {
+        const scalar least = m->iridescence_thickness[0], most = m->iridescence_thickness[1];
+        s->film_thickness =
+            SELECT(here, fused(c->g, real_of(most - least), real_of(least)), s->film_thickness);
+        break;
+    }
 #endif
     case GLINT_SLOT_TRANSMISSION:
         s->transmission = SELECT(here, s->transmission * c->r, s->transmission);

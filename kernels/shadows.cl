@@ -157,8 +157,7 @@ static inline real3 light_passing(const surface *s)
     const real share = (R(1.0) - s->metallic) * s->transmission;
     real reflectance = real_of(0);
     if (GLINT_FRESNEL) {
-        reflectance = largest3(specular_reflectance(
-            s, surface_reflectance(s->cosine, s->ior), R(1.0) / s->ior));
+        reflectance = largest3(specular_from_space(s));
     }
     real left = share - share * reflectance;
 #if GLINT_CLEARCOAT
@@ -184,7 +183,9 @@ static inline void pass_surfaces(const scene_buffers *scene, path *rays, const c
     lanes_int beyond = rays->media;
 #if GLINT_SOLID
     mask lost;
-    (void)cross_solid(scene, &s, HAS_FLAG(s, GLINT_MATERIAL_SOLID), &rays->media, &beyond, &lost);
+    real outer;
+    (void)cross_solid(scene, &s, HAS_FLAG(s, GLINT_MATERIAL_SOLID), &rays->media, &beyond, &outer,
+                      &lost);
 #endif
     real3 passing = light_passing(&s);
 #if GLINT_ABSORPTION

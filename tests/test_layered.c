@@ -1,5 +1,5 @@
 // What lies above and within surfaces by glTF's extensions, against the oracle: specular, clear
-// coats, dispersion.
+// coats, dispersion, thin films.
 #include "support/bridge.h"
 #include "support/judged.h"
 #include "support/render.h"
@@ -166,12 +166,79 @@ static void solids_disperse_light_as_the_oracle_does(void **state)
     glint_environment_free(&environment);
 }
 
+typedef struct filmed {
+    const char *scene;
+    float roughness, metallic, film, ior, thickness, specular;
+    int strata;
+    glint_precision precision;
+    double allowed;
+} filmed;
+
+static void add_film(const void *kind, glint_material *m)
+{
+    const filmed *f = kind;
+    m->iridescence = f->film;
+    m->iridescence_ior = f->ior;
+    m->iridescence_thickness[1] = f->thickness;
+    m->specular = f->specular;
+    if (m->metallic == 1) {
+        m->base_color[0] = 0.9F;
+        m->base_color[1] = 0.6F;
+        m->base_color[2] = 0.2F;
+    }
+}
+
+// KHR_materials_iridescence: on smooth metal, paint and glass, which is met from both sides, on
+// thin walls, on rough surfaces. The device sums up what goes to and fro 8 times, and of rough
+// surfaces it takes the film's reflectance at the angle of view.
+static void films_colour_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    static const filmed kinds[] = {
+        {"mirror_sphere", 0, 1, 1, 1.3F, 400, 1, 0, GLINT_PRECISION_FLOAT, 1e-5},
+        {"mirror_sphere", 0, 1, 1, 2.2F, 250, 1, 0, GLINT_PRECISION_DOUBLE, 1e-5},
+        {"mirror_sphere", 0, 0, 1, 1.8F, 600, 1, 0, GLINT_PRECISION_FLOAT, 1e-5},
+        {"mirror_sphere", 0, 0.5F, 0.7F, 1.4F, 0, 0.5F, 0, GLINT_PRECISION_FLOAT, 1e-4},
+        {"glass_sphere", 0, -1, 1, 1.3F, 500, 1, 0, GLINT_PRECISION_FLOAT, 1e-4},
+        {"glass_sphere", 0, -1, 1, 1.9F, 300, 1, 0, GLINT_PRECISION_DOUBLE, 1e-4},
+        {"nested_glass", 0, -1, 1, 1.6F, 300, 1, 0, GLINT_PRECISION_FLOAT, 1e-4},
+        {"thin_wall", 0, -1, 1, 1.4F, 350, 0.6F, 0, GLINT_PRECISION_FLOAT, 1e-4},
+        {"mirror_sphere", 0.2F, 1, 1, 1.3F, 400, 1, 0, GLINT_PRECISION_FLOAT, 0.015},
+        {"mirror_sphere", 0.5F, 1, 1, 1.8F, 300, 1, 0, GLINT_PRECISION_FLOAT, 0.03},
+        {"mirror_sphere", 0.4F, 0, 1, 1.8F, 300, 1, 0, GLINT_PRECISION_FLOAT, 0.008},
+        {"glass_sphere", 0.3F, -1, 1, 1.8F, 300, 1, 24, GLINT_PRECISION_FLOAT, 0.016},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const filmed *kind = &kinds[i];
+        judged j = {.scene = kind->scene,
+                    .environment = &environment,
+                    .settings = judged_frame(16, 12, 3),
+                    .feature = GLINT_FEATURE_IRIDESCENCE,
+                    .strata = kind->strata,
+                    .roughness = kind->roughness,
+                    .metallic = kind->metallic,
+                    .alpha = 1,
+                    .change = add_film,
+                    .kind = kind};
+        j.settings.precision = kind->precision;
+        const double error = judge(&j);
+        print_message("film %g of %g, %g nm, %s, roughness %g: %.7f\n", (double)kind->film,
+                      (double)kind->ior, (double)kind->thickness, kind->scene,
+                      (double)kind->roughness, error);
+        assert_true(error <= kind->allowed);
+    }
+    glint_environment_free(&environment);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(specular_weighs_and_colours_what_paint_and_glass_reflect),
         cmocka_unit_test(clear_coats_are_what_the_oracle_sees),
         cmocka_unit_test(solids_disperse_light_as_the_oracle_does),
+        cmocka_unit_test(films_colour_what_the_oracle_sees),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);
 }

@@ -1,4 +1,5 @@
 // The oracle's optics: reflection, refraction, Fresnel, absorption.
+#include "oracle/film.h"
 #include "oracle/surface.h"
 #include "oracle/vector.h"
 
@@ -56,11 +57,30 @@ vector oracle_tinted(const surface *s, double f0)
     return f;
 }
 
-vector oracle_dielectric(const surface *s, double f, double f0)
+// What a film on it makes of a dielectric, which light meets from the medium `here`.
+static vector filmed(const surface *s, double here, double there)
 {
+    film_stack stack = {
+        .above = here, .film = s->material->film_ior, .thickness = s->film_thickness};
+    double f0 = (here - there) * (here - there) / ((here + there) * (here + there));
+    vector tinted = oracle_tinted(s, f0);
+    for (int i = 0; i < 3; i++) {
+        double index = oracle_index_of(tinted.at[i]);
+        stack.base[i] = tinted.at[i] == f0 ? there : there > here ? here * index : here / index;
+    }
+    return scaled(oracle_film(&stack, s->cosine), s->specular);
+}
+
+vector oracle_dielectric(const surface *s, double here, double there)
+{
+    double f = oracle_fresnel(s->cosine, here, there), f0 = oracle_fresnel(1.0, here, there);
     vector reflected = {{0.0, 0.0, 0.0}}, from = oracle_tinted(s, f0);
     double way = fmax(0.0, (f - f0) / (1.0 - f0));
     for (int i = 0; i < 3; i++)
         reflected.at[i] = s->specular * (from.at[i] + (1.0 - from.at[i]) * way);
-    return reflected;
+    double sine = sqrt(fmax(0.0, 1.0 - s->cosine * s->cosine));
+    bool total = here * sine >= there || here * sine >= s->material->film_ior;
+    if (s->film == 0.0 || total)
+        return reflected;
+    return plus(scaled(reflected, 1.0 - s->film), scaled(filmed(s, here, there), s->film));
 }

@@ -47,8 +47,10 @@ typedef enum oracle_role {
     ORACLE_SPECULAR,       // A
     ORACLE_SPECULAR_COLOR, // R, G, B
     ORACLE_CLEARCOAT,      // R
-    ORACLE_CLEARCOAT_ROUGHNESS, // G
-    ORACLE_CLEARCOAT_NORMAL,    // as ORACLE_NORMAL
+    ORACLE_CLEARCOAT_ROUGHNESS,   // G
+    ORACLE_CLEARCOAT_NORMAL,      // as ORACLE_NORMAL
+    ORACLE_IRIDESCENCE,           // R
+    ORACLE_IRIDESCENCE_THICKNESS, // G: how far between both thicknesses
     ORACLE_ROLES
 } oracle_role;
 
@@ -67,6 +69,8 @@ typedef struct oracle_material {
     double attenuation_distance; // metres; INFINITY: clear
     double dispersion;           // KHR_materials_dispersion: 20 over Abbe's number; of solids
     double clearcoat, clearcoat_roughness; // KHR_materials_clearcoat
+    double film, film_ior;    // KHR_materials_iridescence: how much of a film there is; its index
+    double film_thickness[2]; // nm; without a texture the last
     bool unlit;
     double mirror; // the lecture's blend, in [0, 1]; < 0: not asked for
     oracle_alpha alpha_mode;

@@ -1,6 +1,8 @@
 // Rough surfaces: the integral over their lobe, by plain quadrature over directions. See rough.h.
 #include "oracle/rough.h"
 
+#include <stddef.h>
+
 static const double PI = 3.14159265358979323846;
 
 // D V n·l, with GGX's D and the height-correlated V of Smith's shadowing.
@@ -27,7 +29,33 @@ lobe_integrals oracle_lobe_towards(const surface *s, double roughness, vector di
     return (lobe_integrals){.white_base = weight * (1.0 - m), .white_edge = weight * m};
 }
 
-lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context)
+// By a film's table, see rough.h; NULL: there is none.
+static vector from_table(const vector *table, double cosine)
+{
+    double at = fmin(fmax(cosine, 0.0), 1.0) * ORACLE_FILM_STEPS;
+    int below = at < ORACLE_FILM_STEPS ? (int)at : ORACLE_FILM_STEPS - 1;
+    double far = at - below;
+    return plus(scaled(table[below], 1.0 - far), scaled(table[below + 1], far));
+}
+
+static void add_direction(lobe_integrals *sum, const vector *table, double toward, vector seen,
+                          double weight)
+{
+    if (table != NULL) {
+        vector reflected = scaled(from_table(table, toward), weight);
+        sum->base = plus(sum->base, times(reflected, seen));
+        sum->edge = plus(sum->edge, reflected);
+        return;
+    }
+    double m = pow(1.0 - toward, 5.0);
+    sum->base = plus(sum->base, scaled(seen, weight * (1.0 - m)));
+    sum->edge = plus(sum->edge, scaled(seen, weight * m));
+    sum->white_base += weight * (1.0 - m);
+    sum->white_edge += weight * m;
+}
+
+lobe_integrals oracle_film_lobe(const surface *s, int strata, const vector *table, seen_light light,
+                                const void *context)
 {
     double alpha = s->roughness * s->roughness;
     vector axis = {{0.0, 0.0, 0.0}};
@@ -54,15 +82,15 @@ lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const
             double weight = share * lobe_weight(s, alpha, l, h);
             if (!(weight > 0.0))
                 continue;
-            double m = pow(1.0 - dot(s->viewer, h), 5.0);
-            vector seen = light(context, l);
-            sum.base = plus(sum.base, scaled(seen, weight * (1.0 - m)));
-            sum.edge = plus(sum.edge, scaled(seen, weight * m));
-            sum.white_base += weight * (1.0 - m);
-            sum.white_edge += weight * m;
+            add_direction(&sum, table, dot(s->viewer, h), light(context, l), weight);
         }
     }
     return sum;
+}
+
+lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context)
+{
+    return oracle_film_lobe(s, strata, NULL, light, context);
 }
 
 // The place of a path's `met`th facet among `count`: each comes once, in another order at each

@@ -21,6 +21,12 @@ lobe_integrals oracle_lobe_towards(const surface *s, double roughness, vector di
 // plane.
 lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const void *context);
 
+// Rule 15: the same of what a film reflects, of which `table` has the reflectance at v·h from 0 to
+// 1 in equal steps: `base` is ∫ D V F E n·l dl, and `edge` that where E is 1.
+enum { ORACLE_FILM_STEPS = 200 };
+lobe_integrals oracle_film_lobe(const surface *s, int strata, const vector *table, seen_light light,
+                                const void *context);
+
 // The surface as one of the facets that the viewer sees: number `number` of `count`, at a path's
 // `met`th surface.
 surface oracle_facet(const surface *s, int number, int count, int met);

@@ -1,5 +1,6 @@
-// What surfaces do with light on the oracle's walk, rules 2 to 4, 6 and 9 to 14 as ARCHITECTURE.md
+// What surfaces do with light on the oracle's walk, rules 2 to 4, 6 and 9 to 15 as ARCHITECTURE.md
 // ("Light transport") counts them.
+#include "oracle/film.h"
 #include "oracle/lights.h"
 #include "oracle/rough.h"
 #include "oracle/vector.h"
@@ -158,8 +159,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
     }
     double eta = ior_here / ior_there;
     if (!w->view->no_fresnel)
-        glass.fresnel = oracle_dielectric(s, oracle_fresnel(s->cosine, ior_here, ior_there),
-                                          oracle_fresnel(1.0, ior_here, ior_there));
+        glass.fresnel = oracle_dielectric(s, ior_here, ior_there);
     double margin = fabs(1.0 - eta * eta * (1.0 - s->cosine * s->cosine));
     w->report->critical = fmin(w->report->critical, margin);
     glass.through = scaled(s->viewer, -1.0);
@@ -177,7 +177,17 @@ static interface interface_at(walk *w, const path *p, const surface *s)
     return glass;
 }
 
-// Rule 3: F0 + (1 − F0)(1 − n·v)⁵.
+// Rule 15: a film in empty space, on what reflects f0 at right angles.
+static film_stack stack_on(const surface *s, vector f0)
+{
+    film_stack stack = {
+        .above = 1.0, .film = s->material->film_ior, .thickness = s->film_thickness};
+    for (int i = 0; i < 3; i++)
+        stack.base[i] = oracle_index_of(f0.at[i]);
+    return stack;
+}
+
+// Rule 3: F0 + (1 − F0)(1 − n·v)⁵, or what a film makes of it.
 static vector schlick(const walk *w, const surface *s)
 {
     vector f = s->base;
@@ -185,6 +195,10 @@ static vector schlick(const walk *w, const surface *s)
         return f;
     for (int i = 0; i < 3; i++)
         f.at[i] += (1.0 - f.at[i]) * pow(1.0 - s->cosine, 5.0);
+    if (s->film > 0.0) {
+        film_stack stack = stack_on(s, s->base);
+        f = plus(scaled(f, 1.0 - s->film), scaled(oracle_film(&stack, s->cosine), s->film));
+    }
     return f;
 }
 
@@ -228,8 +242,7 @@ static vector pass_straight(void *state, const oracle_hit *hit, vector direction
         media_leave(&way->inside, s.index);
     double f = 0.0;
     if (!w->view->no_fresnel)
-        f = largest(oracle_dielectric(&s, oracle_fresnel(s.cosine, 1.0, m->ior),
-                                      oracle_fresnel(1.0, 1.0, m->ior)));
+        f = largest(oracle_dielectric(&s, 1.0, m->ior));
     f += (1.0 - f) * clearcoat_of(w, &s) * oracle_fresnel(s.clearcoat_cosine, 1.0, 1.5);
     double glass = m->unlit || m->mirror >= 0.0 ? 0.0 : (1.0 - s.metallic) * s.transmission;
     double gone = 1.0 - s.coverage;
@@ -328,6 +341,29 @@ static void add_highlights(walk *w, const path *p, const surface *s, vector base
     }
 }
 
+// What a lobe sees of the environment, and of a white one.
+typedef struct seen_lobe {
+    vector light, white;
+} seen_lobe;
+
+// The lobe of a surface with this F0, with its film.
+static seen_lobe see_lobe(const walk *w, const surface *s, const lobe_integrals *lobe, vector f0,
+                          vector f90)
+{
+    seen_lobe seen = {plus(times(f0, lobe->base), times(f90, lobe->edge)),
+                      plus(scaled(f0, lobe->white_base), scaled(f90, lobe->white_edge))};
+    if (s->film == 0.0 || w->view->no_fresnel)
+        return seen;
+    film_stack stack = stack_on(s, f0);
+    vector table[ORACLE_FILM_STEPS + 1];
+    for (int i = 0; i <= ORACLE_FILM_STEPS; i++)
+        table[i] = oracle_film(&stack, (double)i / ORACLE_FILM_STEPS);
+    lobe_integrals by_film = oracle_film_lobe(s, w->view->roughness, table, radiance, w->scene);
+    seen.light = plus(scaled(seen.light, 1.0 - s->film), scaled(by_film.base, s->film));
+    seen.white = plus(scaled(seen.white, 1.0 - s->film), scaled(by_film.edge, s->film));
+    return seen;
+}
+
 // Metal and the coat of paint as lobes.
 static void scatter_lobes(walk *w, const path *p, const surface *s)
 {
@@ -345,14 +381,14 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
     vector metal = scaled(plus(white, scaled(s->base, lost)), as_metal);
     vector base = plus(times(s->base, metal), times(paths, f0));
     vector edge = w->view->no_fresnel ? base : plus(metal, paths);
-    vector matte_light = plus(times(lobe.base, times(matte, f0)), times(lobe.edge, matte));
-    w->radiance = plus(w->radiance, times(p->weight, matte_light));
+    seen_lobe by_coat = see_lobe(w, s, &lobe, f0, white);
+    seen_lobe by_metal = see_lobe(w, s, &lobe, s->base, w->view->no_fresnel ? s->base : white);
+    w->radiance = plus(w->radiance, times(p->weight, times(matte, by_coat.light)));
     add_highlights(w, p, s, plus(base, times(matte, f0)), plus(edge, matte));
-    vector seen = times(coat, plus(scaled(f0, lobe.white_base), scaled(white, lobe.white_edge)));
-    double kept = 1.0 - largest(seen);
+    double kept = 1.0 - largest(times(coat, by_coat.white));
     add_matte(w, p, s, scaled(s->base, as_paint * kept));
-    vector held = plus(times(base, lobe.base), times(edge, lobe.edge));
-    vector weight = plus(scaled(base, lobe.white_base), scaled(edge, lobe.white_edge));
+    vector held = plus(times(metal, by_metal.light), times(paths, by_coat.light));
+    vector weight = plus(times(metal, by_metal.white), times(paths, by_coat.white));
     reflect(w, p, s, times(p->weight, weight), &held);
 }
 
@@ -375,8 +411,7 @@ static shares shares_at(walk *w, const path *p, const surface *s)
         bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // and shown without a coat
         vector coat = {{0.0, 0.0, 0.0}};
         if (!rough && !w->view->no_fresnel)
-            coat = oracle_dielectric(s, oracle_fresnel(s->cosine, 1.0, m->ior),
-                                     oracle_fresnel(1.0, 1.0, m->ior));
+            coat = oracle_dielectric(s, 1.0, m->ior);
         of.reflected = plus(of.reflected, scaled(coat, as_paint));
         of.matte = scaled(s->base, as_paint * (1.0 - largest(coat)));
     }
@@ -445,6 +480,7 @@ static double add_clearcoat(walk *w, const path *p, const surface *s)
     coat.base = coat.emission = (vector){{0.0, 0.0, 0.0}};
     coat.specular_color = (vector){{1.0, 1.0, 1.0}};
     coat.specular = 1.0;
+    coat.film = 0.0;
     coat.metallic = coat.transmission = 0.0;
     coat.normal = s->clearcoat_normal;
     coat.cosine = s->clearcoat_cosine;

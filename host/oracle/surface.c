@@ -147,6 +147,9 @@ static void take_material(const place *p, const arrival *by, surface *s)
     for (int c = 0; c < 3; c++)
         s->specular_color.at[c] = m->specular_color[c] * tint.rgba[c];
     s->clearcoat = m->clearcoat * glance_at(p, by, ORACLE_CLEARCOAT, s).rgba[0];
+    s->film = m->film * glance_at(p, by, ORACLE_IRIDESCENCE, s).rgba[0];
+    double far = glance_at(p, by, ORACLE_IRIDESCENCE_THICKNESS, s).rgba[1];
+    s->film_thickness = m->film_thickness[0] + far * (m->film_thickness[1] - m->film_thickness[0]);
     s->clearcoat_roughness =
         m->clearcoat_roughness * glance_at(p, by, ORACLE_CLEARCOAT_ROUGHNESS, s).rgba[1];
     double open = glance_at(p, by, ORACLE_OCCLUSION, s).rgba[0];

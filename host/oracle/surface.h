@@ -33,7 +33,8 @@ typedef struct surface {
     vector specular_color;
     double metallic, roughness, transmission, specular, occlusion, coverage;
     double clearcoat, clearcoat_roughness;
-    double jump; // see oracle_report
+    double film, film_thickness; // nm
+    double jump;                 // see oracle_report
 } surface;
 
 // How a path arrives: its direction, its cone where it meets the surface, its whole length, and
@@ -54,8 +55,9 @@ bool oracle_is_thin(const oracle_material *m);
 // F0 as KHR_materials_specular colours it, before the factor.
 vector oracle_tinted(const surface *s, double f0);
 
-// What a dielectric reflects where Fresnel's term is f, and f0 at right angles. The extension keeps
-// how far f is on its way from f0 to 1.
-vector oracle_dielectric(const surface *s, double f, double f0);
+// What a dielectric reflects of light in a medium of the index `here`, where `there` is the next
+// one's, with its film. KHR_materials_specular keeps how far Fresnel's term is on its way from F0
+// to 1.
+vector oracle_dielectric(const surface *s, double here, double there);
 
 #endif

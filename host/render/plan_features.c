@@ -21,6 +21,7 @@
     LOBE(GLOSS, gloss, "paint of roughness 0, or textured")                                        \
     LOBE(SPECULAR, specular, "KHR_materials_specular")                                             \
     LOBE(CLEARCOAT, clearcoat, "KHR_materials_clearcoat")                                          \
+    LOBE(IRIDESCENCE, iridescent, "KHR_materials_iridescence")                                     \
     LOBE(BLEND, blend, "the lecture's blend")                                                      \
     LOBE(UNLIT, unlit, "KHR_materials_unlit")                                                      \
     LOBE(EMISSION, emission, "emission")
@@ -152,7 +153,8 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     const size_t glass = c->needing[GLINT_FEATURE_GLASS];
     const bool angular = c->needing[GLINT_FEATURE_TINT] > 0 || glass > 0 ||
                          c->needing[GLINT_FEATURE_GLOSS] > 0 || c->rough > 0 ||
-                         c->needing[GLINT_FEATURE_CLEARCOAT] > 0;
+                         c->needing[GLINT_FEATURE_CLEARCOAT] > 0 ||
+                         c->needing[GLINT_FEATURE_IRIDESCENCE] > 0;
     decide(plan, GLINT_FEATURE_FRESNEL, exact && angular, "%s",
            !exact    ? "no Fresnel term was asked for"
            : angular ? "coloured metal, glass, coats, or what reflects lobes or is smooth paint"
@@ -173,6 +175,7 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
         decide(plan, GLINT_FEATURE_GLOSS, false, "no Fresnel term was asked for");
         decide(plan, GLINT_FEATURE_SPECULAR, false, "no Fresnel term was asked for");
         decide(plan, GLINT_FEATURE_CLEARCOAT, false, "no Fresnel term was asked for");
+        decide(plan, GLINT_FEATURE_IRIDESCENCE, false, "no Fresnel term was asked for");
     } else if (glint_plan_shades_vertices(plan)) {
         decide(plan, GLINT_FEATURE_CLEARCOAT, false, "vertices are shaded, without coats");
     }

@@ -14,7 +14,7 @@
 #include <string.h>
 
 // Both compilers must lay the shared structs out alike: 32-bit scalars without gaps.
-_Static_assert(sizeof(glint_material_record) == 144, "glint_material_record has gaps");
+_Static_assert(sizeof(glint_material_record) == 168, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_texture_record) == 112, "glint_texture_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
@@ -100,6 +100,9 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
         .clearcoat = lobes.clearcoat ? m->clearcoat : 0,
         .clearcoat_roughness = m->clearcoat_roughness,
         .clearcoat_normal_scale = m->clearcoat_normal_scale,
+        .iridescence = lobes.iridescent ? m->iridescence : 0,
+        .iridescence_ior = m->iridescence_ior,
+        .iridescence_thickness = {m->iridescence_thickness[0], m->iridescence_thickness[1]},
         .roughness = lobes.rough || lobes.facets ? m->roughness : 0,
     };
     memcpy(record.base_color, m->base_color, sizeof m->base_color);

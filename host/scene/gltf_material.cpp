@@ -158,6 +158,16 @@ void read_clearcoat(const json &object, const Place &place, glint_material &resu
     read_normal_scale(object, place, "clearcoatNormalTexture", result.clearcoat_normal_scale);
 }
 
+void read_iridescence(const json &object, const Place &place, glint_material &result)
+{
+    result.iridescence = factor(object, place, "iridescenceFactor", 0);
+    result.iridescence_ior = factor_from(object, place, "iridescenceIor", 1, 1.3);
+    result.iridescence_thickness[0] =
+        factor_from(object, place, "iridescenceThicknessMinimum", 0, 100);
+    result.iridescence_thickness[1] =
+        factor_from(object, place, "iridescenceThicknessMaximum", 0, 400);
+}
+
 void read_volume(const json &object, const Place &place, glint_material &result)
 {
     result.thickness = factor_from(object, place, "thicknessFactor", 0, 0);
@@ -264,6 +274,9 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     if (const json *found = extension_of(material, place, "KHR_materials_clearcoat")) {
         read_clearcoat(*found, at / "KHR_materials_clearcoat", result);
     }
+    if (const json *found = extension_of(material, place, "KHR_materials_iridescence")) {
+        read_iridescence(*found, at / "KHR_materials_iridescence", result);
+    }
     if (const json *found = extension_of(material, place, "KHR_materials_emissive_strength")) {
         float strength =
             factor_from(*found, at / "KHR_materials_emissive_strength", "emissiveStrength", 0, 1);
@@ -331,10 +344,12 @@ void make_grey(glint_material &material)
     material.roughness = 1;
     material.transmission = 0;
     material.clearcoat = 0;
+    material.iridescence = 0;
     for (const glint_texture_slot slot :
          {GLINT_TEXTURE_BASE_COLOR, GLINT_TEXTURE_METALLIC_ROUGHNESS, GLINT_TEXTURE_TRANSMISSION,
           GLINT_TEXTURE_SPECULAR, GLINT_TEXTURE_SPECULAR_COLOR, GLINT_TEXTURE_CLEARCOAT,
-          GLINT_TEXTURE_CLEARCOAT_ROUGHNESS, GLINT_TEXTURE_CLEARCOAT_NORMAL}) {
+          GLINT_TEXTURE_CLEARCOAT_ROUGHNESS, GLINT_TEXTURE_CLEARCOAT_NORMAL,
+          GLINT_TEXTURE_IRIDESCENCE, GLINT_TEXTURE_IRIDESCENCE_THICKNESS}) {
         material.textures[slot] = {};
     }
 }
@@ -360,6 +375,8 @@ const char *do_without(glint_texture_slot slot, UsedMaterial &used)
     case GLINT_TEXTURE_SPECULAR_COLOR:
     case GLINT_TEXTURE_CLEARCOAT:
     case GLINT_TEXTURE_CLEARCOAT_ROUGHNESS:
+    case GLINT_TEXTURE_IRIDESCENCE:
+    case GLINT_TEXTURE_IRIDESCENCE_THICKNESS:
         return "its factor alone is used";
     default:
         make_grey(material);

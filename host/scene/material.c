@@ -14,7 +14,9 @@ const glint_material glint_material_default = {GLINT_MATERIAL_CLEAR,
                                                .alpha_cutoff = 0.5F,
                                                .normal_scale = 1,
                                                .occlusion_strength = 1,
-                                               .clearcoat_normal_scale = 1};
+                                               .clearcoat_normal_scale = 1,
+                                               .iridescence_ior = 1.3F,
+                                               .iridescence_thickness = {100, 400}};
 
 static bool is_white(const float color[3])
 {
@@ -95,7 +97,8 @@ static glint_lobes sharing_lobes(const glint_material *m)
     const bool is_colored = !is_white(m->base_color) || m->has_vertex_colors ||
                             has_texture(m, GLINT_TEXTURE_BASE_COLOR);
     lobes.metal = m->metallic > 0;
-    lobes.tint = lobes.metal && is_colored;
+    lobes.iridescent = m->iridescence > 0;
+    lobes.tint = lobes.metal && (is_colored || lobes.iridescent);
     lobes.glass = dielectric && m->transmission > 0;
     lobes.solid = lobes.glass && m->thickness > 0;
     lobes.absorption = lobes.solid && absorbs(m);

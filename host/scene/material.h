@@ -38,8 +38,11 @@ typedef struct glint_material {
     float specular_color[3];    // likewise, ≥ 0: of that at right angles
     float clearcoat;            // KHR_materials_clearcoat, [0, 1]: how much of a coat there is
     float clearcoat_roughness;  // its roughness, [0, 1]
-    bool unlit;                 // KHR_materials_unlit
-    float mirror;               // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
+    float iridescence;          // KHR_materials_iridescence, [0, 1]: how much of a film there is
+    float iridescence_ior;      // of the film, ≥ 1
+    float iridescence_thickness[2]; // nm, ≥ 0: where the texture is 0 and 1; without one the last
+    bool unlit;                     // KHR_materials_unlit
+    float mirror; // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
     glint_alpha_mode alpha_mode;
     float alpha;        // baseColorFactor's A, [0, 1]
     float alpha_cutoff; // of GLINT_ALPHA_MASK
@@ -72,7 +75,7 @@ typedef struct glint_lobes {
     bool blend_mirror; // its mirror has a share
     // Metal, glass and paint share the light; metallic comes first, then transmission.
     bool metal;      // reflects
-    bool tint;       // and colours what it reflects
+    bool tint;       // and colours what it reflects, by itself or by a film
     bool glass;      // transmits and reflects: solid or thin
     bool solid;      // the mesh bounds a solid, which refracts
     bool absorption; // and absorbs
@@ -81,6 +84,7 @@ typedef struct glint_lobes {
     bool paint;      // is lit by the environment's irradiance
     bool gloss;      // and reflects, as it is smooth
     bool specular;   // what paint and glass reflect is weighed or coloured
+    bool iridescent; // a film colours what is reflected
     bool rough;      // metal, and the coat of paint, reflect lobes
     bool rough_path; // for which paths go on
     bool facets;     // glass is rough, and so is what beside it reflects

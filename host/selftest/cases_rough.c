@@ -1,5 +1,5 @@
 // Hard cases of surfaces that send light in many directions: lobes of metal and paint, facets of
-// glass, clear coats, dispersion. The oracle judges, by plain quadrature.
+// glass, clear coats, dispersion, thin films. The oracle judges, by plain quadrature.
 #include "base/memory.h"
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
@@ -28,10 +28,11 @@ static void linear_irradiance(const void *context, const double normal[3], doubl
 typedef struct rough_ball {
     const char *what;
     shape_material material;
-    float roughness, specular;
+    float roughness;
     int depth, strata; // of the oracle, along each axis
     double bound;
-    float clearcoat, clearcoat_roughness, dispersion;
+    bool half_specular;
+    float clearcoat, clearcoat_roughness, dispersion, film;
 } rough_ball;
 
 static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_error *error)
@@ -42,10 +43,13 @@ static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_er
     TRY(shape_end(&s, scene, error));
     glint_material *m = &scene->materials[of->material];
     m->roughness = of->roughness;
-    m->specular = of->specular;
+    m->specular = of->half_specular ? 0.5F : 1;
     m->clearcoat = of->clearcoat;
     m->clearcoat_roughness = of->clearcoat_roughness;
     m->dispersion = of->dispersion;
+    m->iridescence = of->film;
+    m->iridescence_ior = 1.6F;
+    m->iridescence_thickness[1] = 400;
     return GLINT_OK;
 }
 
@@ -110,17 +114,88 @@ cleanup:
 static glint_status rough_balls(trial *t)
 {
     static const rough_ball balls[] = {
-        {"metal, roughness 0.15", MATERIAL_TINTED, 0.15F, 1, 1, 96, 0.003, 0, 0, 0},
-        {"metal, roughness 0.6", MATERIAL_TINTED, 0.6F, 1, 1, 96, 0.003, 0, 0, 0},
-        {"paint, roughness 0.4, half of its coat", MATERIAL_PAINT, 0.4F, 0.5F, 1, 64, 0.001, 0, 0,
-         0},
-        {"glass, roughness 0.4: one surface", MATERIAL_GLASS, 0.4F, 1, 1, 24, 0.0015, 0, 0, 0},
-        {"glass, roughness 0.4, half of what it reflects", MATERIAL_GLASS, 0.4F, 0.5F, 2, 24, 0.012,
-         0, 0, 0},
-        {"metal, roughness 0.4, a smooth coat", MATERIAL_TINTED, 0.4F, 1, 1, 64, 0.003, 0.7F, 0, 0},
-        {"glass, a coat of roughness 0.3", MATERIAL_GLASS, 0, 1, 2, 64, 0.003, 1, 0.3F, 0},
-        {"glass of dispersion 1", MATERIAL_GLASS, 0, 1, 2, 0, 3e-4, 0, 0, 1},
-        {"glass of dispersion 1, roughness 0.4", MATERIAL_GLASS, 0.4F, 1, 1, 24, 0.0015, 0, 0, 1},
+        {.what = "metal, roughness 0.15",
+         .material = MATERIAL_TINTED,
+         .roughness = 0.15F,
+         .depth = 1,
+         .strata = 96,
+         .bound = 0.003},
+        {.what = "metal, roughness 0.6",
+         .material = MATERIAL_TINTED,
+         .roughness = 0.6F,
+         .depth = 1,
+         .strata = 96,
+         .bound = 0.003},
+        {.what = "paint, roughness 0.4, half of its coat",
+         .material = MATERIAL_PAINT,
+         .roughness = 0.4F,
+         .depth = 1,
+         .strata = 64,
+         .bound = 0.001,
+         .half_specular = true},
+        {.what = "glass, roughness 0.4: one surface",
+         .material = MATERIAL_GLASS,
+         .roughness = 0.4F,
+         .depth = 1,
+         .strata = 24,
+         .bound = 0.0015},
+        {.what = "glass, roughness 0.4, half of what it reflects",
+         .material = MATERIAL_GLASS,
+         .roughness = 0.4F,
+         .depth = 2,
+         .strata = 24,
+         .bound = 0.012,
+         .half_specular = true},
+        {.what = "metal, roughness 0.4, a smooth coat",
+         .material = MATERIAL_TINTED,
+         .roughness = 0.4F,
+         .depth = 1,
+         .strata = 64,
+         .bound = 0.003,
+         .clearcoat = 0.7F},
+        {.what = "glass, a coat of roughness 0.3",
+         .material = MATERIAL_GLASS,
+         .roughness = 0,
+         .depth = 2,
+         .strata = 64,
+         .bound = 0.003,
+         .clearcoat = 1,
+         .clearcoat_roughness = 0.3F},
+        {.what = "glass of dispersion 1",
+         .material = MATERIAL_GLASS,
+         .roughness = 0,
+         .depth = 2,
+         .strata = 0,
+         .bound = 3e-4,
+         .dispersion = 1},
+        {.what = "glass of dispersion 1, roughness 0.4",
+         .material = MATERIAL_GLASS,
+         .roughness = 0.4F,
+         .depth = 1,
+         .strata = 24,
+         .bound = 0.0015,
+         .dispersion = 1},
+        {.what = "metal below a film",
+         .material = MATERIAL_TINTED,
+         .roughness = 0,
+         .depth = 1,
+         .strata = 0,
+         .bound = 3e-4,
+         .film = 1},
+        {.what = "glass below a film",
+         .material = MATERIAL_GLASS,
+         .roughness = 0,
+         .depth = 2,
+         .strata = 0,
+         .bound = 3e-4,
+         .film = 1},
+        {.what = "paint of roughness 0.4 below a film",
+         .material = MATERIAL_PAINT,
+         .roughness = 0.4F,
+         .depth = 1,
+         .strata = 64,
+         .bound = 0.004,
+         .film = 1},
     };
     for (size_t i = 0; i < sizeof balls / sizeof *balls; i++) {
         TRY(render_ball(t, &balls[i]));

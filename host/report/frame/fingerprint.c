@@ -89,7 +89,11 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
                               (double)m->clearcoat,
                               (double)m->clearcoat_roughness,
                               (double)m->clearcoat_normal_scale,
-                              (double)m->dispersion};
+                              (double)m->dispersion,
+                              (double)m->iridescence,
+                              (double)m->iridescence_ior,
+                              (double)m->iridescence_thickness[0],
+                              (double)m->iridescence_thickness[1]};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
     add_array(state, m->base_color, sizeof *m->base_color, 3);
     add_array(state, m->emission, sizeof *m->emission, 3);
