@@ -132,14 +132,14 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, co
     probe_store(out, packet, values, 7, probe_flag(s.outside));
     probe_store3(out, packet, values, 8, s.normal);
     probe_store(out, packet, values, 11, s.cosine);
-    const path reflected = make_branch(ray, &s, hit, light.reflected, R(1.0));
+    const path reflected = make_branch(ray, &s, hit, light.reflected, mask_none());
     probe_store3(out, packet, values, 12, reflected.direction);
     probe_store(out, packet, values, 15, largest3(light.reflected_weight));
     probe_store3(out, packet, values, 16, reflected.origin);
     probe_store(out, packet, values, 19, to_real(hit->place));
     probe_store(out, packet, values, 20, to_real(light.media_reflected));
     if (GLINT_GLASS) {
-        const path transmitted = make_branch(ray, &s, hit, light.transmitted, R(-1.0));
+        const path transmitted = make_branch(ray, &s, hit, light.transmitted, mask_all());
         probe_store3(out, packet, values, 21, transmitted.direction);
         probe_store(out, packet, values, 24, largest3(light.transmitted_weight));
         probe_store3(out, packet, values, 25, transmitted.origin);

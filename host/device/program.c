@@ -142,6 +142,18 @@ static glint_status compile_or_mend(const struct glint_device *device, source *f
     return status;
 }
 
+// GPUs may divide and take roots less exactly, if not told. Then bits differ from those of CPUs,
+// and points that are found on triangles lie farther off.
+static const char *rounding_option(const struct glint_device *device)
+{
+    cl_device_fp_config config = 0;
+    const bool can = !device->capabilities.is_cpu &&
+                     clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config,
+                                     NULL) == CL_SUCCESS &&
+                     (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    return can ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
+}
+
 glint_status glint_program_build(struct glint_device *device, const glint_program_request *request,
                                  cl_program *program, glint_error *error)
 {
@@ -149,7 +161,8 @@ glint_status glint_program_build(struct glint_device *device, const glint_progra
     source found;
     char options[8192];
     TRY(find_source(request, &found, error));
-    int length = snprintf(options, sizeof options, "%s%s", request->options, found.include_option);
+    int length = snprintf(options, sizeof options, "%s%s%s", request->options,
+                          rounding_option(device), found.include_option);
     if (length < 0 || (size_t)length >= sizeof options) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: the folder's name is too long",
                           request->kernel_dir);
