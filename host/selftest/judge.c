@@ -84,6 +84,21 @@ static oracle_texture texture_of(const glint_texture_use *use, const oracle_imag
     return t;
 }
 
+// What lies above a surface, and within it.
+static void copy_layers(const glint_material *m, oracle_material *o)
+{
+    o->clearcoat = (double)m->clearcoat;
+    o->clearcoat_roughness = (double)m->clearcoat_roughness;
+    o->clearcoat_normal_scale = (double)m->clearcoat_normal_scale;
+    o->film = (double)m->iridescence;
+    o->film_ior = (double)m->iridescence_ior;
+    copy_numbers(m->iridescence_thickness, 2, o->film_thickness);
+    o->thickness = (double)m->thickness;
+    o->attenuation_distance = (double)m->attenuation_distance;
+    copy_numbers(m->attenuation_color, 3, o->attenuation);
+    o->dispersion = (double)m->dispersion;
+}
+
 static oracle_material material_of(const glint_material *m, const oracle_image *images)
 {
     static const glint_texture_slot slots[] = {
@@ -110,16 +125,6 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         .transmission = (double)m->transmission,
         .ior = (double)m->ior,
         .specular = (double)m->specular,
-        .film = (double)m->iridescence,
-        .film_ior = (double)m->iridescence_ior,
-        .film_thickness = {(double)m->iridescence_thickness[0],
-                           (double)m->iridescence_thickness[1]},
-        .dispersion = (double)m->dispersion,
-        .clearcoat = (double)m->clearcoat,
-        .clearcoat_roughness = (double)m->clearcoat_roughness,
-        .clearcoat_normal_scale = (double)m->clearcoat_normal_scale,
-        .thickness = (double)m->thickness,
-        .attenuation_distance = (double)m->attenuation_distance,
         .unlit = m->unlit,
         .mirror = (double)m->mirror,
         .alpha_mode = modes[m->alpha_mode],
@@ -130,8 +135,8 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
     };
     copy_numbers(m->base_color, 3, o.base);
     copy_numbers(m->emission, 3, o.emission);
-    copy_numbers(m->attenuation_color, 3, o.attenuation);
     copy_numbers(m->specular_color, 3, o.specular_color);
+    copy_layers(m, &o);
     for (int role = 0; role < ORACLE_ROLES; role++) {
         o.texture[role] = texture_of(&m->textures[slots[role]], images);
     }
