@@ -49,13 +49,11 @@ void add_material(const glint_material &material, Usages &usages)
     for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
         if (material.textures[slot].image != 0) {
             const auto which = static_cast<glint_texture_slot>(slot);
-            usages.add(std::string("texture: ") + glint_texture_slot_name(which),
-                       lobes.glass && which == GLINT_TEXTURE_METALLIC_ROUGHNESS ? GLINT_APPROXIMATED
-                                                                                : GLINT_RENDERED);
+            usages.add(std::string("texture: ") + glint_texture_slot_name(which), GLINT_RENDERED);
         }
     }
     if (material.roughness > 0 && (lobes.metal || lobes.glass || lobes.paint)) {
-        usages.add("roughness", lobes.glass ? GLINT_APPROXIMATED : GLINT_RENDERED);
+        usages.add("roughness", GLINT_RENDERED);
     }
     if (lobes.masked || lobes.covers) {
         usages.add(lobes.masked ? "alphaMode MASK" : "alphaMode BLEND", GLINT_RENDERED);

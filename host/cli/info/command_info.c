@@ -150,6 +150,33 @@ static void print_maps(const glint_material *material)
     }
 }
 
+// What extensions add to glass and to what reflects.
+static void print_layers(const glint_material *material)
+{
+    const glint_lobes lobes = glint_material_lobes(material);
+    if (lobes.dispersion) {
+        printf(", dispersion %g", (double)material->dispersion);
+    }
+    if (lobes.specular) {
+        printf(", specular %g (%g, %g, %g)", (double)material->specular,
+               (double)material->specular_color[0], (double)material->specular_color[1],
+               (double)material->specular_color[2]);
+    }
+    if (lobes.iridescent) {
+        const bool varies = material->textures[GLINT_TEXTURE_IRIDESCENCE_THICKNESS].image != 0;
+        printf(", film %g of ior %g, ", (double)material->iridescence,
+               (double)material->iridescence_ior);
+        if (varies) {
+            printf("%g to ", (double)material->iridescence_thickness[0]);
+        }
+        printf("%g nm", (double)material->iridescence_thickness[1]);
+    }
+    if (lobes.clearcoat) {
+        printf(", clear coat %g of roughness %g", (double)material->clearcoat,
+               (double)material->clearcoat_roughness);
+    }
+}
+
 static void print_material(const glint_scene *scene, size_t index)
 {
     const glint_material *material = &scene->materials[index];
@@ -175,6 +202,7 @@ static void print_material(const glint_scene *scene, size_t index)
                    (double)material->attenuation_distance);
         }
     }
+    print_layers(material);
     if (material->mirror >= 0) {
         printf(", mirror %g", (double)material->mirror);
     }

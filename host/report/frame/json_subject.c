@@ -200,6 +200,11 @@ static json_t *material_object(const glint_material *material)
     glint_json_put(object, "specular_color", color(material->specular_color));
     glint_json_put_real(object, "dispersion", (double)material->dispersion);
     glint_json_put_real(object, "iridescence", (double)material->iridescence);
+    glint_json_put_real(object, "iridescence_ior", (double)material->iridescence_ior);
+    glint_json_put_real(object, "iridescence_thickness_minimum",
+                        (double)material->iridescence_thickness[0]);
+    glint_json_put_real(object, "iridescence_thickness_maximum",
+                        (double)material->iridescence_thickness[1]);
     glint_json_put_real(object, "clearcoat", (double)material->clearcoat);
     glint_json_put_real(object, "clearcoat_roughness", (double)material->clearcoat_roughness);
     glint_json_put_flag(object, "unlit", material->unlit);
