@@ -36,7 +36,7 @@ static inline real cosine_of_turns(real x)
 typedef struct film_sum {
     real step;   // −r12 r23: what is left of an amplitude that goes to and fro
     real power;  // of that
-    real sum;    // ½ + Σ power × what is seen of it
+    real sum;    // ½ + Σ power × what of it is seen
     real passes; // what the base gets where nothing interferes
 } film_sum;
 
@@ -127,7 +127,8 @@ static inline real3 film_reflectance(real film, real3 roots, real cosine, real w
     }
     real left[3];
     for (int c = 0; c < 3; c++) {
-        const real got = fused(sums[c][0].passes, sums[c][0].sum, sums[c][1].passes * sums[c][1].sum);
+        const real got =
+            fused(sums[c][0].passes, sums[c][0].sum, sums[c][1].passes * sums[c][1].sum);
         left[c] = LARGER(SMALLER(R(1.0) - got, real_of(1)), real_of(0));
     }
     return real3_of(left[0], left[1], left[2]);

@@ -38,8 +38,8 @@ static inline real3 specular_at_right_angles(const surface *s, real f0)
 }
 
 #if GLINT_IRIDESCENCE
-// Rule 15: what a surface reflects that reflects `bare` without its film; `weight` is that of all
-// dielectrics reflect. As film_reflectance; `outer` is the outer medium's index of refraction.
+// Rule 15: what a surface reflects that without its film reflects `bare`; of what the film does,
+// `weight`. `outer` is the outer medium's index of refraction; the rest as in film_reflectance.
 static inline real3 reflect_by_film(const surface *s, real3 bare, real weight, real3 roots,
                                     real outer, real cosine)
 {
@@ -67,7 +67,9 @@ static inline real3 film_roots(real3 f0)
 // Of microfacets that are seen: at an even part of the cap from its top (see facets.cl), and turned
 // by these cosines, which are even, too.
 #define FILM_FACETS 8
-constant scalar film_facet_turns[FILM_FACETS] = {R(0.980785), R(-0.195090), R(0.555570), R(-0.831470), R(0.831470), R(-0.555570), R(0.195090), R(-0.980785)};
+constant scalar film_facet_turns[FILM_FACETS] = {R(0.980785),  R(-0.195090), R(0.555570),
+                                                 R(-0.831470), R(0.831470),  R(-0.555570),
+                                                 R(0.195090),  R(-0.980785)};
 
 static inline real3 within_one(real3 a)
 {
