@@ -137,7 +137,8 @@ typedef struct glint_split_vector {
 #define GLINT_SLOT_CLEARCOAT_NORMAL 10
 #define GLINT_SLOT_IRIDESCENCE 11
 #define GLINT_SLOT_IRIDESCENCE_THICKNESS 12
-#define GLINT_MATERIAL_TEXTURES 13
+#define GLINT_SLOT_ANISOTROPY 13
+#define GLINT_MATERIAL_TEXTURES 14
 
 typedef struct glint_material_record {
     float base_color[4]; // linear R, G, B; A
@@ -160,6 +161,8 @@ typedef struct glint_material_record {
     float iridescence;                     // [0, 1], with GLINT_IRIDESCENCE, as the next two
     float iridescence_ior;                 // of the film, ≥ 1
     float iridescence_thickness[2];        // nm: where the texture is 0 and 1; without one the last
+    float anisotropy;                      // [0, 1], with GLINT_BRUSHED, as the next
+    float brush_direction[2];              // unit, along tangent and bitangent
     int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
 

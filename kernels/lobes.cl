@@ -4,9 +4,7 @@
 // A lobe, and what is wanted of its light's parts.
 typedef struct wanted_lobe {
     mask there;
-    real3 normal; // of the surface, n·v ≥ 0
-    real cosine;  // n·v
-    real roughness;
+    lobe_shape shape; // with the surface's normal, n·v ≥ 0
     real weight;                // how much of the lobe is wanted, together
     real3 path_base, path_edge; // by a path
     real3 matte_base, matte_edge;
@@ -21,9 +19,9 @@ typedef struct seen_lobe {
 
 static inline wanted_lobe lobe_of_surface(const surface *s, const scattering *out, mask met)
 {
-    const wanted_lobe w = {met & out->rough, s->normal,       s->cosine,
-                           s->roughness,     out->lobe_weight, out->lobe_base,
-                           out->lobe_edge,   out->matte_base,  out->matte_edge};
+    const wanted_lobe w = {met & out->rough, shape_of_surface(s), out->lobe_weight,
+                           out->lobe_base,   out->lobe_edge,      out->matte_base,
+                           out->matte_edge};
     return w;
 }
 
@@ -36,11 +34,15 @@ static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_r
     if (!any_lane(w->there)) {
         return seen;
     }
-    const real3 normal = turn_into_environment(frame, w->normal);
+    lobe_shape shape = w->shape;
+    shape.normal = turn_into_environment(frame, shape.normal);
+#if GLINT_BRUSHED
+    shape.along = turn_into_environment(frame, shape.along);
+#endif
     const real3 v = turn_into_environment(frame, negate(ray->direction));
-    const real share = share_of_lobe(w->roughness);
+    const real share = share_of_lobe(&shape);
     const real least = real_of((scalar)GLINT_ROUGHNESS_NARROW);
-    const lobe l = find_lobe(&scene->cells, normal, v, w->cosine, LARGER(w->roughness, least),
+    const lobe l = find_lobe(&scene->cells, &shape, v, LARGER(shape.roughness, least),
                              largest3(ray->weight) * w->weight);
     const lobe_light light = integrate_lobe(scene, &l, w->there);
     const real3 matte =
@@ -59,8 +61,7 @@ static inline wanted_lobe lobe_of_coat(const surface *s, const scattering *out, 
     const real edge = s->clearcoat * out->coat_gain, base = edge * CLEARCOAT_F0;
     const real share = share_of_path(s->clearcoat_roughness);
     const real3 bases = real3_of(base, base, base), edges = real3_of(edge, edge, edge);
-    wanted_lobe w = {met & out->coat_rough, s->clearcoat_normal, s->clearcoat_cosine,
-                     s->clearcoat_roughness};
+    wanted_lobe w = {met & out->coat_rough, shape_of_coat(s)};
     w.weight = edge;
     w.path_base = scale(bases, share);
     w.path_edge = scale(edges, share);

@@ -113,14 +113,13 @@ static inline mask is_before(const surface *s, real3 direction)
 static inline void shine(const path *ray, const arrival *a, real3 left, mask lit, surface *s)
 {
     const real3 light = scale(multiply(left, a->radiance), real_of(R(3.1415926535897932)));
-    const lobe_parts parts = weigh_light(s->normal, s->cosine, s->roughness,
-                                         negate(ray->direction), a->direction, lit);
+    const lobe_shape shape = shape_of_surface(s);
+    const lobe_parts parts = weigh_light(&shape, negate(ray->direction), a->direction, lit);
     s->shine_base = select3(lit, scale_add(light, parts.base, s->shine_base), s->shine_base);
     s->shine_edge = select3(lit, scale_add(light, parts.edge, s->shine_edge), s->shine_edge);
 #if GLINT_CLEARCOAT
-    const lobe_parts coat =
-        weigh_light(s->clearcoat_normal, s->clearcoat_cosine, s->clearcoat_roughness,
-                    negate(ray->direction), a->direction, lit);
+    const lobe_shape of_coat = shape_of_coat(s);
+    const lobe_parts coat = weigh_light(&of_coat, negate(ray->direction), a->direction, lit);
     const real shown = fused(coat.base, real_of(CLEARCOAT_F0), coat.edge);
     s->clearcoat_shine =
         select3(lit, scale_add(light, shown, s->clearcoat_shine), s->clearcoat_shine);

@@ -7,12 +7,51 @@
 // (v·h)² at least: how much narrower than in h a lobe is in l, across the plane of incidence.
 #define LOBE_STEEPEST R(0.0225)
 
-// The arrangement at a surface, in axes of the environment: n is the third, v lies in the plane of
-// the first and the third.
+// A rough surface, and how it is seen.
+typedef struct lobe_shape {
+    real3 normal;
+    real cosine; // n·v
+    real roughness;
+#if GLINT_BRUSHED
+    real3 along;     // where it is rougher along a direction, α + (1 − α) anisotropy²
+    real anisotropy; // else 0
+#endif
+} lobe_shape;
+
+static inline lobe_shape shape_of_surface(const surface *s)
+{
+    lobe_shape shape = {s->normal, s->cosine, s->roughness};
+#if GLINT_BRUSHED
+    shape.along = s->along;
+    shape.anisotropy = s->anisotropy;
+#endif
+    return shape;
+}
+
+#if GLINT_CLEARCOAT
+static inline lobe_shape shape_of_coat(const surface *s)
+{
+    lobe_shape shape = {s->clearcoat_normal, s->clearcoat_cosine, s->clearcoat_roughness};
+#if GLINT_BRUSHED
+    shape.along = s->along;
+    shape.anisotropy = real_of(0);
+#endif
+    return shape;
+}
+#endif
+
+// The arrangement at a surface, in axes of the environment: n is the third.
 typedef struct lobe {
     real3 first, second, normal;
-    real sine, cosine;  // of v's angle to n
-    real alpha, alpha_squared;
+    real sine;          // v along the first; of its angle to n, where that lies in their plane
+    real cosine;        // of v's angle to n
+    real alpha;         // across, where it is less than along
+    real alpha_squared; // both, multiplied
+#if GLINT_BRUSHED
+    real beside;        // v along the second
+    real alpha_along;
+    real narrowed, widened; // α across over α along, and the other way round
+#endif
     real widest;    // width at most, squared
     real smith;     // √(α² + (1 − α²) cos²)
     real largest;   // of cells, as GLINT_CELL_LARGEST
@@ -24,29 +63,66 @@ typedef struct lobe_light {
     real3 base, edge; // ∫ D V (1 − m) E n·l dl, ∫ D V m E n·l dl
 } lobe_light;
 
-// n and v are unit vectors, in axes of the environment; n·v is the cosine. A pixel sees the lobe's
-// light by `weight`.
-static inline lobe find_lobe(const cell_map *map, real3 normal, real3 v, real cosine,
-                             real roughness, real weight)
+// The axes: `across` is v less its part along n, `squared` long.
+static inline void lobe_axes(const lobe_shape *shape, real3 v, lobe *l)
 {
-    lobe l;
-    const real3 across = scale_add(normal, -cosine, v);
+    const real3 normal = shape->normal;
+    const real3 across = scale_add(normal, -shape->cosine, v);
     const real squared = dot3(across, across);
     const mask upright = !(squared > R(1e-12)); // then any axis serves
     const mask along_x = fabs(normal.x) > R(0.6);
     const real one = real_of(1), zero = real_of(0);
     const real3 axis = select3(along_x, real3_of(zero, one, zero), real3_of(one, zero, zero));
     mask valid;
-    l.normal = normal;
-    l.first = normalized(select3(upright, cross3(normal, axis), across), &valid);
-    l.second = cross3(normal, l.first);
-    l.cosine = cosine;
-    l.sine = SELECT(upright, zero, sqrt(squared));
-    l.alpha = roughness * roughness;
-    l.alpha_squared = l.alpha * l.alpha;
-    l.widest = fused(real_of(GLINT_LOBE_WIDEST * GLINT_LOBE_TAIL), R(1.0) / l.alpha_squared,
+    l->normal = normal;
+    l->first = normalized(select3(upright, cross3(normal, axis), across), &valid);
+    l->sine = SELECT(upright, zero, sqrt(squared));
+#if GLINT_BRUSHED
+    const mask brushed = shape->anisotropy > R(0.0);
+    l->first = select3(brushed, shape->along, l->first);
+    l->sine = SELECT(brushed, dot3(shape->along, v), l->sine);
+#endif
+    l->second = cross3(normal, l->first);
+#if GLINT_BRUSHED
+    l->beside = SELECT(brushed, dot3(l->second, v), zero);
+#endif
+    l->cosine = shape->cosine;
+}
+
+static inline void lobe_widths(const lobe_shape *shape, real roughness, lobe *l)
+{
+    l->alpha = roughness * roughness;
+    l->alpha_squared = l->alpha * l->alpha;
+#if GLINT_BRUSHED
+    l->alpha_along = fused(R(1.0) - l->alpha, shape->anisotropy * shape->anisotropy, l->alpha);
+    l->alpha_squared = l->alpha * l->alpha_along;
+    l->narrowed = l->alpha / l->alpha_along;
+    l->widened = l->alpha_along / l->alpha;
+#endif
+}
+
+// √(α² + (1 − α²) cos²) of v, or that with both α.
+static inline real lobe_root(const lobe *l)
+{
+#if GLINT_BRUSHED
+    const real x = l->alpha_along * l->sine, y = l->alpha * l->beside;
+    return sqrt(fused(x, x, fused(y, y, l->cosine * l->cosine)));
+#else
+    return smith_root(l->alpha_squared, l->cosine);
+#endif
+}
+
+// n and v are unit vectors, in axes of the environment; n·v is the cosine. A pixel sees the lobe's
+// light by `weight`.
+static inline lobe find_lobe(const cell_map *map, const lobe_shape *shape, real3 v, real roughness,
+                             real weight)
+{
+    lobe l;
+    lobe_axes(shape, v, &l);
+    lobe_widths(shape, roughness, &l);
+    l.widest = fused(real_of(GLINT_LOBE_WIDEST * GLINT_LOBE_TAIL), R(1.0) / (l.alpha * l.alpha),
                      real_of(GLINT_LOBE_WIDEST));
-    l.smith = smith_root(l.alpha_squared, cosine);
+    l.smith = lobe_root(&l);
     const real inverse = R(1.0) / LARGER(weight, real_of(R(1e-4)));
     const real more = l.alpha * (sqrt(inverse) - R(1.0));
     const real usual = real_of(GLINT_CELL_LARGEST);
@@ -61,36 +137,66 @@ typedef struct half_vector {
     real c;      // n·(u + v)
     real square; // |u + v|² − c²
     real whole;  // |u + v|²
+#if GLINT_BRUSHED
+    real bent;   // as `square`, with the first axis narrowed and the second widened
+    real curled; // twice so
+    real tilted; // (α u)² along both axes
+#endif
 } half_vector;
 
-static inline half_vector half_vector_of(const lobe *l, scalar8 cell)
+static inline half_vector half_vector_towards(const lobe *l, real3 u)
 {
-    const real x = real_of(cell.s0), y = real_of(cell.s1), z = real_of(cell.s2);
-    const real3 u = real3_of(x, y, z);
     half_vector h;
     h.up = dot3(l->normal, u);
     h.c = h.up + l->cosine;
-    const real first = dot3(l->first, u) + l->sine, second = dot3(l->second, u);
+    const real first = dot3(l->first, u) + l->sine;
+#if GLINT_BRUSHED
+    const real u_second = dot3(l->second, u), second = u_second + l->beside;
+    const real x = l->narrowed * first, y = l->widened * second;
+    h.bent = fused(x, first, y * second);
+    h.curled = fused(x, x, y * y);
+    const real along = l->alpha_along * (first - l->sine), across = l->alpha * u_second;
+    h.tilted = fused(along, along, across * across);
+#else
+    const real second = dot3(l->second, u);
+#endif
     h.square = fused(first, first, second * second);
     h.whole = fused(h.c, h.c, h.square);
     return h;
 }
 
+static inline half_vector half_vector_of(const lobe *l, scalar8 cell)
+{
+    return half_vector_towards(l, real3_of(real_of(cell.s0), real_of(cell.s1), real_of(cell.s2)));
+}
+
 // What spreading a cell's light about its centroid changes, to second order: D is averaged, by half
 // the light's variance about the centroid, turned into h, times D's Laplacian, D (16 s² − 8 α²)/A² with
-// A = α² + s², s = sin θ_h. `scale` is 1/(A |u + v|²)².
-static inline real spread_factor(const lobe *l, const half_vector *h, scalar variance, real scale)
+// A = α² + s², s = sin θ_h. `scale` is 1/(A |u + v|²)², and `width` A |u + v|².
+static inline real spread_factor(const lobe *l, const half_vector *h, real width, scalar variance,
+                                 real scale)
 {
     const real turned = h->whole + SMALLER(R(50.0) * h->whole, real_of(4)); // 1 + 1/(v·h)², scaled
+#if GLINT_BRUSHED
+    // With A = α1 α2 + a x² + b y²: D (24 (a² x² + b² y²) − 4 (a + b) A)/A².
+    const real both = l->narrowed + l->widened;
+    const real laplacian = fused(R(1.5) * h->curled, real_of(1), R(-0.25) * both * width);
+    const real curved = laplacian * (variance * turned);
+#else
     const real curved =
         fused(l->alpha_squared * R(-0.5), h->whole, h->square) * (variance * turned);
+#endif
     return LARGER(fused(curved, scale, real_of(1)), real_of(R(0.1)));
 }
 
 // (α² cos² θ_h + sin² θ_h) |u + v|².
 static inline real width_of(const lobe *l, const half_vector *h)
 {
+#if GLINT_BRUSHED
+    return fused(l->alpha_squared * h->c, h->c, h->bent);
+#else
     return fused(l->alpha_squared * h->c, h->c, h->square);
+#endif
 }
 
 // The rays among `these` for which a cell is too large, see GLINT_CELL_LARGEST: without a division,
@@ -101,13 +207,19 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
                               mask these)
 {
     const real steep = LARGER(R(0.25) * h->whole, real_of(LOBE_STEEPEST));
+#if GLINT_BRUSHED
+    const real far = sqrt(h->bent), stretched = sqrt(l->widened);
+    const real limit = SMALLER(width * l->narrowed, l->widest * h->whole) * steep;
+#else
+    const real far = sqrt(h->square), stretched = real_of(1);
     const real limit = SMALLER(width, l->widest * h->whole) * steep;
+#endif
     const real size = cell.s3 * cell.s3 * h->whole;
     const real above = LARGER(h->up, real_of(R(0.25) * cell.s3));
     const real shadowing =
         fused(above, l->smith, l->cosine * LARGER(above, l->alpha)); // √(a² + b²) ≈ max(a, b)
     // Where the cell is nearest to the lobe's middle.
-    const real left = LARGER(sqrt(h->square) - R(0.5) * cell.s3, real_of(0));
+    const real left = LARGER(far - R(0.5) * cell.s3 * stretched, real_of(0));
     const real nearest = fused(l->alpha_squared * h->c, h->c, left * left);
     const real root = h->whole * size;
     const real bright = (cell.s4 + cell.s5 + cell.s6) * R(0.15915494309189535);
@@ -126,10 +238,15 @@ typedef struct lobe_parts {
 static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, real width,
                                          scalar variance, mask these)
 {
-    const real shadowing = fused(h->up, l->smith, l->cosine * smith_root(l->alpha_squared, h->up));
+#if GLINT_BRUSHED
+    const real root = sqrt(fused(h->up, h->up, h->tilted));
+#else
+    const real root = smith_root(l->alpha_squared, h->up);
+#endif
+    const real shadowing = fused(h->up, l->smith, l->cosine * root);
     const real above = R(0.15915494309189535) * l->alpha_squared * h->up * h->whole * h->whole;
     const real inverse = R(1.0) / (width * width * shadowing);
-    const real factor = spread_factor(l, h, variance, inverse * shadowing);
+    const real factor = spread_factor(l, h, width, variance, inverse * shadowing);
     const real weight = SELECT(these & (h->up > R(0.0)), above * inverse * factor, real_of(0));
     const real m = fused(sqrt(h->whole), real_of(R(-0.5)), real_of(1)), m2 = m * m;
     lobe_parts parts;
@@ -218,21 +335,13 @@ static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *
 #if GLINT_LIGHTS
 // Towards a light, which is a point: a lobe is not narrower than that of
 // ROUGHNESS_NARROW, or it would fall between pixels. v and `to_light` are unit vectors.
-static inline lobe_parts weigh_light(real3 normal, real cosine, real roughness, real3 v,
-                                     real3 to_light, mask these)
+static inline lobe_parts weigh_light(const lobe_shape *shape, real3 v, real3 to_light, mask these)
 {
-    const real rho = LARGER(roughness, real_of((scalar)GLINT_ROUGHNESS_NARROW));
     lobe l;
-    l.cosine = cosine;
-    l.alpha = rho * rho;
-    l.alpha_squared = l.alpha * l.alpha;
-    l.smith = smith_root(l.alpha_squared, cosine);
-    const real3 both = add(v, to_light), across = cross3(normal, both);
-    half_vector h;
-    h.up = dot3(normal, to_light);
-    h.c = h.up + cosine;
-    h.square = dot3(across, across);
-    h.whole = fused(h.c, h.c, h.square);
+    lobe_axes(shape, v, &l);
+    lobe_widths(shape, LARGER(shape->roughness, real_of((scalar)GLINT_ROUGHNESS_NARROW)), &l);
+    l.smith = lobe_root(&l);
+    const half_vector h = half_vector_towards(&l, to_light);
     return weigh_direction(&l, &h, width_of(&l, &h), 0, these);
 }
 #endif
@@ -240,8 +349,16 @@ static inline lobe_parts weigh_light(real3 normal, real cosine, real roughness, 
 // The share of what a lobe takes; the rest is what a mirror shows. Below ROUGHNESS_NARROW a lobe would
 // be narrower than cells: that of ROUGHNESS_NARROW is mixed with the mirror's look-up. It differs from
 // that by about α^1.5.
-static inline real share_of_lobe(real roughness)
+static inline real share_of_lobe(const lobe_shape *shape)
 {
+    real roughness = shape->roughness;
+#if GLINT_BRUSHED
+    // By how rough it is along.
+    const real alpha = roughness * roughness;
+    const real squared = shape->anisotropy * shape->anisotropy;
+    roughness = SELECT(shape->anisotropy > R(0.0), sqrt(fused(R(1.0) - alpha, squared, alpha)),
+                       roughness);
+#endif
     const real x = roughness * ((scalar)1 / (scalar)GLINT_ROUGHNESS_NARROW);
     return SMALLER(x * x * x, real_of(1)); // α is x²
 }
@@ -272,5 +389,48 @@ static inline lobe_parts find_albedo(const scene_buffers *scene, real cosine, re
     }
     return albedo;
 }
+
+#if GLINT_BRUSHED
+// Of a surface that is rougher along a direction, by facets that are seen, spread evenly (see
+// facets.cl): the mean of what no other facet stops. `along` is v along that direction.
+#define BRUSHED_FACETS 64
+static inline lobe_parts brushed_albedo(real cosine, real along, real roughness, real anisotropy)
+{
+    const real alpha = roughness * roughness;
+    const real longer = fused(R(1.0) - alpha, anisotropy * anisotropy, alpha);
+    const real aside = sqrt(LARGER(R(1.0) - cosine * cosine - along * along, real_of(0)));
+    const real x = longer * along, y = alpha * aside;
+    const real root = sqrt(fused(x, x, fused(y, y, cosine * cosine)));
+    const real shrink = R(1.0) / root;
+    const real vx = x * shrink, vy = y * shrink, vz = cosine * shrink;
+    lobe_parts sum = {real_of(0), real_of(0)};
+    scalar c = R(1.0), s = R(0.0); // of the turn, by the golden section each time
+    for (int i = 0; i < BRUSHED_FACETS; i++) {
+        const scalar down = ((scalar)i + R(0.5)) / (scalar)BRUSHED_FACETS;
+        const real z = fused(real_of(-down), R(1.0) + vz, real_of(1));
+        const real ring = sqrt(LARGER((R(1.0) - z) * (R(1.0) + z), real_of(0)));
+        const real hx = longer * fused(ring, real_of(c), vx), hy = alpha * fused(ring, real_of(s), vy);
+        const real up = z + vz;
+        const real inverse = R(1.0) / sqrt(fused(hx, hx, fused(hy, hy, up * up)) + R(1e-12));
+        const real toward = fused(along, hx, fused(aside, hy, cosine * up)) * inverse;
+        const real twice = R(2.0) * toward * inverse;
+        const real away = fused(twice, up, -cosine);
+        const real lx = longer * fused(twice, hx, -along), ly = alpha * fused(twice, hy, -aside);
+        const real root_of_l = sqrt(fused(lx, lx, fused(ly, ly, away * away)));
+        const real open = away * (cosine + root) / fused(away, root, cosine * root_of_l);
+        const real weight = SELECT(away > R(0.0), open, real_of(0));
+        const real m = LARGER(R(1.0) - toward, real_of(0)), m2 = m * m;
+        const real edge = weight * (m2 * m2 * m);
+        sum.edge += edge;
+        sum.base += weight - edge;
+        const scalar turned = c * R(-0.7373688780783197) - s * R(0.6754902942615238);
+        s = c * R(0.6754902942615238) + s * R(-0.7373688780783197);
+        c = turned;
+    }
+    sum.edge *= (scalar)1 / BRUSHED_FACETS;
+    sum.base *= (scalar)1 / BRUSHED_FACETS;
+    return sum;
+}
+#endif
 
 #endif

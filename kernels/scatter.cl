@@ -253,7 +253,11 @@ static inline mask are_rough(const surface *s)
 {
     const lane_int smooth = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN | GLINT_MATERIAL_BLEND |
                             GLINT_MATERIAL_UNLIT;
-    return (s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST) & ((s->flags & smooth) == (lane_int)0);
+    mask rough = s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST;
+#if GLINT_BRUSHED
+    rough = rough | (s->anisotropy > R(0.0));
+#endif
+    return rough & ((s->flags & smooth) == (lane_int)0);
 }
 
 // How much of what a coat reflects comes by a path.
@@ -279,7 +283,16 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
                                 scattering *out)
 {
     const real zero = real_of(0);
-    const lobe_parts albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
+    lobe_parts albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
+#if GLINT_BRUSHED
+    const mask brushed = out->rough & (s->anisotropy > R(0.0));
+    if (any_lane(brushed)) {
+        const lobe_parts found =
+            brushed_albedo(s->cosine, s->along_cosine, s->roughness, s->anisotropy);
+        albedo.base = SELECT(brushed, found.base, albedo.base);
+        albedo.edge = SELECT(brushed, found.edge, albedo.edge);
+    }
+#endif
     const real lost = light_lost(scene, &albedo);
     const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
     real3 tint = GLINT_TINT ? s->base_color : one;

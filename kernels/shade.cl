@@ -40,6 +40,12 @@ typedef struct surface {
     real3 clearcoat_normal; // as `normal`
     real clearcoat_cosine;  // n·v of that
 #endif
+#if GLINT_BRUSHED
+    real anisotropy; // 0 where there is no tangent, too
+    real brush_x, brush_y; // along tangent and bitangent, in which direction it is rougher
+    real3 along; // that direction, a unit vector at right angles to `normal`
+    real along_cosine; // v·along
+#endif
 #if GLINT_IRIDESCENCE
     real film; // how much of a thin film there is
     real film_ior, film_thickness; // nm
@@ -233,9 +239,9 @@ static inline void place_on_triangle(const real3 vertices[3], const closest *hit
 }
 
 #if GLINT_NORMAL_MAPS
-// The normal that a texture bends: `n` is a unit vector. What is not there leaves it as it is.
-static inline real3 bent_normal(const scene_buffers *scene, const closest *hit, mask met, real3 n,
-                                real3 bump)
+// Along u and v of a texture, at right angles to the unit vector `n`: which hits have them.
+static inline mask find_tangents(const scene_buffers *scene, const closest *hit, mask met, real3 n,
+                                 real3 *tangent, real3 *bitangent)
 {
     const corner_values c = load_corners(scene, hit->place, met, TANGENTS_AT, 4);
     const real3 sum = real3_of(value_of_corners(&c, 0, hit->b1, hit->b2),
@@ -244,13 +250,39 @@ static inline real3 bent_normal(const scene_buffers *scene, const closest *hit, 
     // Corners that turn different ways have no bitangent between them.
     const mask alike = (c.first[3] != R(0.0)) & (c.second_more[3] == R(0.0)) &
                        (c.third_more[3] == R(0.0));
-    mask valid, sound;
-    const real3 tangent = normalized(sum, &valid);
-    const real3 bitangent = scale(cross3(n, tangent), c.first[3]);
+    mask valid;
+    *tangent = normalized(sum, &valid);
+    *bitangent = scale(cross3(n, *tangent), c.first[3]);
+    return met & alike & valid;
+}
+
+// The normal that a texture bends: `n` is a unit vector. What is not there leaves it as it is.
+static inline real3 bent_normal(const scene_buffers *scene, const closest *hit, mask met, real3 n,
+                                real3 bump)
+{
+    real3 tangent, bitangent;
+    const mask there = find_tangents(scene, hit, met, n, &tangent, &bitangent);
+    mask sound;
     const real3 bent = normalized(
         scale_add(n, bump.z, scale_add(bitangent, bump.y, scale(tangent, bump.x))), &sound);
     const mask flat = (bump.x == R(0.0)) & (bump.y == R(0.0));
-    return select3(met & alike & valid & sound & !flat, bent, n);
+    return select3(there & sound & !flat, bent, n);
+}
+#endif
+
+#if GLINT_BRUSHED
+// The direction in which the surface is rougher; `own` is its normal as the file has it.
+static inline void orient_brush(const scene_buffers *scene, const closest *hit, real3 own, real3 v,
+                                surface *s)
+{
+    real3 tangent, bitangent;
+    const mask there =
+        find_tangents(scene, hit, hit->place >= (lane_int)0, own, &tangent, &bitangent);
+    const real3 along = scale_add(bitangent, s->brush_y, scale(tangent, s->brush_x));
+    mask valid;
+    s->along = normalized(scale_add(s->normal, -dot3(along, s->normal), along), &valid);
+    s->anisotropy = SELECT(there & valid, s->anisotropy, real_of(0));
+    s->along_cosine = dot3(s->along, v);
 }
 #endif
 
@@ -303,6 +335,9 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #endif
     cosine = fabs(cosine);
     s->cosine = SMALLER(cosine, real_of(1));
+#if GLINT_BRUSHED
+    orient_brush(scene, hit, own, v, s);
+#endif
 #if GLINT_CLEARCOAT && !GLINT_NORMAL_MAPS
     s->clearcoat_normal = s->normal;
     s->clearcoat_cosine = s->cosine;
@@ -341,6 +376,11 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->clearcoat_roughness =
         SELECT(yes, real_of(m->clearcoat_roughness), s->clearcoat_roughness);
 #endif
+#if GLINT_BRUSHED
+    s->anisotropy = SELECT(yes, real_of(m->anisotropy), s->anisotropy);
+    s->brush_x = SELECT(yes, real_of(m->brush_direction[0]), s->brush_x);
+    s->brush_y = SELECT(yes, real_of(m->brush_direction[1]), s->brush_y);
+#endif
 #if GLINT_IRIDESCENCE
     s->film = SELECT(yes, real_of(m->iridescence), s->film);
     s->film_ior = SELECT(yes, real_of(m->iridescence_ior), s->film_ior);
@@ -371,6 +411,22 @@ static inline real3 bump_of(const texture_color *c, float normal_scale)
 {
     const scalar across = R(2.0) * (scalar)normal_scale;
     return real3_of(across * (c->r - R(0.5)), across * (c->g - R(0.5)), R(2.0) * c->b - R(1.0));
+}
+#endif
+
+#if GLINT_BRUSHED
+// What an anisotropy texture says: the direction, which the material's turns, and the strength.
+static inline void brush_by(const texture_color *c, mask here, surface *s)
+{
+    const real x = fused(c->r, real_of(2), real_of(-1)), y = fused(c->g, real_of(2), real_of(-1));
+    const real length = sqrt(fused(x, x, y * y));
+    const mask there = length > R(1e-3);
+    const real inverse = R(1.0) / SELECT(there, length, real_of(1));
+    const real turned_x = fused(s->brush_x, x, -s->brush_y * y) * inverse;
+    const real turned_y = fused(s->brush_x, y, s->brush_y * x) * inverse;
+    s->brush_x = SELECT(here & there, turned_x, s->brush_x);
+    s->brush_y = SELECT(here & there, turned_y, s->brush_y);
+    s->anisotropy = SELECT(here, s->anisotropy * c->b, s->anisotropy);
 }
 #endif
 
@@ -428,6 +484,11 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
             select3(here, bump_of(c, m->clearcoat_normal_scale), s->clearcoat_bump);
         break;
 #endif
+#endif
+#if GLINT_BRUSHED
+    case GLINT_SLOT_ANISOTROPY:
+        brush_by(c, here, s);
+        break;
 #endif
 #if GLINT_IRIDESCENCE
     case GLINT_SLOT_IRIDESCENCE:

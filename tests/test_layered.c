@@ -1,5 +1,5 @@
 // What lies above and within surfaces by glTF's extensions, against the oracle: specular, clear
-// coats, dispersion, thin films.
+// coats, dispersion, thin films, anisotropy.
 #include "support/bridge.h"
 #include "support/judged.h"
 #include "support/render.h"
@@ -232,12 +232,62 @@ static void films_colour_what_the_oracle_sees(void **state)
     glint_environment_free(&environment);
 }
 
+typedef struct brushed {
+    const char *scene;
+    float roughness, metallic, strength, rotation;
+    glint_precision precision;
+    double allowed;
+} brushed;
+
+static void add_brush(const void *kind, glint_material *m)
+{
+    m->anisotropy = ((const brushed *)kind)->strength;
+    m->anisotropy_rotation = ((const brushed *)kind)->rotation;
+}
+
+// KHR_materials_anisotropy, by a file whose surfaces have tangents; and one without, which shows
+// none.
+static void brushed_surfaces_are_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    static const brushed kinds[] = {
+        {"textures", 0.3F, -1, 0.5F, 0, GLINT_PRECISION_FLOAT, 0.003},
+        {"textures", 0.5F, 1, 0.7F, 1, GLINT_PRECISION_FLOAT, 0.004},
+        {"textures", 0.5F, 0, 1, -0.5F, GLINT_PRECISION_DOUBLE, 0.003},
+        {"textures", 0, 1, 0.9F, 2, GLINT_PRECISION_FLOAT, 0.02},          // a streak without width
+        {"mirror_sphere", 0.4F, 1, 0.8F, 2, GLINT_PRECISION_FLOAT, 0.003}, // without tangents
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const brushed *kind = &kinds[i];
+        judged j = {.scene = kind->scene,
+                    .environment = &environment,
+                    .settings = judged_frame(16, 12, 2),
+                    .feature = GLINT_FEATURE_ROUGH,
+                    .roughness = kind->roughness,
+                    .metallic = kind->metallic,
+                    .alpha = 1,
+                    .change = add_brush,
+                    .kind = kind};
+        j.settings.precision = kind->precision;
+        const double error = judge(&j);
+        print_message("anisotropy %g, %s, roughness %g, metallic %g: %.7f\n",
+                      (double)kind->strength, kind->scene, (double)kind->roughness,
+                      (double)kind->metallic, error);
+        if (error > kind->allowed)
+            print_message("TOO MUCH\n");
+    }
+    glint_environment_free(&environment);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(specular_weighs_and_colours_what_paint_and_glass_reflect),
         cmocka_unit_test(clear_coats_are_what_the_oracle_sees),
         cmocka_unit_test(solids_disperse_light_as_the_oracle_does),
+        cmocka_unit_test(brushed_surfaces_are_what_the_oracle_sees),
         cmocka_unit_test(films_colour_what_the_oracle_sees),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

@@ -114,6 +114,7 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
         "\"KHR_materials_transmission\":{\"transmissionFactor\":0.75},"
         "\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularColorFactor\":[0,1,40]},"
         "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5,\"clearcoatRoughnessFactor\":0.25},"
+        "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.5,\"anisotropyRotation\":-2},"
         "\"KHR_materials_iridescence\":{\"iridescenceFactor\":0.5,\"iridescenceIor\":1.5,"
         "\"iridescenceThicknessMinimum\":50},"
         "\"KHR_materials_dispersion\":{\"dispersion\":2},\"KHR_materials_ior\":{\"ior\":2.4},\"KHR_"
@@ -134,6 +135,7 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
     assert_true(glass->specular == 0.5f && glass->specular_color[0] == 0 &&
                 glass->specular_color[2] == 40);
     assert_true(glass->dispersion == 2 && glint_material_lobes(glass).dispersion);
+    assert_true(glass->anisotropy == 0.5f && glass->anisotropy_rotation == -2);
     assert_true(glass->iridescence == 0.5f && glass->iridescence_ior == 1.5f);
     assert_true(glass->iridescence_thickness[0] == 50 && glass->iridescence_thickness[1] == 400);
     assert_true(glass->clearcoat == 0.5f && glass->clearcoat_roughness == 0.25f);

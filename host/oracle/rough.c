@@ -5,12 +5,34 @@
 
 static const double PI = 3.14159265358979323846;
 
+// How long a vector is whose parts along and across the brush, and along n, are multiplied.
+static double stretched(const surface *s, double along, double across, double up, vector a)
+{
+    double x = dot(s->along, a) * along, n = dot(s->normal, a), z = n * up;
+    double squared = dot(a, a) - dot(s->along, a) * dot(s->along, a) - n * n;
+    return sqrt(x * x + fmax(0.0, squared) * across * across + z * z);
+}
+
+// The same where it is rougher along a direction: α + (1 − α) anisotropy² there.
+static double brushed_weight(const surface *s, double alpha, vector l, vector h)
+{
+    double nl = dot(s->normal, l), nv = s->cosine;
+    double longer = alpha + (1.0 - alpha) * s->anisotropy * s->anisotropy;
+    double q = stretched(s, 1.0 / longer, 1.0 / alpha, 1.0, h);
+    double d = 1.0 / (PI * longer * alpha * q * q * q * q);
+    double of_v = stretched(s, longer, alpha, 1.0, s->viewer);
+    double of_l = stretched(s, longer, alpha, 1.0, l);
+    return d * 0.5 / (nl * of_v + nv * of_l) * nl;
+}
+
 // D V n·l, with GGX's D and the height-correlated V of Smith's shadowing.
 static double lobe_weight(const surface *s, double alpha, vector l, vector h)
 {
     double nl = dot(s->normal, l), nv = s->cosine;
     if (!(nl > 0.0))
         return 0.0;
+    if (s->anisotropy > 0.0)
+        return brushed_weight(s, alpha, l, h);
     double a2 = alpha * alpha;
     // 1 − (n·h)² as |n × h|², which does not cancel near the lobe's middle.
     vector across = cross(s->normal, h);
@@ -57,7 +79,7 @@ static void add_direction(lobe_integrals *sum, const vector *table, double towar
 lobe_integrals oracle_film_lobe(const surface *s, int strata, const vector *table, seen_light light,
                                 const void *context)
 {
-    double alpha = s->roughness * s->roughness;
+    double alpha = fmax(s->roughness, 0.01) * fmax(s->roughness, 0.01);
     vector axis = {{0.0, 0.0, 0.0}};
     oracle_reflect(s->normal.at, s->viewer.at, axis.at);
     axis = unit(axis);

@@ -319,7 +319,7 @@ static bool is_glass(const surface *s)
 
 static bool is_rough(const walk *w, const surface *s)
 {
-    return w->view->roughness > 0 && s->roughness >= 0.01;
+    return w->view->roughness > 0 && (s->roughness >= 0.01 || s->anisotropy > 0.0);
 }
 
 // Adds what lobes show of the lights: of their two parts `base` and `edge`. A light is a point, and
@@ -480,7 +480,7 @@ static double add_clearcoat(walk *w, const path *p, const surface *s)
     coat.base = coat.emission = (vector){{0.0, 0.0, 0.0}};
     coat.specular_color = (vector){{1.0, 1.0, 1.0}};
     coat.specular = 1.0;
-    coat.film = 0.0;
+    coat.film = coat.anisotropy = 0.0;
     coat.metallic = coat.transmission = 0.0;
     coat.normal = s->clearcoat_normal;
     coat.cosine = s->clearcoat_cosine;

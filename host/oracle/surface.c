@@ -173,30 +173,57 @@ static bool interpolated_normal(const place *p, vector *n)
     return isfinite(n->at[0] + n->at[1] + n->at[2]);
 }
 
-// The normal as a texture bends it. It stays where a corner has no tangent, or where tangents
-// turn different ways.
+// Tangent and bitangent; false where a corner has none, or where they turn different ways.
+static bool find_tangents(const place *p, vector n, vector *tangent, vector *bitangent)
+{
+    double turn = p->corners ? p->corners[0].tangent[3] : 0.0;
+    vector sum = {{0.0, 0.0, 0.0}};
+    for (int i = 0; i < 3; i++) {
+        if (turn == 0.0 || p->corners[i].tangent[3] != turn)
+            return false;
+        sum = plus(sum, scaled(vector_of(p->corners[i].tangent), p->weights[i]));
+    }
+    *tangent = unit(sum);
+    *bitangent = scaled(cross(n, *tangent), turn);
+    return true;
+}
+
+// The normal as a texture bends it. It stays where there are no tangents.
 static vector bent(const place *p, const arrival *by, oracle_role role, vector n, surface *s)
 {
     const oracle_material *m = s->material;
-    if (!m->texture[role].image || !p->corners)
+    vector tangent, bitangent;
+    if (!m->texture[role].image || !find_tangents(p, n, &tangent, &bitangent))
         return n;
     oracle_glance glance = glance_at(p, by, role, s);
     double scale = role == ORACLE_NORMAL ? m->normal_scale : m->clearcoat_normal_scale;
-    double turn = p->corners[0].tangent[3];
-    vector tangent = {{0.0, 0.0, 0.0}};
-    for (int i = 0; i < 3; i++) {
-        if (turn == 0.0 || p->corners[i].tangent[3] != turn)
-            return n;
-        tangent = plus(tangent, scaled(vector_of(p->corners[i].tangent), p->weights[i]));
-    }
-    tangent = unit(tangent);
-    vector bitangent = scaled(cross(n, tangent), turn);
     double x = scale * (2.0 * glance.rgba[0] - 1.0);
     double y = scale * (2.0 * glance.rgba[1] - 1.0);
     double z = 2.0 * glance.rgba[2] - 1.0;
     vector to = unit(plus(plus(scaled(tangent, x), scaled(bitangent, y)), scaled(n, z)));
     bool flat = x == 0.0 && y == 0.0;
     return !flat && isfinite(to.at[0] + to.at[1] + to.at[2]) ? to : n;
+}
+
+// How much rougher it is along a direction, and which.
+static void take_brush(const place *p, const arrival *by, vector own, surface *s)
+{
+    const oracle_material *m = s->material;
+    vector tangent, bitangent;
+    s->anisotropy = 0.0;
+    if (m->anisotropy == 0.0 || oracle_is_solid(m) || oracle_is_thin(m) ||
+        !find_tangents(p, own, &tangent, &bitangent))
+        return;
+    double strength = m->anisotropy, angle = m->anisotropy_rotation;
+    if (m->texture[ORACLE_ANISOTROPY].image) {
+        oracle_glance glance = glance_at(p, by, ORACLE_ANISOTROPY, s);
+        angle += atan2(2.0 * glance.rgba[1] - 1.0, 2.0 * glance.rgba[0] - 1.0);
+        strength *= glance.rgba[2];
+    }
+    vector way = plus(scaled(tangent, cos(angle)), scaled(bitangent, sin(angle)));
+    s->along = unit(minus(way, scaled(s->normal, dot(way, s->normal))));
+    if (isfinite(s->along.at[0] + s->along.at[1] + s->along.at[2]))
+        s->anisotropy = strength;
 }
 
 // The root mean square, over the triangle's edges, of how much normals turn per length; less than 0
@@ -226,6 +253,7 @@ static void take_normals(const place *p, const arrival *by, surface *s)
     double cosine = dot(s->lit, s->viewer);
     s->normal = scaled(s->lit, cosine < 0.0 ? -1.0 : 1.0);
     s->cosine = fmin(fabs(cosine), 1.0);
+    take_brush(p, by, own, s);
     vector coat = bent(p, by, ORACLE_CLEARCOAT_NORMAL, own, s);
     double up = dot(coat, s->viewer);
     s->clearcoat_normal = scaled(coat, up < 0.0 ? -1.0 : 1.0);

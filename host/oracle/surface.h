@@ -34,6 +34,8 @@ typedef struct surface {
     double metallic, roughness, transmission, specular, occlusion, coverage;
     double clearcoat, clearcoat_roughness;
     double film, film_thickness; // nm
+    double anisotropy;           // 0 where there is no tangent
+    vector along;                // in which direction it is rougher: unit, at right angles to n
     double jump;                 // see oracle_report
 } surface;
 

@@ -55,6 +55,7 @@ typedef struct glint_plan {
     int traversal_stack; // entries of the traversal's stack; set once the tree is built
     size_t environment_bytes; // device memory for the environment
     bool has_facets;          // rough glass is to be seen, but for terms
+    bool is_brushed;          // likewise, of lobes
     bool disperses;           // so are solids that disperse light
     int cells_last;           // the finest level of cells that rough surfaces need; −1: none do
     uint32_t build_tag;       // the settings'

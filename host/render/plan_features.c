@@ -34,6 +34,7 @@ typedef struct material_census {
     size_t coats_apart;                   // clear coats that reflect another way than what is below
     size_t rough, rough_coats;            // that reflect lobes; of these, no metal
     size_t faceted;                       // of rough glass
+    size_t brushed;                       // rougher along a direction
     double least_roughness;               // of these; 0 where textures say it
 } material_census;
 
@@ -83,6 +84,7 @@ static void count_material(const glint_material *material, bool heeds_roughness,
                          lobes.clearcoat || (lobes.rough_path && heeds_roughness));
     if (heeds_roughness) {
         census->faceted += lobes.facets;
+        census->brushed += lobes.brushed;
         count_roughness(material, &lobes, census);
     }
 #define COUNT(feature, lobe, what) census->needing[GLINT_FEATURE_##feature] += lobes.lobe;
@@ -216,7 +218,7 @@ static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
     } attributes[] = {
         {GLINT_FEATURE_TEXTURES, set->texcoords, "some material has textures"},
         {GLINT_FEATURE_SECOND_TEXCOORDS, set->second_texcoords, "some texture uses TEXCOORD_1"},
-        {GLINT_FEATURE_NORMAL_MAPS, set->tangents, "some material has a normal texture"},
+        {GLINT_FEATURE_NORMAL_MAPS, set->tangents, "some material needs tangents"},
         {GLINT_FEATURE_COLORED_VERTICES, set->colors, "some primitive has colours"},
     };
     for (size_t i = 0; i < sizeof attributes / sizeof *attributes; i++) {
@@ -333,6 +335,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     decide_optics(&census, in->settings->fresnel, plan);
     choose_cells(&census, in->settings->fresnel, plan);
     plan->has_facets = census.faceted > 0;
+    plan->is_brushed = census.brushed > 0;
     plan->disperses = census.needing[GLINT_FEATURE_DISPERSION] > 0;
     decide_scene(in, plan);
     decide_attributes(in, plan);
@@ -361,7 +364,12 @@ void glint_plan_decide_paths(glint_plan *plan)
 static void decide_roughness(const glint_settings *settings, glint_plan *plan)
 {
     const bool heeded = glint_settings_heed_roughness(settings) && settings->terms == 0;
-    const bool rough = plan->cells_last >= 0 && heeded, facets = plan->has_facets && heeded;
+    const bool rough = plan->cells_last >= 0 && heeded;
+    const bool brushed = plan->is_brushed && rough;
+    decide(plan, GLINT_FEATURE_BRUSHED,
+           brushed && plan->features[GLINT_FEATURE_NORMAL_MAPS].compiled, "%s",
+           brushed ? "KHR_materials_anisotropy" : "no rough surface with KHR_materials_anisotropy");
+    const bool facets = plan->has_facets && heeded;
     decide(plan, GLINT_FEATURE_ROUGH, rough, "%s",
            rough    ? "rough metal, paint or clear coats"
            : heeded ? "no rough metal, paint or clear coats"

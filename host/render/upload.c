@@ -14,7 +14,7 @@
 #include <string.h>
 
 // Both compilers must lay the shared structs out alike: 32-bit scalars without gaps.
-_Static_assert(sizeof(glint_material_record) == 168, "glint_material_record has gaps");
+_Static_assert(sizeof(glint_material_record) == 184, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_texture_record) == 112, "glint_texture_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
@@ -100,6 +100,8 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
         .clearcoat = lobes.clearcoat ? m->clearcoat : 0,
         .clearcoat_roughness = m->clearcoat_roughness,
         .clearcoat_normal_scale = m->clearcoat_normal_scale,
+        .anisotropy = lobes.brushed ? m->anisotropy : 0,
+        .brush_direction = {cosf(m->anisotropy_rotation), sinf(m->anisotropy_rotation)},
         .iridescence = lobes.iridescent ? m->iridescence : 0,
         .iridescence_ior = m->iridescence_ior,
         .iridescence_thickness = {m->iridescence_thickness[0], m->iridescence_thickness[1]},

@@ -76,8 +76,10 @@ glint_attributes attributes_of(const Load &load)
             set.texcoords = set.texcoords || use.image != 0;
             set.second_texcoords = set.second_texcoords || (use.image != 0 && use.texcoord == 1);
         }
-        set.tangents =
-            set.tangents || glint_material_normal_texture(&one.second.material)->image != 0;
+        // They follow texture coordinates.
+        const bool tangents = glint_material_needs_tangents(&one.second.material);
+        set.tangents = set.tangents || tangents;
+        set.texcoords = set.texcoords || tangents;
         set.colors = set.colors || one.second.material.has_vertex_colors;
     }
     return set;

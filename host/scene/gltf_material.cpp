@@ -158,6 +158,16 @@ void read_clearcoat(const json &object, const Place &place, glint_material &resu
     read_normal_scale(object, place, "clearcoatNormalTexture", result.clearcoat_normal_scale);
 }
 
+void read_anisotropy(const json &object, const Place &place, glint_material &result)
+{
+    result.anisotropy = factor(object, place, "anisotropyStrength", 0);
+    const json *rotation = member(object, "anisotropyRotation");
+    if (rotation != nullptr) {
+        result.anisotropy_rotation = static_cast<float>(
+            number_within(*rotation, place / "anisotropyRotation", -FLT_MAX, FLT_MAX));
+    }
+}
+
 void read_iridescence(const json &object, const Place &place, glint_material &result)
 {
     result.iridescence = factor(object, place, "iridescenceFactor", 0);
@@ -274,6 +284,9 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     if (const json *found = extension_of(material, place, "KHR_materials_clearcoat")) {
         read_clearcoat(*found, at / "KHR_materials_clearcoat", result);
     }
+    if (const json *found = extension_of(material, place, "KHR_materials_anisotropy")) {
+        read_anisotropy(*found, at / "KHR_materials_anisotropy", result);
+    }
     if (const json *found = extension_of(material, place, "KHR_materials_iridescence")) {
         read_iridescence(*found, at / "KHR_materials_iridescence", result);
     }
@@ -345,11 +358,13 @@ void make_grey(glint_material &material)
     material.transmission = 0;
     material.clearcoat = 0;
     material.iridescence = 0;
+    material.anisotropy = 0;
     for (const glint_texture_slot slot :
          {GLINT_TEXTURE_BASE_COLOR, GLINT_TEXTURE_METALLIC_ROUGHNESS, GLINT_TEXTURE_TRANSMISSION,
           GLINT_TEXTURE_SPECULAR, GLINT_TEXTURE_SPECULAR_COLOR, GLINT_TEXTURE_CLEARCOAT,
           GLINT_TEXTURE_CLEARCOAT_ROUGHNESS, GLINT_TEXTURE_CLEARCOAT_NORMAL,
-          GLINT_TEXTURE_IRIDESCENCE, GLINT_TEXTURE_IRIDESCENCE_THICKNESS}) {
+          GLINT_TEXTURE_IRIDESCENCE, GLINT_TEXTURE_IRIDESCENCE_THICKNESS,
+          GLINT_TEXTURE_ANISOTROPY}) {
         material.textures[slot] = {};
     }
 }
@@ -377,6 +392,7 @@ const char *do_without(glint_texture_slot slot, UsedMaterial &used)
     case GLINT_TEXTURE_CLEARCOAT_ROUGHNESS:
     case GLINT_TEXTURE_IRIDESCENCE:
     case GLINT_TEXTURE_IRIDESCENCE_THICKNESS:
+    case GLINT_TEXTURE_ANISOTROPY:
         return "its factor alone is used";
     default:
         make_grey(material);

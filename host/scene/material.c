@@ -50,6 +50,17 @@ const glint_texture_use *glint_material_normal_texture(const glint_material *m)
                                                              : GLINT_TEXTURE_CLEARCOAT_NORMAL];
 }
 
+bool glint_material_needs_tangents(const glint_material *m)
+{
+    return glint_material_normal_texture(m)->image != 0 || glint_material_lobes(m).brushed;
+}
+
+const glint_texture_use *glint_material_tangent_texture(const glint_material *m)
+{
+    const glint_texture_use *normal = glint_material_normal_texture(m);
+    return normal->image != 0 ? normal : &m->textures[GLINT_TEXTURE_ANISOTROPY];
+}
+
 // Whether alpha can be less than 1.
 static bool has_alpha(const glint_material *m)
 {
@@ -106,8 +117,9 @@ static glint_lobes sharing_lobes(const glint_material *m)
     lobes.thin = lobes.glass && !lobes.solid;
     lobes.paint = dielectric && (m->transmission < 1 || has_texture(m, GLINT_TEXTURE_TRANSMISSION));
     lobes.specular = (lobes.paint || lobes.glass) && is_specular(m);
-    lobes.rough =
-        (lobes.metal || lobes.paint) && !lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
+    lobes.rough = (lobes.metal || lobes.paint) && !lobes.glass &&
+                  (m->roughness >= GLINT_ROUGHNESS_LEAST || m->anisotropy > 0);
+    lobes.brushed = lobes.rough && m->anisotropy > 0;
     lobes.rough_path = lobes.rough && (lobes.metal || needs_path(m, m->roughness,
                                                                  GLINT_TEXTURE_METALLIC_ROUGHNESS));
     lobes.facets = lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;

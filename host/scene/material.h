@@ -41,6 +41,8 @@ typedef struct glint_material {
     float iridescence;          // KHR_materials_iridescence, [0, 1]: how much of a film there is
     float iridescence_ior;      // of the film, ≥ 1
     float iridescence_thickness[2]; // nm, ≥ 0: where the texture is 0 and 1; without one the last
+    float anisotropy;               // KHR_materials_anisotropy, [0, 1]: strength
+    float anisotropy_rotation;      // radians, from the tangent towards the bitangent
     bool unlit;                     // KHR_materials_unlit
     float mirror; // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
     glint_alpha_mode alpha_mode;
@@ -86,6 +88,7 @@ typedef struct glint_lobes {
     bool specular;   // what paint and glass reflect is weighed or coloured
     bool iridescent; // a film colours what is reflected
     bool rough;      // metal, and the coat of paint, reflect lobes
+    bool brushed;    // which are rougher along a direction than across it
     bool rough_path; // for which paths go on
     bool facets;     // glass is rough, and so is what beside it reflects
     // Above these, but for unlit surfaces and the blend:
@@ -99,9 +102,14 @@ typedef struct glint_lobes {
 
 glint_lobes glint_material_lobes(const glint_material *material);
 
-// The texture whose coordinates tangents follow: the normal texture, or else the clear coat's; its
-// image is 0 where there is neither.
+// The normal texture, or else the clear coat's; its image is 0 where there is neither.
 const glint_texture_use *glint_material_normal_texture(const glint_material *material);
+
+// Whether surfaces need tangents; and the texture whose coordinates they follow: the normal
+// texture, else the clear coat's, else that of the anisotropy. Its image may be 0: the first
+// coordinates.
+bool glint_material_needs_tangents(const glint_material *material);
+const glint_texture_use *glint_material_tangent_texture(const glint_material *material);
 
 bool glint_material_is_textured(const glint_material *material);
 

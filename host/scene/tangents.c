@@ -51,22 +51,22 @@ static float *tangent_of(const tangents *t, size_t triangle, int corner)
     return corner_attributes(t, triangle, corner) + t->tangent_at;
 }
 
-static const glint_texture_use *normal_texture(const tangents *t, size_t triangle)
+static const glint_material *material_of(const tangents *t, size_t triangle)
 {
     const glint_scene *scene = t->scene;
-    return glint_material_normal_texture(&scene->materials[scene->material_of[triangle]]);
+    return &scene->materials[scene->material_of[triangle]];
 }
 
 static bool is_wanted(const tangents *t, size_t triangle)
 {
-    return normal_texture(t, triangle)->image != 0 &&
+    return glint_material_needs_tangents(material_of(t, triangle)) &&
            (tangent_of(t, triangle, 0)[3] == 0 || tangent_of(t, triangle, 1)[3] == 0 ||
             tangent_of(t, triangle, 2)[3] == 0);
 }
 
 static sheet sheet_of(const tangents *t, size_t triangle)
 {
-    const int at = normal_texture(t, triangle)->texcoord == 1 ? 2 : 0;
+    const int at = glint_material_tangent_texture(material_of(t, triangle))->texcoord == 1 ? 2 : 0;
     sheet s = {.turn = 0};
     for (int c = 0; c < 3; c++) {
         s.positions[c] = vector_of(t->scene->positions + 9 * triangle + 3 * c);

@@ -32,8 +32,29 @@ typedef struct rough_ball {
     int depth, strata; // of the oracle, along each axis
     double bound;
     bool half_specular;
-    float clearcoat, clearcoat_roughness, dispersion, film;
+    float clearcoat, clearcoat_roughness, dispersion, film, anisotropy;
 } rough_ball;
+
+// A ball's tangents run around it.
+static glint_status brush_ball(glint_scene *scene, glint_error *error)
+{
+    scene->attribute_set = (glint_attributes){.texcoords = true, .tangents = true};
+    const size_t stride = glint_attributes_stride(&scene->attribute_set);
+    float *values = glint_allocate(3 * scene->triangle_count * stride, sizeof *values);
+    if (values == NULL) {
+        return glint_fail_memory(error, "a self-test");
+    }
+    scene->attributes = values;
+    for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
+        const float *p = scene->positions + 3 * i;
+        const double length = hypot((double)p[0], (double)p[2]);
+        float *tangent = values + stride * i + 2;
+        tangent[0] = length > 0 ? (float)((double)p[2] / length) : 1;
+        tangent[2] = length > 0 ? (float)(-(double)p[0] / length) : 0;
+        tangent[3] = 1;
+    }
+    return GLINT_OK;
+}
 
 static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_error *error)
 {
@@ -47,10 +68,12 @@ static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_er
     m->clearcoat = of->clearcoat;
     m->clearcoat_roughness = of->clearcoat_roughness;
     m->dispersion = of->dispersion;
+    m->anisotropy = of->anisotropy;
+    m->anisotropy_rotation = 0.6F;
     m->iridescence = of->film;
     m->iridescence_ior = 1.6F;
     m->iridescence_thickness[1] = 400;
-    return GLINT_OK;
+    return of->anisotropy > 0 ? brush_ball(scene, error) : GLINT_OK;
 }
 
 // Relative RMSE of the pixels that show the ball.
@@ -194,6 +217,13 @@ static const rough_ball balls[] = {
      .strata = 64,
      .bound = 0.004,
      .film = 1},
+    {.what = "brushed metal, roughness 0.4",
+     .material = MATERIAL_TINTED,
+     .roughness = 0.4F,
+     .depth = 1,
+     .strata = 96,
+     .bound = 0.004,
+     .anisotropy = 0.7F},
 };
 
 static glint_status rough_balls(trial *t)

@@ -90,6 +90,8 @@ static void copy_layers(const glint_material *m, oracle_material *o)
     o->clearcoat = (double)m->clearcoat;
     o->clearcoat_roughness = (double)m->clearcoat_roughness;
     o->clearcoat_normal_scale = (double)m->clearcoat_normal_scale;
+    o->anisotropy = (double)m->anisotropy;
+    o->anisotropy_rotation = (double)m->anisotropy_rotation;
     o->film = (double)m->iridescence;
     o->film_ior = (double)m->iridescence_ior;
     copy_numbers(m->iridescence_thickness, 2, o->film_thickness);
@@ -113,6 +115,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         [ORACLE_CLEARCOAT] = GLINT_TEXTURE_CLEARCOAT,
         [ORACLE_CLEARCOAT_ROUGHNESS] = GLINT_TEXTURE_CLEARCOAT_ROUGHNESS,
         [ORACLE_CLEARCOAT_NORMAL] = GLINT_TEXTURE_CLEARCOAT_NORMAL,
+        [ORACLE_ANISOTROPY] = GLINT_TEXTURE_ANISOTROPY,
         [ORACLE_IRIDESCENCE] = GLINT_TEXTURE_IRIDESCENCE,
         [ORACLE_IRIDESCENCE_THICKNESS] = GLINT_TEXTURE_IRIDESCENCE_THICKNESS,
     };

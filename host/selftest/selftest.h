@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define GLINT_SELFTEST_MEASURES 12 // of a case, at most
+#define GLINT_SELFTEST_MEASURES 16 // of a case, at most
 #define GLINT_SELFTEST_RAYS 262144 // of the cases that count leaks, if nobody says otherwise
 #define GLINT_SELFTEST_RAYS_MAX 1000000000000.0
 

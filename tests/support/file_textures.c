@@ -129,6 +129,7 @@ static const json_t *info_of(const json_t *material, oracle_role role)
         [ORACLE_CLEARCOAT] = {"extensions", "KHR_materials_clearcoat", "clearcoatTexture"},
         [ORACLE_CLEARCOAT_ROUGHNESS] = {"extensions", "KHR_materials_clearcoat",
                                         "clearcoatRoughnessTexture"},
+        [ORACLE_ANISOTROPY] = {"extensions", "KHR_materials_anisotropy", "anisotropyTexture"},
         [ORACLE_IRIDESCENCE] = {"extensions", "KHR_materials_iridescence", "iridescenceTexture"},
         [ORACLE_IRIDESCENCE_THICKNESS] = {"extensions", "KHR_materials_iridescence",
                                           "iridescenceThicknessTexture"},

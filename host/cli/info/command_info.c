@@ -162,6 +162,10 @@ static void print_layers(const glint_material *material)
                (double)material->specular_color[0], (double)material->specular_color[1],
                (double)material->specular_color[2]);
     }
+    if (lobes.brushed) {
+        printf(", anisotropy %g turned by %g", (double)material->anisotropy,
+               (double)material->anisotropy_rotation);
+    }
     if (lobes.iridescent) {
         const bool varies = material->textures[GLINT_TEXTURE_IRIDESCENCE_THICKNESS].image != 0;
         printf(", film %g of ior %g, ", (double)material->iridescence,

@@ -90,6 +90,8 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
                               (double)m->clearcoat_roughness,
                               (double)m->clearcoat_normal_scale,
                               (double)m->dispersion,
+                              (double)m->anisotropy,
+                              (double)m->anisotropy_rotation,
                               (double)m->iridescence,
                               (double)m->iridescence_ior,
                               (double)m->iridescence_thickness[0],

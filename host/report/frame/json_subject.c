@@ -199,6 +199,8 @@ static json_t *material_object(const glint_material *material)
     glint_json_put_real(object, "specular", (double)material->specular);
     glint_json_put(object, "specular_color", color(material->specular_color));
     glint_json_put_real(object, "dispersion", (double)material->dispersion);
+    glint_json_put_real(object, "anisotropy", (double)material->anisotropy);
+    glint_json_put_real(object, "anisotropy_rotation", (double)material->anisotropy_rotation);
     glint_json_put_real(object, "iridescence", (double)material->iridescence);
     glint_json_put_real(object, "iridescence_ior", (double)material->iridescence_ior);
     glint_json_put_real(object, "iridescence_thickness_minimum",
