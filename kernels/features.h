@@ -48,7 +48,10 @@
                 GLINT_PROXY,                                                                       \
             ACTIVE)                                                                                \
     FEATURE(BRUSHED, "rough surfaces are rougher along a direction than across it",                \
-            GLINT_ROUGH &&GLINT_NORMAL_MAPS, 0, ACTIVE)                                            \
+            GLINT_ROUGH &&GLINT_NORMAL_MAPS,                                                       \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
+                GLINT_PROXY,                                                                       \
+            ACTIVE)                                                                                \
     FEATURE(FACETS, "paths go over the directions in which the facets of rough glass send light",  \
             GLINT_GLASS,                                                                           \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \

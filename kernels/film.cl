@@ -134,4 +134,84 @@ static inline real3 film_reflectance(real film, real3 roots, real cosine, real w
     return real3_of(left[0], left[1], left[2]);
 }
 
+// Rule 15: what a surface reflects that without its film reflects `bare`; of what the film does,
+// `weight`. `outer` is the outer medium's index of refraction; the rest as in film_reflectance.
+static inline real3 reflect_by_film(const surface *s, real3 bare, real weight, real3 roots,
+                                    real outer, real cosine)
+{
+    const real film = s->film_ior / outer;
+    // A film in a denser medium may reflect all, and is left out there.
+    const mask seen = (s->film > R(0.0)) &
+                      ((R(1.0) - cosine) * (R(1.0) + cosine) < film * film);
+    if (!any_lane(seen)) {
+        return bare;
+    }
+    const real way = s->film_ior * s->film_thickness * R(2e-9);
+    const real3 filmed = scale(film_reflectance(film, roots, cosine, way), weight);
+    return select3(seen, scale_add(subtract(filmed, bare), s->film, bare), bare);
+}
+
+// (n − 1)/(n + 1) of a base denser than what is above it, by what it reflects at right angles.
+static inline real3 film_roots(real3 f0)
+{
+    const real most = real_of(R(0.9999));
+    return real3_of(SMALLER(sqrt(f0.x), most), SMALLER(sqrt(f0.y), most),
+                    SMALLER(sqrt(f0.z), most));
+}
+
+#if GLINT_ROUGH
+// Of microfacets that are seen: at an even part of the cap from its top (see facets.cl), and turned
+// by these cosines, which are even, too.
+#define FILM_FACETS 8
+constant scalar film_facet_turns[FILM_FACETS] = {R(0.980785),  R(-0.195090), R(0.555570),
+                                                 R(-0.831470), R(0.831470),  R(-0.555570),
+                                                 R(0.195090),  R(-0.980785)};
+
+static inline real3 within_one(real3 a)
+{
+    const real zero = real_of(0), one = real_of(1);
+    return real3_of(SMALLER(LARGER(a.x, zero), one), SMALLER(LARGER(a.y, zero), one),
+                    SMALLER(LARGER(a.z, zero), one));
+}
+
+// A film on what reflects a lobe: the F0 with which that reflects as much of a white environment as
+// the film does, in the mean over facets by what of their light no other facet stops.
+static inline real3 film_of_lobe(const surface *s, real3 f0)
+{
+    const real alpha = s->roughness * s->roughness;
+    const real sine = sqrt(LARGER((R(1.0) - s->cosine) * (R(1.0) + s->cosine), real_of(0)));
+    const real length = R(1.0) / sqrt(fused(alpha * sine, alpha * sine, s->cosine * s->cosine));
+    const real aside = alpha * sine * length, upwards = s->cosine * length;
+    const real3 roots = film_roots(f0);
+    const real root = smith_root(alpha * alpha, s->cosine);
+    real3 sum = real3_of(real_of(0), real_of(0), real_of(0));
+    real edges = real_of(0), weights = real_of(R(1e-9));
+    for (int i = 0; i < FILM_FACETS; i++) {
+        const scalar down = ((scalar)i + R(0.5)) / (scalar)FILM_FACETS, turn = film_facet_turns[i];
+        const real z = fused(real_of(-down), R(1.0) + upwards, real_of(1));
+        const real ring = sqrt(LARGER((R(1.0) - z) * (R(1.0) + z), real_of(0)));
+        // The facet's normal, in the plane of v, across it and along the surface's normal.
+        const real x = alpha * fused(ring, real_of(turn), aside), up = z + upwards;
+        const real across = alpha * alpha * ring * ring * ((R(1.0) - turn) * (R(1.0) + turn));
+        const real inverse = R(1.0) / sqrt(fused(x, x, fused(up, up, across)) + R(1e-12));
+        const real toward = fused(x, sine, up * s->cosine) * inverse;
+        const real away = fused(R(2.0) * toward, up * inverse, -s->cosine);
+        const real open = away * (s->cosine + root) /
+                          fused(away, root, s->cosine * smith_root(alpha * alpha, away));
+        const real weight = SELECT(away > R(0.0), open, real_of(0));
+        const real cosine = SMALLER(LARGER(toward, real_of(0)), real_of(1));
+        const real m = R(1.0) - cosine, m2 = m * m, edge = m2 * m2 * m;
+        const real3 filmed = reflect_by_film(s, metal_reflectance(f0, cosine), real_of(1), roots,
+                                             real_of(1), cosine);
+        sum = scale_add(filmed, weight, sum);
+        edges = fused(edge, weight, edges);
+        weights += weight;
+    }
+    const real left = LARGER(weights - edges, real_of(R(1e-9)));
+    const real3 least = real3_of(edges, edges, edges);
+    const real3 found = within_one(scale(subtract(sum, least), R(1.0) / left));
+    return select3(s->film > R(0.0), found, f0);
+}
+#endif
+
 #endif

@@ -61,7 +61,9 @@ static inline wanted_lobe lobe_of_coat(const surface *s, const scattering *out, 
     const real edge = s->clearcoat * out->coat_gain, base = edge * CLEARCOAT_F0;
     const real share = share_of_path(s->clearcoat_roughness);
     const real3 bases = real3_of(base, base, base), edges = real3_of(edge, edge, edge);
-    wanted_lobe w = {met & out->coat_rough, shape_of_coat(s)};
+    wanted_lobe w;
+    w.there = met & out->coat_rough;
+    w.shape = shape_of_coat(s);
     w.weight = edge;
     w.path_base = scale(bases, share);
     w.path_edge = scale(edges, share);

@@ -20,7 +20,10 @@ typedef struct lobe_shape {
 
 static inline lobe_shape shape_of_surface(const surface *s)
 {
-    lobe_shape shape = {s->normal, s->cosine, s->roughness};
+    lobe_shape shape;
+    shape.normal = s->normal;
+    shape.cosine = s->cosine;
+    shape.roughness = s->roughness;
 #if GLINT_BRUSHED
     shape.along = s->along;
     shape.anisotropy = s->anisotropy;
@@ -31,7 +34,10 @@ static inline lobe_shape shape_of_surface(const surface *s)
 #if GLINT_CLEARCOAT
 static inline lobe_shape shape_of_coat(const surface *s)
 {
-    lobe_shape shape = {s->clearcoat_normal, s->clearcoat_cosine, s->clearcoat_roughness};
+    lobe_shape shape;
+    shape.normal = s->clearcoat_normal;
+    shape.cosine = s->clearcoat_cosine;
+    shape.roughness = s->clearcoat_roughness;
 #if GLINT_BRUSHED
     shape.along = s->along;
     shape.anisotropy = real_of(0);
