@@ -14,7 +14,8 @@ constant scalar bells_of_colors[3][BELLS] = {
     {R(-0.865289501301), R(-0.157266953125), R(1.978686591874), R(0.043869862553)},
     {R(0.051765545710), R(0.009408423006), R(-0.224251657150), R(1.163077688434)}};
 
-// How often light goes to and fro in a film at most. Measured: with 8 the mean error is 0.0025.
+// How often light goes to and fro in a film at most. Measured in 840 hard cases: with 8 the root
+// mean square error is 0.0025, and 0.033 is the largest; with 2 it is 0.023, and 0.23.
 #define FILM_PASSES 8
 
 // cos(2πx), the same in packets of all widths.

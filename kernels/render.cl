@@ -244,8 +244,7 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
 #define FOLLOWS_PATHS (!GLINT_HITS && !ONE_LOOKUP)
 
 #define FACET_ROUNDS(frame) (GLINT_FACETS ? (frame)->facet_rounds : 1)
-#define ROUNDS(frame) (GLINT_DISPERSION ? FACET_ROUNDS(frame) * (frame)->wavelengths             \
-                                        : FACET_ROUNDS(frame))
+#define ROUNDS(frame) (FACET_ROUNDS(frame) * (GLINT_DISPERSION ? (frame)->wavelengths : 1))
 
 #if HAS_ROUNDS
 // Takes a round's wavelength, one after the other for all facets; `inside`: which pixels need it.

@@ -80,7 +80,6 @@ static void note_settings(const glint_settings *settings, glint_frame_record *re
     record->step = settings->grid_step > 0 ? settings->grid_step : 1;
     record->first_pixel = settings->grid_step / 2;
     record->facet_rounds = glint_settings_rounds(settings);
-    note_wavelengths(settings->wavelengths, record);
     record->samples_per_axis = settings->samples_per_axis;
     record->anisotropy = (float)settings->anisotropy;
     record->compensation = settings->scattering == GLINT_SCATTERING_MULTIPLE;
@@ -126,6 +125,9 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     glint_split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
     glint_split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
     note_settings(settings, record);
+    if (plan->features[GLINT_FEATURE_DISPERSION].compiled) {
+        note_wavelengths(settings->wavelengths, record);
+    }
     record->cells_last = plan->cells_last;
     record->depth = plan->depth;
     record->unit = (float)space->unit;
