@@ -426,13 +426,13 @@ static glint_status submit(const farm_request *request, const farm_subject *subj
     if (status == GLINT_OK) {
         glint_signals_cooperate(request->wait); // a Ctrl-C ends sbatch, too
         status = submit_report(job, facts.id, request->wait, error);
-        glint_signals_cooperate(false);
     }
-    if (glint_stop_requested()) {
+    if (glint_stop_requested() || status == GLINT_INTERRUPTED) {
         glint_say("nobody waits any more: job %s goes on (scancel %s ends it)", facts.id, facts.id);
         glint_error_free(error);
         return glint_fail(error, GLINT_INTERRUPTED, "stopped");
     }
+    glint_signals_cooperate(false);
     if (request->wait && (status == GLINT_OK || status == GLINT_FRAMES_FAILED)) {
         // Whatever became of the job that made it, the report tells.
         glint_error_free(error);

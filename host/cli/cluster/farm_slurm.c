@@ -237,7 +237,8 @@ static void clear_environment(const farm_slurm *slurm)
     }
 }
 
-// What the program prints on stdout, cut to the buffer; its exit status, or −1.
+// What the program prints on stdout, cut to the buffer; its exit status, or −1, or −2 where
+// somebody stopped it.
 static int run_program(char *const *words, char *output, size_t capacity, int *cause)
 {
     int ends[2];
@@ -276,7 +277,11 @@ static int run_program(char *const *words, char *output, size_t capacity, int *c
         }
     }
     close(ends[0]);
-    return *cause == 0 && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+    if (*cause != 0) {
+        return -1;
+    }
+    const bool stopped = WIFSIGNALED(how) && (WTERMSIG(how) == SIGINT || WTERMSIG(how) == SIGTERM);
+    return WIFEXITED(how) ? WEXITSTATUS(how) : stopped ? -2 : -1;
 }
 
 glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *submission,
@@ -302,6 +307,9 @@ glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *s
         return glint_fail(error, GLINT_DEVICE_FAILED,
                           "sbatch: %s (install Slurm's client, or see the script with --dry-run)",
                           strerror(cause));
+    }
+    if (status == -2) {
+        return glint_fail(error, GLINT_INTERRUPTED, "sbatch was stopped");
     }
     if (id[0] == '\0' || strspn(id, "0123456789") != strlen(id)) {
         return glint_fail(error, GLINT_DEVICE_FAILED,

@@ -39,7 +39,9 @@ typedef struct farm_submission {
 
 // Hands the script in, as job `id`. sbatch's own messages go to stderr; variables of the
 // environment that would beat the script's options are unset. Errors: GLINT_DEVICE_FAILED where
-// there is no sbatch or it refuses; GLINT_FRAMES_FAILED if it was waited for and failed.
+// there is no sbatch or it refuses; GLINT_FRAMES_FAILED if it was waited for and failed;
+// GLINT_INTERRUPTED if a signal stopped sbatch, as a Ctrl-C does, perhaps before this program has
+// seen its own.
 glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *submission,
                                char id[FARM_ID_CAPACITY], glint_error *error);
 
