@@ -52,6 +52,10 @@
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
                 GLINT_PROXY,                                                                       \
             ACTIVE)                                                                                \
+    FEATURE(SHEEN, "fibres on metal and paint shine at grazing angles", GLINT_ROUGH,               \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \
+                GLINT_PROXY,                                                                       \
+            ACTIVE)                                                                                \
     FEATURE(FACETS, "paths go over the directions in which the facets of rough glass send light",  \
             GLINT_GLASS,                                                                           \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS ||           \

@@ -46,13 +46,14 @@ typedef struct glint_split_vector {
 // ---- Lobes -------------------------------------------------------------------------------------
 // What rough surfaces (GLINT_ROUGH) read, floats. First a table of how much a lobe reflects of a
 // white environment, without and with Fresnel's (1 − v·h)⁵: ∫ D V (1 − m) n·l dl and ∫ D V m n·l
-// dl, by [roughness from 0 to 1][√(n·v) from 0 to 1], in equal steps.
+// dl, by [roughness from 0 to 1][√(n·v) from 0 to 1], in equal steps. Then, alike, how much sheen
+// of white reflects, and 0, by roughness from NARROW to 1; all 0 without GLINT_SHEEN.
 #define GLINT_ALBEDO_ROUGHNESSES 32
 #define GLINT_ALBEDO_COSINES 32
 #define GLINT_ALBEDO_VALUES (2 * GLINT_ALBEDO_ROUGHNESSES * GLINT_ALBEDO_COSINES)
 // Then how bright the environment is, R + G + B: the square of √(R + G + B)'s mean, on which suns
 // weigh little; and seven floats that are not used.
-#define GLINT_LOBES_BRIGHTNESS GLINT_ALBEDO_VALUES
+#define GLINT_LOBES_BRIGHTNESS (2 * GLINT_ALBEDO_VALUES)
 // Then the environment as cells. Level 0 has GLINT_CELLS_ROOT cells along a face's edge, each other
 // level twice as many as the last. A level is [6][edge²] cells; those of a face stand in Morton
 // order: the even bits of a cell's place are its column's, the odd ones its row's. So a cell's
@@ -77,7 +78,7 @@ typedef struct glint_split_vector {
 #define GLINT_LOBE_TAIL 0.1f
 #define GLINT_CELL_LARGEST 6.25f
 // Roughness below LEAST counts as none. Lobes below NARROW are narrower than a cell of the finest
-// level.
+// level; sheen is as if it had NARROW at least.
 #define GLINT_ROUGHNESS_LEAST 0.01f
 #define GLINT_ROUGHNESS_NARROW 0.07f
 // The coat of paint from MATTE on sees the environment alone, as what is beneath it does; below
@@ -138,7 +139,9 @@ typedef struct glint_split_vector {
 #define GLINT_SLOT_IRIDESCENCE 11
 #define GLINT_SLOT_IRIDESCENCE_THICKNESS 12
 #define GLINT_SLOT_ANISOTROPY 13
-#define GLINT_MATERIAL_TEXTURES 14
+#define GLINT_SLOT_SHEEN_COLOR 14
+#define GLINT_SLOT_SHEEN_ROUGHNESS 15
+#define GLINT_MATERIAL_TEXTURES 16
 
 typedef struct glint_material_record {
     float base_color[4]; // linear R, G, B; A
@@ -163,6 +166,8 @@ typedef struct glint_material_record {
     float iridescence_thickness[2];        // nm: where the texture is 0 and 1; without one the last
     float anisotropy;                      // [0, 1], with GLINT_BRUSHED, as the next
     float brush_direction[2];              // unit, along tangent and bitangent
+    float sheen_color[3];                  // [0, 1], with GLINT_SHEEN, as the next; 0: none
+    float sheen_roughness;                 // [0, 1]
     int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
 

@@ -25,6 +25,17 @@ static inline wanted_lobe lobe_of_surface(const surface *s, const scattering *ou
     return w;
 }
 
+#if GLINT_SHEEN
+static inline wanted_lobe lobe_of_sheen(const surface *s, const scattering *out, mask met)
+{
+    const real3 none = real3_of(real_of(0), real_of(0), real_of(0));
+    const real weight = largest3(out->sheen);
+    const wanted_lobe w = {met & (weight > R(0.0)), shape_of_sheen(s), weight, none, none,
+                           out->sheen, none};
+    return w;
+}
+#endif
+
 // Rule 11, for the rays that want it.
 static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_record *frame,
                                  const wanted_lobe *w, const path *ray)

@@ -285,6 +285,10 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     const wanted_lobe wanted = lobe_of_surface(&s, &out, met);
     seen_lobe seen = see_lobe(scene, frame, &wanted, ray);
     gather(all, slot, seen.matte, met);
+#if GLINT_SHEEN
+    const wanted_lobe of_sheen = lobe_of_sheen(&s, &out, met);
+    gather(all, slot, see_lobe(scene, frame, &of_sheen, ray).matte, met);
+#endif
 #if GLINT_CLEARCOAT
     const wanted_lobe of_coat = lobe_of_coat(&s, &out, met);
     const seen_lobe coat = see_lobe(scene, frame, &of_coat, ray);

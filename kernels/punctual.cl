@@ -92,6 +92,9 @@ static inline mask may_shine(const surface *s)
 #if GLINT_CLEARCOAT
     rough = rough | is_coat_rough(s);
 #endif
+#if GLINT_SHEEN
+    rough = rough | (largest3(s->sheen_color) > R(0.0));
+#endif
 #if GLINT_ALPHA
     rough = rough & (s->coverage > R(0.0));
 #endif
@@ -123,6 +126,11 @@ static inline void shine(const path *ray, const arrival *a, real3 left, mask lit
     const real shown = fused(coat.base, real_of(CLEARCOAT_F0), coat.edge);
     s->clearcoat_shine =
         select3(lit, scale_add(light, shown, s->clearcoat_shine), s->clearcoat_shine);
+#endif
+#if GLINT_SHEEN
+    const lobe_shape of_sheen = shape_of_sheen(s);
+    const real fibres = weigh_light(&of_sheen, negate(ray->direction), a->direction, lit).base;
+    s->sheen_shine = select3(lit, scale_add(light, fibres, s->sheen_shine), s->sheen_shine);
 #endif
 }
 #endif

@@ -43,6 +43,7 @@ GLINT_FEATURES(CHECK)
 #include "textures.cl"
 #include "surface.cl"
 #include "shade.cl"
+#include "sheen.cl"
 #include "rough.cl"
 #include "facets.cl"
 #include "film.cl"

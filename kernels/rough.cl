@@ -16,6 +16,9 @@ typedef struct lobe_shape {
     real3 along;     // where it is rougher along a direction, α + (1 − α) anisotropy²
     real anisotropy; // else 0
 #endif
+#if GLINT_SHEEN
+    bool is_sheen; // fibres instead of microfacets
+#endif
 } lobe_shape;
 
 static inline lobe_shape shape_of_surface(const surface *s)
@@ -28,8 +31,24 @@ static inline lobe_shape shape_of_surface(const surface *s)
     shape.along = s->along;
     shape.anisotropy = s->anisotropy;
 #endif
+#if GLINT_SHEEN
+    shape.is_sheen = false;
+#endif
     return shape;
 }
+
+#if GLINT_SHEEN
+static inline lobe_shape shape_of_sheen(const surface *s)
+{
+    lobe_shape shape = shape_of_surface(s);
+    shape.roughness = s->sheen_roughness;
+#if GLINT_BRUSHED
+    shape.anisotropy = real_of(0);
+#endif
+    shape.is_sheen = true;
+    return shape;
+}
+#endif
 
 #if GLINT_CLEARCOAT
 static inline lobe_shape shape_of_coat(const surface *s)
@@ -41,6 +60,9 @@ static inline lobe_shape shape_of_coat(const surface *s)
 #if GLINT_BRUSHED
     shape.along = s->along;
     shape.anisotropy = real_of(0);
+#endif
+#if GLINT_SHEEN
+    shape.is_sheen = false;
 #endif
     return shape;
 }
@@ -62,6 +84,10 @@ typedef struct lobe {
     real smith;     // √(α² + (1 − α²) cos²)
     real largest;   // of cells, as GLINT_CELL_LARGEST
     real tolerance; // of what they err
+#if GLINT_SHEEN
+    bool is_sheen;
+    sheen sheen; // where it is
+#endif
 } lobe;
 
 // Both parts of Schlick's F = F0 (1 − m) + m with m = (1 − v·h)⁵.
@@ -97,6 +123,12 @@ static inline void lobe_axes(const lobe_shape *shape, real3 v, lobe *l)
 
 static inline void lobe_widths(const lobe_shape *shape, real roughness, lobe *l)
 {
+#if GLINT_SHEEN
+    l->is_sheen = shape->is_sheen;
+    if (l->is_sheen) {
+        l->sheen = find_sheen(roughness, l->cosine);
+    }
+#endif
     l->alpha = roughness * roughness;
     l->alpha_squared = l->alpha * l->alpha;
 #if GLINT_BRUSHED
@@ -205,6 +237,32 @@ static inline real width_of(const lobe *l, const half_vector *h)
 #endif
 }
 
+#if GLINT_SHEEN
+// What `are_coarse` tells, of sheen. D bends by n² cot² θ_h + n, n = 1/α; what hides fibres bends by
+// about 6/(n·l)², which is measured: so sheen errs as other lobes do. Λ(l) is about 0.5/n·l − 0.5 at
+// least.
+static inline mask are_coarse_in_sheen(const lobe *l, const half_vector *h, scalar8 cell,
+                                       mask these)
+{
+    const real n = l->sheen.power;
+    const real inverse = R(1.0) / LARGER(h->whole, real_of(R(1e-6)));
+    const real size = real_of(cell.s3 * cell.s3);
+    // The cell, squared, as h sees it, over 4.
+    const real turned = R(0.0625) * size / LARGER(R(0.25) * h->whole, real_of(LOBE_STEEPEST));
+    const real sine_squared = h->square * inverse;
+    const real slope = h->c * h->c * inverse / LARGER(sine_squared, real_of(R(1e-3)));
+    const real above = LARGER(h->up, real_of(R(0.25) * cell.s3));
+    const real ratio =
+        fused(turned, fused(n, fused(n, slope, real_of(1)), real_of(1)),
+              R(0.4) * size / (above * above));
+    const real reach = LARGER(h->up, real_of(0)) + real_of(R(0.5) * cell.s3);
+    const real weight = weigh_sheen(&l->sheen, sine_squared,
+                                    LARGER(R(0.5) / reach - R(0.5), real_of(0)));
+    const real brought = weight * (cell.s4 + cell.s5 + cell.s6) * ratio * ratio;
+    return these & ((turned * n > l->largest) | (brought > l->tolerance));
+}
+#endif
+
 // The rays among `these` for which a cell is too large, see GLINT_CELL_LARGEST: without a division,
 // and as if n·u were a quarter of the cell's size at least. Where the products are too small for
 // numbers the cell is too large. What it brings is reckoned from its place nearest to the lobe's middle:
@@ -212,6 +270,11 @@ static inline real width_of(const lobe *l, const half_vector *h)
 static inline mask are_coarse(const lobe *l, const half_vector *h, real width, scalar8 cell,
                               mask these)
 {
+#if GLINT_SHEEN
+    if (l->is_sheen) {
+        return are_coarse_in_sheen(l, h, cell, these);
+    }
+#endif
     const real steep = LARGER(R(0.25) * h->whole, real_of(LOBE_STEEPEST));
 #if GLINT_BRUSHED
     const real far = sqrt(h->bent), stretched = sqrt(l->widened);
@@ -240,10 +303,61 @@ typedef struct lobe_parts {
     real base, edge;
 } lobe_parts;
 
+#if GLINT_SHEEN
+// How the sheen's weight W = D g, g = 1/(1 + Λ(v) + Λ(l)), is bent: its Laplacian over the directions
+// u, over W. With k = u·v, μ = n·u and t = cos θ_h = (μ + n·v)/√(2 + 2k): ∇μ·∇k is n·v − μk,
+// and the Laplacians of μ and k are −2μ and −2k.
+static inline real bend_of_sheen(const lobe *l, const half_vector *h, const sheen_cover *cover)
+{
+    const real n = l->sheen.power, up = h->up;
+    const real inverse = R(1.0) / LARGER(h->whole, real_of(R(1e-4))), root = sqrt(inverse);
+    const real k = fused(h->whole, real_of(R(0.5)), real_of(-1));
+    const real across = fused(-k, k, real_of(1)), level = fused(-up, up, real_of(1));
+    const real common = fused(-up, k, l->cosine), lean = h->c * inverse;
+    const real t = h->c * root;
+    // |∇t|², ∇t·∇μ and t's Laplacian.
+    const real steep =
+        inverse * fused(lean * lean, across, fused(R(-2.0) * lean, common, level));
+    const real along = root * fused(-lean, common, level);
+    const real turned = root * fused(R(-2.0), up + inverse * common,
+                                     lean * fused(R(3.0) * inverse, across, R(2.0) * k));
+    // D = (1 − t²)^(n/2).
+    const real sine = R(1.0) / LARGER(h->square * inverse, real_of(R(1e-3)));
+    const real slope = -n * t * sine;
+    const real bend = fused(slope, turned, n * sine * fused((n - R(2.0)) * t * t, sine,
+                                                            real_of(-1)) * steep);
+    const real share = cover->hidden / (l->sheen.of_view + cover->hidden);
+    const real slope_of_g = -share * cover->slope;
+    const real bend_of_g = fused(R(2.0) * slope_of_g, slope_of_g, -share * cover->bend);
+    return bend + fused(level, bend_of_g, R(2.0) * slope_of_g * fused(slope, along, -up));
+}
+
+// As weigh_direction, of sheen: it has one part.
+static inline lobe_parts weigh_sheen_direction(const lobe *l, const half_vector *h, scalar variance,
+                                               mask these)
+{
+    const real up = SMALLER(LARGER(h->up, real_of(0)), real_of(1));
+    const sheen_cover cover = hidden_by_sheen(&l->sheen, up);
+    const real sine_squared = h->square / LARGER(h->whole, real_of(R(1e-6)));
+    const real weight = weigh_sheen(&l->sheen, sine_squared, cover.hidden);
+    const real curved = bend_of_sheen(l, h, &cover) * (R(0.5) * variance);
+    const real factor = SMALLER(LARGER(R(1.0) + curved, real_of(R(0.1))), real_of(2));
+    lobe_parts parts;
+    parts.base = SELECT(these & (h->up > R(0.0)), weight * factor, real_of(0));
+    parts.edge = real_of(0);
+    return parts;
+}
+#endif
+
 // Along a direction, for the rays in `these`; light is spread about it by the variance.
 static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, real width,
                                          scalar variance, mask these)
 {
+#if GLINT_SHEEN
+    if (l->is_sheen) {
+        return weigh_sheen_direction(l, h, variance, these);
+    }
+#endif
 #if GLINT_BRUSHED
     const real root = sqrt(fused(h->up, h->up, h->tilted));
 #else
@@ -369,9 +483,9 @@ static inline real share_of_lobe(const lobe_shape *shape)
     return SMALLER(x * x * x, real_of(1)); // α is x²
 }
 
-// Both integrals, from the table.
-static inline lobe_parts find_albedo(const scene_buffers *scene, real cosine, real roughness,
-                                      mask wanted)
+// Both integrals, from a table.
+static inline lobe_parts find_albedo(global const float *table, real cosine, real roughness,
+                                     mask wanted)
 {
     const real down = roughness * (scalar)(GLINT_ALBEDO_ROUGHNESSES - 1);
     const real right = sqrt(cosine) * (scalar)(GLINT_ALBEDO_COSINES - 1);
@@ -385,8 +499,8 @@ static inline lobe_parts find_albedo(const scene_buffers *scene, real cosine, re
         const int lane = lowest_bit(left);
         const size_t first =
             (size_t)(LANE_INT(row, lane) * GLINT_ALBEDO_COSINES + LANE_INT(column, lane));
-        global const float *lower = scene->cells.values + 2 * (first + GLINT_ALBEDO_COSINES);
-        const scalar4 a = TO_SCALAR4(vload4(0, scene->cells.values + 2 * first));
+        global const float *lower = table + 2 * (first + GLINT_ALBEDO_COSINES);
+        const scalar4 a = TO_SCALAR4(vload4(0, table + 2 * first));
         const scalar4 b = TO_SCALAR4(vload4(0, lower));
         const scalar4 sides = fused((scalar4)LANE(below, lane), b - a, a);
         const scalar share = LANE(beside, lane);

@@ -16,6 +16,9 @@ typedef struct scattering {
     real3 matte_base, matte_edge; // and what comes without one
     real lobe_weight;             // how much of the lobe that is together
 #endif
+#if GLINT_SHEEN
+    real3 sheen; // what of the sheen's light comes
+#endif
 #if GLINT_CLEARCOAT
     mask coat_apart;  // `transmitted` is what the clear coat reflects; else that is in `reflected`
     real coat_weight; // of that
@@ -201,7 +204,8 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
                                 scattering *out)
 {
     const real zero = real_of(0);
-    lobe_parts albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
+    lobe_parts albedo =
+        find_albedo(scene->cells.values, s->cosine, s->roughness, out->rough);
 #if GLINT_BRUSHED
     const mask brushed = out->rough & (s->anisotropy > R(0.0));
     if (any_lane(brushed)) {
@@ -285,7 +289,7 @@ static inline void scatter_blend(const surface *s, real3 irradiance, scattering 
     out->transmitted_weight = select3(blended, zero, out->transmitted_weight);
 }
 
-#if GLINT_CLEARCOAT || GLINT_ALPHA
+#if GLINT_CLEARCOAT || GLINT_ALPHA || GLINT_SHEEN
 // Of all that a surface does so far a share is left.
 static inline void leave_share(real left, scattering *out)
 {
@@ -298,6 +302,32 @@ static inline void leave_share(real left, scattering *out)
     out->matte_base = scale(out->matte_base, left);
     out->matte_edge = scale(out->matte_edge, left);
     out->lobe_weight *= left;
+#endif
+#if GLINT_SHEEN
+    out->sheen = scale(out->sheen, left);
+#endif
+}
+#endif
+
+#if GLINT_SHEEN
+// Rule 17: sheen above metal and paint, which get what it leaves.
+static inline void scatter_from_sheen(const scene_buffers *scene, const surface *s,
+                                      scattering *out)
+{
+    const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
+    const real most = largest3(s->sheen_color);
+    const mask there = most > R(0.0);
+    const scalar narrow = (scalar)GLINT_ROUGHNESS_NARROW;
+    const real roughness = (LARGER(s->sheen_roughness, real_of(narrow)) - narrow) *
+                           (R(1.0) / (R(1.0) - narrow));
+    const lobe_parts albedo =
+        find_albedo(scene->cells.values + GLINT_ALBEDO_VALUES, s->cosine, roughness, there);
+    const real left = LARGER(fused(-most, albedo.base, real_of(1)), real_of(0));
+    out->sheen = zero;
+    leave_share(SELECT(there, left, real_of(1)), out);
+    out->sheen = select3(there, s->sheen_color, zero);
+#if GLINT_LIGHTS
+    out->emitted = add(out->emitted, multiply(out->sheen, s->sheen_shine));
 #endif
 }
 #endif
@@ -327,7 +357,7 @@ static inline coat_reflectance reflect_from_coat(const scene_buffers *scene, con
 #if GLINT_ROUGH
     const mask rough = out->coat_rough = is_coat_rough(s);
     const lobe_parts albedo =
-        find_albedo(scene, s->clearcoat_cosine, s->clearcoat_roughness, rough);
+        find_albedo(scene->cells.values, s->clearcoat_cosine, s->clearcoat_roughness, rough);
     out->coat_gain = fused(light_lost(scene, &albedo), real_of(CLEARCOAT_F0), real_of(1));
     const real lobe = out->coat_gain * fused(albedo.base, real_of(CLEARCOAT_F0), albedo.edge);
     f.whole = SELECT(rough, lobe, f.whole);
@@ -503,6 +533,9 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
 #endif
 #if GLINT_FACETS
     scatter_from_facets(s, v, &result);
+#endif
+#if GLINT_SHEEN
+    scatter_from_sheen(scene, s, &result);
 #endif
     if (GLINT_BLEND) {
         scatter_blend(s, irradiance, &result);

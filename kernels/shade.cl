@@ -81,6 +81,14 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
         break;
 #endif
 #endif
+#if GLINT_SHEEN
+    case GLINT_SLOT_SHEEN_COLOR:
+        s->sheen_color = select3(here, multiply(s->sheen_color, rgb), s->sheen_color);
+        break;
+    case GLINT_SLOT_SHEEN_ROUGHNESS:
+        s->sheen_roughness = SELECT(here, s->sheen_roughness * c->a, s->sheen_roughness);
+        break;
+#endif
 #if GLINT_BRUSHED
     case GLINT_SLOT_ANISOTROPY:
         brush_by(c, here, s);
@@ -235,6 +243,9 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     s.shine_base = s.shine_edge = s.direct;
 #if GLINT_CLEARCOAT
     s.clearcoat_shine = s.direct;
+#endif
+#if GLINT_SHEEN
+    s.sheen_shine = s.direct;
 #endif
 #endif
 #endif

@@ -40,6 +40,10 @@ typedef struct surface {
     real3 clearcoat_normal; // as `normal`
     real clearcoat_cosine;  // n·v of that
 #endif
+#if GLINT_SHEEN
+    real3 sheen_color;
+    real sheen_roughness;
+#endif
 #if GLINT_BRUSHED
     real anisotropy; // 0 where there is no tangent, too
     real brush_x, brush_y; // along tangent and bitangent, in which direction it is rougher
@@ -75,6 +79,9 @@ typedef struct surface {
     real3 shine_base, shine_edge; // lobe_light's parts of the lights; likewise
 #if GLINT_CLEARCOAT
     real3 clearcoat_shine; // what a whole coat shows of the lights; likewise
+#endif
+#if GLINT_SHEEN
+    real3 sheen_shine; // what white sheen does; likewise
 #endif
 #endif
 #endif
@@ -375,6 +382,12 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->clearcoat = SELECT(yes, real_of(m->clearcoat), s->clearcoat);
     s->clearcoat_roughness =
         SELECT(yes, real_of(m->clearcoat_roughness), s->clearcoat_roughness);
+#endif
+#if GLINT_SHEEN
+    s->sheen_color.x = SELECT(yes, real_of(m->sheen_color[0]), s->sheen_color.x);
+    s->sheen_color.y = SELECT(yes, real_of(m->sheen_color[1]), s->sheen_color.y);
+    s->sheen_color.z = SELECT(yes, real_of(m->sheen_color[2]), s->sheen_color.z);
+    s->sheen_roughness = SELECT(yes, real_of(m->sheen_roughness), s->sheen_roughness);
 #endif
 #if GLINT_BRUSHED
     s->anisotropy = SELECT(yes, real_of(m->anisotropy), s->anisotropy);

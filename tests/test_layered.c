@@ -1,5 +1,5 @@
 // What lies above and within surfaces by glTF's extensions, against the oracle: specular, clear
-// coats, dispersion, thin films, anisotropy.
+// coats, dispersion, thin films, anisotropy, sheen.
 #include "support/bridge.h"
 #include "support/judged.h"
 #include "support/render.h"
@@ -55,6 +55,14 @@ static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **stat
     glint_environment_free(&environment);
 }
 
+// Has textures that the file gives for something else say what these slots say, too.
+static void borrow_textures(glint_material *m, const glint_texture_slot *slots, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        m->textures[slots[i]] = m->textures[GLINT_TEXTURE_BASE_COLOR];
+    }
+}
+
 typedef struct coated {
     const char *scene;
     float roughness, metallic, coat, coat_roughness, alpha;
@@ -66,6 +74,10 @@ static void add_coat(const void *kind, glint_material *m)
 {
     m->clearcoat = ((const coated *)kind)->coat;
     m->clearcoat_roughness = ((const coated *)kind)->coat_roughness;
+    borrow_textures(
+        m, (const glint_texture_slot[]){GLINT_TEXTURE_CLEARCOAT, GLINT_TEXTURE_CLEARCOAT_ROUGHNESS},
+        2);
+    m->textures[GLINT_TEXTURE_CLEARCOAT_NORMAL] = m->textures[GLINT_TEXTURE_NORMAL];
 }
 
 // Clear coats above metal, paint, glass and what is there in part, with lights.
@@ -83,6 +95,7 @@ static void clear_coats_are_what_the_oracle_sees(void **state)
         {"mirror_sphere", 1, 0, 1, 0.05F, 1, 0, 0.004}, // of which a mirror shows a share
         {"facing_mirrors", 0.3F, 1, 1, 0, 1, 0, 0.004},
         {"lights", 0.4F, -1, 1, 0.3F, 1, 0, 0.004},
+        {"textures", 0.4F, -1, 1, 0.5F, 1, 0, 0.004},
         {"glass_sphere", 0, -1, 1, 0, 1, 0, 1e-5},
         {"nested_glass", 0, -1, 0.5F, 0, 1, 0, 1e-5},
         {"thin_wall", 0, -1, 1, 0, 1, 0, 3e-5},
@@ -181,6 +194,10 @@ static void add_film(const void *kind, glint_material *m)
     m->iridescence_ior = f->ior;
     m->iridescence_thickness[1] = f->thickness;
     m->specular = f->specular;
+    borrow_textures(m,
+                    (const glint_texture_slot[]){GLINT_TEXTURE_IRIDESCENCE,
+                                                 GLINT_TEXTURE_IRIDESCENCE_THICKNESS},
+                    2);
     if (m->metallic == 1) {
         m->base_color[0] = 0.9F;
         m->base_color[1] = 0.6F;
@@ -203,6 +220,7 @@ static void films_colour_what_the_oracle_sees(void **state)
         {"glass_sphere", 0, -1, 1, 1.9F, 300, 1, 0, GLINT_PRECISION_DOUBLE, 1e-4},
         {"nested_glass", 0, -1, 1, 1.6F, 300, 1, 0, GLINT_PRECISION_FLOAT, 1e-4},
         {"thin_wall", 0, -1, 1, 1.4F, 350, 0.6F, 0, GLINT_PRECISION_FLOAT, 1e-4},
+        {"textures", 0, 1, 1, 1.5F, 400, 1, 0, GLINT_PRECISION_FLOAT, 0.003},
         {"mirror_sphere", 0.2F, 1, 1, 1.3F, 400, 1, 0, GLINT_PRECISION_FLOAT, 0.015},
         {"mirror_sphere", 0.5F, 1, 1, 1.8F, 300, 1, 0, GLINT_PRECISION_FLOAT, 0.03},
         {"mirror_sphere", 0.4F, 0, 1, 1.8F, 300, 1, 0, GLINT_PRECISION_FLOAT, 0.008},
@@ -244,6 +262,7 @@ static void add_brush(const void *kind, glint_material *m)
 {
     m->anisotropy = ((const brushed *)kind)->strength;
     m->anisotropy_rotation = ((const brushed *)kind)->rotation;
+    borrow_textures(m, (const glint_texture_slot[]){GLINT_TEXTURE_ANISOTROPY}, 1);
 }
 
 // KHR_materials_anisotropy, by a file whose surfaces have tangents; and one without, which shows
@@ -281,6 +300,58 @@ static void brushed_surfaces_are_what_the_oracle_sees(void **state)
     glint_environment_free(&environment);
 }
 
+typedef struct velvet {
+    const char *scene;
+    float roughness, metallic, color, sheen_roughness, coat;
+    double allowed;
+} velvet;
+
+static void add_sheen(const void *kind, glint_material *m)
+{
+    const velvet *v = kind;
+    m->sheen_color[0] = v->color;
+    m->sheen_color[1] = 0.5F * v->color;
+    m->sheen_roughness = v->sheen_roughness;
+    m->clearcoat = v->coat;
+    borrow_textures(
+        m, (const glint_texture_slot[]){GLINT_TEXTURE_SHEEN_COLOR, GLINT_TEXTURE_SHEEN_ROUGHNESS},
+        2);
+}
+
+// KHR_materials_sheen: on matte and smooth paint, on metal, below a coat, under lights; glass has
+// none.
+static void sheen_is_what_the_oracle_sees(void **state)
+{
+    (void)state;
+    static const velvet kinds[] = {
+        {"mirror_sphere", 1, 0, 1, 1, 0, 0.001},       {"mirror_sphere", 1, 0, 1, 0.5F, 0, 0.001},
+        {"mirror_sphere", 1, 0, 1, 0.3F, 0, 0.001},    {"mirror_sphere", 1, 0, 1, 0.15F, 0, 0.001},
+        {"mirror_sphere", 1, 0, 1, 0, 0, 0.002}, // as NARROW
+        {"mirror_sphere", 0, 0, 0.4F, 0.4F, 0, 0.001}, {"mirror_sphere", 0, 1, 1, 0.6F, 0, 0.001},
+        {"mirror_sphere", 1, 0, 1, 0.4F, 1, 0.001},    {"lights", 0.4F, -1, 0.7F, 0.3F, 0, 0.001},
+        {"gallery", 0, -1, 1, 0.5F, 0, 0.001},         {"textures", 1, 0, 1, 0.7F, 0, 0.001},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const velvet *kind = &kinds[i];
+        const judged j = {.scene = kind->scene,
+                          .environment = &environment,
+                          .settings = judged_frame(16, 12, 3),
+                          .feature = GLINT_FEATURE_SHEEN,
+                          .roughness = kind->roughness,
+                          .metallic = kind->metallic,
+                          .alpha = 1,
+                          .change = add_sheen,
+                          .kind = kind};
+        const double error = judge(&j);
+        print_message("sheen %g of roughness %g, %s: %.7f\n", (double)kind->color,
+                      (double)kind->sheen_roughness, kind->scene, error);
+        assert_true(error <= kind->allowed);
+    }
+    glint_environment_free(&environment);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -288,6 +359,7 @@ int main(void)
         cmocka_unit_test(clear_coats_are_what_the_oracle_sees),
         cmocka_unit_test(solids_disperse_light_as_the_oracle_does),
         cmocka_unit_test(brushed_surfaces_are_what_the_oracle_sees),
+        cmocka_unit_test(sheen_is_what_the_oracle_sees),
         cmocka_unit_test(films_colour_what_the_oracle_sees),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

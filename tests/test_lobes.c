@@ -74,6 +74,29 @@ static void the_table_is_what_the_oracle_finds(void **state)
     assert_true(worst < 0.003);
 }
 
+static void the_table_of_sheen_is_what_the_oracle_finds(void **state)
+{
+    (void)state;
+    static float table[GLINT_ALBEDO_VALUES];
+    glint_sheen_albedo_fill(true, table);
+    double worst = 0;
+    const double narrow = (double)GLINT_ROUGHNESS_NARROW;
+    for (int i = 0; i < GLINT_ALBEDO_ROUGHNESSES; i++) {
+        for (int k = 4; k < GLINT_ALBEDO_COSINES; k += 3) {
+            const double root = k / (GLINT_ALBEDO_COSINES - 1.0), cosine = root * root;
+            const surface s = {.normal = {{0, 0, 1}},
+                               .viewer = {{sqrt(1 - cosine * cosine), 0, cosine}},
+                               .cosine = cosine,
+                               .sheen_roughness =
+                                   narrow + (1 - narrow) * i / (GLINT_ALBEDO_ROUGHNESSES - 1.0)};
+            const double wanted = oracle_sheen(&s, 200, white, NULL).white_base;
+            worst = fmax(worst, fabs((double)table[2 * (i * GLINT_ALBEDO_COSINES + k)] - wanted));
+        }
+    }
+    print_message("the table of sheen is off by %.4f at most\n", worst);
+    assert_true(worst < 0.003);
+}
+
 // ---- Cells --------------------------------------------------------------------------------------
 
 #define EDGE 32
@@ -199,6 +222,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_oracle_knows_the_roughest_lobe),
         cmocka_unit_test(the_oracle_knows_narrow_lobes),
+        cmocka_unit_test(the_table_of_sheen_is_what_the_oracle_finds),
         cmocka_unit_test(the_table_is_what_the_oracle_finds),
         cmocka_unit_test(cells_hold_all_of_the_light),
         cmocka_unit_test(cells_look_where_the_light_is),

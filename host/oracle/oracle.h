@@ -52,6 +52,8 @@ typedef enum oracle_role {
     ORACLE_IRIDESCENCE,           // R
     ORACLE_IRIDESCENCE_THICKNESS, // G: how far between both thicknesses
     ORACLE_ANISOTROPY,            // R, G: a direction along tangent and bitangent; B
+    ORACLE_SHEEN_COLOR,           // R, G, B
+    ORACLE_SHEEN_ROUGHNESS,       // A
     ORACLE_ROLES
 } oracle_role;
 
@@ -73,6 +75,7 @@ typedef struct oracle_material {
     double film, film_ior;    // KHR_materials_iridescence: how much of a film there is; its index
     double film_thickness[2]; // nm; without a texture the last
     double anisotropy, anisotropy_rotation; // KHR_materials_anisotropy; radians
+    double sheen_color[3], sheen_roughness; // KHR_materials_sheen
     bool unlit;
     double mirror; // the lecture's blend, in [0, 1]; < 0: not asked for
     oracle_alpha alpha_mode;

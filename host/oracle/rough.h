@@ -27,6 +27,11 @@ enum { ORACLE_FILM_STEPS = 200 };
 lobe_integrals oracle_film_lobe(const surface *s, int strata, const vector *table, seen_light light,
                                 const void *context);
 
+// Rule 17: ∫ D V E n·l dl of sheen, over strata × 2 strata directions, as `base`; of a white
+// environment as `white_base`. And D V n·l towards one direction.
+lobe_integrals oracle_sheen(const surface *s, int strata, seen_light light, const void *context);
+double oracle_sheen_towards(const surface *s, vector direction);
+
 // The surface as one of the facets that the viewer sees: number `number` of `count`, at a path's
 // `met`th surface.
 surface oracle_facet(const surface *s, int number, int count, int met);

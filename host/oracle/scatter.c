@@ -496,6 +496,30 @@ static double add_clearcoat(walk *w, const path *p, const surface *s)
     return 1.0 - there * (1.0 + 0.04 * lost) * (0.04 * lobe.white_base + lobe.white_edge);
 }
 
+// Rule 17: what sheen above metal and paint shows of the environment and of the lights. Returns
+// what it leaves of the light.
+static double add_sheen(walk *w, const path *p, const surface *s)
+{
+    double most = largest(s->sheen_color);
+    if (most == 0.0 || w->view->roughness == 0 || is_glass(s) || s->material->mirror >= 0.0)
+        return 1.0;
+    lobe_integrals seen = oracle_sheen(s, w->view->roughness, radiance, w->scene);
+    vector color = scaled(times(p->weight, s->sheen_color), s->coverage);
+    add(w, color, seen.base);
+    receiver r = receiver_at(w, p, s, s->normal);
+    for (int i = 0; i < w->scene->light_count; i++) {
+        vector to = oracle_direction_to_light(&r, i);
+        double cosine = dot(s->normal, to);
+        if (!(cosine > 0.0))
+            continue;
+        shadow to_light = {w, *p};
+        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
+        vector light = oracle_light_at(&r, i, pass_straight, &to_light);
+        add(w, scaled(color, oracle_sheen_towards(s, to)), scaled(light, PI / cosine));
+    }
+    return fmax(0.0, 1.0 - most * seen.white_base);
+}
+
 // What a surface does with the light of a path that has met it.
 void oracle_meet(walk *w, const path *p, const surface *s)
 {
@@ -510,6 +534,8 @@ void oracle_meet(walk *w, const path *p, const surface *s)
         add(w, scaled(p->weight, s->coverage), s->base);
     } else {
         add(w, scaled(below.weight, s->coverage), s->emission);
+        left *= add_sheen(w, &below, s);
+        below.weight = scaled(p->weight, left);
         if (s->material->mirror >= 0.0)
             blend(w, &below, s);
         else if (faceted)

@@ -150,6 +150,10 @@ static void take_material(const place *p, const arrival *by, surface *s)
     s->film = m->film * glance_at(p, by, ORACLE_IRIDESCENCE, s).rgba[0];
     double far = glance_at(p, by, ORACLE_IRIDESCENCE_THICKNESS, s).rgba[1];
     s->film_thickness = m->film_thickness[0] + far * (m->film_thickness[1] - m->film_thickness[0]);
+    oracle_glance sheen = glance_at(p, by, ORACLE_SHEEN_COLOR, s);
+    for (int c = 0; c < 3; c++)
+        s->sheen_color.at[c] = m->sheen_color[c] * sheen.rgba[c];
+    s->sheen_roughness = m->sheen_roughness * glance_at(p, by, ORACLE_SHEEN_ROUGHNESS, s).rgba[3];
     s->clearcoat_roughness =
         m->clearcoat_roughness * glance_at(p, by, ORACLE_CLEARCOAT_ROUGHNESS, s).rgba[1];
     double open = glance_at(p, by, ORACLE_OCCLUSION, s).rgba[0];

@@ -34,9 +34,11 @@ typedef struct surface {
     double metallic, roughness, transmission, specular, occlusion, coverage;
     double clearcoat, clearcoat_roughness;
     double film, film_thickness; // nm
-    double anisotropy;           // 0 where there is no tangent
-    vector along;                // in which direction it is rougher: unit, at right angles to n
-    double jump;                 // see oracle_report
+    vector sheen_color;
+    double sheen_roughness;
+    double anisotropy; // 0 where there is no tangent
+    vector along;      // in which direction it is rougher: unit, at right angles to n
+    double jump;       // see oracle_report
 } surface;
 
 // How a path arrives: its direction, its cone where it meets the surface, its whole length, and

@@ -83,8 +83,9 @@ static glint_status make_map(glint_light *light, cl_mem *buffer, glint_error *er
     return status;
 }
 
-// Albedos, and behind them cells down to the level that the plan wants.
-static glint_status make_lobes(glint_light *light, int last, glint_error *error)
+// Albedos, that of sheen where the plan wants it, and behind them cells down to the level that it
+// wants.
+static glint_status make_lobes(glint_light *light, int last, bool sheen, glint_error *error)
 {
     const size_t cells = last >= 0 ? GLINT_CELLS_FIRST(last + 1) : 0;
     const glint_content content = {
@@ -97,12 +98,14 @@ static glint_status make_lobes(glint_light *light, int last, glint_error *error)
     double clock = glint_now_ms();
     if (last >= 0) {
         glint_lobe_albedo_fill(values);
+        glint_sheen_albedo_fill(sheen, values + GLINT_ALBEDO_VALUES);
         values[GLINT_LOBES_BRIGHTNESS] = glint_cells_fill(
             &light->environment->radiance, GLINT_CELLS_ROOT << last, values + GLINT_LOBES_CELLS);
     }
     light->cells_ms += glint_lap_ms(&clock);
     glint_buffer_release(&light->lobes);
     light->cells_last = last;
+    light->knows_sheen = sheen;
     const glint_content filled = {content.what, content.bytes, values};
     const glint_status status = glint_buffer_create(light->device, &filled, &light->lobes, error);
     light->upload_ms += glint_lap_ms(&clock);
@@ -139,8 +142,9 @@ glint_status glint_light_choose(glint_light *light, const glint_plan *plan, bool
         TRY(make_irradiance(light, kind, irradiance, error));
     }
     const int last = plan->features[GLINT_FEATURE_ROUGH].compiled ? plan->cells_last : -1;
-    if (light->lobes == NULL || light->cells_last < last) {
-        TRY(make_lobes(light, last, error));
+    const bool sheen = plan->features[GLINT_FEATURE_SHEEN].compiled;
+    if (light->lobes == NULL || light->cells_last < last || (sheen && !light->knows_sheen)) {
+        TRY(make_lobes(light, last, sheen, error));
     }
     light->chosen = (glint_chosen_light){
         .lobes = light->lobes,

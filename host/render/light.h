@@ -38,6 +38,7 @@ typedef struct glint_light {
     cl_mem irradiances[GLINT_IRRADIANCE_KINDS]; // see kernels/layout.h
     cl_mem lobes;              // what rough surfaces read: albedos and cells; NULL: none yet
     int cells_last;            // their finest level
+    bool knows_sheen;          // they have the albedo of sheen
     glint_chosen_light chosen; // for the plan at hand
     double upload_ms;          // of all that was made of this environment
     double irradiance_ms;      // likewise, and of those before

@@ -35,6 +35,7 @@ typedef struct material_census {
     size_t rough, rough_coats;            // that reflect lobes; of these, no metal
     size_t faceted;                       // of rough glass
     size_t brushed;                       // rougher along a direction
+    size_t sheen;                         // below fibres
     double least_roughness;               // of these; 0 where textures say it
 } material_census;
 
@@ -52,6 +53,11 @@ static void count_roughness(const glint_material *material, const glint_lobes *l
         census->rough++;
         census->rough_coats += !lobes->metal;
         note_roughness(material, material->roughness, GLINT_TEXTURE_METALLIC_ROUGHNESS, census);
+    }
+    if (lobes->sheen) {
+        census->rough++;
+        census->sheen++;
+        note_roughness(material, material->sheen_roughness, GLINT_TEXTURE_SHEEN_ROUGHNESS, census);
     }
     if (lobes->rough_clearcoat) {
         census->rough++;
@@ -336,6 +342,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     choose_cells(&census, in->settings->fresnel, plan);
     plan->has_facets = census.faceted > 0;
     plan->is_brushed = census.brushed > 0;
+    plan->has_sheen = census.sheen > 0;
     plan->disperses = census.needing[GLINT_FEATURE_DISPERSION] > 0;
     decide_scene(in, plan);
     decide_attributes(in, plan);
@@ -369,9 +376,14 @@ static void decide_roughness(const glint_settings *settings, glint_plan *plan)
     decide(plan, GLINT_FEATURE_BRUSHED,
            brushed && plan->features[GLINT_FEATURE_NORMAL_MAPS].compiled, "%s",
            brushed ? "KHR_materials_anisotropy" : "no rough surface with KHR_materials_anisotropy");
+    const bool sheen = plan->has_sheen && rough;
+    decide(plan, GLINT_FEATURE_SHEEN, sheen, "%s",
+           sheen              ? "KHR_materials_sheen"
+           : !plan->has_sheen ? "no metal or paint with KHR_materials_sheen"
+                              : "these settings show no sheen");
     const bool facets = plan->has_facets && heeded;
     decide(plan, GLINT_FEATURE_ROUGH, rough, "%s",
-           rough    ? "rough metal, paint or clear coats"
+           rough    ? "rough metal, paint, clear coats or sheen"
            : heeded ? "no rough metal, paint or clear coats"
                     : "these settings show all as smooth");
     if (facets) {

@@ -168,6 +168,12 @@ void read_anisotropy(const json &object, const Place &place, glint_material &res
     }
 }
 
+void read_sheen(const json &object, const Place &place, glint_material &result)
+{
+    color(object, place, "sheenColorFactor", 3, result.sheen_color);
+    result.sheen_roughness = factor(object, place, "sheenRoughnessFactor", 0);
+}
+
 void read_iridescence(const json &object, const Place &place, glint_material &result)
 {
     result.iridescence = factor(object, place, "iridescenceFactor", 0);
@@ -287,6 +293,9 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     if (const json *found = extension_of(material, place, "KHR_materials_anisotropy")) {
         read_anisotropy(*found, at / "KHR_materials_anisotropy", result);
     }
+    if (const json *found = extension_of(material, place, "KHR_materials_sheen")) {
+        read_sheen(*found, at / "KHR_materials_sheen", result);
+    }
     if (const json *found = extension_of(material, place, "KHR_materials_iridescence")) {
         read_iridescence(*found, at / "KHR_materials_iridescence", result);
     }
@@ -359,12 +368,13 @@ void make_grey(glint_material &material)
     material.clearcoat = 0;
     material.iridescence = 0;
     material.anisotropy = 0;
+    std::fill(material.sheen_color, material.sheen_color + 3, 0.0F);
     for (const glint_texture_slot slot :
          {GLINT_TEXTURE_BASE_COLOR, GLINT_TEXTURE_METALLIC_ROUGHNESS, GLINT_TEXTURE_TRANSMISSION,
           GLINT_TEXTURE_SPECULAR, GLINT_TEXTURE_SPECULAR_COLOR, GLINT_TEXTURE_CLEARCOAT,
           GLINT_TEXTURE_CLEARCOAT_ROUGHNESS, GLINT_TEXTURE_CLEARCOAT_NORMAL,
-          GLINT_TEXTURE_IRIDESCENCE, GLINT_TEXTURE_IRIDESCENCE_THICKNESS,
-          GLINT_TEXTURE_ANISOTROPY}) {
+          GLINT_TEXTURE_IRIDESCENCE, GLINT_TEXTURE_IRIDESCENCE_THICKNESS, GLINT_TEXTURE_ANISOTROPY,
+          GLINT_TEXTURE_SHEEN_COLOR, GLINT_TEXTURE_SHEEN_ROUGHNESS}) {
         material.textures[slot] = {};
     }
 }
@@ -393,6 +403,8 @@ const char *do_without(glint_texture_slot slot, UsedMaterial &used)
     case GLINT_TEXTURE_IRIDESCENCE:
     case GLINT_TEXTURE_IRIDESCENCE_THICKNESS:
     case GLINT_TEXTURE_ANISOTROPY:
+    case GLINT_TEXTURE_SHEEN_COLOR:
+    case GLINT_TEXTURE_SHEEN_ROUGHNESS:
         return "its factor alone is used";
     default:
         make_grey(material);

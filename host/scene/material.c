@@ -122,6 +122,8 @@ static glint_lobes sharing_lobes(const glint_material *m)
     lobes.brushed = lobes.rough && m->anisotropy > 0;
     lobes.rough_path = lobes.rough && (lobes.metal || needs_path(m, m->roughness,
                                                                  GLINT_TEXTURE_METALLIC_ROUGHNESS));
+    lobes.sheen = (lobes.metal || lobes.paint) && !lobes.glass &&
+                  (m->sheen_color[0] > 0 || m->sheen_color[1] > 0 || m->sheen_color[2] > 0);
     lobes.facets = lobes.glass && m->roughness >= GLINT_ROUGHNESS_LEAST;
     lobes.gloss = lobes.paint && (!(m->roughness >= GLINT_ROUGHNESS_LEAST) || lobes.facets ||
                                   has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS));

@@ -43,6 +43,8 @@ typedef struct glint_material {
     float iridescence_thickness[2]; // nm, ≥ 0: where the texture is 0 and 1; without one the last
     float anisotropy;               // KHR_materials_anisotropy, [0, 1]: strength
     float anisotropy_rotation;      // radians, from the tangent towards the bitangent
+    float sheen_color[3];           // KHR_materials_sheen, [0, 1]: black is none
+    float sheen_roughness;          // [0, 1]
     bool unlit;                     // KHR_materials_unlit
     float mirror; // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
     glint_alpha_mode alpha_mode;
@@ -90,6 +92,7 @@ typedef struct glint_lobes {
     bool rough;      // metal, and the coat of paint, reflect lobes
     bool brushed;    // which are rougher along a direction than across it
     bool rough_path; // for which paths go on
+    bool sheen;      // fibres stand on metal and paint, where nothing is transmitted
     bool facets;     // glass is rough, and so is what beside it reflects
     // Above these, but for unlit surfaces and the blend:
     bool clearcoat;            // a clear coat reflects

@@ -43,7 +43,9 @@ typedef enum glint_texture_slot {
     GLINT_TEXTURE_CLEARCOAT_NORMAL = GLINT_SLOT_CLEARCOAT_NORMAL, // as NORMAL, of the coat
     GLINT_TEXTURE_IRIDESCENCE = GLINT_SLOT_IRIDESCENCE,           // R times iridescence
     GLINT_TEXTURE_IRIDESCENCE_THICKNESS = GLINT_SLOT_IRIDESCENCE_THICKNESS, // G, see material.h
-    GLINT_TEXTURE_ANISOTROPY = GLINT_SLOT_ANISOTROPY, // R, G a direction; B times anisotropy
+    GLINT_TEXTURE_ANISOTROPY = GLINT_SLOT_ANISOTROPY,   // R, G a direction; B times anisotropy
+    GLINT_TEXTURE_SHEEN_COLOR = GLINT_SLOT_SHEEN_COLOR, // R, G, B times sheen_color
+    GLINT_TEXTURE_SHEEN_ROUGHNESS = GLINT_SLOT_SHEEN_ROUGHNESS, // A times sheen_roughness
     GLINT_TEXTURE_SLOTS = GLINT_MATERIAL_TEXTURES
 } glint_texture_slot;
 

@@ -32,7 +32,7 @@ typedef struct rough_ball {
     int depth, strata; // of the oracle, along each axis
     double bound;
     bool half_specular;
-    float clearcoat, clearcoat_roughness, dispersion, film, anisotropy;
+    float clearcoat, clearcoat_roughness, dispersion, film, anisotropy, sheen, sheen_roughness;
 } rough_ball;
 
 // A ball's tangents run around it.
@@ -70,6 +70,9 @@ static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_er
     m->dispersion = of->dispersion;
     m->anisotropy = of->anisotropy;
     m->anisotropy_rotation = 0.6F;
+    m->sheen_color[0] = of->sheen;
+    m->sheen_color[2] = 0.5F * of->sheen;
+    m->sheen_roughness = of->sheen_roughness;
     m->iridescence = of->film;
     m->iridescence_ior = 1.6F;
     m->iridescence_thickness[1] = 400;
@@ -224,6 +227,22 @@ static const rough_ball balls[] = {
      .strata = 96,
      .bound = 0.004,
      .anisotropy = 0.7F},
+    {.what = "paint below sheen of roughness 0.5",
+     .material = MATERIAL_PAINT,
+     .roughness = 1,
+     .depth = 1,
+     .strata = 64,
+     .bound = 0.001,
+     .sheen = 1,
+     .sheen_roughness = 0.5F},
+    {.what = "metal below sheen of roughness 0.2",
+     .material = MATERIAL_TINTED,
+     .roughness = 0,
+     .depth = 1,
+     .strata = 96,
+     .bound = 0.001,
+     .sheen = 0.8F,
+     .sheen_roughness = 0.2F},
 };
 
 static glint_status rough_balls(trial *t)

@@ -92,6 +92,8 @@ static void copy_layers(const glint_material *m, oracle_material *o)
     o->clearcoat_normal_scale = (double)m->clearcoat_normal_scale;
     o->anisotropy = (double)m->anisotropy;
     o->anisotropy_rotation = (double)m->anisotropy_rotation;
+    copy_numbers(m->sheen_color, 3, o->sheen_color);
+    o->sheen_roughness = (double)m->sheen_roughness;
     o->film = (double)m->iridescence;
     o->film_ior = (double)m->iridescence_ior;
     copy_numbers(m->iridescence_thickness, 2, o->film_thickness);
@@ -116,6 +118,8 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         [ORACLE_CLEARCOAT_ROUGHNESS] = GLINT_TEXTURE_CLEARCOAT_ROUGHNESS,
         [ORACLE_CLEARCOAT_NORMAL] = GLINT_TEXTURE_CLEARCOAT_NORMAL,
         [ORACLE_ANISOTROPY] = GLINT_TEXTURE_ANISOTROPY,
+        [ORACLE_SHEEN_COLOR] = GLINT_TEXTURE_SHEEN_COLOR,
+        [ORACLE_SHEEN_ROUGHNESS] = GLINT_TEXTURE_SHEEN_ROUGHNESS,
         [ORACLE_IRIDESCENCE] = GLINT_TEXTURE_IRIDESCENCE,
         [ORACLE_IRIDESCENCE_THICKNESS] = GLINT_TEXTURE_IRIDESCENCE_THICKNESS,
     };

@@ -130,6 +130,8 @@ static const json_t *info_of(const json_t *material, oracle_role role)
         [ORACLE_CLEARCOAT_ROUGHNESS] = {"extensions", "KHR_materials_clearcoat",
                                         "clearcoatRoughnessTexture"},
         [ORACLE_ANISOTROPY] = {"extensions", "KHR_materials_anisotropy", "anisotropyTexture"},
+        [ORACLE_SHEEN_COLOR] = {"extensions", "KHR_materials_sheen", "sheenColorTexture"},
+        [ORACLE_SHEEN_ROUGHNESS] = {"extensions", "KHR_materials_sheen", "sheenRoughnessTexture"},
         [ORACLE_IRIDESCENCE] = {"extensions", "KHR_materials_iridescence", "iridescenceTexture"},
         [ORACLE_IRIDESCENCE_THICKNESS] = {"extensions", "KHR_materials_iridescence",
                                           "iridescenceThicknessTexture"},

@@ -166,6 +166,11 @@ static void print_layers(const glint_material *material)
         printf(", anisotropy %g turned by %g", (double)material->anisotropy,
                (double)material->anisotropy_rotation);
     }
+    if (lobes.sheen) {
+        printf(", sheen (%g, %g, %g) of roughness %g", (double)material->sheen_color[0],
+               (double)material->sheen_color[1], (double)material->sheen_color[2],
+               (double)material->sheen_roughness);
+    }
     if (lobes.iridescent) {
         const bool varies = material->textures[GLINT_TEXTURE_IRIDESCENCE_THICKNESS].image != 0;
         printf(", film %g of ior %g, ", (double)material->iridescence,
