@@ -123,7 +123,9 @@ static void make_cube(int edge, const float light[3], glint_cube *cube)
 static void cells_hold_all_of_the_light(void **state)
 {
     (void)state;
-    static const int edges[] = {32, 128, 24, 45, 7}; // as large, larger, and that do not divide
+    // As large, larger, and that do not divide; smaller, so that a coarser level's cells are
+    // texels.
+    static const int edges[] = {32, 128, 24, 45, 7, 16, 8};
     const float light[3] = {1, 0.5F, 0.25F};
     for (size_t e = 0; e < sizeof edges / sizeof *edges; e++) {
         glint_cube cube = {0};
@@ -138,6 +140,7 @@ static void cells_hold_all_of_the_light(void **state)
                 const float length = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
                 assert_true(fabsf(length - 1) < 1e-6F);
                 assert_true(c[7] >= 0 && c[7] < c[3] * c[3]);
+                assert_true(level == LEVELS - 1 || c[7] > 0.02F * c[3] * c[3]);
                 for (int k = 0; k < 3; k++) {
                     sums[k] += (double)c[4 + k];
                 }

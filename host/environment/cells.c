@@ -126,6 +126,23 @@ static void add_direction(const face_axes *a, double u, double us, double ut, ce
     sum->toward[2] += a->middle.z * u + a->to_s.z * us + a->to_t.z * ut;
 }
 
+// A cell that is one texel: its light is in its middle.
+static void fill_texel(const job *j, const face_axes *axes, int face, int column, int row)
+{
+    const double h = 2.0 / j->edge, s = (column + 0.5) * h - 1, t = (row + 0.5) * h - 1;
+    const double u = inverse_distance(s, t), angle = solid_angle(h, u);
+    const float *texel = glint_cube_texel(j->cube, face, column, row);
+    float *cell = cell_at(j, face, column, row);
+    cell[0] = (float)((axes->middle.x + axes->to_s.x * s + axes->to_t.x * t) * u);
+    cell[1] = (float)((axes->middle.y + axes->to_s.y * s + axes->to_t.y * t) * u);
+    cell[2] = (float)((axes->middle.z + axes->to_s.z * s + axes->to_t.z * t) * u);
+    cell[3] = (float)(h * u);
+    for (int k = 0; k < 3; k++) {
+        cell[4 + k] = (float)((double)texel[k] * angle);
+    }
+    cell[7] = 0;
+}
+
 static void fill_finest(const job *j, const face_axes *axes, int face, int column, int row)
 {
     const int parts = j->edge * j->samples;
@@ -179,7 +196,9 @@ static void fill_row(size_t index, void *context)
     const int face = (int)index / j->edge, row = (int)index % j->edge;
     const face_axes axes = axes_of(face);
     for (int column = 0; column < j->edge; column++) {
-        if (j->samples > 0) {
+        if (j->samples == 1 && j->edge == j->cube->edge) {
+            fill_texel(j, &axes, face, column, row);
+        } else if (j->samples > 0) {
             fill_finest(j, &axes, face, column, row);
         } else {
             fill_coarser(j, face, column, row);

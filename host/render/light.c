@@ -91,6 +91,7 @@ static glint_status make_lobes(glint_light *light, int last, bool sheen, glint_e
     const glint_content content = {
         "the cells of the environment",
         last >= 0 ? (GLINT_LOBES_CELLS + cells * GLINT_CELL_VALUES) * sizeof(float) : 0, NULL};
+    // A device that shares the host's memory reads them where they are.
     float *values = glint_allocate_unset(content.bytes + 1, 1);
     if (values == NULL) {
         return glint_fail_memory(error, content.what);
@@ -103,13 +104,14 @@ static glint_status make_lobes(glint_light *light, int last, bool sheen, glint_e
             &light->environment->radiance, GLINT_CELLS_ROOT << last, values + GLINT_LOBES_CELLS);
     }
     light->cells_ms += glint_lap_ms(&clock);
-    glint_buffer_release(&light->lobes);
+    glint_shared_buffer_free(&light->lobes);
     light->cells_last = last;
     light->knows_sheen = sheen;
-    const glint_content filled = {content.what, content.bytes, values};
-    const glint_status status = glint_buffer_create(light->device, &filled, &light->lobes, error);
+    void *data = values;
+    const glint_status status =
+        glint_buffer_hand_over(light->device, &content, &data, &light->lobes, error);
     light->upload_ms += glint_lap_ms(&clock);
-    free(values);
+    free(data);
     return status;
 }
 
@@ -143,11 +145,11 @@ glint_status glint_light_choose(glint_light *light, const glint_plan *plan, bool
     }
     const int last = plan->features[GLINT_FEATURE_ROUGH].compiled ? plan->cells_last : -1;
     const bool sheen = plan->features[GLINT_FEATURE_SHEEN].compiled;
-    if (light->lobes == NULL || light->cells_last < last || (sheen && !light->knows_sheen)) {
+    if (light->lobes.buffer == NULL || light->cells_last < last || (sheen && !light->knows_sheen)) {
         TRY(make_lobes(light, last, sheen, error));
     }
     light->chosen = (glint_chosen_light){
-        .lobes = light->lobes,
+        .lobes = light->lobes.buffer,
         .environment = texels->buffer,
         .irradiance = *irradiance,
         .environment_edge = radiance->edge,
@@ -165,7 +167,7 @@ size_t glint_light_bytes(const glint_light *light)
     for (int i = 0; i < GLINT_IRRADIANCE_KINDS; i++) {
         bytes += glint_buffer_bytes(light->irradiances[i]);
     }
-    return bytes + glint_buffer_bytes(light->lobes);
+    return bytes + glint_buffer_bytes(light->lobes.buffer);
 }
 
 void glint_light_free(glint_light *light)
@@ -176,6 +178,6 @@ void glint_light_free(glint_light *light)
     for (int i = 0; i < GLINT_IRRADIANCE_KINDS; i++) {
         glint_buffer_release(&light->irradiances[i]);
     }
-    glint_buffer_release(&light->lobes);
+    glint_shared_buffer_free(&light->lobes);
     *light = (glint_light){0};
 }

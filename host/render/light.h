@@ -36,7 +36,7 @@ typedef struct glint_light {
     bool half_is_known;
     glint_shared_buffer texels[2];              // as floats, as halfs
     cl_mem irradiances[GLINT_IRRADIANCE_KINDS]; // see kernels/layout.h
-    cl_mem lobes;              // what rough surfaces read: albedos and cells; NULL: none yet
+    glint_shared_buffer lobes; // what rough surfaces read: albedos and cells; zero: none yet
     int cells_last;            // their finest level
     bool knows_sheen;          // they have the albedo of sheen
     glint_chosen_light chosen; // for the plan at hand
