@@ -35,6 +35,8 @@
     FEATURE(ABSORPTION, "light is absorbed inside solids by Beer and Lambert's law", GLINT_SOLID,  \
             0, IDLE)                                                                               \
     FEATURE(PAINT, "matte paint is lit by the environment's irradiance", GLINT_GEOMETRY, 0, IDLE)  \
+    FEATURE(DIFFUSE_TRANSMISSION, "matte paint is lit from behind, too", GLINT_PAINT,              \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS, ACTIVE)     \
     FEATURE(GLOSS, "smooth paint reflects under its Fresnel term", GLINT_PAINT, 0, IDLE)           \
     FEATURE(SPECULAR, "what paint and glass reflect is weighed and coloured", GLINT_FRESNEL, 0,    \
             ACTIVE)                                                                                \

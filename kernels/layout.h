@@ -141,7 +141,9 @@ typedef struct glint_split_vector {
 #define GLINT_SLOT_ANISOTROPY 13
 #define GLINT_SLOT_SHEEN_COLOR 14
 #define GLINT_SLOT_SHEEN_ROUGHNESS 15
-#define GLINT_MATERIAL_TEXTURES 16
+#define GLINT_SLOT_DIFFUSE_TRANSMISSION 16
+#define GLINT_SLOT_DIFFUSE_TRANSMISSION_COLOR 17
+#define GLINT_MATERIAL_TEXTURES 18
 
 typedef struct glint_material_record {
     float base_color[4]; // linear R, G, B; A
@@ -168,6 +170,8 @@ typedef struct glint_material_record {
     float brush_direction[2];              // unit, along tangent and bitangent
     float sheen_color[3];                  // [0, 1], with GLINT_SHEEN, as the next; 0: none
     float sheen_roughness;                 // [0, 1]
+    float diffuse_transmission;            // [0, 1], with GLINT_DIFFUSE_TRANSMISSION, as the next
+    float diffuse_transmission_color[3];   // [0, 1]
     int textures[GLINT_MATERIAL_TEXTURES]; // places in the textures; −1: none
 } glint_material_record;
 

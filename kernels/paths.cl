@@ -222,6 +222,31 @@ static inline void note_emission(terms *terms, const scene_buffers *scene, const
 }
 #endif
 
+#if GLINT_DIFFUSE_TRANSMISSION
+// Rule 18: what lights matte paint from behind, over π.
+static inline real3 light_from_behind(const scene_buffers *scene, const glint_frame_record *frame,
+                                      const path *ray, const surface *s, lanes_int places,
+                                      mask met, ulong *shadow_rays)
+{
+    const mask there = met & (s->through > R(0.0));
+    surface back = *s;
+    back.geometric_normal = negate(s->geometric_normal);
+    back.lit_normal = negate(s->lit_normal);
+    back.normal = negate(s->normal);
+    back.base_color = s->through_color;
+    real3 light = real3_of(real_of(0), real_of(0), real_of(0));
+    if (any_lane(there)) {
+        light = find_irradiance(scene, turn_into_environment(frame, back.lit_normal), there);
+#if GLINT_LIGHTS
+        back.direct = real3_of(real_of(0), real_of(0), real_of(0));
+        light_surface(scene, ray, &back, places, there, shadow_rays);
+#endif
+        light = light_on_paint(&back, light);
+    }
+    return light;
+}
+#endif
+
 // What becomes of the light that the rays in `met` met their surfaces for; theirs are the media
 // that they have passed, and the weight that is left of them.
 static inline scattering scatter_on_path(const scene_buffers *scene,
@@ -272,6 +297,10 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
 #if GLINT_LIGHTS
     light_surface(scene, ray, &s, hit->place, met, &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
+#endif
+#if GLINT_DIFFUSE_TRANSMISSION
+    s.behind = light_from_behind(scene, frame, ray, &s, hit->place, met,
+                                 &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
 #endif
 #if SHADES_VERTICES
     const scattering out = scatter_from_corners(scene, frame, ray, &s, hit, met);

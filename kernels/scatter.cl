@@ -274,7 +274,11 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
         out->reflected_weight = add(out->reflected_weight, gloss);
         kept = SELECT(smooth, R(1.0) - largest3(reflectance), kept);
     }
-    out->emitted = scale(multiply(s->base_color, irradiance), share * kept);
+    real3 sent = multiply(s->base_color, irradiance);
+#if GLINT_DIFFUSE_TRANSMISSION
+    sent = scale_add(subtract(multiply(s->through_color, s->behind), sent), s->through, sent);
+#endif
+    out->emitted = scale(sent, share * kept);
 }
 
 // Rule 6, the lecture's blend: takes the place of the other models.

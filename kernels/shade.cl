@@ -81,6 +81,14 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
         break;
 #endif
 #endif
+#if GLINT_DIFFUSE_TRANSMISSION
+    case GLINT_SLOT_DIFFUSE_TRANSMISSION:
+        s->through = SELECT(here, s->through * c->a, s->through);
+        break;
+    case GLINT_SLOT_DIFFUSE_TRANSMISSION_COLOR:
+        s->through_color = select3(here, multiply(s->through_color, rgb), s->through_color);
+        break;
+#endif
 #if GLINT_SHEEN
     case GLINT_SLOT_SHEEN_COLOR:
         s->sheen_color = select3(here, multiply(s->sheen_color, rgb), s->sheen_color);

@@ -40,6 +40,11 @@ typedef struct surface {
     real3 clearcoat_normal; // as `normal`
     real clearcoat_cosine;  // n·v of that
 #endif
+#if GLINT_DIFFUSE_TRANSMISSION
+    real through;        // how much of what matte paint sends on comes from behind
+    real3 through_color; // and its colour
+    real3 behind;        // what lights it there: irradiance over π; set by light_from_behind
+#endif
 #if GLINT_SHEEN
     real3 sheen_color;
     real sheen_roughness;
@@ -382,6 +387,13 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->clearcoat = SELECT(yes, real_of(m->clearcoat), s->clearcoat);
     s->clearcoat_roughness =
         SELECT(yes, real_of(m->clearcoat_roughness), s->clearcoat_roughness);
+#endif
+#if GLINT_DIFFUSE_TRANSMISSION
+    s->through = SELECT(yes, real_of(m->diffuse_transmission), s->through);
+    global const float *through = m->diffuse_transmission_color;
+    s->through_color.x = SELECT(yes, real_of(through[0]), s->through_color.x);
+    s->through_color.y = SELECT(yes, real_of(through[1]), s->through_color.y);
+    s->through_color.z = SELECT(yes, real_of(through[2]), s->through_color.z);
 #endif
 #if GLINT_SHEEN
     s->sheen_color.x = SELECT(yes, real_of(m->sheen_color[0]), s->sheen_color.x);

@@ -1,5 +1,5 @@
 // What lies above and within surfaces by glTF's extensions, against the oracle: specular, clear
-// coats, dispersion, thin films, anisotropy, sheen.
+// coats, dispersion, thin films, anisotropy, sheen, diffuse transmission.
 #include "support/bridge.h"
 #include "support/judged.h"
 #include "support/render.h"
@@ -352,6 +352,55 @@ static void sheen_is_what_the_oracle_sees(void **state)
     glint_environment_free(&environment);
 }
 
+typedef struct paper {
+    const char *scene;
+    float roughness, share, coat;
+    double allowed;
+} paper;
+
+static void make_translucent(const void *kind, glint_material *m)
+{
+    m->diffuse_transmission = ((const paper *)kind)->share;
+    m->diffuse_transmission_color[2] = 0.25F;
+    m->clearcoat = ((const paper *)kind)->coat;
+    borrow_textures(m,
+                    (const glint_texture_slot[]){GLINT_TEXTURE_DIFFUSE_TRANSMISSION,
+                                                 GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR},
+                    2);
+}
+
+// KHR_materials_diffuse_transmission: paint that the environment and lights light from behind, also
+// smooth, rough and below a coat.
+static void paint_is_lit_from_behind_as_the_oracle_says(void **state)
+{
+    (void)state;
+    static const paper kinds[] = {
+        {"mirror_sphere", 1, 1, 0, 2e-4},     {"mirror_sphere", 0, 0.4F, 0, 1e-5},
+        {"mirror_sphere", 1, 0.7F, 1, 0.001}, {"lights", 1, 1, 0, 0.001},
+        {"lights", 0, 0.6F, 0, 1e-4},         {"gallery", 0, 0.5F, 0, 1e-4},
+        {"textures", 0, 1, 0, 0.001},
+    };
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const paper *kind = &kinds[i];
+        const judged j = {.scene = kind->scene,
+                          .environment = &environment,
+                          .settings = judged_frame(16, 12, 3),
+                          .feature = GLINT_FEATURE_DIFFUSE_TRANSMISSION,
+                          .roughness = kind->roughness,
+                          .metallic = 0,
+                          .alpha = 1,
+                          .change = make_translucent,
+                          .kind = kind};
+        const double error = judge(&j);
+        print_message("diffuse transmission %g, %s, roughness %g: %.7f\n", (double)kind->share,
+                      kind->scene, (double)kind->roughness, error);
+        assert_true(error <= kind->allowed);
+    }
+    glint_environment_free(&environment);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -360,6 +409,7 @@ int main(void)
         cmocka_unit_test(solids_disperse_light_as_the_oracle_does),
         cmocka_unit_test(brushed_surfaces_are_what_the_oracle_sees),
         cmocka_unit_test(sheen_is_what_the_oracle_sees),
+        cmocka_unit_test(paint_is_lit_from_behind_as_the_oracle_says),
         cmocka_unit_test(films_colour_what_the_oracle_sees),
     };
     return cmocka_run_group_tests(tests, NULL, test_close_device);

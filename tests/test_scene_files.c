@@ -110,6 +110,8 @@ static void assert_layers(const glint_material *glass)
                 glass->specular_color[2] == 40);
     assert_true(glass->dispersion == 2 && glint_material_lobes(glass).dispersion);
     assert_true(glass->anisotropy == 0.5f && glass->anisotropy_rotation == -2);
+    assert_true(glass->diffuse_transmission == 0.5f &&
+                glass->diffuse_transmission_color[1] == 0.5f);
     assert_true(glass->sheen_color[0] == 0.5f && glass->sheen_color[1] == 0 &&
                 glass->sheen_color[2] == 1 && glass->sheen_roughness == 0.75f);
     assert_true(glass->iridescence == 0.5f && glass->iridescence_ior == 1.5f);
@@ -130,6 +132,8 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
         "\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularColorFactor\":[0,1,40]},"
         "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":0.5,\"clearcoatRoughnessFactor\":0.25},"
         "\"KHR_materials_anisotropy\":{\"anisotropyStrength\":0.5,\"anisotropyRotation\":-2},"
+        "\"KHR_materials_diffuse_transmission\":{\"diffuseTransmissionFactor\":0.5,"
+        "\"diffuseTransmissionColorFactor\":[1,0.5,0]},"
         "\"KHR_materials_sheen\":{\"sheenColorFactor\":[0.5,0,1],\"sheenRoughnessFactor\":0.75},"
         "\"KHR_materials_iridescence\":{\"iridescenceFactor\":0.5,\"iridescenceIor\":1.5,"
         "\"iridescenceThicknessMinimum\":50},"
@@ -176,11 +180,11 @@ static const char much_that_is_not_modelled[] = TETRAHEDRON_STORAGE
     "\"textures\":[{}],\"materials\":[{\"name\":\"gold\",\"alphaMode\":\"MASK\","
     "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}},"
     "\"extras\":{\"glint\":{\"miror\":1}}},"
-    "{\"name\":\"lens\",\"extensions\":{\"KHR_materials_diffuse_transmission\":{},"
+    "{\"name\":\"lens\",\"extensions\":{\"KHR_materials_volume_scatter\":{},"
     "\"KHR_materials_transmission\":{\"transmissionTexture\":{\"index\":0}},"
     "\"KHR_materials_volume\":{\"thicknessFactor\":1,\"thicknessTexture\":{\"index\":0}}}}],"
     "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\"}]}},"
-    "\"extensionsUsed\":[\"KHR_materials_diffuse_transmission\"]";
+    "\"extensionsUsed\":[\"KHR_materials_volume_scatter\"]";
 
 static const char *const said_of_it[] = {
     ": 2 point and 2 line primitives are skipped",
@@ -191,14 +195,14 @@ static const char *const said_of_it[] = {
     "materials[0] \"gold\": baseColorTexture: it names no image of a kind that is read",
     "materials[1] \"lens\": transmissionTexture: it names no image of a kind that is read",
     "materials[0] \"gold\": extras.glint.\"miror\" is unknown",
-    "materials[1] \"lens\": KHR_materials_diffuse_transmission is not modelled",
+    "materials[1] \"lens\": KHR_materials_volume_scatter is not modelled",
 };
 
 static const struct {
     const char *name;
     glint_treatment treatment;
 } used_of_it[] = {
-    {"KHR_materials_diffuse_transmission", GLINT_IGNORED},
+    {"KHR_materials_volume_scatter", GLINT_IGNORED},
     {"roughness", GLINT_RENDERED},
     {"alphaMode MASK", GLINT_RENDERED},
     {"COLOR_0", GLINT_RENDERED},

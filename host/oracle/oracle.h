@@ -47,13 +47,15 @@ typedef enum oracle_role {
     ORACLE_SPECULAR,       // A
     ORACLE_SPECULAR_COLOR, // R, G, B
     ORACLE_CLEARCOAT,      // R
-    ORACLE_CLEARCOAT_ROUGHNESS,   // G
-    ORACLE_CLEARCOAT_NORMAL,      // as ORACLE_NORMAL
-    ORACLE_IRIDESCENCE,           // R
-    ORACLE_IRIDESCENCE_THICKNESS, // G: how far between both thicknesses
-    ORACLE_ANISOTROPY,            // R, G: a direction along tangent and bitangent; B
-    ORACLE_SHEEN_COLOR,           // R, G, B
-    ORACLE_SHEEN_ROUGHNESS,       // A
+    ORACLE_CLEARCOAT_ROUGHNESS,        // G
+    ORACLE_CLEARCOAT_NORMAL,           // as ORACLE_NORMAL
+    ORACLE_IRIDESCENCE,                // R
+    ORACLE_IRIDESCENCE_THICKNESS,      // G: how far between both thicknesses
+    ORACLE_ANISOTROPY,                 // R, G: a direction along tangent and bitangent; B
+    ORACLE_SHEEN_COLOR,                // R, G, B
+    ORACLE_SHEEN_ROUGHNESS,            // A
+    ORACLE_DIFFUSE_TRANSMISSION,       // A
+    ORACLE_DIFFUSE_TRANSMISSION_COLOR, // R, G, B
     ORACLE_ROLES
 } oracle_role;
 
@@ -74,8 +76,9 @@ typedef struct oracle_material {
     double clearcoat, clearcoat_roughness; // KHR_materials_clearcoat
     double film, film_ior;    // KHR_materials_iridescence: how much of a film there is; its index
     double film_thickness[2]; // nm; without a texture the last
-    double anisotropy, anisotropy_rotation; // KHR_materials_anisotropy; radians
-    double sheen_color[3], sheen_roughness; // KHR_materials_sheen
+    double anisotropy, anisotropy_rotation;                     // KHR_materials_anisotropy; radians
+    double sheen_color[3], sheen_roughness;                     // KHR_materials_sheen
+    double diffuse_transmission, diffuse_transmission_color[3]; // KHR_materials_diffuse_…
     bool unlit;
     double mirror; // the lecture's blend, in [0, 1]; < 0: not asked for
     oracle_alpha alpha_mode;

@@ -284,6 +284,16 @@ static void add_matte(walk *w, const path *p, const surface *s, vector matte)
     }
 }
 
+// Rule 18: a share of paint, of which a part is lit from behind.
+static void add_paint(walk *w, const path *p, const surface *s, double share)
+{
+    add_matte(w, p, s, scaled(s->base, share * (1.0 - s->through)));
+    surface back = *s;
+    back.geometric = scaled(s->geometric, -1.0);
+    back.lit = scaled(s->lit, -1.0);
+    add_matte(w, p, &back, scaled(s->through_color, share * s->through));
+}
+
 // The reflected branch, which brings `held` where it ends, if that is not NULL.
 static void reflect(walk *w, const path *p, const surface *s, vector weight, const vector *held)
 {
@@ -386,7 +396,7 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
     w->radiance = plus(w->radiance, times(p->weight, times(matte, by_coat.light)));
     add_highlights(w, p, s, plus(base, times(matte, f0)), plus(edge, matte));
     double kept = 1.0 - largest(times(coat, by_coat.white));
-    add_matte(w, p, s, scaled(s->base, as_paint * kept));
+    add_paint(w, p, s, as_paint * kept);
     vector held = plus(times(metal, by_metal.light), times(paths, by_coat.light));
     vector weight = plus(times(metal, by_metal.white), times(paths, by_coat.white));
     reflect(w, p, s, times(p->weight, weight), &held);
@@ -395,7 +405,8 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
 // Rules 3, 4 and 6, mixed: metallic first, then transmission. What a surface sends on of light that
 // meets it. The reflected parts share one direction and so are one branch.
 typedef struct shares {
-    vector matte, reflected, through;
+    double paint; // how much of it is lit
+    vector reflected, through;
     interface glass;
 } shares;
 
@@ -413,7 +424,7 @@ static shares shares_at(walk *w, const path *p, const surface *s)
         if (!rough && !w->view->no_fresnel)
             coat = oracle_dielectric(s, 1.0, m->ior);
         of.reflected = plus(of.reflected, scaled(coat, as_paint));
-        of.matte = scaled(s->base, as_paint * (1.0 - largest(coat)));
+        of.paint = as_paint * (1.0 - largest(coat));
     }
     if (as_glass > 0.0) {
         of.glass = interface_at(w, p, s);
@@ -443,7 +454,7 @@ static void scatter_by_facet(walk *w, const path *p, const surface *s)
         transmits = oracle_opening(s, -dot(s->normal, of.glass.unfolded));
     else
         of.glass.through = folded(minus(r, scaled(s->normal, 2.0 * height)), s->geometric, -1.0);
-    add_matte(w, p, s, of.matte);
+    add_paint(w, p, s, of.paint);
     reflect(w, p, &facet, times(p->weight, scaled(of.reflected, reflects)), NULL);
     branch(w, &of.glass.beyond, s, of.glass.through,
            times(p->weight, scaled(of.through, transmits)));
@@ -454,7 +465,7 @@ static void scatter_by_facet(walk *w, const path *p, const surface *s)
 static void scatter(walk *w, const path *p, const surface *s, double left, vector past)
 {
     shares of = shares_at(w, p, s);
-    add_matte(w, p, s, scaled(of.matte, left));
+    add_paint(w, p, s, of.paint * left);
     reflect(w, p, s, times(p->weight, scaled(of.reflected, left)), NULL);
     branch(w, &of.glass.beyond, s, of.glass.through,
            times(p->weight, plus(past, scaled(of.through, left))));
@@ -480,7 +491,7 @@ static double add_clearcoat(walk *w, const path *p, const surface *s)
     coat.base = coat.emission = (vector){{0.0, 0.0, 0.0}};
     coat.specular_color = (vector){{1.0, 1.0, 1.0}};
     coat.specular = 1.0;
-    coat.film = coat.anisotropy = 0.0;
+    coat.film = coat.anisotropy = coat.through = 0.0;
     coat.metallic = coat.transmission = 0.0;
     coat.normal = s->clearcoat_normal;
     coat.cosine = s->clearcoat_cosine;

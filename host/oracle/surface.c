@@ -150,6 +150,10 @@ static void take_material(const place *p, const arrival *by, surface *s)
     s->film = m->film * glance_at(p, by, ORACLE_IRIDESCENCE, s).rgba[0];
     double far = glance_at(p, by, ORACLE_IRIDESCENCE_THICKNESS, s).rgba[1];
     s->film_thickness = m->film_thickness[0] + far * (m->film_thickness[1] - m->film_thickness[0]);
+    s->through = m->diffuse_transmission * glance_at(p, by, ORACLE_DIFFUSE_TRANSMISSION, s).rgba[3];
+    oracle_glance through = glance_at(p, by, ORACLE_DIFFUSE_TRANSMISSION_COLOR, s);
+    for (int c = 0; c < 3; c++)
+        s->through_color.at[c] = m->diffuse_transmission_color[c] * through.rgba[c];
     oracle_glance sheen = glance_at(p, by, ORACLE_SHEEN_COLOR, s);
     for (int c = 0; c < 3; c++)
         s->sheen_color.at[c] = m->sheen_color[c] * sheen.rgba[c];

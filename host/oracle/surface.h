@@ -34,6 +34,8 @@ typedef struct surface {
     double metallic, roughness, transmission, specular, occlusion, coverage;
     double clearcoat, clearcoat_roughness;
     double film, film_thickness; // nm
+    double through;              // how much of what paint sends on comes from behind
+    vector through_color;
     vector sheen_color;
     double sheen_roughness;
     double anisotropy; // 0 where there is no tangent

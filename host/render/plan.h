@@ -57,6 +57,7 @@ typedef struct glint_plan {
     bool has_facets;          // rough glass is to be seen, but for terms
     bool is_brushed;          // likewise, of lobes
     bool has_sheen;           // likewise, above metal or paint
+    bool is_translucent;      // paint is lit from behind, likewise
     bool disperses;           // so are solids that disperse light
     int cells_last;           // the finest level of cells that rough surfaces need; −1: none do
     uint32_t build_tag;       // the settings'

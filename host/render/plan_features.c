@@ -18,6 +18,7 @@
     LOBE(ABSORPTION, absorption, "absorption inside")                                              \
     LOBE(DISPERSION, dispersion, "KHR_materials_dispersion")                                       \
     LOBE(PAINT, paint, "a share of paint")                                                         \
+    LOBE(DIFFUSE_TRANSMISSION, translucent, "KHR_materials_diffuse_transmission")                  \
     LOBE(GLOSS, gloss, "paint of roughness 0, or textured")                                        \
     LOBE(SPECULAR, specular, "KHR_materials_specular")                                             \
     LOBE(CLEARCOAT, clearcoat, "KHR_materials_clearcoat")                                          \
@@ -343,6 +344,7 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     plan->has_facets = census.faceted > 0;
     plan->is_brushed = census.brushed > 0;
     plan->has_sheen = census.sheen > 0;
+    plan->is_translucent = census.needing[GLINT_FEATURE_DIFFUSE_TRANSMISSION] > 0;
     plan->disperses = census.needing[GLINT_FEATURE_DISPERSION] > 0;
     decide_scene(in, plan);
     decide_attributes(in, plan);
@@ -395,6 +397,17 @@ static void decide_roughness(const glint_settings *settings, glint_plan *plan)
     }
 }
 
+// What becomes of paint that is lit from behind, if there is any.
+static void decide_translucence(const glint_settings *settings, glint_plan *plan)
+{
+    const bool heeded = settings->terms == 0 && !glint_plan_shades_vertices(plan);
+    if (plan->is_translucent) {
+        decide(plan, GLINT_FEATURE_DIFFUSE_TRANSMISSION, heeded, "%s",
+               heeded ? "KHR_materials_diffuse_transmission"
+                      : "these settings light paint from the front alone");
+    }
+}
+
 // What becomes of the solids that disperse light, if there are any.
 static void decide_dispersion(const glint_settings *settings, glint_plan *plan)
 {
@@ -412,6 +425,7 @@ static void decide_dispersion(const glint_settings *settings, glint_plan *plan)
 void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
 {
     decide_roughness(settings, plan);
+    decide_translucence(settings, plan);
     decide_dispersion(settings, plan);
     if (settings->terms > 0) {
         decide(plan, GLINT_FEATURE_TERMS, true, "%d directions of a pixel are kept",

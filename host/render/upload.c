@@ -14,7 +14,7 @@
 #include <string.h>
 
 // Both compilers must lay the shared structs out alike: 32-bit scalars without gaps.
-_Static_assert(sizeof(glint_material_record) == 208, "glint_material_record has gaps");
+_Static_assert(sizeof(glint_material_record) == 232, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_texture_record) == 112, "glint_texture_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
@@ -106,12 +106,15 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
         .iridescence_ior = m->iridescence_ior,
         .iridescence_thickness = {m->iridescence_thickness[0], m->iridescence_thickness[1]},
         .sheen_roughness = m->sheen_roughness,
+        .diffuse_transmission = lobes.translucent ? m->diffuse_transmission : 0,
         .roughness = lobes.rough || lobes.facets ? m->roughness : 0,
     };
     memcpy(record.base_color, m->base_color, sizeof m->base_color);
     record.base_color[3] = m->alpha;
     memcpy(record.specular_color, m->specular_color, sizeof m->specular_color);
     memcpy(record.textures, textures, sizeof record.textures);
+    memcpy(record.diffuse_transmission_color, m->diffuse_transmission_color,
+           sizeof m->diffuse_transmission_color);
     if (lobes.sheen) {
         memcpy(record.sheen_color, m->sheen_color, sizeof m->sheen_color);
     }

@@ -18,7 +18,7 @@ struct Extension {
     glint_treatment treatment;
 };
 
-constexpr std::array<Extension, 22> extensions = {{
+constexpr std::array<Extension, 23> extensions = {{
     {"KHR_materials_transmission", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_ior", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_volume", Holder::material, true, nullptr, GLINT_RENDERED},
@@ -28,6 +28,7 @@ constexpr std::array<Extension, 22> extensions = {{
     {"KHR_materials_clearcoat", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_anisotropy", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_sheen", Holder::material, true, nullptr, GLINT_RENDERED},
+    {"KHR_materials_diffuse_transmission", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_iridescence", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_unlit", Holder::material, true, nullptr, GLINT_RENDERED},
     {"KHR_materials_pbrSpecularGlossiness", Holder::material, true,

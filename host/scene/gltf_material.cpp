@@ -174,6 +174,12 @@ void read_sheen(const json &object, const Place &place, glint_material &result)
     result.sheen_roughness = factor(object, place, "sheenRoughnessFactor", 0);
 }
 
+void read_diffuse_transmission(const json &object, const Place &place, glint_material &result)
+{
+    result.diffuse_transmission = factor(object, place, "diffuseTransmissionFactor", 0);
+    color(object, place, "diffuseTransmissionColorFactor", 3, result.diffuse_transmission_color);
+}
+
 void read_iridescence(const json &object, const Place &place, glint_material &result)
 {
     result.iridescence = factor(object, place, "iridescenceFactor", 0);
@@ -296,6 +302,9 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     if (const json *found = extension_of(material, place, "KHR_materials_sheen")) {
         read_sheen(*found, at / "KHR_materials_sheen", result);
     }
+    if (const json *found = extension_of(material, place, "KHR_materials_diffuse_transmission")) {
+        read_diffuse_transmission(*found, at / "KHR_materials_diffuse_transmission", result);
+    }
     if (const json *found = extension_of(material, place, "KHR_materials_iridescence")) {
         read_iridescence(*found, at / "KHR_materials_iridescence", result);
     }
@@ -368,13 +377,15 @@ void make_grey(glint_material &material)
     material.clearcoat = 0;
     material.iridescence = 0;
     material.anisotropy = 0;
+    material.diffuse_transmission = 0;
     std::fill(material.sheen_color, material.sheen_color + 3, 0.0F);
     for (const glint_texture_slot slot :
          {GLINT_TEXTURE_BASE_COLOR, GLINT_TEXTURE_METALLIC_ROUGHNESS, GLINT_TEXTURE_TRANSMISSION,
           GLINT_TEXTURE_SPECULAR, GLINT_TEXTURE_SPECULAR_COLOR, GLINT_TEXTURE_CLEARCOAT,
           GLINT_TEXTURE_CLEARCOAT_ROUGHNESS, GLINT_TEXTURE_CLEARCOAT_NORMAL,
           GLINT_TEXTURE_IRIDESCENCE, GLINT_TEXTURE_IRIDESCENCE_THICKNESS, GLINT_TEXTURE_ANISOTROPY,
-          GLINT_TEXTURE_SHEEN_COLOR, GLINT_TEXTURE_SHEEN_ROUGHNESS}) {
+          GLINT_TEXTURE_SHEEN_COLOR, GLINT_TEXTURE_SHEEN_ROUGHNESS,
+          GLINT_TEXTURE_DIFFUSE_TRANSMISSION, GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR}) {
         material.textures[slot] = {};
     }
 }
@@ -404,6 +415,8 @@ const char *do_without(glint_texture_slot slot, UsedMaterial &used)
     case GLINT_TEXTURE_IRIDESCENCE_THICKNESS:
     case GLINT_TEXTURE_ANISOTROPY:
     case GLINT_TEXTURE_SHEEN_COLOR:
+    case GLINT_TEXTURE_DIFFUSE_TRANSMISSION:
+    case GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR:
     case GLINT_TEXTURE_SHEEN_ROUGHNESS:
         return "its factor alone is used";
     default:

@@ -273,9 +273,9 @@ void read_image_in_thread(std::size_t i, void *context)
 
 } // namespace
 
-const std::array<TextureSlot, 17> &texture_slots()
+const std::array<TextureSlot, 19> &texture_slots()
 {
-    static const std::array<TextureSlot, 17> slots = {{
+    static const std::array<TextureSlot, 19> slots = {{
         {"pbrMetallicRoughness", "baseColorTexture", GLINT_TEXTURE_BASE_COLOR, true},
         {"pbrMetallicRoughness", "metallicRoughnessTexture", GLINT_TEXTURE_METALLIC_ROUGHNESS,
          false},
@@ -293,6 +293,10 @@ const std::array<TextureSlot, 17> &texture_slots()
         {"KHR_materials_anisotropy", "anisotropyTexture", GLINT_TEXTURE_ANISOTROPY, false},
         {"KHR_materials_sheen", "sheenColorTexture", GLINT_TEXTURE_SHEEN_COLOR, true},
         {"KHR_materials_sheen", "sheenRoughnessTexture", GLINT_TEXTURE_SHEEN_ROUGHNESS, false},
+        {"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture",
+         GLINT_TEXTURE_DIFFUSE_TRANSMISSION, false},
+        {"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture",
+         GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR, true},
         {"KHR_materials_iridescence", "iridescenceTexture", GLINT_TEXTURE_IRIDESCENCE, false},
         {"KHR_materials_iridescence", "iridescenceThicknessTexture",
          GLINT_TEXTURE_IRIDESCENCE_THICKNESS, false},

@@ -23,7 +23,7 @@ struct TextureSlot {
 };
 
 // The slots that are read. A material may have two for one slot, of which the later counts.
-const std::array<TextureSlot, 17> &texture_slots();
+const std::array<TextureSlot, 19> &texture_slots();
 
 // Checks images, samplers and textures, used or not.
 void check_textures(const Document &document);

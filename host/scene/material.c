@@ -16,7 +16,8 @@ const glint_material glint_material_default = {GLINT_MATERIAL_CLEAR,
                                                .occlusion_strength = 1,
                                                .clearcoat_normal_scale = 1,
                                                .iridescence_ior = 1.3F,
-                                               .iridescence_thickness = {100, 400}};
+                                               .iridescence_thickness = {100, 400},
+                                               .diffuse_transmission_color = {1, 1, 1}};
 
 static bool is_white(const float color[3])
 {
@@ -116,6 +117,7 @@ static glint_lobes sharing_lobes(const glint_material *m)
     lobes.dispersion = lobes.solid && m->dispersion > 0;
     lobes.thin = lobes.glass && !lobes.solid;
     lobes.paint = dielectric && (m->transmission < 1 || has_texture(m, GLINT_TEXTURE_TRANSMISSION));
+    lobes.translucent = lobes.paint && m->diffuse_transmission > 0;
     lobes.specular = (lobes.paint || lobes.glass) && is_specular(m);
     lobes.rough = (lobes.metal || lobes.paint) && !lobes.glass &&
                   (m->roughness >= GLINT_ROUGHNESS_LEAST || m->anisotropy > 0);

@@ -45,7 +45,11 @@ typedef struct glint_material {
     float anisotropy_rotation;      // radians, from the tangent towards the bitangent
     float sheen_color[3];           // KHR_materials_sheen, [0, 1]: black is none
     float sheen_roughness;          // [0, 1]
-    bool unlit;                     // KHR_materials_unlit
+    // KHR_materials_diffuse_transmission, [0, 1]: how much of what paint sends on comes from
+    // behind; its colour.
+    float diffuse_transmission;
+    float diffuse_transmission_color[3];
+    bool unlit;   // KHR_materials_unlit
     float mirror; // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
     glint_alpha_mode alpha_mode;
     float alpha;        // baseColorFactor's A, [0, 1]
@@ -78,22 +82,23 @@ typedef struct glint_lobes {
     bool blend;
     bool blend_mirror; // its mirror has a share
     // Metal, glass and paint share the light; metallic comes first, then transmission.
-    bool metal;      // reflects
-    bool tint;       // and colours what it reflects, by itself or by a film
-    bool glass;      // transmits and reflects: solid or thin
-    bool solid;      // the mesh bounds a solid, which refracts
-    bool absorption; // and absorbs
-    bool dispersion; // and refracts by the wavelength
-    bool thin;       // a wall without thickness: light passes straight
-    bool paint;      // is lit by the environment's irradiance
-    bool gloss;      // and reflects, as it is smooth
-    bool specular;   // what paint and glass reflect is weighed or coloured
-    bool iridescent; // a film colours what is reflected
-    bool rough;      // metal, and the coat of paint, reflect lobes
-    bool brushed;    // which are rougher along a direction than across it
-    bool rough_path; // for which paths go on
-    bool sheen;      // fibres stand on metal and paint, where nothing is transmitted
-    bool facets;     // glass is rough, and so is what beside it reflects
+    bool metal;       // reflects
+    bool tint;        // and colours what it reflects, by itself or by a film
+    bool glass;       // transmits and reflects: solid or thin
+    bool solid;       // the mesh bounds a solid, which refracts
+    bool absorption;  // and absorbs
+    bool dispersion;  // and refracts by the wavelength
+    bool thin;        // a wall without thickness: light passes straight
+    bool paint;       // is lit by the environment's irradiance
+    bool translucent; // also from behind
+    bool gloss;       // and reflects, as it is smooth
+    bool specular;    // what paint and glass reflect is weighed or coloured
+    bool iridescent;  // a film colours what is reflected
+    bool rough;       // metal, and the coat of paint, reflect lobes
+    bool brushed;     // which are rougher along a direction than across it
+    bool rough_path;  // for which paths go on
+    bool sheen;       // fibres stand on metal and paint, where nothing is transmitted
+    bool facets;      // glass is rough, and so is what beside it reflects
     // Above these, but for unlit surfaces and the blend:
     bool clearcoat;            // a clear coat reflects
     bool rough_clearcoat;      // a lobe

@@ -24,6 +24,8 @@ const char *glint_texture_slot_name(glint_texture_slot slot)
         [GLINT_TEXTURE_ANISOTROPY] = "anisotropy",
         [GLINT_TEXTURE_SHEEN_COLOR] = "sheen colour",
         [GLINT_TEXTURE_SHEEN_ROUGHNESS] = "sheen roughness",
+        [GLINT_TEXTURE_DIFFUSE_TRANSMISSION] = "diffuse transmission",
+        [GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR] = "diffuse transmission colour",
         [GLINT_TEXTURE_IRIDESCENCE] = "iridescence",
         [GLINT_TEXTURE_IRIDESCENCE_THICKNESS] = "iridescence thickness",
     };

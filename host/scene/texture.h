@@ -46,6 +46,9 @@ typedef enum glint_texture_slot {
     GLINT_TEXTURE_ANISOTROPY = GLINT_SLOT_ANISOTROPY,   // R, G a direction; B times anisotropy
     GLINT_TEXTURE_SHEEN_COLOR = GLINT_SLOT_SHEEN_COLOR, // R, G, B times sheen_color
     GLINT_TEXTURE_SHEEN_ROUGHNESS = GLINT_SLOT_SHEEN_ROUGHNESS, // A times sheen_roughness
+    // A times diffuse_transmission; R, G, B times its colour
+    GLINT_TEXTURE_DIFFUSE_TRANSMISSION = GLINT_SLOT_DIFFUSE_TRANSMISSION,
+    GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR = GLINT_SLOT_DIFFUSE_TRANSMISSION_COLOR,
     GLINT_TEXTURE_SLOTS = GLINT_MATERIAL_TEXTURES
 } glint_texture_slot;
 

@@ -32,7 +32,8 @@ typedef struct rough_ball {
     int depth, strata; // of the oracle, along each axis
     double bound;
     bool half_specular;
-    float clearcoat, clearcoat_roughness, dispersion, film, anisotropy, sheen, sheen_roughness;
+    float clearcoat, clearcoat_roughness, dispersion, film, anisotropy, sheen, sheen_roughness,
+        through;
 } rough_ball;
 
 // A ball's tangents run around it.
@@ -73,6 +74,8 @@ static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_er
     m->sheen_color[0] = of->sheen;
     m->sheen_color[2] = 0.5F * of->sheen;
     m->sheen_roughness = of->sheen_roughness;
+    m->diffuse_transmission = of->through;
+    m->diffuse_transmission_color[1] = 0.5F;
     m->iridescence = of->film;
     m->iridescence_ior = 1.6F;
     m->iridescence_thickness[1] = 400;
@@ -232,7 +235,7 @@ static const rough_ball balls[] = {
      .roughness = 1,
      .depth = 1,
      .strata = 64,
-     .bound = 0.001,
+     .bound = 5e-4,
      .sheen = 1,
      .sheen_roughness = 0.5F},
     {.what = "metal below sheen of roughness 0.2",
@@ -243,6 +246,13 @@ static const rough_ball balls[] = {
      .bound = 0.001,
      .sheen = 0.8F,
      .sheen_roughness = 0.2F},
+    {.what = "paint that is lit from behind",
+     .material = MATERIAL_PAINT,
+     .roughness = 0,
+     .depth = 1,
+     .strata = 0,
+     .bound = 3e-4,
+     .through = 0.7F},
 };
 
 static glint_status rough_balls(trial *t)

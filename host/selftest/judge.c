@@ -92,6 +92,8 @@ static void copy_layers(const glint_material *m, oracle_material *o)
     o->clearcoat_normal_scale = (double)m->clearcoat_normal_scale;
     o->anisotropy = (double)m->anisotropy;
     o->anisotropy_rotation = (double)m->anisotropy_rotation;
+    o->diffuse_transmission = (double)m->diffuse_transmission;
+    copy_numbers(m->diffuse_transmission_color, 3, o->diffuse_transmission_color);
     copy_numbers(m->sheen_color, 3, o->sheen_color);
     o->sheen_roughness = (double)m->sheen_roughness;
     o->film = (double)m->iridescence;
@@ -120,6 +122,8 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         [ORACLE_ANISOTROPY] = GLINT_TEXTURE_ANISOTROPY,
         [ORACLE_SHEEN_COLOR] = GLINT_TEXTURE_SHEEN_COLOR,
         [ORACLE_SHEEN_ROUGHNESS] = GLINT_TEXTURE_SHEEN_ROUGHNESS,
+        [ORACLE_DIFFUSE_TRANSMISSION] = GLINT_TEXTURE_DIFFUSE_TRANSMISSION,
+        [ORACLE_DIFFUSE_TRANSMISSION_COLOR] = GLINT_TEXTURE_DIFFUSE_TRANSMISSION_COLOR,
         [ORACLE_IRIDESCENCE] = GLINT_TEXTURE_IRIDESCENCE,
         [ORACLE_IRIDESCENCE_THICKNESS] = GLINT_TEXTURE_IRIDESCENCE_THICKNESS,
     };

@@ -45,7 +45,7 @@ cat >in/mirror.gltf <<JSON
 JSON
 # The same with a rough mirror, and with a coat that is not modelled, which is said once.
 sed 's/"roughnessFactor": 0/"roughnessFactor": 0.5/' in/mirror.gltf >in/rough.gltf
-sed 's/"name": "chrome",/& "extensions": {"KHR_materials_diffuse_transmission": {}},/' \
+sed 's/"name": "chrome",/& "extensions": {"KHR_materials_volume_scatter": {}},/' \
     in/mirror.gltf >in/coated.gltf
 # Radiance, flat: 8 × 4 pixels of (1, 1, 1), and of 2¹⁷, more than half can hold.
 {
@@ -364,10 +364,10 @@ check 'the last value of an option counts' stat_is 8 settings width
 check 'also across its two names' test -s out/x.png -a ! -e out/y.png
 clean
 run render in/coated.gltf --size 8x8 -o out/x.png --progress none
-check 'a warning is said once' test "$(grep -c '^glint: warning: .*diffuse_transmission' stderr)" -eq 1
-check 'with its share of the picture' grep -q 'diffuse_transmission.* ([1-9][0-9]*% of the picture)$' stderr
+check 'a warning is said once' test "$(grep -c '^glint: warning: .*volume_scatter' stderr)" -eq 1
+check 'with its share of the picture' grep -q 'volume_scatter.* ([1-9][0-9]*% of the picture)$' stderr
 run render in/coated.gltf --eye 0,0,9 --look-at 0,0,99 --size 8x8 -o out/x.png --progress none
-check 'also where that is nothing' grep -q 'diffuse_transmission.* (not in view)$' stderr
+check 'also where that is nothing' grep -q 'volume_scatter.* (not in view)$' stderr
 clean
 run render in/mirror.gltf --size 8x8 -o out/x.exr --exposure 1 --progress none
 check 'an exposure that is left out is said' grep -q 'warning: .*exposure' stderr

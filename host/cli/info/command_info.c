@@ -166,6 +166,11 @@ static void print_layers(const glint_material *material)
         printf(", anisotropy %g turned by %g", (double)material->anisotropy,
                (double)material->anisotropy_rotation);
     }
+    if (lobes.translucent) {
+        const float *color = material->diffuse_transmission_color;
+        printf(", diffuse transmission %g (%g, %g, %g)", (double)material->diffuse_transmission,
+               (double)color[0], (double)color[1], (double)color[2]);
+    }
     if (lobes.sheen) {
         printf(", sheen (%g, %g, %g) of roughness %g", (double)material->sheen_color[0],
                (double)material->sheen_color[1], (double)material->sheen_color[2],

@@ -96,12 +96,14 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
                               (double)m->iridescence_ior,
                               (double)m->iridescence_thickness[0],
                               (double)m->iridescence_thickness[1],
-                              (double)m->sheen_roughness};
+                              (double)m->sheen_roughness,
+                              (double)m->diffuse_transmission};
     add_numbers(state, numbers, sizeof numbers / sizeof *numbers);
     add_array(state, m->base_color, sizeof *m->base_color, 3);
     add_array(state, m->emission, sizeof *m->emission, 3);
     add_array(state, m->attenuation_color, sizeof *m->attenuation_color, 3);
     add_array(state, m->specular_color, sizeof *m->specular_color, 3);
+    add_array(state, m->diffuse_transmission_color, sizeof *m->diffuse_transmission_color, 3);
     add_array(state, m->sheen_color, sizeof *m->sheen_color, 3);
     for (int slot = 0; slot < GLINT_TEXTURE_SLOTS; slot++) {
         add_texture_use(state, &m->textures[slot]);

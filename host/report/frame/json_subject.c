@@ -203,6 +203,9 @@ static json_t *material_object(const glint_material *material)
     glint_json_put_real(object, "anisotropy_rotation", (double)material->anisotropy_rotation);
     glint_json_put(object, "sheen_color", color(material->sheen_color));
     glint_json_put_real(object, "sheen_roughness", (double)material->sheen_roughness);
+    glint_json_put_real(object, "diffuse_transmission", (double)material->diffuse_transmission);
+    glint_json_put(object, "diffuse_transmission_color",
+                   color(material->diffuse_transmission_color));
     glint_json_put_real(object, "iridescence", (double)material->iridescence);
     glint_json_put_real(object, "iridescence_ior", (double)material->iridescence_ior);
     glint_json_put_real(object, "iridescence_thickness_minimum",
