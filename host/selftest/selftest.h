@@ -41,6 +41,7 @@ typedef struct glint_selftest_result {
     glint_measure measures[GLINT_SELFTEST_MEASURES];
     int measure_count;
     glint_verdict verdict;
+    bool expected; // that it failed or broke is known, and counts as none; set by who runs it
     char reason[GLINT_MESSAGE_CAPACITY]; // why it was skipped, or what the driver said
     double ms;                           // wall-clock time, kernels' compilation included
 } glint_selftest_result;

@@ -10,7 +10,7 @@ quick=equal_indices,metal_at_its_ends
 # ---- help and mistakes --------------------------------------------------------------------------
 
 check 'selftest --help tells every option' help_mentions selftest list case precision kernel-width \
-    rays seed fail-fast device kernel-dir junit json help
+    rays seed fail-fast device kernel-dir expect junit json help
 run --help
 check 'glint --help lists it' grep -q '^  selftest ' stdout
 refuses 2 'unknown case' selftest --case nonsense
@@ -25,6 +25,13 @@ refuses 2 'unexpected' selftest something
 refuses 2 '--junit writes there' selftest --case $quick --junit out/x --json out/x
 refuses 3 'in/missing' selftest --kernel-dir in/missing
 refuses 3 'no readable render.cl' selftest --case $quick --kernel-dir in
+printf '# known\n\nslivers float\nslivres double\n' >in/typo.txt
+refuses 3 "in/typo.txt: line 4: 'slivres' is no case" selftest --case $quick --expect in/typo.txt
+printf 'slivers 16 4\n' >in/width.txt
+refuses 3 "line 1: '4' does not belong there" selftest --case $quick --expect in/width.txt
+printf 'slivers float double\n' >in/twice.txt
+refuses 3 "line 1: 'double' does not belong there" selftest --case $quick --expect in/twice.txt
+refuses 3 'in/missing' selftest --case $quick --expect in/missing
 refuses 4 'nonsense' selftest --device nonsense
 refuses 5 'out/missing' selftest --case $quick --junit out/missing/x.xml
 refuses 5 'out/missing' selftest --case $quick --json out/missing/x.json
@@ -73,6 +80,25 @@ check 'a wrong formula: what was expected, and got' \
     grep -qE '^ +F0 .*: expected .*, got .* ulp\)$' stdout
 check 'JUnit: the failure' grep -q '<failure message="F0 + (1 − F0)(1 − cos θ)⁵: ' out/x.xml
 clean
+printf 'metal_at_its_ends # Schlick\nequal_indices float 16\nequal_indices float 1\n' >in/known.txt
+run selftest --case metal_at_its_ends,equal_indices --precision float --kernel-width 16 --fail-fast \
+    --kernel-dir broken --expect in/known.txt --junit out/x.xml --json out/x.json
+cp out/x.json out/stats.json
+check '--expect: exit status 0' test "$status" -eq 0
+check '--expect: said in the table' grep -qE '^metal_at_its_ends .* failed, as expected$' stdout
+check '--expect: the last line' \
+    grep -q '^2 cases: 1 failed as expected, the others are within their bounds$' stdout
+check '--expect: what passes all the same' test "$(cat stderr)" = \
+    'glint: warning: in/known.txt: line 2: equal_indices passes, float, packets of 16 (take the line out)'
+check '--expect: JSON' stat_is failed results 1 verdict
+check '--expect: JSON, expected' stat_is true results 1 expected
+check '--expect: JUnit' grep -q ' tests="2" failures="0" errors="0" skipped="1"' out/x.xml
+check '--expect: JUnit, why' grep -q '<skipped message="failed, as expected: F0 ' out/x.xml
+clean
+printf 'metal_at_its_ends float 8\n' >in/known.txt
+run selftest --case metal_at_its_ends --precision float --kernel-width 16 --kernel-dir broken \
+    --expect in/known.txt
+check '--expect: elsewhere' test "$status" -eq 7
 run selftest --case metal_at_its_ends,odd_sizes --precision all --kernel-dir broken --fail-fast
 check '--fail-fast: one case' test "$(grep -c FAILED stdout)" -eq 1
 printf 'this is no kernel\n' >>broken/optics.cl

@@ -5,6 +5,7 @@
 
 #include "cli/common/file_names.h"
 #include "cli/common/json_output.h"
+#include "cli/selftest/expectations.h"
 #include "cli/selftest/selftest_table.h"
 #include "image/output_file.h"
 #include "report/machine.h"
@@ -34,6 +35,7 @@ typedef struct selftest_request {
     int precision; // see precisions
     double rays;
     int seed;
+    const char *expect;
     const char *junit, *json;
 } selftest_request;
 
@@ -127,6 +129,10 @@ static const glint_option selftest_options[] = {
      .help = "Compile the kernels in this folder instead of those in the program.",
      .offset = offsetof(selftest_request, kernel_dir)},
     {GLINT_OPTION_HEADING, .help = "Results"},
+    {GLINT_OPTION_TEXT, .name = "expect", .argument = "FILE",
+     .help = "Failures that are known do not count: a case a line, and behind it, where it fails "
+             "there alone, float or double, or 1, 8 or 16. Those that pass are named.",
+     .offset = offsetof(selftest_request, expect)},
     {GLINT_OPTION_TEXT, .name = "junit", .argument = "FILE",
      .help = "Write the results as JUnit's XML.", .offset = offsetof(selftest_request, junit)},
     {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE|-",
@@ -173,7 +179,9 @@ typedef struct selftest_work {
     glint_device *device;
     glint_selftest_result *results; // owned
     size_t count;
-    size_t troubled; // failed or broken
+    size_t troubled; // failed or broken, which was not expected
+    size_t expected; // which was
+    selftest_expectations expectations;
     bool log_printed;
 } selftest_work;
 
@@ -188,9 +196,26 @@ static bool has_enough(const selftest_work *work)
     return work->request->fail_fast && work->troubled > 0;
 }
 
-static bool is_troubled(const glint_selftest_result *result)
+static bool has_trouble(const glint_selftest_result *result)
 {
     return result->verdict == GLINT_FAILED || result->verdict == GLINT_BROKEN;
+}
+
+static bool is_troubled(const glint_selftest_result *result)
+{
+    return has_trouble(result) && !result->expected;
+}
+
+// Whether that it fails is known; where it passes all the same, the line is named that says so.
+static void compare_to_expectations(const selftest_work *work, glint_selftest_result *result)
+{
+    const int line = selftest_expectation_of(&work->expectations, result);
+    result->expected = line > 0 && has_trouble(result);
+    if (line > 0 && result->verdict == GLINT_PASSED) {
+        glint_say("warning: %s: line %d: %s passes, %s, packets of %d (take the line out)",
+                  work->expectations.path, line, result->name,
+                  result->precision == GLINT_PRECISION_DOUBLE ? "double" : "float", result->width);
+    }
 }
 
 static glint_status run_case(selftest_work *work, size_t index,
@@ -205,7 +230,9 @@ static glint_status run_case(selftest_work *work, size_t index,
         *error = trouble;
         return status;
     }
+    compare_to_expectations(work, result);
     work->troubled += is_troubled(result);
+    work->expected += result->expected;
     if (prints_table(work)) {
         if (work->count == 1) {
             glint_selftest_print_device(glint_device_capabilities(work->device), stdout);
@@ -306,7 +333,10 @@ static bool is_named_before(const selftest_work *work, size_t index)
 static glint_status give_verdict(const selftest_work *work, glint_error *error)
 {
     if (work->troubled == 0) {
-        if (prints_table(work)) {
+        if (prints_table(work) && work->expected > 0) {
+            printf("\n%zu cases: %zu failed as expected, the others are within their bounds\n",
+                   work->count, work->expected);
+        } else if (prints_table(work)) {
             printf("\n%zu cases, all of them within their bounds\n", work->count);
         }
         return GLINT_OK;
@@ -343,12 +373,17 @@ static glint_status selftest(const selftest_request *request, glint_error *error
         return glint_fail_memory(error, "the results");
     }
     glint_status status;
+    if (request->expect != NULL) {
+        TRY_OR(cleanup, status,
+               selftest_expectations_read(request->expect, &work.expectations, error));
+    }
     TRY_OR(cleanup, status, glint_device_open(request->device, &work.device, error));
     TRY_OR(cleanup, status, run_all(&work, error));
     TRY_OR(cleanup, status, write_reports(&work, error));
     TRY_OR(cleanup, status, give_verdict(&work, error));
 cleanup:
     glint_device_close(work.device);
+    selftest_expectations_free(&work.expectations);
     free(work.results);
     return status;
 }
@@ -378,6 +413,7 @@ const glint_command glint_command_selftest = {
     .examples = "  glint selftest\n"
                 "  glint selftest --device gpu --junit selftest.xml\n"
                 "  glint selftest --case slivers,prism --kernel-width all\n"
+                "  glint selftest --expect known.txt --junit selftest.xml\n"
                 "  glint selftest --case rays_at_vertices --rays 1e8\n",
     .groups = groups,
     .request_size = sizeof(selftest_request),

@@ -32,14 +32,14 @@ void glint_selftest_print_head(const glint_selftest_result *result, FILE *out)
     fprintf(out, "%10s %10s  %-14s\n", "worst", "bound", "unit");
 }
 
-static void print_measure(const char *name, const glint_measure *m, FILE *out)
+static void print_measure(const char *name, const glint_measure *m, bool expected, FILE *out)
 {
     const bool holds = glint_measure_holds(m);
     print_filled(name, CASE_COLUMNS, out);
     print_filled(m->what, WHAT_COLUMNS, out);
     fprintf(out, "%10.4g %10.4g  ", m->measured, m->bound);
     print_filled(m->unit, 14, out);
-    fprintf(out, " %s\n", holds ? "ok" : "FAILED");
+    fprintf(out, " %s\n", holds ? "ok" : expected ? "failed, as expected" : "FAILED");
     if (!holds) {
         fprintf(out, "    %s\n",
                 m->judged == 0        ? "nothing was judged"
@@ -52,11 +52,14 @@ void glint_selftest_print(const glint_selftest_result *result, FILE *out)
 {
     if (result->verdict == GLINT_SKIPPED || result->verdict == GLINT_BROKEN) {
         print_filled(result->name, CASE_COLUMNS, out);
-        fprintf(out, "%s: %s\n", result->verdict == GLINT_SKIPPED ? "skipped" : "BROKEN",
+        fprintf(out, "%s: %s\n",
+                result->verdict == GLINT_SKIPPED ? "skipped"
+                : result->expected               ? "broken, as expected"
+                                                 : "BROKEN",
                 result->reason);
         return;
     }
     for (int i = 0; i < result->measure_count; i++) {
-        print_measure(i == 0 ? result->name : "", &result->measures[i], out);
+        print_measure(i == 0 ? result->name : "", &result->measures[i], result->expected, out);
     }
 }

@@ -52,11 +52,13 @@ static void put_trouble(FILE *out, const glint_selftest_result *r)
                  worst->measured, worst->unit, worst->bound,
                  worst->judged > 0 ? worst->worst : "nothing was judged");
     }
-    const char *element = r->verdict == GLINT_SKIPPED  ? "skipped"
-                          : r->verdict == GLINT_BROKEN ? "error"
-                                                       : "failure";
+    const char *element = r->verdict == GLINT_SKIPPED || r->expected ? "skipped"
+                          : r->verdict == GLINT_BROKEN               ? "error"
+                                                                     : "failure";
+    char whole[sizeof message + 32];
+    snprintf(whole, sizeof whole, "%s%s", r->expected ? "failed, as expected: " : "", message);
     fprintf(out, "      <%s", element);
-    put_attribute(out, "message", message);
+    put_attribute(out, "message", whole);
     fputs("/>\n", out);
 }
 
@@ -83,9 +85,10 @@ static suite_counts count_results(const glint_selftest_result *results, size_t c
 {
     suite_counts c = {.tests = count};
     for (size_t i = 0; i < count; i++) {
-        c.failures += results[i].verdict == GLINT_FAILED;
-        c.errors += results[i].verdict == GLINT_BROKEN;
-        c.skipped += results[i].verdict == GLINT_SKIPPED;
+        const bool counts = !results[i].expected;
+        c.failures += counts && results[i].verdict == GLINT_FAILED;
+        c.errors += counts && results[i].verdict == GLINT_BROKEN;
+        c.skipped += !counts || results[i].verdict == GLINT_SKIPPED;
         c.ms += results[i].ms;
     }
     return c;

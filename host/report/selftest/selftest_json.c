@@ -25,6 +25,7 @@ static json_t *result_json(const glint_selftest_result *r)
                         r->precision == GLINT_PRECISION_DOUBLE ? "double" : "float");
     glint_json_put_count(object, "width", (uint64_t)r->width);
     glint_json_put_text(object, "verdict", glint_verdict_name(r->verdict));
+    glint_json_put_flag(object, "expected", r->expected);
     glint_json_put_text(object, "reason", r->reason);
     glint_json_put_real(object, "milliseconds", r->ms);
     glint_json_put(object, "measures", measures);
