@@ -332,22 +332,37 @@ static bool is_rough(const walk *w, const surface *s)
     return w->view->roughness > 0 && (s->roughness >= 0.01 || s->anisotropy > 0.0);
 }
 
+// A light as lobes see it: the way there, and what comes, over the cosine; false: it is behind.
+typedef struct lamp {
+    bool before;
+    vector to, light;
+} lamp;
+
+static lamp lamp_at(walk *w, const path *p, const surface *s, int number)
+{
+    receiver r = receiver_at(w, p, s, s->normal);
+    lamp seen = {.to = oracle_direction_to_light(&r, number)};
+    double cosine = dot(s->normal, seen.to);
+    seen.before = cosine > 0.0;
+    if (seen.before) {
+        shadow to_light = {w, *p};
+        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
+        seen.light = scaled(oracle_light_at(&r, number, pass_straight, &to_light), PI / cosine);
+    }
+    return seen;
+}
+
 // Adds what lobes show of the lights: of their two parts `base` and `edge`. A light is a point, and
 // so lobes have a least width.
 static void add_highlights(walk *w, const path *p, const surface *s, vector base, vector edge)
 {
-    receiver r = receiver_at(w, p, s, s->normal);
     for (int i = 0; i < w->scene->light_count; i++) {
-        vector to = oracle_direction_to_light(&r, i);
-        double cosine = dot(s->normal, to);
-        if (!(cosine > 0.0))
-            continue;
-        shadow to_light = {w, *p};
-        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
-        vector light = oracle_light_at(&r, i, pass_straight, &to_light);
-        lobe_integrals l = oracle_lobe_towards(s, fmax(s->roughness, 0.07), to);
-        vector seen = plus(scaled(base, l.white_base), scaled(edge, l.white_edge));
-        add(w, times(p->weight, seen), scaled(light, PI / cosine));
+        lamp seen = lamp_at(w, p, s, i);
+        if (seen.before) {
+            lobe_integrals l = oracle_lobe_towards(s, fmax(s->roughness, 0.07), seen.to);
+            vector shown = plus(scaled(base, l.white_base), scaled(edge, l.white_edge));
+            add(w, times(p->weight, shown), seen.light);
+        }
     }
 }
 
@@ -517,16 +532,10 @@ static double add_sheen(walk *w, const path *p, const surface *s)
     lobe_integrals seen = oracle_sheen(s, w->view->roughness, radiance, w->scene);
     vector color = scaled(times(p->weight, s->sheen_color), s->coverage);
     add(w, color, seen.base);
-    receiver r = receiver_at(w, p, s, s->normal);
     for (int i = 0; i < w->scene->light_count; i++) {
-        vector to = oracle_direction_to_light(&r, i);
-        double cosine = dot(s->normal, to);
-        if (!(cosine > 0.0))
-            continue;
-        shadow to_light = {w, *p};
-        to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
-        vector light = oracle_light_at(&r, i, pass_straight, &to_light);
-        add(w, scaled(color, oracle_sheen_towards(s, to)), scaled(light, PI / cosine));
+        lamp one = lamp_at(w, p, s, i);
+        if (one.before)
+            add(w, scaled(color, oracle_sheen_towards(s, one.to)), one.light);
     }
     return fmax(0.0, 1.0 - most * seen.white_base);
 }
