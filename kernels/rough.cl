@@ -53,16 +53,12 @@ static inline lobe_shape shape_of_sheen(const surface *s)
 #if GLINT_CLEARCOAT
 static inline lobe_shape shape_of_coat(const surface *s)
 {
-    lobe_shape shape;
+    lobe_shape shape = shape_of_surface(s);
     shape.normal = s->clearcoat_normal;
     shape.cosine = s->clearcoat_cosine;
     shape.roughness = s->clearcoat_roughness;
 #if GLINT_BRUSHED
-    shape.along = s->along;
     shape.anisotropy = real_of(0);
-#endif
-#if GLINT_SHEEN
-    shape.is_sheen = false;
 #endif
     return shape;
 }

@@ -55,7 +55,7 @@ static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **stat
     glint_environment_free(&environment);
 }
 
-// Has textures that the file gives for something else say what these slots say, too.
+// The base colour's texture, where there is one, serves for these as well.
 static void borrow_textures(glint_material *m, const glint_texture_slot *slots, size_t count)
 {
     for (size_t i = 0; i < count; i++) {

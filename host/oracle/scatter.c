@@ -332,10 +332,11 @@ static bool is_rough(const walk *w, const surface *s)
     return w->view->roughness > 0 && (s->roughness >= 0.01 || s->anisotropy > 0.0);
 }
 
-// A light as lobes see it: the way there, and what comes, over the cosine; false: it is behind.
+// A light as lobes see it.
 typedef struct lamp {
-    bool before;
-    vector to, light;
+    bool before;  // in front of the surface; else nothing comes
+    vector to;    // unit, the way there
+    vector light; // irradiance of what faces the light
 } lamp;
 
 static lamp lamp_at(walk *w, const path *p, const surface *s, int number)

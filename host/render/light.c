@@ -83,8 +83,7 @@ static glint_status make_map(glint_light *light, cl_mem *buffer, glint_error *er
     return status;
 }
 
-// Albedos, that of sheen where the plan wants it, and behind them cells down to the level that it
-// wants.
+// Albedos, that of sheen if it is wanted, and behind them cells down to level `last`; −1: nothing.
 static glint_status make_lobes(glint_light *light, int last, bool sheen, glint_error *error)
 {
     const size_t cells = last >= 0 ? GLINT_CELLS_FIRST(last + 1) : 0;

@@ -206,7 +206,7 @@ static bool is_troubled(const glint_selftest_result *result)
     return has_trouble(result) && !result->expected;
 }
 
-// Whether that it fails is known; where it passes all the same, the line is named that says so.
+// Marks a failure that the file expects, and warns of a line whose case passes.
 static void compare_to_expectations(const selftest_work *work, glint_selftest_result *result)
 {
     const int line = selftest_expectation_of(&work->expectations, result);

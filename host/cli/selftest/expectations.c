@@ -2,7 +2,6 @@
 #include "cli/selftest/expectations.h"
 
 #include "base/regular_file.h"
-#include "cli/common/options.h"
 
 #include <stdio.h>
 #include <stdlib.h>
