@@ -13,6 +13,7 @@
     ARGUMENT(global const int *, numbers)                                                          \
     ARGUMENT(global const glint_material_record *, materials)                                      \
     ARGUMENT(global const glint_medium_record *, media)                                            \
+    ARGUMENT(global const glint_solid_record *, solids) /* with GLINT_OVERLAPS */                  \
     ARGUMENT(global const float *, attributes)                                                     \
     ARGUMENT(global const glint_texture_record *, textures)                                        \
     ARGUMENT(global const ushort *, texels)                                                        \

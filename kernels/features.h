@@ -30,6 +30,9 @@
             IDLE)                                                                                  \
     FEATURE(NESTED_MEDIA, "a path keeps the stack of solids that it is inside", GLINT_SOLID, 0,    \
             IDLE)                                                                                  \
+    FEATURE(OVERLAPS, "solids that touch or overlap have one medium in one place",                 \
+            GLINT_NESTED_MEDIA &&GLINT_ALPHA,                                                      \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
     FEATURE(CONVEX_SOLID, "what leaves the one convex solid that there is meets nothing",          \
             GLINT_SOLID, 0, ACTIVE)                                                                \
     FEATURE(ABSORPTION, "light is absorbed inside solids by Beer and Lambert's law", GLINT_SOLID,  \

@@ -202,15 +202,29 @@ typedef struct glint_texture_record {
     unsigned int unused;
 } glint_texture_record;
 
-// Medium 0 is empty space. Absorption is per stored unit of length, as an unevaluated sum of two
-// floats, so that double precision keeps what the host computed.
+// Medium 0 is empty space. With GLINT_OVERLAPS media stand in the order of their priority: where
+// solids overlap, the one with the highest number is there. Absorption is per stored unit of
+// length, as an unevaluated sum of two floats, so that double precision keeps what the host
+// computed.
 typedef struct glint_medium_record {
     float absorption_high[4]; // R, G, B; 0
     float absorption_low[4];
     float ior;
     float dispersion; // with GLINT_DISPERSION: what is added to that, see glint_wavelength_record
-    float unused[2];
+    int material;     // media of one material do not differ
+    float unused;
 } glint_medium_record;
+
+// With GLINT_OVERLAPS, by the triangles' numbers: which solid a triangle is part of.
+#define GLINT_SOLID_TOUCHES 0x40000000u // it may be in one place with another solid's
+typedef struct glint_solid_record {
+    int component;       // triangles of one solid have the same; −1: of none
+    unsigned int medium; // its medium, 0: no solid; and GLINT_SOLID_TOUCHES
+} glint_solid_record;
+
+// Surfaces are in one place where they are nearer than this share of their coordinates, which are
+// rounded to 24 bits. Both precisions have the same, as it is the file's digits that say so.
+#define GLINT_TOUCHING 0x1p-21f
 
 // One of the wavelengths that light is divided into by solids that disperse it. A medium has the
 // index ior + dispersion × ior_step there, or 1 if that is more. `share` is how much of R, G and B

@@ -103,17 +103,33 @@ static inline void leave_coat(const surface *s, const scattering *out, const see
 }
 #endif
 
+#if GLINT_DISPERSION && GLINT_OVERLAPS
+// Whether the medium on top disperses light: of two that touch the other one's surface may be shown.
+static inline mask do_disperse(const scene_buffers *scene, lanes_int media)
+{
+    lanes_int does = int_of(0);
+    for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+        LANE_INT(does, lane) =
+            scene->media[top_medium(LANE_INT(media, lane))].dispersion > 0.0f ? 1 : 0;
+    }
+    return does != (lane_int)0;
+}
+#endif
+
 #if GLINT_DISPERSION
 // Of the rays in `met`, those that meet a solid which disperses light, and have not yet, are of the
 // round's wavelength from here on: each stands for the shares of R, G and B of as many rounds as
 // there are wavelengths.
-static inline void disperse(const glint_frame_record *frame, mask met, const pixels *pixels,
-                            path *ray, surface *s, tally *tally)
+static inline void disperse(const scene_buffers *scene, const glint_frame_record *frame, mask met,
+                            const pixels *pixels, path *ray, surface *s, tally *tally)
 {
     const glint_wavelength_record *w = &frame->wavelength[tally->wavelength];
     s->ior_step = w->ior_step;
-    const mask here = met & HAS_FLAG(*s, GLINT_MATERIAL_DISPERSIVE) &
-                      (ray->dispersed == (lane_int)0);
+    mask here = HAS_FLAG(*s, GLINT_MATERIAL_DISPERSIVE);
+#if GLINT_OVERLAPS
+    here = here | do_disperse(scene, s->media_before) | do_disperse(scene, s->media_beyond);
+#endif
+    here = here & met & (ray->dispersed == (lane_int)0);
     note_pixels(tally, pixels, here, tally->dispersed);
     const scalar count = frame->wavelengths;
     const real3 share = real3_of(real_of(count * (scalar)w->share[0]),

@@ -38,6 +38,38 @@ static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
     return left;
 }
 
+#if GLINT_OVERLAPS
+// One path's stack is in order here: the highest medium is on top, whatever was entered last.
+static inline lane_int top_medium(lane_int media) { return media & MEDIUM_MASK; }
+
+// The stack inside `medium` as well; true if its lowest entry was lost, as it was full.
+static inline bool insert_medium(lane_int *media, lane_int medium)
+{
+    const lane_int old = *media;
+    int shift = 0;
+    while (((old >> shift) & MEDIUM_MASK) > medium) {
+        shift += GLINT_MEDIA_BITS;
+    }
+    const lane_int above = old & (((lane_int)1 << shift) - 1), below = old >> shift;
+    *media = (((((below << GLINT_MEDIA_BITS) | medium) << shift) | above)) & MEDIA_MASK;
+    return (old >> (GLINT_MEDIA_BITS * (GLINT_MEDIA_CAPACITY - 1))) != 0;
+}
+
+// The stack outside `medium`; false, and unchanged, if it was not in it.
+static inline bool remove_medium(lane_int *media, lane_int medium)
+{
+    const lane_int old = *media;
+    for (int shift = 0; (old >> shift) != 0; shift += GLINT_MEDIA_BITS) {
+        if (((old >> shift) & MEDIUM_MASK) == medium) {
+            const lane_int above = old & (((lane_int)1 << shift) - 1);
+            *media = (((old >> shift) >> GLINT_MEDIA_BITS) << shift) | above;
+            return true;
+        }
+    }
+    return false;
+}
+#endif
+
 // The index of refraction at a wavelength, of which `step` is the ior_step.
 static inline real medium_ior(global const glint_medium_record *media, lanes_int medium,
                               scalar step)

@@ -272,18 +272,18 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
 // Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
 // branch that goes on in their place. The result says which rays go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
-                                 const closest *hit, const triangle *triangles, mask met, int slot,
-                                 paths *all, tally *tally)
+                                 closest *hit, triangle *triangles, mask met, int slot, paths *all,
+                                 tally *tally)
 {
     path *ray = &all->ray[slot];
-    surface s = find_surface(scene, ray, hit, triangles);
+    surface s = find_surface_in_place(scene, ray, met, hit, triangles);
 #if GLINT_FACETS
     const mask faceted = met & are_faceted(&s);
     note_pixels(tally, &all->pixels[slot], faceted, tally->faceted);
     take_facet(frame, &tally->facets, ray, faceted, &s);
 #endif
 #if GLINT_DISPERSION
-    disperse(frame, met, &all->pixels[slot], ray, &s, tally);
+    disperse(scene, frame, met, &all->pixels[slot], ray, &s, tally);
 #endif
 #if GLINT_ALPHA
     const mask there = met & (s.coverage > R(0.0));
@@ -387,7 +387,11 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
     end_branch(frame, &transmitted, transmits, &all->pixels[slot], tally);
+#if GLINT_OVERLAPS
+    count_transmissions(&s, transmits & through & there, tally);
+#else
     count_transmissions(&s, transmits & through, tally);
+#endif
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(transmits & !through);
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);

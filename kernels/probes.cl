@@ -117,13 +117,13 @@ kernel void probe_trace(PROBE_ARGUMENTS)
 // What becomes of rays at the next surface: see glint_probe_bounce for the GLINT_PROBE_BOUNCE
 // numbers.
 #if GLINT_GEOMETRY
-static inline void probe_surface(const scene_buffers *scene, const path *ray, const closest *hit,
+static inline void probe_surface(const scene_buffers *scene, const path *ray, closest *hit,
                                  global scalar *out, size_t packet)
 {
     const int values = GLINT_PROBE_BOUNCE;
     const mask met = hit->place >= (lane_int)0;
-    const triangle triangles = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
-    const surface s = find_surface(scene, ray, hit, &triangles);
+    triangle triangles = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
+    const surface s = find_surface_in_place(scene, ray, met, hit, &triangles);
     const real3 dark = real3_of(real_of(0), real_of(0), real_of(0));
     mask lost;
     lanes_int inside = ray->media;

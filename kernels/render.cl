@@ -52,6 +52,7 @@ GLINT_FEATURES(CHECK)
 #include "lookups.cl"
 #include "stream.cl"
 #include "traverse_together.cl"
+#include "overlaps.cl"
 #include "shadows.cl"
 #include "punctual.cl"
 #include "layers.cl"

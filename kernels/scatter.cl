@@ -113,6 +113,9 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
 // Rule 5: a back face met with an empty stack means that the path began inside that solid.
 static inline lanes_int media_met_in(const surface *s, mask solid, lanes_int media)
 {
+#if GLINT_OVERLAPS
+    return s->media_before;
+#endif
     return SELECT(solid & !s->outside & (media == (lane_int)0), s->medium, media);
 }
 
@@ -122,10 +125,15 @@ static inline real cross_solid(const scene_buffers *scene, const surface *s, mas
                                lanes_int *media, lanes_int *beyond, real *outer, mask *lost)
 {
     *media = media_met_in(s, solid, *media);
+#if GLINT_OVERLAPS
+    *beyond = s->media_beyond;
+    *lost = s->media_lost;
+#else
     lanes_int entered = enter_medium(*media, s->medium, lost);
     lanes_int left = leave_medium(*media, s->medium);
     *beyond = SELECT(solid, SELECT(s->outside, entered, left), *media);
     *lost = *lost & solid & s->outside;
+#endif
     real n_i = medium_ior(scene->media, medium_on_top(*media), IOR_STEP(s));
     real n_t = medium_ior(scene->media, medium_on_top(*beyond), IOR_STEP(s));
     *outer = SELECT(s->outside, n_i, n_t);
@@ -442,6 +450,9 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
 #endif
     out->transmitted_weight = add(out->transmitted_weight, real3_of(gone, gone, gone));
     out->transmitted = select3(partly, negate(v), out->transmitted);
+#if GLINT_OVERLAPS
+    media = s->media_beyond;
+#endif
     out->media_transmitted = SELECT(partly, media, out->media_transmitted);
     out->total_reflection = out->total_reflection & !partly;
     out->eta = SELECT(partly, real_of(1), out->eta);

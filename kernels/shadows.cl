@@ -175,11 +175,11 @@ static inline real3 light_passing(const surface *s)
 }
 
 // Takes the rays in `met`, which have `left` so far, past what they met.
-static inline void pass_surfaces(const scene_buffers *scene, path *rays, const closest *hit,
-                                 mask met, real3 *left)
+static inline void pass_surfaces(const scene_buffers *scene, path *rays, closest *hit, mask met,
+                                 real3 *left)
 {
-    const triangle triangles = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
-    const surface s = find_surface(scene, rays, hit, &triangles);
+    triangle triangles = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
+    const surface s = find_surface_in_place(scene, rays, met, hit, &triangles);
     lanes_int beyond = rays->media;
 #if GLINT_SOLID
     mask lost;

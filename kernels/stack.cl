@@ -20,6 +20,7 @@ typedef struct scene_buffers {
     global const int *numbers;
     global const glint_material_record *materials;
     global const glint_medium_record *media;
+    global const glint_solid_record *solids; // of the triangles, by their numbers
     global const float *attributes; // of the triangles' corners, by the triangles' numbers
     global const glint_texture_record *textures;
     global const ushort *texels;
@@ -33,8 +34,8 @@ typedef struct scene_buffers {
 
 // The same, from the arguments of a kernel.
 #define SCENE_OF_ARGUMENTS                                                                         \
-    {nodes, clusters, normals, numbers, materials, media, attributes, textures, texels, lights,    \
-     frame.anisotropy,                                                                             \
+    {nodes, clusters, normals, numbers, materials, media, solids, attributes, textures, texels,    \
+     lights, frame.anisotropy,                                                                     \
      {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
      {irradiance, frame.irradiance_edge, false},                                                   \
      {lobes, frame.cells_last, frame.cells_tolerance, frame.compensation},                         \

@@ -55,10 +55,11 @@ static inline void join_stream(stream *s, const packet *p, int group, mask these
     }
 }
 
-// The boxes of a node that a ray may meet before its farthest hit, as bits. As rays_meet_box.
-static inline uint boxes_at_ray(const stream_ray *r, node_pointer node)
+// The boxes of a node that a ray may meet from `begin` on and before its farthest hit, as bits. As
+// rays_meet_box.
+static inline uint boxes_between(const stream_ray *r, node_pointer node, scalar begin)
 {
-    boxes near = (boxes)R(0.0), far = (boxes)r->farthest;
+    boxes near = (boxes)begin, far = (boxes)r->farthest;
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         node_pointer near_side = node + r->near[k];
@@ -70,6 +71,11 @@ static inline uint boxes_at_ray(const stream_ray *r, node_pointer node)
         far = SMALLER(leave, far);
     }
     return box_bits(near <= far * FAR_SLACK);
+}
+
+static inline uint boxes_at_ray(const stream_ray *r, node_pointer node)
+{
+    return boxes_between(r, node, R(0.0));
 }
 
 // The numbers of the rays at hand that may meet a child, into `list`; returns how many.

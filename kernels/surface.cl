@@ -91,6 +91,10 @@ typedef struct surface {
 #endif
 #endif
     lanes_int flags, medium;
+#if GLINT_OVERLAPS
+    lanes_int media_before, media_beyond; // the stacks on both sides; set by find_surface_in_place
+    mask media_lost;
+#endif
 } surface;
 
 // Hits have places: rays start there, or the environment is seen from there.

@@ -191,6 +191,17 @@ oracle_hit oracle_closest_hit(const oracle_scene *scene, const oracle_ray *ray, 
     return best;
 }
 
+void oracle_each_hit(const oracle_scene *scene, const query *q, const double range[2], taker take,
+                     void *state)
+{
+    for (int i = 0; i < scene->triangle_count; i++) {
+        oracle_hit hit = {.triangle = i};
+        if (meets(q, &scene->triangles[i], &hit) && hit.distance >= range[0] &&
+            hit.distance <= range[1])
+            take(state, &hit);
+    }
+}
+
 // Building: halves by count along the longest axis of the centroids, until LEAF_SIZE. Depth is
 // log₂ of the count, so 64 levels never fill.
 

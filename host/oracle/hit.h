@@ -23,6 +23,11 @@ typedef void (*visitor)(const oracle_scene *scene, const query *q, int index, vo
 void oracle_visit_triangles(const oracle_scene *scene, const query *q, visitor visit, void *state,
                             const double *limit);
 
+// Hands over every hit at a distance within `range`, in any order.
+typedef void (*taker)(void *state, const oracle_hit *hit);
+void oracle_each_hit(const oracle_scene *scene, const query *q, const double range[2], taker take,
+                     void *state);
+
 // Least ratio of (distance from the ray to an edge) to (path length up to there) over the triangles
 // that the ray meets or passes before `limit`, ORACLE_EDGE_REACH at most. `travelled` is the
 // path's length up to the ray's origin.

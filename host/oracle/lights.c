@@ -1,5 +1,6 @@
 // Punctual lights, by the text of KHR_lights_punctual: a shadow ray for each, surface by surface.
 #include "oracle/lights.h"
+#include "oracle/overlaps.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -51,6 +52,11 @@ static vector left_of(const receiver *r, shadow_ray s)
     vector left = {{1.0, 1.0, 1.0}}, nothing = {{0.0, 0.0, 0.0}};
     int triangle = r->triangle;
     for (int passed = 0; passed <= PASSED_MOST; passed++) {
+        if (r->scene->overlaps) {
+            vector at = vector_of(ray.origin);
+            vector_store(oracle_start_beside(r->scene, triangle, at, s.to_light), ray.origin);
+            triangle = -1;
+        }
         oracle_hit hit = oracle_closest_hit(r->scene, &ray, triangle);
         if (hit.triangle < 0 || hit.distance >= s.distance * (1.0 - HOLDS))
             return left;

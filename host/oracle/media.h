@@ -25,6 +25,15 @@ static inline void media_enter(media *inside, int material)
         inside->solid[inside->count++] = material;
 }
 
+// Inside one solid alone, or none: −1.
+static inline media media_of(int material)
+{
+    media inside = {.count = 0};
+    if (material >= 0)
+        media_enter(&inside, material);
+    return inside;
+}
+
 // Removes the topmost entry of the material, if there is one.
 static inline void media_leave(media *inside, int material)
 {

@@ -2,6 +2,7 @@
 // transport") counts them.
 #include "oracle/oracle.h"
 #include "oracle/hit.h"
+#include "oracle/overlaps.h"
 #include "oracle/vector.h"
 #include "oracle/walk.h"
 
@@ -33,11 +34,20 @@ static void follow(walk *w, const path *p)
 
     path here = *p;
     here.holds = false;
+    bool there = true;
+    if (w->scene->overlaps) {
+        int sides[2];
+        there = oracle_sides(w->scene, &ray, &hit, sides);
+        here.inside = media_of(sides[0]);
+        here.beyond = sides[1];
+    }
     here.travelled += hit.distance;
     here.cone.width += here.cone.spread * hit.distance;
     arrival by = {p->direction, here.cone.width, here.travelled, w->view->anisotropy};
     surface s = oracle_surface_at(w->scene, &hit, &by);
     report->jump = fmin(report->jump, s.jump);
+    if (!there)
+        s.coverage = 0.0;
     here.met++;
     if (s.coverage > 0.0) {
         report->surfaces++;

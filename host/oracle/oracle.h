@@ -72,6 +72,7 @@ typedef struct oracle_material {
     double thickness;            // KHR_materials_volume: > 0 bounds a solid, 0 is a thin wall
     double attenuation[3];       // colour that white light has after attenuation_distance
     double attenuation_distance; // metres; INFINITY: clear
+    double priority;             // of solids where they overlap: the highest is there
     double dispersion;           // KHR_materials_dispersion: 20 over Abbe's number; of solids
     double clearcoat, clearcoat_roughness; // KHR_materials_clearcoat
     double film, film_ior;    // KHR_materials_iridescence: how much of a film there is; its index
@@ -116,6 +117,7 @@ typedef struct oracle_scene {
     double environment_rotation; // degrees about +Y, counter-clockwise seen from above
     const oracle_punctual *lights;
     int light_count;
+    bool overlaps; // solids may touch or overlap: media are found by points, not by stacks
     const oracle_tree *tree; // NULL: every ray tries every triangle
 } oracle_scene;
 

@@ -2,6 +2,7 @@
 // ("Light transport") counts them.
 #include "oracle/film.h"
 #include "oracle/lights.h"
+#include "oracle/overlaps.h"
 #include "oracle/rough.h"
 #include "oracle/vector.h"
 #include "oracle/walk.h"
@@ -45,7 +46,7 @@ void oracle_escape(walk *w, const path *p, vector direction, vector weight)
 // while inside none means that the path began inside that solid.
 void oracle_absorb(const oracle_scene *scene, path *p, const surface *s, double distance)
 {
-    if (p->inside.count == 0 && !s->front && oracle_is_solid(s->material))
+    if (p->inside.count == 0 && !s->front && oracle_is_solid(s->material) && !scene->overlaps)
         media_enter(&p->inside, s->index);
     if (p->inside.count == 0)
         return;
@@ -79,6 +80,10 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
     next.direction = direction;
     next.weight = weight;
     next.left = s->triangle;
+    if (w->scene->overlaps) {
+        next.origin = oracle_start_beside(w->scene, s->triangle, s->point, direction);
+        next.left = -1;
+    }
     w->follow(w, &next);
 }
 
@@ -124,10 +129,18 @@ static double ior_of(const walk *w, const oracle_material *m)
     return fmax(1.0, a + b / (nm * nm));
 }
 
+static bool is_dispersive(const oracle_material *m)
+{
+    return m != NULL && m->dispersion != 0.0;
+}
+
 void oracle_disperse(walk *w, path *p, const surface *s)
 {
-    if (w->view->wavelengths == 0 || p->dispersed || !oracle_is_solid(s->material) ||
-        s->material->dispersion == 0.0)
+    bool disperses = oracle_is_solid(s->material) && s->material->dispersion != 0.0;
+    if (w->scene->overlaps) // what is there on one side, whose surface it may not be
+        disperses = is_dispersive(top_material(w->scene, &p->inside)) ||
+                    (p->beyond >= 0 && is_dispersive(&w->scene->materials[p->beyond]));
+    if (w->view->wavelengths == 0 || p->dispersed || !disperses)
         return;
     const double *share = w->view->wavelength[w->wavelength].share;
     for (int i = 0; i < 3; i++)
@@ -148,7 +161,11 @@ static interface interface_at(walk *w, const path *p, const surface *s)
     interface glass = {.beyond = *p};
     double ior_here = 1.0, ior_there = s->material->ior; // a thin wall, from both sides
     bool solid = oracle_is_solid(s->material);
-    if (solid && s->front) {
+    if (solid && w->scene->overlaps) {
+        glass.beyond.inside = media_of(p->beyond);
+        ior_here = ior_of(w, top_material(w->scene, &p->inside));
+        ior_there = ior_of(w, top_material(w->scene, &glass.beyond.inside));
+    } else if (solid && s->front) {
         ior_here = ior_of(w, top_material(w->scene, &p->inside));
         ior_there = ior_of(w, s->material);
         media_enter(&glass.beyond.inside, s->index);
@@ -225,6 +242,23 @@ typedef struct shadow {
     path way;
 } shadow;
 
+// What is there of the surfaces that a shadow's ray meets in one place, where solids may overlap.
+static bool shows(shadow *to_light, oracle_hit *hit, vector direction)
+{
+    const oracle_scene *scene = to_light->walk->scene;
+    const oracle_triangle *t = &scene->triangles[hit->triangle];
+    vector point = {{0.0, 0.0, 0.0}};
+    for (int i = 0; i < 3; i++)
+        point = plus(point, scaled(vector_of(t->position[i]), hit->barycentric[i]));
+    oracle_ray ray;
+    vector_store(minus(point, scaled(direction, hit->distance)), ray.origin);
+    vector_store(direction, ray.direction);
+    int sides[2];
+    bool there = oracle_sides(scene, &ray, hit, sides);
+    to_light->way.inside = media_of(sides[0]);
+    return there;
+}
+
 // Straight on: through what is not there, and through glass by its Fresnel term and colour.
 static vector pass_straight(void *state, const oracle_hit *hit, vector direction)
 {
@@ -232,8 +266,12 @@ static vector pass_straight(void *state, const oracle_hit *hit, vector direction
     path *way = &to_light->way;
     const walk *w = to_light->walk;
     arrival by = {direction, 0.0, way->travelled + hit->distance, 1};
-    surface s = oracle_surface_at(w->scene, hit, &by);
+    oracle_hit met = *hit;
+    bool shown = !w->scene->overlaps || shows(to_light, &met, direction);
+    surface s = oracle_surface_at(w->scene, &met, &by);
     const oracle_material *m = s.material;
+    if (!shown)
+        s.coverage = 0.0;
     w->report->jump = fmin(w->report->jump, s.jump);
     oracle_absorb(w->scene, way, &s, hit->distance);
     if (oracle_is_solid(m) && s.front)

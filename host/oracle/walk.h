@@ -9,9 +9,10 @@ typedef struct path {
     vector origin, direction; // of the ray to be traced
     vector weight;            // what radiance along it counts for in the sample
     media inside;
-    cone cone;        // where the ray starts
-    int left;         // triangle that it leaves, or −1
-    int met;          // surfaces met so far, but for those that were not there
+    int beyond; // where solids may overlap: the solid beyond the surface that was met, or −1
+    cone cone;  // where the ray starts
+    int left;   // triangle that it leaves, or −1
+    int met;    // surfaces met so far, but for those that were not there
     double travelled; // length of the path so far
     bool dispersed;   // it is of the walk's wavelength alone
     bool holds;       // brings `held` where it ends, in place of the environment's light

@@ -25,6 +25,7 @@ static glint_status upload(glint_device_scene *s, const glint_scene *scene, glin
     TRY(glint_texture_table_make(scene, &table, error));
     const glint_upload_inputs inputs = {.device = s->device,
                                         .scene = scene,
+                                        .solids = &shown->solids,
                                         .bvh = &s->shown.tree,
                                         .plan = &shown->plan,
                                         .textures = &table};
@@ -47,6 +48,7 @@ glint_status glint_device_scene_upload(glint_device_scene *s, const glint_scene 
 {
     double clock = glint_now_ms();
     const glint_status status = upload(s, scene, error);
+    glint_solids_free(&s->shown.solids);
     if (status != GLINT_OK || !scene->moves) {
         glint_bvh_free(&s->shown.tree); // only that of a scene that moves is needed again
     }
@@ -59,8 +61,9 @@ size_t glint_device_scene_bytes(const glint_device_scene *s)
     const glint_geometry_memory *g = &s->geometry;
     return glint_buffer_bytes(g->clusters.buffer) + glint_buffer_bytes(g->normals.buffer) +
            glint_buffer_bytes(g->numbers.buffer) + glint_buffer_bytes(g->materials) +
-           glint_buffer_bytes(g->media) + glint_buffer_bytes(g->attributes) +
-           glint_buffer_bytes(g->lights) + glint_buffer_bytes(s->textures.texels);
+           glint_buffer_bytes(g->media) + glint_buffer_bytes(g->solids) +
+           glint_buffer_bytes(g->attributes) + glint_buffer_bytes(g->lights) +
+           glint_buffer_bytes(s->textures.texels);
 }
 
 size_t glint_device_scene_tree_bytes(const glint_device_scene *s)
@@ -76,5 +79,7 @@ void glint_device_scene_free(glint_device_scene *s)
     glint_owners_free(&s->owners);
     glint_bvh_free(&s->shown.tree);
     glint_bvh_free(&s->next.tree);
+    glint_solids_free(&s->shown.solids);
+    glint_solids_free(&s->next.solids);
     *s = (glint_device_scene){0};
 }

@@ -93,7 +93,7 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     if (settings->all_features) {
         glint_plan_compile_idle_features(plan); // media as well
     }
-    glint_plan_choose_media(in->scene, plan);
+    glint_plan_choose_media(in, plan);
     return vary(in, plan, error);
 }
 

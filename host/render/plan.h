@@ -11,6 +11,7 @@
 #include "render/settings.h"
 #include "scene/scene.h"
 #include "scene/sight.h"
+#include "scene/solids.h"
 #include "scene/topology.h"
 
 #include <stdbool.h>
@@ -49,6 +50,8 @@ typedef struct glint_plan {
     bool depth_is_exact; // `depth` is what sight proved: nothing changes beyond
     int stack_capacity;  // waiting branches of a pixel; 0 without SPLIT
     char stack_reason[120];
+    size_t contact_count; // pairs of solids that touch or overlap
+    char contacts[400];   // says so, and names one; empty where there are none
     int media_count;     // distinct media (index of refraction and absorption), without empty space
     int media_bits;      // bits of one entry of the stack of media
     int media_capacity;  // entries of that stack
@@ -72,7 +75,8 @@ const char *glint_feature_meaning(glint_feature feature);
 typedef struct glint_plan_inputs {
     const glint_scene *scene;
     const glint_topology *topology;
-    const glint_sight *sight; // NULL: nothing is known of what paths can meet
+    const glint_solids *solids; // found of it; NULL: no solid touches another
+    const glint_sight *sight;   // NULL: nothing is known of what paths can meet
     const glint_cube *environment;
     const glint_capabilities *device;
     const glint_settings *settings;

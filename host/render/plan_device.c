@@ -126,11 +126,15 @@ void glint_plan_describe_secondary_rays(glint_plan *plan)
 }
 
 // Entries of the fewest bits that can name every medium; without nesting one entry is enough.
-void glint_plan_choose_media(const glint_scene *scene, glint_plan *plan)
+void glint_plan_choose_media(const glint_plan_inputs *in, glint_plan *plan)
 {
+    const glint_scene *scene = in->scene;
     int media = 0;
     for (size_t i = 0; i < scene->material_count; i++) {
         media += glint_material_lobes(&scene->materials[i]).solid;
+    }
+    if (plan->features[GLINT_FEATURE_OVERLAPS].compiled) {
+        media = (int)in->solids->medium_count;
     }
     plan->media_count = media;
     int bits = 1;

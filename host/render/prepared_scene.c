@@ -24,22 +24,34 @@ glint_status glint_prepared_scene_plan(glint_prepared_scene *p, const glint_plan
     glint_topology topology = {0};
     const bool sees = glint_plan_may_heed_sight(inputs->settings);
     const bool rough = glint_settings_heed_roughness(inputs->settings);
-    const bool wanted =
-        !scene->moves && (has_solids(scene) || (sees && glint_sight_wants_topology(scene, rough)));
-    if (wanted) {
+    const bool solids = has_solids(scene);
+    if (scene->moves && solids) {
+        TRY(glint_topology_find_solids(scene, &topology, error));
+    } else if (!scene->moves && (solids || (sees && glint_sight_wants_topology(scene, rough)))) {
         TRY(glint_topology_find(scene, &topology, error));
     }
-    const glint_sight sight = sees ? glint_sight_find(scene, &topology, rough) : (glint_sight){0};
+    glint_solids found = {0};
+    glint_status status = GLINT_OK;
+    if (solids) {
+        TRY_OR(cleanup, status, glint_solids_find(scene, &topology, &found, error));
+    }
+    const glint_topology none = {0}; // nothing is proved of a scene that moves
+    const glint_sight sight =
+        sees ? glint_sight_find(scene, scene->moves ? &none : &topology, rough) : (glint_sight){0};
     glint_plan_inputs all = *inputs;
     all.topology = &topology;
+    all.solids = &found;
     all.sight = &sight;
     glint_plan plan;
-    const glint_status status = glint_plan_make(&all, &plan, error);
+    TRY_OR(cleanup, status, glint_plan_make(&all, &plan, error));
+    p->plan = plan;
+    p->sight = sight;
+    glint_solids_free(&p->solids);
+    p->solids = found;
+    found = (glint_solids){0};
+cleanup:
     glint_topology_free(&topology);
-    if (status == GLINT_OK) {
-        p->plan = plan;
-        p->sight = sight;
-    }
+    glint_solids_free(&found);
     p->analysis_ms = glint_lap_ms(&clock);
     return status;
 }

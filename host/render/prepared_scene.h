@@ -12,6 +12,7 @@ typedef struct glint_prepared_scene {
     glint_plan plan;      // of the settings that the renderer was made with
     glint_sight sight;    // what is proved of the scene, where these settings may heed it or
                           // variations of them
+    glint_solids solids;  // owned; needed until the scene is uploaded
     glint_bvh tree;       // of a scene that moves, less the arrays that the device has; else empty
     glint_bvh_report bvh; // outlives the tree
     double built_cost, built_area; // the tree's when it was last built, see build_or_refit

@@ -20,6 +20,7 @@ glint_scene_arguments glint_renderer_scene_arguments(const glint_renderer *r)
         .numbers = g->numbers.buffer,
         .materials = g->materials,
         .media = g->media,
+        .solids = g->solids,
         .attributes = g->attributes,
         .textures = r->scene.textures.records,
         .texels = r->scene.textures.texels,

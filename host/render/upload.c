@@ -29,6 +29,13 @@ static size_t attribute_bytes(const glint_scene *scene)
            sizeof(float);
 }
 
+static size_t solid_bytes(const glint_scene *scene, const glint_plan *plan)
+{
+    return plan->features[GLINT_FEATURE_OVERLAPS].compiled
+               ? scene->triangle_count * sizeof(glint_solid_record)
+               : 0;
+}
+
 void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
                             glint_content contents[GLINT_GEOMETRY_CONTENTS])
 {
@@ -42,6 +49,7 @@ void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
         {"the triangles' numbers", clusters * GLINT_CLUSTER_LANES * sizeof(cl_int), NULL},
         {"the vertices", clusters * glint_vertices_bytes(plan), NULL},
         {"the vertices' attributes", attribute_bytes(scene), NULL},
+        {"the solids' triangles", solid_bytes(scene, plan), NULL},
         {"the textures", glint_textures_bytes(scene->textures), NULL},
     };
     memcpy(contents, found, sizeof found);
@@ -141,27 +149,46 @@ static glint_medium_record medium_record(const glint_material *m, double unit)
     return record;
 }
 
+// Media as the plan counts them: of each solid material one or, where solids overlap, in the order
+// of their priority. Sets how many there are, without empty space.
+static glint_medium_record *media_records(const glint_upload_inputs *in, size_t *count)
+{
+    const glint_scene *scene = in->scene;
+    const bool ranked = in->plan->features[GLINT_FEATURE_OVERLAPS].compiled;
+    const size_t most = ranked ? in->solids->medium_count : scene->material_count;
+    glint_medium_record *media = glint_allocate(most + 1, sizeof *media);
+    *count = 0;
+    for (size_t i = 0; media != NULL && i < most; i++) {
+        const size_t number = ranked ? in->solids->material_of[i] : i;
+        const glint_material *m = &scene->materials[number];
+        if (glint_material_lobes(m).solid) {
+            media[++*count] = medium_record(m, scene->unit);
+            media[*count].material = (int)number;
+        }
+    }
+    if (media != NULL) {
+        media[0] = (glint_medium_record){.ior = 1, .material = -1};
+    }
+    return media;
+}
+
 static glint_status upload_materials(const glint_upload_inputs *in, glint_geometry_memory *memory,
                                      glint_error *error)
 {
     const glint_scene *scene = in->scene;
     const size_t count = scene->material_count;
     glint_status status;
-    uint32_t media_count = 0;
+    uint32_t media_of_materials = 0;
+    size_t media_count;
     glint_material_record *materials = glint_allocate(count + 1, sizeof *materials);
-    glint_medium_record *media = glint_allocate(count + 1, sizeof *media);
+    glint_medium_record *media = media_records(in, &media_count);
     if (materials == NULL || media == NULL) {
         status = glint_fail_memory(error, "the materials");
         goto cleanup;
     }
-    media[0].ior = 1;
     for (size_t i = 0; i < count; i++) {
-        uint32_t before = media_count;
-        materials[i] =
-            material_record(&scene->materials[i], in->textures->of_material[i], &media_count);
-        if (media_count > before) {
-            media[media_count] = medium_record(&scene->materials[i], scene->unit);
-        }
+        materials[i] = material_record(&scene->materials[i], in->textures->of_material[i],
+                                       &media_of_materials);
     }
     // A kernel without MANY_MATERIALS reads the first: the one that is in use.
     if (!in->plan->features[GLINT_FEATURE_MANY_MATERIALS].compiled && scene->triangle_count > 0) {
@@ -171,12 +198,14 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
         {"the materials", (count + 1) * sizeof *materials, materials},
         {"the media", (media_count + 1) * sizeof *media, media},
         {"the vertices' attributes", attribute_bytes(scene), scene->attributes},
+        {"the solids' triangles", solid_bytes(scene, in->plan), in->solids->of_triangle},
     };
     TRY_OR(cleanup, status,
            glint_buffer_create(in->device, &contents[0], &memory->materials, error));
     TRY_OR(cleanup, status, glint_buffer_create(in->device, &contents[1], &memory->media, error));
     TRY_OR(cleanup, status,
            glint_buffer_create(in->device, &contents[2], &memory->attributes, error));
+    TRY_OR(cleanup, status, glint_buffer_create(in->device, &contents[3], &memory->solids, error));
 cleanup:
     free(materials);
     free(media);
@@ -224,6 +253,7 @@ void glint_geometry_memory_free(glint_geometry_memory *memory)
     glint_shared_buffer_free(&memory->numbers);
     glint_buffer_release(&memory->materials);
     glint_buffer_release(&memory->media);
+    glint_buffer_release(&memory->solids);
     glint_buffer_release(&memory->attributes);
     glint_buffer_release(&memory->lights);
 }

@@ -14,7 +14,7 @@
 // need are a few bytes long, as a kernel's arguments cannot be left out.
 typedef struct glint_geometry_memory {
     glint_shared_buffer nodes, clusters, normals, numbers; // the tree's arrays
-    cl_mem materials, media, attributes, lights;
+    cl_mem materials, media, solids, attributes, lights;
 } glint_geometry_memory;
 
 // What is uploaded of a scene. Pointers are borrowed. A device that shares the host's memory takes
@@ -22,6 +22,7 @@ typedef struct glint_geometry_memory {
 typedef struct glint_upload_inputs {
     const struct glint_device *device;
     const glint_scene *scene;
+    const glint_solids *solids;
     glint_bvh *bvh;
     const glint_plan *plan;
     const glint_texture_table *textures;
@@ -29,7 +30,7 @@ typedef struct glint_upload_inputs {
 
 // What the scene takes on the device, for glint_contents_check: asked before the long work begins.
 // The tree is not built yet, so the least that its triangles can take is counted.
-#define GLINT_GEOMETRY_CONTENTS 6
+#define GLINT_GEOMETRY_CONTENTS 7
 void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
                             glint_content contents[GLINT_GEOMETRY_CONTENTS]);
 

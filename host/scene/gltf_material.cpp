@@ -318,7 +318,8 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     result.unlit = extension_of(material, place, "KHR_materials_unlit") != nullptr;
 }
 
-// The lecture's blend: extras {"glint": {"mirror": m}}. Other programs' extras can be anything.
+// The lecture's blend and the priority of solids: extras {"glint": {"mirror": m, "priority": p}}.
+// Other programs' extras can be anything.
 void read_extras(const json &material, const Place &place, glint_material &result)
 {
     const json *extras = member(material, "extras");
@@ -332,6 +333,11 @@ void read_extras(const json &material, const Place &place, glint_material &resul
     const json *mirror = member(object, "mirror");
     if (mirror != nullptr) {
         result.mirror = static_cast<float>(number_within(*mirror, at / "mirror", 0, 1));
+    }
+    const json *priority = member(object, "priority");
+    if (priority != nullptr) {
+        result.priority =
+            static_cast<float>(number_within(*priority, at / "priority", -1000000, 1000000));
     }
 }
 
@@ -445,9 +451,9 @@ void survey_extras(const json &material, const std::string &where, Tally &tally)
         return;
     }
     for (auto it = ours->begin(); it != ours->end(); ++it) {
-        if (it.key() != "mirror") {
+        if (it.key() != "mirror" && it.key() != "priority") {
             tally.add("extras.glint." + in_quotes(it.key()) +
-                          " is unknown and ignored (\"mirror\" is what there is)",
+                          " is unknown and ignored (\"mirror\" and \"priority\" are what there is)",
                       where);
         }
     }

@@ -49,8 +49,9 @@ typedef struct glint_material {
     // behind; its colour.
     float diffuse_transmission;
     float diffuse_transmission_color[3];
-    bool unlit;   // KHR_materials_unlit
-    float mirror; // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
+    bool unlit;     // KHR_materials_unlit
+    float mirror;   // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
+    float priority; // of solids where they overlap, extras {"glint": {"priority": p}}; see solids.h
     glint_alpha_mode alpha_mode;
     float alpha;        // baseColorFactor's A, [0, 1]
     float alpha_cutoff; // of GLINT_ALPHA_MASK

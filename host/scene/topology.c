@@ -46,6 +46,7 @@ typedef struct component_sums {
 // The work on one instance. Arrays are as large as the largest instance needs.
 typedef struct welding {
     const float *positions; // of the instance's first triangle
+    uint32_t *component_of; // [triangle of the instance], among the topology's
     uint32_t corner_count;
     uint32_t vertex_count;
     uint32_t *vertex_of;      // [corner]
@@ -198,6 +199,7 @@ static bool number_components(welding *weld, uint32_t instance, glint_topology *
             weld->component[root] = (uint32_t)number;
         }
         topology->components[first + weld->component[root]].triangle_count++;
+        weld->component_of[corner / 3] = (uint32_t)first + weld->component[root];
     }
     for (uint32_t vertex = 0; vertex < weld->vertex_count; vertex++) {
         uint32_t number = weld->component[find_root(weld, vertex)];
@@ -316,11 +318,16 @@ static void pair_edges(welding *weld, glint_component *components)
     }
 }
 
+static bool is_simple(const glint_component *component, const component_sums *sums)
+{
+    return component->boundary_edges == 0 &&
+           sums->vertices + component->triangle_count == sums->edges + 2;
+}
+
 // Convex as far as edges tell.
 static bool may_be_convex(const glint_component *component, const component_sums *sums)
 {
-    return component->boundary_edges == 0 && !sums->bends_inwards &&
-           sums->vertices + component->triangle_count == sums->edges + 2;
+    return is_simple(component, sums) && !sums->bends_inwards;
 }
 
 // The solid angle of a triangle, seen from the origin, by Van Oosterom and Strackee (1983);
@@ -334,6 +341,19 @@ static double solid_angle(glint_vec3 a, glint_vec3 b, glint_vec3 c)
     double denominator = la * lb * lc + glint_vec3_dot(a, b) * lc + glint_vec3_dot(b, c) * la +
                          glint_vec3_dot(c, a) * lb;
     return 2 * atan2(numerator, denominator);
+}
+
+// Of the pyramids over the triangles, whose top is a corner of the bounds.
+static void add_volumes(const welding *weld, glint_topology *topology)
+{
+    for (uint32_t corner = 0; corner < weld->corner_count; corner += 3) {
+        glint_component *c = &topology->components[weld->component_of[corner / 3]];
+        const glint_vec3 top = {c->low[0], c->low[1], c->low[2]};
+        const glint_vec3 p0 = glint_vec3_subtract(position_at(weld, corner), top);
+        const glint_vec3 p1 = glint_vec3_subtract(position_at(weld, corner + 1), top);
+        const glint_vec3 p2 = glint_vec3_subtract(position_at(weld, corner + 2), top);
+        c->volume += glint_vec3_dot(p0, glint_vec3_cross(p1, p2)) / 6;
+    }
 }
 
 static void look_from_inside(welding *weld, const glint_component *components)
@@ -433,11 +453,13 @@ static bool find_in_instance(welding *weld, uint32_t instance, glint_topology *t
     }
     glint_component *components = topology->components + first;
     size_t count = topology->component_count - first;
+    add_volumes(weld, topology);
     file_edges(weld);
     pair_edges(weld, components);
     look_from_inside(weld, components);
     for (size_t i = 0; i < count; i++) {
         components[i].closed = components[i].boundary_edges == 0;
+        components[i].simple = is_simple(&components[i], &weld->gathered[i]);
         components[i].convex = is_nearly_convex(&components[i], &weld->gathered[i]);
         topology->boundary_edges += components[i].boundary_edges;
     }
@@ -472,8 +494,8 @@ static void free_weld(welding *weld)
     free(weld->gathered);
 }
 
-glint_status glint_topology_find(const glint_scene *scene, glint_topology *topology,
-                                 glint_error *error)
+static glint_status find(const glint_scene *scene, bool solids_alone, glint_topology *topology,
+                         glint_error *error)
 {
     *topology = (glint_topology){0};
     welding weld = {0};
@@ -484,14 +506,22 @@ glint_status glint_topology_find(const glint_scene *scene, glint_topology *topol
         size_t count = scene->instances[i].triangle_count;
         largest = count > largest ? count : largest;
     }
+    topology->component_of = glint_allocate(scene->triangle_count, sizeof *topology->component_of);
     // Corners are numbered with 32 bits.
-    if (largest > (NONE - 1) / 3 || !allocate_weld(&weld, largest * 3)) {
+    if (largest > (NONE - 1) / 3 || !allocate_weld(&weld, largest * 3) ||
+        topology->component_of == NULL) {
         status = glint_fail_memory(error, "the topology of the scene");
         goto cleanup;
     }
     for (size_t i = 0; i < scene->instance_count; i++) {
         const glint_instance *instance = &scene->instances[i];
+        if (solids_alone && !glint_material_lobes(&scene->materials[instance->material]).solid) {
+            memset(topology->component_of + instance->first_triangle, 0xFF,
+                   instance->triangle_count * sizeof *topology->component_of);
+            continue;
+        }
         weld.positions = scene->positions + instance->first_triangle * 9;
+        weld.component_of = topology->component_of + instance->first_triangle;
         weld.corner_count = (uint32_t)(instance->triangle_count * 3);
         if (!find_in_instance(&weld, (uint32_t)i, topology, &capacity)) {
             status = glint_fail_memory(error, "the topology of the scene");
@@ -506,8 +536,21 @@ cleanup:
     return status;
 }
 
+glint_status glint_topology_find(const glint_scene *scene, glint_topology *topology,
+                                 glint_error *error)
+{
+    return find(scene, false, topology, error);
+}
+
+glint_status glint_topology_find_solids(const glint_scene *scene, glint_topology *topology,
+                                        glint_error *error)
+{
+    return find(scene, true, topology, error);
+}
+
 void glint_topology_free(glint_topology *topology)
 {
     free(topology->components);
+    free(topology->component_of);
     *topology = (glint_topology){0};
 }

@@ -138,6 +138,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         .specular = (double)m->specular,
         .unlit = m->unlit,
         .mirror = (double)m->mirror,
+        .priority = (double)m->priority,
         .alpha_mode = modes[m->alpha_mode],
         .alpha = (double)m->alpha,
         .alpha_cutoff = (double)m->alpha_cutoff,

@@ -80,6 +80,7 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
                               (double)m->attenuation_distance,
                               m->unlit ? 1 : 0,
                               (double)m->mirror,
+                              (double)m->priority,
                               (double)m->alpha_mode,
                               (double)m->alpha,
                               (double)m->alpha_cutoff,

@@ -221,6 +221,7 @@ static json_t *material_object(const glint_material *material)
     glint_json_put_flag(object, "vertex_colors", material->has_vertex_colors);
     glint_json_put(object, "mirror",
                    material->mirror < 0 ? json_null() : json_real((double)material->mirror));
+    glint_json_put_real(object, "priority", (double)material->priority);
     return object;
 }
 

@@ -1,0 +1,424 @@
+// Where solids touch and overlap, and where other surfaces touch them. The triangles of solids, and
+// those near them, are sorted so that neighbours in space stand beside each other; boxes of eight,
+// of eight such boxes and so on are a tree over them. The tree is joined with itself: pairs of
+// triangles whose boxes meet are looked at, O(n log n) of them.
+//
+// Surfaces are in one place where they are nearer than GLINT_TOUCHING of their coordinates (along
+// the normal). This looks a few times as far as the kernels do, which judge ray by ray
+// (kernels/overlaps.cl): what it marks in vain costs time and changes nothing.
+#include "scene/contacts.h"
+
+#include "base/memory.h"
+#include "base/vector.h"
+#include "kernels/layout.h"
+
+#include <meshoptimizer.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FAN 8       // children of a box, and triangles of the least ones
+#define LEVELS 12   // 8^12 triangles
+#define FARTHER 4.0 // than the kernels look
+#define MIXED 0xFFFFFFFFu
+#define NO_SOLID 0xFFFFFFFEu // in place of a component: of no solid
+#define NEARLY_PARALLEL                                                                            \
+    0.9 // cosine of the angle between planes that are in one place; kernels: 0.99
+
+typedef struct box {
+    float low[3], high[3];
+    uint32_t component; // of all that is inside; else MIXED
+} box;
+
+typedef struct search {
+    const glint_scene *scene;
+    const glint_topology *topology;
+    glint_solids *solids;
+    uint32_t *order; // [count] numbers of triangles, sorted
+    size_t count;
+    box *boxes[LEVELS]; // of level 0 the triangles' own, in order
+    size_t sizes[LEVELS];
+    int levels;
+    size_t capacity; // of the contacts
+    bool complete;
+} search;
+
+// ---- Two triangles ------------------------------------------------------------------------------
+
+typedef struct face {
+    glint_vec3 at[3], normal; // unit
+    double reach;             // how near to its plane others are in one place with it
+} face;
+
+static face face_of(const glint_scene *scene, uint32_t triangle)
+{
+    const float *p = scene->positions + (size_t)triangle * 9;
+    face f;
+    glint_vec3 most = {0, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        f.at[i] = (glint_vec3){p[3 * i], p[3 * i + 1], p[3 * i + 2]};
+        most.x = fmax(most.x, fabs(f.at[i].x));
+        most.y = fmax(most.y, fabs(f.at[i].y));
+        most.z = fmax(most.z, fabs(f.at[i].z));
+    }
+    f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
+                                                     glint_vec3_subtract(f.at[2], f.at[0])));
+    // The last term is for what rays themselves are rounded by, on planes through the origin.
+    f.reach =
+        FARTHER * (double)GLINT_TOUCHING *
+        (fabs(f.normal.x) * most.x + fabs(f.normal.y) * most.y + fabs(f.normal.z) * most.z + 0.5);
+    return f;
+}
+
+// Heights of a face's corners above another's plane; those within its reach are 0.
+static void find_heights(const face *f, const face *above, double heights[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const double h = glint_vec3_dot(f->normal, glint_vec3_subtract(above->at[i], f->at[0]));
+        heights[i] = fabs(h) <= f->reach ? 0 : h;
+    }
+}
+
+static bool all_zero(const double heights[3])
+{
+    return heights[0] == 0 && heights[1] == 0 && heights[2] == 0;
+}
+
+static bool on_one_side(const double heights[3])
+{
+    return (heights[0] >= 0 && heights[1] >= 0 && heights[2] >= 0) ||
+           (heights[0] <= 0 && heights[1] <= 0 && heights[2] <= 0);
+}
+
+// Whether some direction across an edge of `a`, in its plane, has both faces apart.
+static bool edge_separates(const face *a, const face *b)
+{
+    for (int i = 0; i < 3; i++) {
+        const glint_vec3 from = a->at[i];
+        const glint_vec3 along = glint_vec3_subtract(a->at[(i + 1) % 3], from);
+        const glint_vec3 out = glint_vec3_normalize(glint_vec3_cross(along, a->normal));
+        double least = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            least = fmin(least, glint_vec3_dot(out, glint_vec3_subtract(b->at[k], from)));
+        }
+        if (least >= -a->reach) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The part of a line, in the direction `along`, that lies on a face which crosses it.
+static void find_stretch(const face *f, const double heights[3], glint_vec3 along, double ends[2])
+{
+    ends[0] = INFINITY;
+    ends[1] = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        if (heights[i] * heights[j] > 0 || heights[i] == heights[j]) {
+            continue;
+        }
+        const double share = heights[i] / (heights[i] - heights[j]);
+        const glint_vec3 at = glint_vec3_add(
+            f->at[i], glint_vec3_scale(glint_vec3_subtract(f->at[j], f->at[i]), share));
+        const double where = glint_vec3_dot(along, at);
+        ends[0] = fmin(ends[0], where);
+        ends[1] = fmax(ends[1], where);
+    }
+}
+
+typedef enum meeting { APART, TOUCHING, CROSSING } meeting;
+
+// Möller, "A Fast Triangle-Triangle Intersection Test" (1997).
+static meeting meet(const face *a, const face *b)
+{
+    double of_b[3];
+    double of_a[3];
+    find_heights(a, b, of_b);
+    find_heights(b, a, of_a);
+    if (all_zero(of_a) || all_zero(of_b)) {
+        const bool alike = fabs(glint_vec3_dot(a->normal, b->normal)) > NEARLY_PARALLEL;
+        return alike && !edge_separates(a, b) && !edge_separates(b, a) ? TOUCHING : APART;
+    }
+    if (on_one_side(of_a) || on_one_side(of_b)) {
+        return APART;
+    }
+    const glint_vec3 along = glint_vec3_normalize(glint_vec3_cross(a->normal, b->normal));
+    double one[2];
+    double other[2];
+    find_stretch(a, of_a, along, one);
+    find_stretch(b, of_b, along, other);
+    const double common = fmin(one[1], other[1]) - fmax(one[0], other[0]);
+    return common > fmax(a->reach, b->reach) ? CROSSING : APART;
+}
+
+// ---- All pairs ----------------------------------------------------------------------------------
+
+static bool boxes_meet(const box *a, const box *b)
+{
+    for (int k = 0; k < 3; k++) {
+        if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Whether a component may lie on itself: bodies of one mesh that share corners are one component.
+static bool may_touch_itself(const search *s, uint32_t component)
+{
+    return component != NO_SOLID && !s->topology->components[component].simple;
+}
+
+static int compare_contacts(const void *left, const void *right)
+{
+    const glint_contact *a = left;
+    const glint_contact *b = right;
+    for (int k = 0; k < 2; k++) {
+        if (a->components[k] != b->components[k]) {
+            return a->components[k] < b->components[k] ? -1 : 1;
+        }
+    }
+    return (int)b->overlap - (int)a->overlap;
+}
+
+static void note_contact(search *s, uint32_t a, uint32_t b, bool overlap)
+{
+    glint_solids *solids = s->solids;
+    const glint_contact contact = {{a < b ? a : b, a < b ? b : a}, overlap};
+    if (solids->contact_count > 0 &&
+        compare_contacts(&solids->contacts[solids->contact_count - 1], &contact) == 0) {
+        return;
+    }
+    if (solids->contact_count == s->capacity) {
+        const size_t larger = s->capacity > 0 ? 2 * s->capacity : 16;
+        glint_contact *contacts = realloc(solids->contacts, larger * sizeof *contacts);
+        if (contacts == NULL) {
+            s->complete = false;
+            return;
+        }
+        solids->contacts = contacts;
+        s->capacity = larger;
+    }
+    solids->contacts[solids->contact_count++] = contact;
+}
+
+static void meet_triangles(search *s, size_t i, size_t j)
+{
+    const box *left = &s->boxes[0][i];
+    const box *right = &s->boxes[0][j];
+    if (i == j || !boxes_meet(left, right)) {
+        return;
+    }
+    const bool same = left->component == right->component;
+    if (same && !may_touch_itself(s, left->component)) {
+        return;
+    }
+    const uint32_t a = s->order[i];
+    const uint32_t b = s->order[j];
+    const face one = face_of(s->scene, a);
+    const face other = face_of(s->scene, b);
+    const meeting how = meet(&one, &other);
+    if (how == APART || (same && !(how == TOUCHING && // neighbours in a plane are wound alike
+                                   glint_vec3_dot(one.normal, other.normal) < 0))) {
+        return;
+    }
+    const bool solids = left->component != NO_SOLID && right->component != NO_SOLID;
+    if (solids) {
+        note_contact(s, left->component, right->component, how == CROSSING);
+    }
+    if (how == TOUCHING) {
+        s->solids->touch_others |= !solids;
+        s->solids->of_triangle[a].medium |= GLINT_SOLID_TOUCHES;
+        s->solids->of_triangle[b].medium |= GLINT_SOLID_TOUCHES;
+    }
+}
+
+static void join(search *s, int level, size_t i, size_t j)
+{
+    const box *a = &s->boxes[level][i];
+    const box *b = &s->boxes[level][j];
+    if (level == 0) {
+        meet_triangles(s, i, j);
+        return;
+    }
+    if (!boxes_meet(a, b) || (a->component == b->component && a->component != MIXED &&
+                              !may_touch_itself(s, a->component))) {
+        return;
+    }
+    const size_t count = s->sizes[level - 1];
+    for (size_t left = i * FAN; left < (i + 1) * FAN && left < count; left++) {
+        for (size_t right = i == j ? left : j * FAN; right < (j + 1) * FAN && right < count;
+             right++) {
+            join(s, level - 1, left, right);
+        }
+    }
+}
+
+// ---- The tree -----------------------------------------------------------------------------------
+
+static box empty_box(void)
+{
+    return (box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, MIXED};
+}
+
+static void grow_box(box *b, const float *low, const float *high)
+{
+    for (int k = 0; k < 3; k++) {
+        b->low[k] = fminf(b->low[k], low[k]);
+        b->high[k] = fmaxf(b->high[k], high[k]);
+    }
+}
+
+// Wider than the triangle by as much as others are in one place with it.
+static box box_of(const search *s, uint32_t triangle)
+{
+    const float *p = s->scene->positions + (size_t)triangle * 9;
+    box b = empty_box();
+    for (int i = 0; i < 3; i++) {
+        grow_box(&b, p + (size_t)i * 3, p + (size_t)i * 3);
+    }
+    const float margin = (float)face_of(s->scene, triangle).reach;
+    for (int k = 0; k < 3; k++) {
+        b.low[k] -= margin;
+        b.high[k] += margin;
+    }
+    b.component = s->solids->of_triangle[triangle].medium != 0 ? s->topology->component_of[triangle]
+                                                               : NO_SOLID;
+    return b;
+}
+
+static bool build_level(search *s)
+{
+    const int level = s->levels;
+    const size_t below = s->sizes[level - 1];
+    const size_t count = (below + FAN - 1) / FAN;
+    box *boxes = glint_allocate(count, sizeof *boxes);
+    s->boxes[level] = boxes;
+    s->sizes[level] = count;
+    s->levels++;
+    for (size_t i = 0; boxes != NULL && i < count; i++) {
+        boxes[i] = empty_box();
+        boxes[i].component = s->boxes[level - 1][i * FAN].component;
+        for (size_t j = i * FAN; j < (i + 1) * FAN && j < below; j++) {
+            const box *child = &s->boxes[level - 1][j];
+            grow_box(&boxes[i], child->low, child->high);
+            boxes[i].component = boxes[i].component == child->component ? child->component : MIXED;
+        }
+    }
+    return boxes != NULL;
+}
+
+static bool is_solid(const glint_scene *scene, const glint_instance *instance)
+{
+    return glint_material_lobes(&scene->materials[instance->material]).solid;
+}
+
+// All that solids are in.
+static box bounds_of_solids(const glint_scene *scene, const glint_topology *topology)
+{
+    box all = empty_box();
+    for (size_t i = 0; i < topology->component_count; i++) {
+        const glint_component *c = &topology->components[i];
+        if (is_solid(scene, &scene->instances[c->instance])) {
+            grow_box(&all, c->low, c->high);
+        }
+    }
+    return all;
+}
+
+// Lists the triangles of solids and those that are near some, by their corners. Returns how many
+// corners these are.
+static size_t list_corners(const search *s, unsigned int *corners)
+{
+    const glint_scene *scene = s->scene;
+    const box near = bounds_of_solids(scene, s->topology);
+    size_t count = 0;
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        const box own = box_of(s, (uint32_t)i);
+        for (size_t k = 0; k < 3 && boxes_meet(&own, &near); k++) {
+            corners[count++] = (unsigned int)(3 * i + k);
+        }
+    }
+    return count;
+}
+
+// Neighbours beside each other.
+static bool sort_triangles(search *s)
+{
+    const glint_scene *scene = s->scene;
+    const size_t most = 3 * scene->triangle_count;
+    unsigned int *corners = glint_allocate(most, sizeof *corners);
+    unsigned int *sorted = glint_allocate(most, sizeof *sorted);
+    bool done = corners != NULL && sorted != NULL;
+    if (done) {
+        const size_t count = list_corners(s, corners);
+        meshopt_spatialSortTriangles(sorted, corners, count, scene->positions, most,
+                                     3 * sizeof(float));
+        s->count = count / 3;
+        s->order = glint_allocate(s->count, sizeof *s->order);
+        done = s->order != NULL;
+        for (size_t i = 0; done && i < s->count; i++) {
+            s->order[i] = sorted[3 * i] / 3;
+        }
+    }
+    free(corners);
+    free(sorted);
+    return done;
+}
+
+static bool build(search *s)
+{
+    if (!sort_triangles(s)) {
+        return false;
+    }
+    s->boxes[0] = glint_allocate(s->count, sizeof *s->boxes[0]);
+    if (s->boxes[0] == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < s->count; i++) {
+        s->boxes[0][i] = box_of(s, s->order[i]);
+    }
+    s->sizes[0] = s->count;
+    s->levels = 1;
+    while (s->sizes[s->levels - 1] > 1) {
+        if (!build_level(s)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// One of each pair: that which overlaps, if one does.
+static void sort_contacts(glint_solids *solids)
+{
+    if (solids->contact_count == 0) {
+        return;
+    }
+    glint_contact *all = solids->contacts;
+    qsort(all, solids->contact_count, sizeof *all, compare_contacts);
+    size_t kept = 1;
+    for (size_t i = 1; i < solids->contact_count; i++) {
+        if (memcmp(all[i].components, all[kept - 1].components, sizeof all[i].components) != 0) {
+            all[kept++] = all[i];
+        }
+    }
+    solids->contact_count = kept;
+}
+
+bool glint_contacts_find(const glint_scene *scene, const glint_topology *topology,
+                         glint_solids *solids)
+{
+    search s = {.scene = scene, .topology = topology, .solids = solids, .complete = true};
+    s.complete = solids->component_count == 0 || build(&s);
+    if (s.complete && s.count > 0) {
+        join(&s, s.levels - 1, 0, 0);
+    }
+    free(s.order);
+    for (int i = 0; i < LEVELS; i++) {
+        free(s.boxes[i]);
+    }
+    sort_contacts(solids);
+    return s.complete;
+}

@@ -1,0 +1,214 @@
+// Solids that touch or overlap. See solids.h.
+#include "scene/solids.h"
+
+#include "base/memory.h"
+#include "scene/contacts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+// More media than these leave paths too few entries for the solids that they are inside.
+#define MEDIA_MAX 63
+
+typedef struct ranked {
+    double priority, volume;
+    uint32_t component;  // that has this volume
+    uint32_t belongs_to; // itself or, of a hollow, the solid that it is in
+    uint32_t material;
+} ranked;
+
+// From what gives way to all others on; hollows last. Of two alike the first in the file gives way.
+static int compare_ranks(const void *left, const void *right)
+{
+    const ranked *a = left;
+    const ranked *b = right;
+    const bool hollow = a->belongs_to != a->component;
+    if (hollow != (b->belongs_to != b->component)) {
+        return hollow ? 1 : -1;
+    }
+    if (a->priority != b->priority) {
+        return a->priority < b->priority ? -1 : 1;
+    }
+    if (a->volume != b->volume) {
+        return a->volume > b->volume ? -1 : 1;
+    }
+    return a->component < b->component ? -1 : a->component > b->component;
+}
+
+// The solid that a component is a hollow of: of those of its material that hold its bounds, the one
+// of least volume. NULL: none, or it winds as solids do.
+static ranked *solid_around(const glint_topology *topology, const ranked *hollow, ranked *all,
+                            size_t count)
+{
+    const glint_component *inner = &topology->components[hollow->component];
+    ranked *around = NULL;
+    for (size_t i = 0; inner->volume < 0 && i < count; i++) {
+        const glint_component *outer = &topology->components[all[i].component];
+        bool holds = outer->volume > 0 && all[i].material == hollow->material;
+        for (int k = 0; k < 3; k++) {
+            holds = holds && outer->low[k] <= inner->low[k] && outer->high[k] >= inner->high[k];
+        }
+        if (holds &&
+            (around == NULL || outer->volume < topology->components[around->component].volume)) {
+            around = &all[i];
+        }
+    }
+    return around;
+}
+
+// Fills `all` with the solids, and leaves the hollows of others to these.
+static size_t list_solids(const glint_scene *scene, const glint_topology *topology, ranked *all)
+{
+    size_t listed = 0;
+    for (size_t i = 0; i < topology->component_count; i++) {
+        const uint32_t number = scene->instances[topology->components[i].instance].material;
+        const glint_material *m = &scene->materials[number];
+        if (glint_material_lobes(m).solid) {
+            all[listed++] = (ranked){.priority = (double)m->priority,
+                                     .volume = fabs(topology->components[i].volume),
+                                     .component = (uint32_t)i,
+                                     .belongs_to = (uint32_t)i,
+                                     .material = number};
+        }
+    }
+    for (size_t i = 0; i < listed; i++) {
+        ranked *around = solid_around(topology, &all[i], all, listed);
+        if (around != NULL) {
+            all[i].belongs_to = around->component;
+            around->volume -= all[i].volume;
+        }
+    }
+    return listed;
+}
+
+// The solids that are no hollows first, as they rank. Returns how many these are.
+static size_t rank_solids(ranked *all, size_t listed)
+{
+    qsort(all, listed, sizeof *all, compare_ranks);
+    size_t count = 0;
+    while (count < listed && all[count].belongs_to == all[count].component) {
+        count++;
+    }
+    return count;
+}
+
+// How many media there are if only neighbours in the ranking share one.
+static size_t count_runs(const ranked *all, size_t count)
+{
+    size_t runs = count > 0;
+    for (size_t i = 1; i < count; i++) {
+        runs += all[i].material != all[i - 1].material;
+    }
+    return runs;
+}
+
+// Media, from the one that gives way on: solids of one material share one unless another comes
+// between them. Where that makes too many, all of a material rank with its largest. `medium_of` a
+// component is its medium's number.
+static void rank_media(const ranked *all, size_t count, glint_solids *solids, uint32_t *medium_of)
+{
+    const bool by_solid = count_runs(all, count) <= MEDIA_MAX;
+    for (size_t i = 0; i < count; i++) {
+        size_t medium = solids->medium_count;
+        if (by_solid) {
+            medium -= medium > 0 && solids->material_of[medium - 1] == all[i].material;
+        } else {
+            for (medium = 0;
+                 medium < solids->medium_count && solids->material_of[medium] != all[i].material;) {
+                medium++;
+            }
+        }
+        solids->material_of[medium] = all[i].material;
+        solids->medium_count += medium == solids->medium_count;
+        medium_of[all[i].component] = (uint32_t)medium + 1;
+    }
+}
+
+static void record_triangles(const glint_scene *scene, const glint_topology *topology,
+                             const uint32_t *medium_of, glint_solids *solids)
+{
+    for (size_t i = 0; i < scene->triangle_count; i++) {
+        const uint32_t component = topology->component_of[i];
+        const bool known = component < topology->component_count;
+        solids->of_triangle[i] = (glint_solid_record){.component = known ? (int)component : -1,
+                                                      .medium = known ? medium_of[component] : 0};
+    }
+}
+
+glint_status glint_solids_find(const glint_scene *scene, const glint_topology *topology,
+                               glint_solids *solids, glint_error *error)
+{
+    *solids = (glint_solids){0};
+    const size_t components = topology->component_count;
+    ranked *all = glint_allocate(components, sizeof *all);
+    uint32_t *medium_of = glint_allocate(components, sizeof *medium_of);
+    solids->material_of = glint_allocate(components, sizeof *solids->material_of);
+    solids->of_triangle = glint_allocate(scene->triangle_count, sizeof *solids->of_triangle);
+    bool done = all != NULL && medium_of != NULL && solids->material_of != NULL &&
+                solids->of_triangle != NULL;
+    if (done) {
+        const size_t listed = list_solids(scene, topology, all);
+        const size_t count = rank_solids(all, listed);
+        rank_media(all, count, solids, medium_of);
+        for (size_t i = count; i < listed; i++) {
+            medium_of[all[i].component] = medium_of[all[i].belongs_to];
+        }
+        solids->component_count = listed;
+        record_triangles(scene, topology, medium_of, solids);
+        done = glint_contacts_find(scene, topology, solids);
+    }
+    free(all);
+    free(medium_of);
+    if (!done) {
+        glint_solids_free(solids);
+        return glint_fail_memory(error, "the solids of the scene");
+    }
+    return GLINT_OK;
+}
+
+void glint_solids_free(glint_solids *solids)
+{
+    free(solids->contacts);
+    free(solids->material_of);
+    free(solids->of_triangle);
+    *solids = (glint_solids){0};
+}
+
+bool glint_solids_have_priorities(const glint_scene *scene)
+{
+    for (size_t i = 0; i < scene->material_count; i++) {
+        const glint_material *m = &scene->materials[i];
+        if (m->priority != 0 && glint_material_lobes(m).solid) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Nodes have names more often than not; what is in one node is told apart by its number.
+static void name_solid(const glint_scene *scene, const glint_topology *topology, uint32_t number,
+                       char *text, size_t capacity)
+{
+    const glint_instance *instance = &scene->instances[topology->components[number].instance];
+    const char *material = scene->materials[instance->material].name;
+    snprintf(text, capacity, "%s%s%s (node %d, %s)", instance->node != NULL ? "\"" : "",
+             instance->node != NULL ? instance->node : "a solid",
+             instance->node != NULL ? "\"" : "", instance->node_index,
+             material != NULL ? material : "a material without a name");
+}
+
+void glint_contact_describe(const glint_scene *scene, const glint_topology *topology,
+                            const glint_contact *contact, char *text, size_t capacity)
+{
+    char first[160];
+    char second[160];
+    name_solid(scene, topology, contact->components[0], first, sizeof first);
+    name_solid(scene, topology, contact->components[1], second, sizeof second);
+    if (contact->components[0] == contact->components[1]) {
+        snprintf(text, capacity, "%s touches itself", first);
+    } else {
+        snprintf(text, capacity, "%s %s %s", first, contact->overlap ? "overlaps" : "touches",
+                 second);
+    }
+}

@@ -1,0 +1,294 @@
+// Rule 5 where solids touch or overlap: the media on both sides of what a ray meets. All surfaces of
+// solids in one place are crossed at once, whatever their order. The solid with the highest medium
+// is there, and of those surfaces its own is the one that light meets. Where the same is there on
+// both sides there is no surface at all. A surface that bounds no solid is met before those that do;
+// what passes it has crossed them all.
+#if GLINT_OVERLAPS
+
+// Solids that a ray enters or leaves in one place; more are not looked at.
+#define CROSSED_MAX 16
+// The cosine between planes that may be in one place.
+#define NEARLY_PARALLEL R(0.99)
+// What rounding may move a hit along the normal, of the distance and the scene's size: the sheared
+// corners and the products of them take some eight roundings.
+#define CROSSING_SLACK (R(16.0) * EPSILON)
+
+// A solid that a ray enters or leaves, and the lowest triangle by which it does. Of one that it
+// enters and leaves at once nothing is crossed.
+typedef struct crossed_solid {
+    int component, place, number;
+    lane_int medium;
+    bool enters, stays;
+    scalar b1, b2;
+} crossed_solid;
+
+typedef struct crossed_solids {
+    int count;
+    crossed_solid solids[CROSSED_MAX];
+    crossed_solid other; // what bounds no solid there; its place is −1 where there is nothing
+} crossed_solids;
+
+// One ray where it meets a triangle, whose winding makes `normal`.
+typedef struct crossing_ray {
+    stream_ray ray;
+    scalar normal[3], begin; // from that distance on, to ray.farthest
+    bool enters;
+    int place;
+} crossing_ray;
+
+static inline void cross_also(crossed_solids *all, const crossed_solid *solid)
+{
+    if (solid->medium == 0) {
+        if (all->other.place < 0 || solid->number < all->other.number) {
+            all->other = *solid;
+        }
+        return;
+    }
+    for (int i = 0; i < all->count; i++) {
+        crossed_solid *other = &all->solids[i];
+        if (other->component == solid->component && other->enters == solid->enters) {
+            if (solid->number < other->number) {
+                *other = *solid;
+            }
+            return;
+        }
+    }
+    if (all->count < CROSSED_MAX) {
+        all->solids[all->count++] = *solid;
+    }
+}
+
+// The cosine between two planes, times a positive number.
+static inline scalar turn_of_planes(const scalar n[3], const float at[9], scalar *squared)
+{
+    scalar turn = R(0.0);
+    *squared = R(0.0);
+    scalar a[3], b[3];
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        a[k] = (scalar)at[3 + k] - (scalar)at[k];
+        b[k] = (scalar)at[6 + k] - (scalar)at[k];
+    }
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const scalar own = a[i] * b[j] - a[j] * b[i];
+        turn = fused(own, n[k], turn);
+        *squared = fused(own, own, *squared);
+    }
+    return turn;
+}
+
+// Triangle i of a leaf, if it is in the place that the ray crosses.
+static inline void cross_triangle(const crossing_ray *c, const scene_buffers *scene,
+                                  const leaf *leaf, const cluster_test *test, int i,
+                                  crossed_solids *all)
+{
+    const int place = leaf->first + i, lane = c->ray.lane;
+    const int number = leaf->numbers[place];
+    const glint_solid_record solid = scene->solids[number];
+    if (place == c->place || (solid.medium & GLINT_SOLID_TOUCHES) == 0) {
+        return;
+    }
+    closest trial = no_hit();
+    trial.t = real_of(c->ray.farthest);
+    if (!take_if_nearer(&c->ray.ray, leaf, test, i, &trial, lane) ||
+        LANE(trial.t, lane) < c->begin) {
+        return;
+    }
+    float at[9];
+    scalar squared;
+    load_triangle(leaf->cluster, i, at);
+    const scalar turn = turn_of_planes(c->normal, at, &squared);
+    if (!(turn * turn >= NEARLY_PARALLEL * NEARLY_PARALLEL * squared)) {
+        return;
+    }
+    crossed_solid crossed;
+    crossed.component = solid.component;
+    crossed.place = place;
+    crossed.number = number;
+    crossed.medium = (lane_int)(solid.medium & ~GLINT_SOLID_TOUCHES);
+    crossed.enters = (turn > R(0.0)) == c->enters;
+    crossed.stays = false;
+    crossed.b1 = LANE(trial.b1, lane);
+    crossed.b2 = LANE(trial.b2, lane);
+    cross_also(all, &crossed);
+}
+
+// What else is in the place that a ray crosses.
+static inline void find_crossed(const crossing_ray *c, const scene_buffers *scene,
+                                crossed_solids *all)
+{
+    int stack[GLINT_TRAVERSAL_STACK];
+    int size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+        const int child = stack[--size];
+        if (child >= 0) {
+            node_pointer node = node_at(scene, child);
+            for (uint met = boxes_between(&c->ray, node, c->begin); met != 0; met &= met - 1) {
+                stack[size++] = child_of(node, lowest_bit(met));
+            }
+            continue;
+        }
+        const leaf leaf = {scene->clusters + (size_t)~child * GLINT_CLUSTER_VALUES, scene->numbers,
+                           ~child * GLINT_CLUSTER_LANES};
+        cluster_test test;
+        test_cluster(&c->ray.ray, &leaf, &test);
+        for (uint left = test.inside; left != 0; left &= left - 1) {
+            cross_triangle(c, scene, &leaf, &test, lowest_bit(left), all);
+        }
+    }
+}
+
+// A path's media on both sides of a place.
+typedef struct media_sides {
+    lane_int before, beyond;
+    bool lost;
+} media_sides;
+
+static inline void mark_staying(crossed_solids *all)
+{
+    for (int i = 0; i < all->count; i++) {
+        for (int j = 0; j < all->count; j++) {
+            all->solids[i].stays |= i != j && all->solids[i].component == all->solids[j].component;
+        }
+    }
+}
+
+// A solid that is left and that the path is not inside is one that it began in.
+static inline media_sides cross_all(lane_int media, const crossed_solids *all)
+{
+    media_sides sides = {media, media, false};
+    for (int i = 0; i < all->count; i++) {
+        const crossed_solid *solid = &all->solids[i];
+        if (!solid->stays && !solid->enters && !remove_medium(&sides.beyond, solid->medium)) {
+            sides.lost |= insert_medium(&sides.before, solid->medium);
+        }
+    }
+    for (int i = 0; i < all->count; i++) {
+        const crossed_solid *solid = &all->solids[i];
+        if (!solid->stays && solid->enters) {
+            sides.lost |= insert_medium(&sides.beyond, solid->medium);
+        }
+    }
+    return sides;
+}
+
+// Of the surfaces in one place the one that light meets: of solids that which is there on one side,
+// and not on the other.
+static inline const crossed_solid *shown_of(const crossed_solids *all, const media_sides *sides)
+{
+    const lane_int wanted = max(top_medium(sides->before), top_medium(sides->beyond));
+    const crossed_solid *shown = all->other.place >= 0 ? &all->other : 0;
+    for (int i = 0; i < all->count; i++) {
+        const crossed_solid *solid = &all->solids[i];
+        if (all->other.place < 0 && !solid->stays && solid->medium == wanted &&
+            (shown == 0 || solid->number < shown->number)) {
+            shown = solid;
+        }
+    }
+    return shown;
+}
+
+// Sets what one ray's surface tells of its place: its record, of the triangle that it is on, and
+// what else is crossed there.
+static inline void begin_crossing(const scene_buffers *scene, const packet *p, const path *ray,
+                                  const closest *hit, const surface *s, int lane, crossing_ray *c,
+                                  crossed_solids *all)
+{
+    const lanes_int outside = SELECT(s->outside, int_of(1), int_of(0));
+    c->place = (int)LANE_INT(hit->place, lane);
+    c->enters = LANE_INT(outside, lane) != 0;
+    const scalar sign = c->enters ? R(1.0) : R(-1.0);
+    c->normal[0] = sign * LANE(s->geometric_normal.x, lane);
+    c->normal[1] = sign * LANE(s->geometric_normal.y, lane);
+    c->normal[2] = sign * LANE(s->geometric_normal.z, lane);
+    take_stream_ray(p, 0, lane, ray->from, &c->ray);
+    const int number = scene->numbers[c->place];
+    const glint_solid_record solid = scene->solids[number];
+    crossed_solid own;
+    own.component = solid.component;
+    own.place = c->place;
+    own.number = number;
+    own.medium = (lane_int)(solid.medium & ~GLINT_SOLID_TOUCHES);
+    own.enters = c->enters;
+    own.stays = false;
+    own.b1 = LANE(hit->b1, lane);
+    own.b2 = LANE(hit->b2, lane);
+    all->count = 0;
+    all->other = own;
+    all->other.place = -1;
+    cross_also(all, &own);
+}
+
+// How far from the surface, along its normal, others are in one place with it.
+static inline real reach_of_place(const surface *s, real t)
+{
+    const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET;
+    return fused(t + R(1.0), real_of(CROSSING_SLACK), s->offset * of_offset);
+}
+
+// Finds the media on both sides of what the rays in `met` meet, and shows the surface that is there:
+// *hit and *t are then its.
+static inline surface find_surface_in_place(const scene_buffers *scene, const path *ray, mask met,
+                                            closest *hit, triangle *t)
+{
+    surface s = find_surface(scene, ray, hit, t);
+    const packet p = make_packet(ray->origin, ray->direction);
+    const real reach = reach_of_place(&s, hit->t);
+    const real cosine = fabs(dot3(s.geometric_normal, ray->direction));
+    const real depth = reach / LARGER(cosine, real_of(CROSSING_SLACK));
+    lanes_int before = ray->media, beyond = ray->media, medium = int_of(0);
+    lanes_int gone = int_of(0), lost = int_of(0), several = int_of(0);
+    bool changed = false;
+    for (uint left = mask_bits(met); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        crossing_ray c;
+        crossed_solids all;
+        begin_crossing(scene, &p, ray, hit, &s, lane, &c, &all);
+        if ((scene->solids[scene->numbers[c.place]].medium & GLINT_SOLID_TOUCHES) != 0) {
+            c.begin = LANE(hit->t, lane) - LANE(depth, lane);
+            c.ray.farthest = LANE(hit->t, lane) + LANE(depth, lane);
+            find_crossed(&c, scene, &all);
+            mark_staying(&all);
+            LANE_INT(several, lane) = all.count > 1 || (all.count == 1 && all.other.place >= 0);
+        }
+        const media_sides sides = cross_all(LANE_INT(ray->media, lane), &all);
+        LANE_INT(before, lane) = sides.before;
+        LANE_INT(beyond, lane) = sides.beyond;
+        LANE_INT(lost, lane) = sides.lost;
+        LANE_INT(gone, lane) = all.other.place < 0 &&
+                               scene->media[top_medium(sides.before)].material ==
+                                   scene->media[top_medium(sides.beyond)].material;
+        const crossed_solid *shown = shown_of(&all, &sides);
+        LANE_INT(medium, lane) = shown != 0 ? shown->medium : all.solids[0].medium;
+        if (shown != 0 && shown->place != c.place) {
+            LANE_INT(hit->place, lane) = shown->place;
+            LANE(hit->b1, lane) = shown->b1;
+            LANE(hit->b2, lane) = shown->b2;
+            changed = true;
+        }
+    }
+    if (changed) {
+        *t = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
+        s = find_surface(scene, ray, hit, t);
+    }
+    s.medium = medium;
+    s.media_before = before;
+    s.media_beyond = beyond;
+    s.media_lost = lost != (lane_int)0;
+    s.offset = SELECT(several != (lane_int)0, s.offset + R(2.0) * reach, s.offset);
+    s.coverage = SELECT(gone != (lane_int)0, real_of(0), s.coverage);
+    return s;
+}
+
+#else
+
+static inline surface find_surface_in_place(const scene_buffers *scene, const path *ray, mask met,
+                                            closest *hit, triangle *t)
+{
+    return find_surface(scene, ray, hit, t);
+}
+
+#endif

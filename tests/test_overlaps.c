@@ -1,0 +1,151 @@
+// Solids that touch and overlap, against the oracle, which finds media by points and keeps no
+// stack: any order of triangles, faces in common whole or in part, one mesh or several.
+#include "environment/irradiance.h"
+#include "support/bodies.h"
+#include "support/bridge.h"
+#include "support/judged.h"
+#include "support/render.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+// The share of the light by which a frame differs from the oracle's, pixel by pixel.
+static double error_of(const glint_scene *scene, const glint_settings *settings)
+{
+    glint_environment environment;
+    bridge_direction_environment(64, &environment);
+    test_frame frame;
+    test_render(scene, &environment, NULL, settings, &frame);
+    assert_true(frame.plan.features[GLINT_FEATURE_OVERLAPS].compiled);
+    bridge *b = bridge_create(scene, &environment);
+    glint_cube irradiance = {0};
+    assert_int_equal(
+        glint_irradiance_map(&environment.radiance, GLINT_IRRADIANCE_EDGE, &irradiance, NULL),
+        GLINT_OK);
+    bridge_use_irradiance_map(b, &irradiance);
+    glint_camera camera;
+    assert_int_equal(glint_scene_camera(scene, NULL, &camera, NULL), GLINT_OK);
+    const oracle_view view = bridge_view(&camera, settings);
+    oracle_scene judge = *bridge_scene(b);
+    judge.overlaps = true;
+    double squares = 0, light = 0;
+    size_t count = 0;
+    for (int i = 0; i < view.width * view.height; i++) {
+        double rgba[4];
+        oracle_report report;
+        oracle_pixel(&judge, &view, (const int[]){i % view.width, i / view.width}, rgba, &report);
+        if (report.surfaces == 0 || report.edge < 1e-4) {
+            continue;
+        }
+        double off = 0;
+        for (int k = 0; k < 3; k++) {
+            assert_true(isfinite(frame.exact[4 * i + k]));
+            off += pow(frame.exact[4 * i + k] - rgba[k], 2);
+            light += rgba[k];
+            count++;
+        }
+        squares += off;
+    }
+    assert_true(count > 100);
+    bridge_free(b);
+    glint_cube_free(&irradiance);
+    test_frame_free(&frame);
+    glint_environment_free(&environment);
+    return sqrt(squares * (double)count) / light;
+}
+
+// The oracle's rays start 2e-6 beside what they leave, and go on as far from their way.
+#define ALLOWED 5e-6
+
+static const bodies kinds[] = {
+    {.what = "two boxes of one glass",
+     .of = {{{-0.6, -0.4, -0.4}, {0, 0.4, 0.4}, GLASS, 0, 0, false},
+            {{0, -0.4, -0.4}, {0.6, 0.4, 0.4}, GLASS, 0, 0, false}}},
+    {.what = "the same in one mesh, whose corners are welded",
+     .of = {{{-0.6, -0.4, -0.4}, {0.1, 0.4, 0.4}, GLASS, 0, 1, false},
+            {{0.1, -0.4, -0.4}, {0.6, 0.4, 0.4}, GLASS, 0, 1, false}}},
+    {.what = "the same, divided differently",
+     .of = {{{-0.6, -0.4, -0.4}, {0.1, 0.4, 0.4}, GLASS, 2, 1, false},
+            {{0.1, -0.4, -0.4}, {0.6, 0.4, 0.4}, GLASS, 3, 1, false}}},
+    {.what = "boxes of one glass that overlap",
+     .of = {{{-0.6, -0.4, -0.4}, {0.2, 0.4, 0.4}, GLASS, 2, 0, false},
+            {{-0.1, -0.3, -0.2}, {0.6, 0.5, 0.3}, GLASS, 3, 0, false}}},
+    {.what = "water in glass, whose faces it shares",
+     .of = {{{-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}, GLASS, 2, 1, false},
+            {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, GLASS, 2, 1, true},
+            {{-0.5, -0.5, -0.5}, {0.5, 0.1, 0.5}, WATER, 3, 0, false}}},
+    {.what = "water that reaches into its glass",
+     .of = {{{-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}, GLASS, 2, 1, false},
+            {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, GLASS, 2, 1, true},
+            {{-0.55, -0.55, -0.55}, {0.55, 0.1, 0.55}, WATER, 3, 0, false}}},
+    {.what = "ice in water, half out of it",
+     .of = {{{-0.6, -0.5, -0.6}, {0.6, 0.1, 0.6}, WATER, 2, 0, false},
+            {{-0.3, -0.2, -0.3}, {0.2, 0.4, 0.25}, ICE, 0, 0, false}}},
+    {.what = "ice whose top is in the water's",
+     .of = {{{-0.6, -0.5, -0.6}, {0.6, 0.1, 0.6}, WATER, 2, 0, false},
+            {{-0.3, -0.2, -0.3}, {0.2, 0.1, 0.25}, ICE, 3, 0, false}}},
+    {.what = "panes of glass with water between them",
+     .of = {{{-0.6, -0.6, -0.1}, {0.6, 0.6, 0}, GLASS, 1, 0, false},
+            {{-0.6, -0.6, 0}, {0.6, 0.6, 0.07}, WATER, 4, 0, false},
+            {{-0.6, -0.6, 0.07}, {0.6, 0.6, 0.2}, GLASS, 3, 0, false}}},
+    {.what = "a small stone on a block, another beside it",
+     .of = {{{-0.6, -0.5, -0.5}, {0.6, 0, 0.5}, GLASS, 3, 0, false},
+            {{-0.25, 0, -0.1}, {0.05, 0.3, 0.2}, ICE, 0, 0, false},
+            {{0.05, 0, -0.2}, {0.4, 0.2, 0.15}, WATER, 2, 0, false}}},
+    {.what = "ice in ice and water in both, at one corner",
+     .of = {{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, GLASS, 0, 0, false},
+            {{-0.5, -0.5, -0.5}, {0.3, 0.3, 0.3}, ICE, 2, 0, false},
+            {{-0.5, -0.5, -0.5}, {0.1, 0.1, 0.1}, WATER, 3, 0, false}}},
+    {.what = "water that the file ranks over its glass",
+     .of = {{{-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}, GLASS, 2, 1, false},
+            {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, GLASS, 2, 1, true},
+            {{-0.55, -0.55, -0.55}, {0.55, 0.1, 0.55}, WATER, 3, 0, false}},
+     .priorities = {[WATER] = 1}},
+    {.what = "ice that the file ranks under the water around it: it is not there",
+     .of = {{{-0.6, -0.5, -0.6}, {0.6, 0.1, 0.6}, WATER, 2, 0, false},
+            {{-0.3, -0.2, -0.3}, {0.2, 0, 0.25}, ICE, 0, 0, false}},
+     .priorities = {[ICE] = -2, [WATER] = -1}},
+    {.what = "a stone on metal, and held by some that reaches into it",
+     .of = {{{-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, GLASS, 3, 0, false},
+            {{-0.5, -0.6, -0.5}, {0.5, -0.3, 0.5}, METAL, 2, 0, false},
+            {{0.2, -0.2, -0.1}, {0.5, 0.1, 0.1}, METAL, 0, 0, false}}},
+    {.what = "water in glass on paint, in a lamp's light",
+     .of = {{{-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}, GLASS, 2, 1, false},
+            {{-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}, GLASS, 2, 1, true},
+            {{-0.25, -0.25, -0.25}, {0.25, 0.1, 0.25}, WATER, 3, 0, false},
+            {{-0.7, -0.5, -0.7}, {0.7, -0.3, 0.7}, PAINT, 0, 0, false}},
+     .lamp = true},
+    {.what = "water that reaches into its glass, and disperses light",
+     .of = {{{-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}, GLASS, 2, 1, false},
+            {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, GLASS, 2, 1, true},
+            {{-0.55, -0.55, -0.55}, {0.55, 0.1, 0.55}, WATER, 3, 0, false}},
+     .dispersion = 2},
+};
+
+static void media_are_what_points_say(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        for (int kind = 0; kind < 8; kind++) {
+            glint_scene scene = bodies_scene(&kinds[i], kind & 4 ? 0.7 : 0, kind & 1);
+            glint_settings settings = judged_frame(24, 18, 6);
+            settings.precision = kind & 2 ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT;
+            const double error = error_of(&scene, &settings);
+            print_message("%s, %s%s%s: %.7f\n", kinds[i].what, kind & 2 ? "double" : "float",
+                          kind & 1 ? ", backwards" : "", kind & 4 ? ", turned" : "", error);
+            glint_scene_free(&scene);
+            assert_true(error <= ALLOWED);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(media_are_what_points_say)};
+    return cmocka_run_group_tests(tests, NULL, test_close_device);
+}
