@@ -191,37 +191,6 @@ static inline const crossed_solid *shown_of(const crossed_solids *all, const med
     return shown;
 }
 
-// Sets what one ray's surface tells of its place: its record, of the triangle that it is on, and
-// what else is crossed there.
-static inline void begin_crossing(const scene_buffers *scene, const packet *p, const path *ray,
-                                  const closest *hit, const surface *s, int lane, crossing_ray *c,
-                                  crossed_solids *all)
-{
-    const lanes_int outside = SELECT(s->outside, int_of(1), int_of(0));
-    c->place = (int)LANE_INT(hit->place, lane);
-    c->enters = LANE_INT(outside, lane) != 0;
-    const scalar sign = c->enters ? R(1.0) : R(-1.0);
-    c->normal[0] = sign * LANE(s->geometric_normal.x, lane);
-    c->normal[1] = sign * LANE(s->geometric_normal.y, lane);
-    c->normal[2] = sign * LANE(s->geometric_normal.z, lane);
-    take_stream_ray(p, 0, lane, ray->from, &c->ray);
-    const int number = scene->numbers[c->place];
-    const glint_solid_record solid = scene->solids[number];
-    crossed_solid own;
-    own.component = solid.component;
-    own.place = c->place;
-    own.number = number;
-    own.medium = (lane_int)(solid.medium & ~GLINT_SOLID_TOUCHES);
-    own.enters = c->enters;
-    own.stays = false;
-    own.b1 = LANE(hit->b1, lane);
-    own.b2 = LANE(hit->b2, lane);
-    all->count = 0;
-    all->other = own;
-    all->other.place = -1;
-    cross_also(all, &own);
-}
-
 // How far from the surface, along its normal, others are in one place with it.
 static inline real reach_of_place(const surface *s, real t)
 {
@@ -229,8 +198,82 @@ static inline real reach_of_place(const surface *s, real t)
     return fused(t + R(1.0), real_of(CROSSING_SLACK), s->offset * of_offset);
 }
 
-// Finds the media on both sides of what the rays in `met` meet, and shows the surface that is there:
-// *hit and *t are then its.
+// What rays come to in the places where they meet something.
+typedef struct crossing {
+    lanes_int before, beyond; // stacks of media
+    lanes_int lost;           // 1: of one of these
+    lanes_int medium;         // of the surface that is met; 0: it bounds no solid
+    lanes_int gone;           // 1: there is none, as the same solid is on both sides
+    lanes_int several;        // 1: others are in one place with it
+    bool changed;             // some ray meets another surface than it hit first
+} crossing;
+
+// What one ray hit.
+static inline crossed_solid first_crossed(const scene_buffers *scene, const closest *hit,
+                                          lanes_int outside, int lane, bool *touches)
+{
+    crossed_solid own;
+    own.place = (int)LANE_INT(hit->place, lane);
+    own.number = scene->numbers[own.place];
+    const glint_solid_record solid = scene->solids[own.number];
+    *touches = (solid.medium & GLINT_SOLID_TOUCHES) != 0;
+    own.component = solid.component;
+    own.medium = (lane_int)(solid.medium & ~GLINT_SOLID_TOUCHES);
+    own.enters = LANE_INT(outside, lane) != 0;
+    own.stays = false;
+    own.b1 = LANE(hit->b1, lane);
+    own.b2 = LANE(hit->b2, lane);
+    return own;
+}
+
+// Adds what else is in the place that one ray crosses; `depth` is how far before and behind it
+// along the ray that place reaches.
+static inline void cross_others(const scene_buffers *scene, const packet *p, const path *ray,
+                                const surface *s, const closest *hit, scalar depth, int lane,
+                                bool enters, crossed_solids *all)
+{
+    crossing_ray c;
+    const scalar sign = enters ? R(1.0) : R(-1.0);
+    c.normal[0] = sign * LANE(s->geometric_normal.x, lane);
+    c.normal[1] = sign * LANE(s->geometric_normal.y, lane);
+    c.normal[2] = sign * LANE(s->geometric_normal.z, lane);
+    c.enters = enters;
+    c.place = (int)LANE_INT(hit->place, lane);
+    take_stream_ray(p, 0, lane, ray->from, &c.ray);
+    c.begin = LANE(hit->t, lane) - depth;
+    c.ray.farthest = LANE(hit->t, lane) + depth;
+    find_crossed(&c, scene, all);
+    mark_staying(all);
+}
+
+// Notes what one ray comes to, and makes the surface that it meets its hit.
+static inline void note_crossing(const scene_buffers *scene, const crossed_solids *all,
+                                 lane_int media, int lane, closest *hit, crossing *c)
+{
+    const media_sides sides = cross_all(media, all);
+    const bool by_other = all->other.place >= 0;
+    LANE_INT(c->before, lane) = sides.before;
+    LANE_INT(c->beyond, lane) = sides.beyond;
+    LANE_INT(c->lost, lane) = sides.lost;
+    LANE_INT(c->gone, lane) = !by_other && scene->media[top_medium(sides.before)].material ==
+                                               scene->media[top_medium(sides.beyond)].material;
+    LANE_INT(c->several, lane) = all->count > (by_other ? 0 : 1);
+    const crossed_solid *met = shown_of(all, &sides);
+    if (met == 0) {
+        LANE_INT(c->medium, lane) = all->solids[0].medium;
+        return;
+    }
+    LANE_INT(c->medium, lane) = met->medium;
+    if (met->place != (int)LANE_INT(hit->place, lane)) {
+        LANE_INT(hit->place, lane) = met->place;
+        LANE(hit->b1, lane) = met->b1;
+        LANE(hit->b2, lane) = met->b2;
+        c->changed = true;
+    }
+}
+
+// Finds the media on both sides of what the rays in `met` meet, and the surface that is there: *hit
+// and *t are then its.
 static inline surface find_surface_in_place(const scene_buffers *scene, const path *ray, mask met,
                                             closest *hit, triangle *t)
 {
@@ -239,47 +282,31 @@ static inline surface find_surface_in_place(const scene_buffers *scene, const pa
     const real reach = reach_of_place(&s, hit->t);
     const real cosine = fabs(dot3(s.geometric_normal, ray->direction));
     const real depth = reach / LARGER(cosine, real_of(CROSSING_SLACK));
-    lanes_int before = ray->media, beyond = ray->media, medium = int_of(0);
-    lanes_int gone = int_of(0), lost = int_of(0), several = int_of(0);
-    bool changed = false;
+    const lanes_int outside = SELECT(s.outside, int_of(1), int_of(0));
+    crossing c = {ray->media, ray->media, int_of(0), int_of(0), int_of(0), int_of(0), false};
     for (uint left = mask_bits(met); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left);
-        crossing_ray c;
         crossed_solids all;
-        begin_crossing(scene, &p, ray, hit, &s, lane, &c, &all);
-        if ((scene->solids[scene->numbers[c.place]].medium & GLINT_SOLID_TOUCHES) != 0) {
-            c.begin = LANE(hit->t, lane) - LANE(depth, lane);
-            c.ray.farthest = LANE(hit->t, lane) + LANE(depth, lane);
-            find_crossed(&c, scene, &all);
-            mark_staying(&all);
-            LANE_INT(several, lane) = all.count > 1 || (all.count == 1 && all.other.place >= 0);
+        bool touches;
+        const crossed_solid own = first_crossed(scene, hit, outside, lane, &touches);
+        all.count = 0;
+        all.other.place = -1;
+        cross_also(&all, &own);
+        if (touches) {
+            cross_others(scene, &p, ray, &s, hit, LANE(depth, lane), lane, own.enters, &all);
         }
-        const media_sides sides = cross_all(LANE_INT(ray->media, lane), &all);
-        LANE_INT(before, lane) = sides.before;
-        LANE_INT(beyond, lane) = sides.beyond;
-        LANE_INT(lost, lane) = sides.lost;
-        LANE_INT(gone, lane) = all.other.place < 0 &&
-                               scene->media[top_medium(sides.before)].material ==
-                                   scene->media[top_medium(sides.beyond)].material;
-        const crossed_solid *shown = shown_of(&all, &sides);
-        LANE_INT(medium, lane) = shown != 0 ? shown->medium : all.solids[0].medium;
-        if (shown != 0 && shown->place != c.place) {
-            LANE_INT(hit->place, lane) = shown->place;
-            LANE(hit->b1, lane) = shown->b1;
-            LANE(hit->b2, lane) = shown->b2;
-            changed = true;
-        }
+        note_crossing(scene, &all, LANE_INT(ray->media, lane), lane, hit, &c);
     }
-    if (changed) {
+    if (c.changed) {
         *t = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
         s = find_surface(scene, ray, hit, t);
     }
-    s.medium = medium;
-    s.media_before = before;
-    s.media_beyond = beyond;
-    s.media_lost = lost != (lane_int)0;
-    s.offset = SELECT(several != (lane_int)0, s.offset + R(2.0) * reach, s.offset);
-    s.coverage = SELECT(gone != (lane_int)0, real_of(0), s.coverage);
+    s.medium = c.medium;
+    s.media_before = c.before;
+    s.media_beyond = c.beyond;
+    s.media_lost = c.lost != (lane_int)0;
+    s.offset = SELECT(c.several != (lane_int)0, s.offset + R(2.0) * reach, s.offset);
+    s.coverage = SELECT(c.gone != (lane_int)0, real_of(0), s.coverage);
     return s;
 }
 

@@ -30,6 +30,7 @@ static const struct {
     {"worm", build_worm},
     {"textures", build_textures},
     {"lights", build_lights},
+    {"wine", build_wine},
 };
 
 static glint_status write_scenes(const char *folder, glint_error *error)

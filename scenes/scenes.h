@@ -15,6 +15,7 @@ void build_prism(model *scene);
 void build_nested_glass(model *scene);
 void build_thin_wall(model *scene);
 void build_absorption_box(model *scene);
+void build_wine(model *scene);
 
 // Several objects (arrangements.c).
 void build_lecture_example_2(model *scene);

@@ -134,3 +134,62 @@ void build_absorption_box(model *scene)
                                    (glint_vec3){0, 0.301, 0});
     rotation_about((glint_vec3){0, 1, 0}, 20, block->rotation);
 }
+
+// The inside of the bowl: what the wine shares with its glass, vertex by vertex.
+static const double bowl[2] = {0, 0.75};
+#define BOWL_RADIUS 0.27
+#define BOWL_STEP 5   // degrees
+#define BOWL_RIM 55   // degrees above the middle
+#define WINE_LEVEL 10 // likewise
+
+static void add_goblet(model *scene)
+{
+    profile p = {0};
+    profile_line(&p, 0, 0, 0.22, 0);
+    profile_arc(&p, (const double[2]){0.22, 0.01}, 0.01, (const double[2]){-90, 80}, 6);
+    profile_curve(&p, (const double[3][2]){{0.03, 0.04}, {0.03, 0.12}, {0.03, 0.3}}, 12);
+    profile_curve(&p, (const double[3][2]){{0.03, 0.42}, {0.06, 0.46}, {0.1, 0.476}}, 8);
+    profile_arc(&p, bowl, BOWL_RADIUS + 0.02, (const double[2]){-70, BOWL_RIM}, 25);
+    const double angle = BOWL_RIM * GLINT_PI / 180;
+    const double middle = BOWL_RADIUS + 0.01;
+    profile_arc(&p, (const double[2]){middle * cos(angle), bowl[1] + middle * sin(angle)}, 0.01,
+                (const double[2]){BOWL_RIM, BOWL_RIM + 180}, 8);
+    profile_arc(&p, bowl, BOWL_RADIUS, (const double[2]){BOWL_RIM, -90},
+                (BOWL_RIM + 90) / BOWL_STEP);
+    shape_revolve(model_add_geometry(scene, "goblet"), &p, 64);
+    material glass = material_glass("glass", 1.5);
+    model_add_object(scene, "goblet", model_add_material(scene, &glass), (glint_vec3){0, 0, 0});
+}
+
+// A goblet on a table with wine in it, and ice in the wine: the glass stands on the table, the wine
+// touches the glass all around, and the ice is partly in the wine and partly above it.
+void build_wine(model *scene)
+{
+    model_add_perspective(scene, "front", 26, (glint_vec3){0.4, 1.25, 2.6},
+                          (glint_vec3){0, 0.5, 0});
+    add_goblet(scene);
+
+    profile p = {0};
+    profile_arc(&p, bowl, BOWL_RADIUS, (const double[2]){-90, WINE_LEVEL},
+                (WINE_LEVEL + 90) / BOWL_STEP);
+    const double angle = WINE_LEVEL * GLINT_PI / 180;
+    const double level = bowl[1] + BOWL_RADIUS * sin(angle);
+    profile_line(&p, BOWL_RADIUS * cos(angle), level, 0, level);
+    shape_revolve(model_add_geometry(scene, "wine"), &p, 64);
+    material red = material_glass("wine", 1.34);
+    set_attenuation(&red, 0.12, 0.62, 0.06, 0.09);
+    model_add_object(scene, "wine", model_add_material(scene, &red), (glint_vec3){0, 0, 0});
+
+    shape_chamfered_box(model_add_geometry(scene, "ice"), (glint_vec3){0.075, 0.07, 0.08}, 0.012);
+    material ice = material_glass("ice", 1.31);
+    const int number = model_add_material(scene, &ice);
+    node *cube = model_add_object(scene, "ice", number, (glint_vec3){0.09, level - 0.01, 0.04});
+    rotation_about((glint_vec3){0.6, 0, 0.8}, 25, cube->rotation);
+    cube = model_add_object(scene, "ice below", number, (glint_vec3){-0.09, level - 0.05, -0.05});
+    rotation_about((glint_vec3){0.36, 0.8, -0.48}, 55, cube->rotation);
+
+    shape_box(model_add_geometry(scene, "table"), (glint_vec3){0, -0.05, 0},
+              (glint_vec3){1.2, 0.05, 1.2});
+    material oak = material_paint("table", 0.42, 0.27, 0.14, 0.6);
+    model_add_object(scene, "table", model_add_material(scene, &oak), (glint_vec3){0, 0, 0});
+}

@@ -50,8 +50,7 @@ typedef struct glint_plan {
     bool depth_is_exact; // `depth` is what sight proved: nothing changes beyond
     int stack_capacity;  // waiting branches of a pixel; 0 without SPLIT
     char stack_reason[120];
-    size_t contact_count; // pairs of solids that touch or overlap
-    char contacts[400];   // says so, and names one; empty where there are none
+    char guesses[400];   // which solids touch or overlap without a word about which is there
     int media_count;     // distinct media (index of refraction and absorption), without empty space
     int media_bits;      // bits of one entry of the stack of media
     int media_capacity;  // entries of that stack

@@ -7,7 +7,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 // The feature that each lobe of a material needs, and what the reason says of such materials.
 #define LOBES(LOBE)                                                                                \
@@ -297,35 +296,21 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
-// Says what to do about the first of some contacts.
-static void describe_contacts(const glint_plan_inputs *in, glint_plan *plan)
-{
-    const glint_solids *solids = in->solids;
-    plan->contact_count = solids != NULL ? solids->contact_count : 0;
-    if (plan->contact_count > 0) {
-        char first[360];
-        const size_t more = plan->contact_count - 1;
-        glint_contact_describe(in->scene, in->topology, &solids->contacts[0], first, sizeof first);
-        snprintf(plan->contacts, sizeof plan->contacts, "%s", first);
-        if (more > 0) {
-            const size_t used = strlen(plan->contacts);
-            snprintf(plan->contacts + used, sizeof plan->contacts - used, ", and %zu more", more);
-        }
-    }
-}
-
 // Where solids touch or overlap, or may come to, and where they rank by more than what nests.
 static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan *plan)
 {
     const glint_solids *solids = in->solids;
     const bool solid = solids != NULL && plan->features[GLINT_FEATURE_SOLID].compiled;
-    describe_contacts(in, plan);
+    const size_t contacts = solids != NULL ? solids->contact_count : 0;
+    if (solids != NULL) {
+        glint_solids_describe_guesses(in->scene, solids, plan->guesses, sizeof plan->guesses);
+    }
     if (!solid || !heeded) {
         decide(plan, GLINT_FEATURE_OVERLAPS, false, "%s",
                solid ? "these settings meet each solid by itself" : "no material with a volume");
-    } else if (plan->contact_count > 0) {
-        decide(plan, GLINT_FEATURE_OVERLAPS, true, "solids touch or overlap: %zu pair%s",
-               plan->contact_count, plan->contact_count == 1 ? "" : "s");
+    } else if (contacts > 0) {
+        decide(plan, GLINT_FEATURE_OVERLAPS, true, "solids touch or overlap: %zu pair%s", contacts,
+               contacts == 1 ? "" : "s");
     } else if (solids->touch_others) {
         decide(plan, GLINT_FEATURE_OVERLAPS, true, "other surfaces touch solids");
     } else if (in->scene->moves && solids->component_count > 1) {

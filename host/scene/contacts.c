@@ -186,7 +186,8 @@ static int compare_contacts(const void *left, const void *right)
 static void note_contact(search *s, uint32_t a, uint32_t b, bool overlap)
 {
     glint_solids *solids = s->solids;
-    const glint_contact contact = {{a < b ? a : b, a < b ? b : a}, overlap};
+    const glint_contact contact = {.components = {a < b ? a : b, a < b ? b : a},
+                                   .overlap = overlap};
     if (solids->contact_count > 0 &&
         compare_contacts(&solids->contacts[solids->contact_count - 1], &contact) == 0) {
         return;

@@ -136,6 +136,22 @@ static void record_triangles(const glint_scene *scene, const glint_topology *top
     }
 }
 
+static void settle_contacts(const glint_scene *scene, const glint_topology *topology,
+                            const uint32_t *medium_of, glint_solids *solids)
+{
+    for (size_t i = 0; i < solids->contact_count; i++) {
+        glint_contact *contact = &solids->contacts[i];
+        const glint_material *of[2];
+        for (int k = 0; k < 2; k++) {
+            contact->instances[k] = topology->components[contact->components[k]].instance;
+            of[k] = &scene->materials[scene->instances[contact->instances[k]].material];
+        }
+        contact->there =
+            medium_of[contact->components[1]] > medium_of[contact->components[0]] ? 1 : 0;
+        contact->is_guess = of[0] != of[1] && of[0]->priority == of[1]->priority;
+    }
+}
+
 glint_status glint_solids_find(const glint_scene *scene, const glint_topology *topology,
                                glint_solids *solids, glint_error *error)
 {
@@ -157,6 +173,7 @@ glint_status glint_solids_find(const glint_scene *scene, const glint_topology *t
         solids->component_count = listed;
         record_triangles(scene, topology, medium_of, solids);
         done = glint_contacts_find(scene, topology, solids);
+        settle_contacts(scene, topology, medium_of, solids);
     }
     free(all);
     free(medium_of);
@@ -187,10 +204,9 @@ bool glint_solids_have_priorities(const glint_scene *scene)
 }
 
 // Nodes have names more often than not; what is in one node is told apart by its number.
-static void name_solid(const glint_scene *scene, const glint_topology *topology, uint32_t number,
-                       char *text, size_t capacity)
+static void name_solid(const glint_scene *scene, uint32_t number, char *text, size_t capacity)
 {
-    const glint_instance *instance = &scene->instances[topology->components[number].instance];
+    const glint_instance *instance = &scene->instances[number];
     const char *material = scene->materials[instance->material].name;
     snprintf(text, capacity, "%s%s%s (node %d, %s)", instance->node != NULL ? "\"" : "",
              instance->node != NULL ? instance->node : "a solid",
@@ -198,17 +214,49 @@ static void name_solid(const glint_scene *scene, const glint_topology *topology,
              material != NULL ? material : "a material without a name");
 }
 
-void glint_contact_describe(const glint_scene *scene, const glint_topology *topology,
-                            const glint_contact *contact, char *text, size_t capacity)
+void glint_contact_describe(const glint_scene *scene, const glint_contact *contact, char *text,
+                            size_t capacity)
 {
     char first[160];
     char second[160];
-    name_solid(scene, topology, contact->components[0], first, sizeof first);
-    name_solid(scene, topology, contact->components[1], second, sizeof second);
+    name_solid(scene, contact->instances[0], first, sizeof first);
+    name_solid(scene, contact->instances[1], second, sizeof second);
     if (contact->components[0] == contact->components[1]) {
         snprintf(text, capacity, "%s touches itself", first);
     } else {
         snprintf(text, capacity, "%s %s %s", first, contact->overlap ? "overlaps" : "touches",
                  second);
+    }
+}
+
+void glint_solids_describe_guesses(const glint_scene *scene, const glint_solids *solids, char *text,
+                                   size_t capacity)
+{
+    const glint_contact *first = NULL;
+    size_t guesses = 0;
+    for (size_t i = 0; i < solids->contact_count; i++) {
+        guesses += solids->contacts[i].is_guess;
+        first = first == NULL && solids->contacts[i].is_guess ? &solids->contacts[i] : first;
+    }
+    text[0] = '\0';
+    if (first != NULL) {
+        char pair[360];
+        char more[40] = "";
+        glint_contact_describe(scene, first, pair, sizeof pair);
+        if (guesses > 1) {
+            snprintf(more, sizeof more, ", and %zu more pair%s", guesses - 1,
+                     guesses == 2 ? "" : "s");
+        }
+        snprintf(text, capacity, "%s%s", pair, more);
+    }
+}
+
+void glint_solids_warn(const glint_scene *scene, const char *guesses, glint_warnings *warnings)
+{
+    if (guesses[0] != '\0') {
+        glint_warn(warnings,
+                   "%s: %s: where both are, the one of less volume is taken to be there (say which "
+                   "by extras {\"glint\": {\"priority\": 1}} of its material)",
+                   scene->path != NULL ? scene->path : "the scene", guesses);
     }
 }

@@ -24,7 +24,10 @@ extern "C" {
 // Two solids whose surfaces meet.
 typedef struct glint_contact {
     uint32_t components[2]; // of the topology, the lower first; the same of one that touches itself
+    uint32_t instances[2];  // of the scene, likewise
     bool overlap;           // the surfaces cross; else they only lie in each other's planes
+    int there;              // which of the two is there where both are
+    bool is_guess;          // by its volume: the materials differ, and their priorities do not
 } glint_contact;
 
 // Zero is valid: no solids.
@@ -47,8 +50,15 @@ void glint_solids_free(glint_solids *solids);
 bool glint_solids_have_priorities(const glint_scene *scene);
 
 // ""wine" (node 2, water) touches "bowl" (node 1, glass)" into `text`.
-void glint_contact_describe(const glint_scene *scene, const glint_topology *topology,
-                            const glint_contact *contact, char *text, size_t capacity);
+void glint_contact_describe(const glint_scene *scene, const glint_contact *contact, char *text,
+                            size_t capacity);
+
+// The same of the first contact that is a guess, and how many more there are; empty: none is.
+void glint_solids_describe_guesses(const glint_scene *scene, const glint_solids *solids, char *text,
+                                   size_t capacity);
+
+// Adds what to do about these guesses to the warnings.
+void glint_solids_warn(const glint_scene *scene, const char *guesses, glint_warnings *warnings);
 
 #ifdef __cplusplus
 }

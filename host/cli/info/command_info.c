@@ -34,6 +34,7 @@ static const glint_option *const groups[] = {output_options,         glint_input
 typedef struct info_work {
     glint_inputs inputs;
     glint_topology topology;
+    glint_solids solids;
     glint_bvh bvh;
     glint_device *device;
     glint_plan plan;
@@ -83,6 +84,23 @@ static void print_scene(const glint_scene *scene, const glint_topology *topology
     }
     printf("  left out: %zu point primitives, %zu line primitives, %zu triangles without area\n",
            scene->skipped_points, scene->skipped_lines, scene->degenerate_triangles);
+}
+
+static void print_contacts(const glint_scene *scene, const glint_solids *solids)
+{
+    if (solids->contact_count > 0) {
+        printf("\nSolids that meet\n");
+    }
+    for (size_t i = 0; i < solids->contact_count && i < LIST_MAX; i++) {
+        const glint_contact *contact = &solids->contacts[i];
+        const glint_instance *there = &scene->instances[contact->instances[contact->there]];
+        const char *material = scene->materials[there->material].name;
+        char text[360];
+        glint_contact_describe(scene, contact, text, sizeof text);
+        printf("  %s: where both are it is %s%s\n", text, name_or_none(material),
+               contact->is_guess ? ", which has less volume" : "");
+    }
+    print_more(solids->contact_count);
 }
 
 static void print_lights(const glint_scene *scene)
@@ -215,6 +233,9 @@ static void print_material(const glint_scene *scene, size_t index)
                    (double)material->attenuation_color[1], (double)material->attenuation_color[2],
                    (double)material->attenuation_distance);
         }
+    }
+    if (material->priority != 0) {
+        printf(", priority %g", (double)material->priority);
     }
     print_layers(material);
     if (material->mirror >= 0) {
@@ -384,6 +405,7 @@ static void print_text(const glint_subject *subject, const glint_view_request *v
     print_scene(subject->scene, subject->topology);
     print_motion(subject->motion);
     print_lists(subject->scene);
+    print_contacts(subject->scene, subject->solids);
     print_usages(subject->scene);
     print_variants(subject->scene);
     print_lights(subject->scene);
@@ -422,6 +444,7 @@ static glint_status make_plan(const info_request *request, info_work *work, glin
     const glint_plan_inputs inputs = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,
+        .solids = &work->solids,
         .sight = &sight,
         .environment = &work->inputs.environment.radiance,
         .device = glint_device_capabilities(work->device),
@@ -442,7 +465,12 @@ static glint_status gather(const info_request *request, info_work *work, glint_e
     glint_progress_display display;
     glint_progress_begin(&display, GLINT_PROGRESS_NONE);
     TRY(glint_inputs_load(&request->inputs, &display, &work->inputs, error));
-    TRY(glint_topology_find(&work->inputs.scene, &work->topology, error));
+    const glint_scene *scene = &work->inputs.scene;
+    TRY(glint_topology_find(scene, &work->topology, error));
+    TRY(glint_solids_find(scene, &work->topology, &work->solids, error));
+    char guesses[400];
+    glint_solids_describe_guesses(scene, &work->solids, guesses, sizeof guesses);
+    glint_solids_warn(scene, guesses, &work->inputs.warnings);
     return make_plan(request, work, error);
 }
 
@@ -451,6 +479,7 @@ static glint_status print(const info_request *request, info_work *work, glint_er
     const glint_subject subject = {
         .scene = &work->inputs.scene,
         .topology = &work->topology,
+        .solids = &work->solids,
         .overrides = &request->inputs.overrides,
         .motion = &work->inputs.motion,
         .environment = &work->inputs.environment,
@@ -489,6 +518,7 @@ cleanup:
     free(work.json);
     glint_bvh_free(&work.bvh);
     glint_topology_free(&work.topology);
+    glint_solids_free(&work.solids);
     glint_error_free(&work.plan_failure);
     glint_device_close(work.device);
     glint_inputs_free(&work.inputs);

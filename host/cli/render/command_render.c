@@ -83,6 +83,18 @@ static glint_status write_stats(const render_run *run, glint_error *error)
 
 // ---- The command -------------------------------------------------------------------------------
 
+static glint_status check_strict(const render_request *request, const glint_warnings *warnings,
+                                 glint_error *error)
+{
+    const size_t count = warnings->count + warnings->lost;
+    return !request->strict || count == 0
+               ? GLINT_OK
+               : glint_fail(error, GLINT_BAD_INPUT,
+                            "%s: %zu warning%s, and --strict wants none (mend what they name, or "
+                            "leave --strict out)",
+                            request->inputs.scene, count, count == 1 ? "" : "s");
+}
+
 // Loads, and settles which frames there are.
 static glint_status load(render_run *run, render_request *request, glint_error *error)
 {
@@ -97,7 +109,7 @@ static glint_status load(render_run *run, render_request *request, glint_error *
     render_frames_begin(&run->frames, request, &run->display);
     render_request_warn(request, &run->shot.stage.inputs.scene, warnings);
     glint_say_warnings(warnings, said);
-    return GLINT_OK;
+    return check_strict(request, warnings, error);
 }
 
 // A frame failing does not take the statistics of the others away, nor does a stop.
@@ -141,6 +153,12 @@ static glint_status prepare_and_render(render_run *run, glint_error *error)
     glint_status status = render_run_prepare(run, error);
     glint_progress_clear(&run->display);
     TRY(status);
+    glint_warnings *warnings = &run->shot.stage.inputs.warnings;
+    const size_t said = warnings->count;
+    const char *guesses = glint_renderer_plan(run->tracer.renderer)->guesses;
+    glint_solids_warn(&run->shot.stage.inputs.scene, guesses, warnings);
+    glint_say_warnings(warnings, said);
+    TRY(check_strict(request, warnings, error));
     bool is_new = false;
     if (request->is_sequence) {
         TRY(glint_folder_make(request->folder, &is_new, error));

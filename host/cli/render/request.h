@@ -30,6 +30,7 @@ typedef struct render_request {
     const char *frames_text;
     int turntable; // frames of a whole turn; 0: the camera stays
     double fps;
+    bool strict; // warnings are errors
     bool skip_existing;
     bool is_sequence;          // from here on set by render_request_finish
     const char *capture;       // the nodes that are lit by what is around them; NULL: a file is

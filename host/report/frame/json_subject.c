@@ -241,6 +241,22 @@ static json_t *topology_object(const glint_topology *topology)
     return object;
 }
 
+// Pairs of solids by their instances, that which is there where both are first.
+static json_t *contacts_list(const glint_solids *solids)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < solids->contact_count; i++) {
+        const glint_contact *contact = &solids->contacts[i];
+        json_t *object = json_object();
+        glint_json_put_count(object, "there", contact->instances[contact->there]);
+        glint_json_put_count(object, "gives_way", contact->instances[1 - contact->there]);
+        glint_json_put_text(object, "kind", contact->overlap ? "overlap" : "touch");
+        glint_json_put_flag(object, "is_guess", contact->is_guess);
+        json_array_append_new(list, object);
+    }
+    return list;
+}
+
 static json_t *instance_object(const glint_instance *instance)
 {
     json_t *object = json_object();
@@ -357,6 +373,9 @@ json_t *glint_json_scene(const glint_subject *subject, bool everything)
     }
     if (everything && subject->topology != NULL) {
         glint_json_put(object, "topology", topology_object(subject->topology));
+    }
+    if (everything && subject->solids != NULL) {
+        glint_json_put(object, "contacts", contacts_list(subject->solids));
     }
     if (everything) {
         put_lists(object, scene);

@@ -15,6 +15,7 @@
 typedef struct glint_subject {
     const glint_scene *scene;
     const glint_topology *topology;
+    const glint_solids *solids;
     const glint_material_overrides *overrides; // of the scene's materials, which has them already
     const glint_motion *motion;                // NULL, or all zero: nothing moves
     const glint_environment *environment;
