@@ -33,6 +33,9 @@
     FEATURE(OVERLAPS, "solids that touch or overlap have one medium in one place",                 \
             GLINT_NESTED_MEDIA &&GLINT_ALPHA,                                                      \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
+    FEATURE(INSIDE, "the eye may be inside solids: a path begins in those that it leaves first",   \
+            GLINT_SOLID &&GLINT_INTERREFLECTION,                                                   \
+            GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                    \
     FEATURE(CONVEX_SOLID, "what leaves the one convex solid that there is meets nothing",          \
             GLINT_SOLID, 0, ACTIVE)                                                                \
     FEATURE(ABSORPTION, "light is absorbed inside solids by Beer and Lambert's law", GLINT_SOLID,  \

@@ -3,16 +3,23 @@
 // is there, and of those surfaces its own is the one that light meets. Where the same is there on
 // both sides there is no surface at all. A surface that bounds no solid is met before those that do;
 // what passes it has crossed them all.
+// What rounding may move a hit along the normal, of the distance and the scene's size: the sheared
+// corners and the products of them take some eight roundings.
+#define CROSSING_SLACK (R(16.0) * EPSILON)
+
+// How far from the surface, along its normal, others are in one place with it.
+static inline real reach_of_place(const surface *s, real t)
+{
+    const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET;
+    return fused(t + R(1.0), real_of(CROSSING_SLACK), s->offset * of_offset);
+}
+
 #if GLINT_OVERLAPS
 
 // Solids that a ray enters or leaves in one place; more are not looked at.
 #define CROSSED_MAX 16
 // The cosine between planes that may be in one place.
 #define NEARLY_PARALLEL R(0.99)
-// What rounding may move a hit along the normal, of the distance and the scene's size: the sheared
-// corners and the products of them take some eight roundings.
-#define CROSSING_SLACK (R(16.0) * EPSILON)
-
 // A solid that a ray enters or leaves, and the lowest triangle by which it does. Of one that it
 // enters and leaves at once nothing is crossed.
 typedef struct crossed_solid {
@@ -189,13 +196,6 @@ static inline const crossed_solid *shown_of(const crossed_solids *all, const med
         }
     }
     return shown;
-}
-
-// How far from the surface, along its normal, others are in one place with it.
-static inline real reach_of_place(const surface *s, real t)
-{
-    const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET;
-    return fused(t + R(1.0), real_of(CROSSING_SLACK), s->offset * of_offset);
 }
 
 // What rays come to in the places where they meet something.

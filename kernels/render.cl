@@ -62,6 +62,7 @@ GLINT_FEATURES(CHECK)
 #include "tally.cl"
 #include "leaving.cl"
 #include "paths.cl"
+#include "beginnings.cl"
 #include "vertices.cl"
 #include "mirrors.cl"
 #include "first_surfaces.cl"
@@ -189,11 +190,15 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
             first[SLOT(i)] = primary_of(t, g);
             begin_paths(frame, &first[SLOT(i)], SLOT(i), g, inside[g], &all);
         }
+#if GLINT_INSIDE
+        find_beginnings(scene, &all, first);
+#endif
         follow_paths(scene, frame, image, first, &all, later, tally);
 #if GATHERS
         for (int i = 0; i < PATH_GROUPS; i++) {
             const int g = first_group + i;
-            mask seen = GLINT_TRANSPARENT ? t->place[g] >= (lane_int)0 : mask_all();
+            mask seen =
+                GLINT_TRANSPARENT ? first[SLOT(i)].places >= (lane_int)0 : mask_all();
 #if HAS_ROUNDS
             seen = seen & inside[g];
 #endif

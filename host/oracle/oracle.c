@@ -8,6 +8,9 @@
 
 #include <string.h>
 
+// What is nearer to an eye than this many metres is no edge in the way, where eyes may be on edges.
+#define EYE_REACH 1e-5
+
 static void report_clear(oracle_report *report)
 {
     *report = (oracle_report){
@@ -21,11 +24,18 @@ static void follow(walk *w, const path *p)
     vector_store(p->origin, ray.origin);
     vector_store(p->direction, ray.direction);
     oracle_hit hit = oracle_closest_hit(w->scene, &ray, p->left);
+    if (w->scene->overlaps && p->met == 0)
+        hit = oracle_pass_eye(w->scene, &ray, hit);
     oracle_report *report = w->report;
     report->rays++;
     if (w->view->edges) {
-        query q = oracle_query_from(w->scene, &ray, p->left);
-        report->edge = fmin(report->edge, oracle_ray_edge(w->scene, q, p->travelled, hit.distance));
+        // An edge that the eye is on is near to no ray but those that run along it.
+        double skipped = w->scene->overlaps && p->met == 0 ? EYE_REACH : 0.0;
+        oracle_ray from = ray;
+        vector_store(plus(p->origin, scaled(p->direction, skipped)), from.origin);
+        query q = oracle_query_from(w->scene, &from, p->left);
+        double edge = oracle_ray_edge(w->scene, q, p->travelled + skipped, hit.distance - skipped);
+        report->edge = fmin(report->edge, edge);
     }
     if (hit.triangle < 0) {
         oracle_escape(w, p, p->direction, p->weight);

@@ -129,6 +129,26 @@ bool oracle_sides(const oracle_scene *scene, const oracle_ray *ray, oracle_hit *
     return sides[0] != sides[1];
 }
 
+oracle_hit oracle_pass_eye(const oracle_scene *scene, const oracle_ray *ray, oracle_hit hit)
+{
+    oracle_ray later = *ray;
+    vector d = vector_of(ray->direction);
+    double passed = 0.0;
+    while (hit.triangle >= 0) {
+        const oracle_triangle *t = &scene->triangles[hit.triangle];
+        double height = fabs(dot(normal_of(t), d)) * (passed + hit.distance);
+        if (height > LEAVING * largest_coordinate(t))
+            break;
+        vector at = plus(vector_of(later.origin), scaled(d, hit.distance));
+        vector beside = oracle_start_beside(scene, hit.triangle, at, d);
+        passed += hit.distance;
+        vector_store(beside, later.origin);
+        hit = oracle_closest_hit(scene, &later, -1);
+    }
+    hit.distance += passed;
+    return hit;
+}
+
 vector oracle_start_beside(const oracle_scene *scene, int triangle, vector point, vector direction)
 {
     const oracle_triangle *t = &scene->triangles[triangle];

@@ -327,6 +327,36 @@ static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan
     }
 }
 
+// Where eyes are inside solids, or may be.
+static void note_boxes(const glint_plan_inputs *in, glint_plan *plan)
+{
+    for (size_t i = 0;
+         plan->features[GLINT_FEATURE_SOLID].compiled && i < in->topology->component_count; i++) {
+        const glint_component *c = &in->topology->components[i];
+        if (!glint_material_lobes(&in->scene->materials[in->scene->instances[c->instance].material])
+                 .solid) {
+            continue;
+        }
+        const bool is_new = plan->box_count < GLINT_PLAN_BOXES;
+        const int number = is_new ? plan->box_count++ : GLINT_PLAN_BOXES - 1;
+        for (int k = 0; k < 3; k++) {
+            float *low = &plan->boxes[number][0][k], *high = &plan->boxes[number][1][k];
+            *low = is_new ? c->low[k] : fminf(*low, c->low[k]);
+            *high = is_new ? c->high[k] : fmaxf(*high, c->high[k]);
+        }
+    }
+}
+
+void glint_plan_decide_inside(bool may_be_inside, glint_plan *plan)
+{
+    const bool heeded =
+        plan->shading == GLINT_SHADING_PIXEL && !plan->features[GLINT_FEATURE_HITS].compiled;
+    decide(plan, GLINT_FEATURE_INSIDE, may_be_inside && heeded, "%s",
+           !may_be_inside ? "the eye is outside of all solids' bounds"
+           : heeded       ? "the eye is inside some solid's bounds"
+                          : "these settings meet each solid by itself");
+}
+
 static void decide_settings(const glint_settings *settings, glint_plan *plan)
 {
     int samples = settings->samples_per_axis * settings->samples_per_axis;
@@ -380,6 +410,8 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     decide_scene(in, plan);
     decide_overlaps(
         in, in->settings->output != GLINT_OUTPUT_HITS && !glint_plan_shades_vertices(plan), plan);
+    note_boxes(in, plan);
+    glint_plan_decide_inside(false, plan); // until a camera is known
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);
     return decide_lights(in, plan, error);
@@ -395,7 +427,8 @@ void glint_plan_decide_paths(glint_plan *plan)
 
     decide(plan, GLINT_FEATURE_INTERREFLECTION,
            plan->features[GLINT_FEATURE_GEOMETRY].compiled &&
-               (plan->depth > 1 || plan->features[GLINT_FEATURE_ALPHA].compiled),
+               (plan->depth > 1 || plan->features[GLINT_FEATURE_ALPHA].compiled ||
+                plan->features[GLINT_FEATURE_INSIDE].compiled),
            plan->depth_is_exact  ? "depth %d is exact here"
            : plan->depth_is_auto ? "depth auto, %d at most"
                                  : "depth %d",

@@ -24,6 +24,9 @@ void glint_plan_compile_idle_features(glint_plan *plan);
 // The packets' width, tiles, and the stack of branches that wait.
 void glint_plan_choose_packets(const glint_plan_inputs *in, glint_plan *plan);
 void glint_plan_describe_secondary_rays(glint_plan *plan);
+// INSIDE, by what is known of the eye.
+void glint_plan_decide_inside(bool may_be_inside, glint_plan *plan);
+
 void glint_plan_choose_media(const glint_plan_inputs *in, glint_plan *plan);
 
 #endif

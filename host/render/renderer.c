@@ -251,7 +251,7 @@ static bool has_same_options(const glint_plan *a, const glint_plan *b)
 
 glint_status glint_renderer_suit(glint_renderer *r, const glint_camera *camera, glint_error *error)
 {
-    if (r->plan.sight.depth == 0) {
+    if (r->plan.sight.depth == 0 && r->plan.box_count == 0) {
         return GLINT_OK;
     }
     const glint_plan before = r->plan;

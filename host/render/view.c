@@ -2,6 +2,7 @@
 // glint_frame_record.
 #include "render/view.h"
 
+#include "render/plan_parts.h"
 #include "render/split.h"
 #include "render/wavelengths.h"
 
@@ -146,8 +147,40 @@ bool glint_view_is_outside(const glint_stored_space *space, const glint_camera *
            e.z > high.z;
 }
 
+// Bounds are looked at a little beyond their ends: eyes may be on a solid's surface.
+#define BESIDE_BOX 1e-6
+
+// Whether rays may begin in a box, in stored coordinates, or on it.
+static bool begins_in(const float box[2][3], glint_vec3 eye, const glint_camera *camera)
+{
+    const double at[3] = {eye.x, eye.y, eye.z};
+    const double back[3] = {camera->back.x, camera->back.y, camera->back.z};
+    bool inside = true;
+    double least = 0;
+    double most = 0; // heights of the box's corners above the plane of the eye
+    for (int k = 0; k < 3; k++) {
+        const double low = (double)box[0][k] - at[k] - BESIDE_BOX;
+        const double high = (double)box[1][k] - at[k] + BESIDE_BOX;
+        inside = inside && low <= 0 && high >= 0;
+        least += fmin(back[k] * low, back[k] * high);
+        most += fmax(back[k] * low, back[k] * high);
+    }
+    return camera->orthographic ? least <= 0 && most >= 0 : inside;
+}
+
 void glint_plan_suit(glint_plan *plan, const glint_stored_space *space, const glint_camera *camera)
 {
+    const glint_vec3 eye =
+        glint_vec3_scale(glint_vec3_subtract(camera->eye, space->origin), 1 / space->unit);
+    bool inside = false;
+    for (int i = 0; i < plan->box_count; i++) {
+        inside = inside || begins_in((const float(*)[3])plan->boxes[i], eye, camera);
+    }
+    if (inside != plan->features[GLINT_FEATURE_INSIDE].compiled) {
+        glint_plan_decide_inside(inside, plan);
+        glint_plan_decide_paths(plan);
+        glint_plan_describe_secondary_rays(plan);
+    }
     glint_plan_heed_sight(plan, !plan->sight.from_outside || glint_view_is_outside(space, camera));
 }
 

@@ -8,8 +8,9 @@
 #include <string.h>
 
 static const trial_case *const groups[] = {
-    hit_cases,         scale_cases, spawn_cases,   normal_cases, refraction_cases, solid_cases,
-    environment_cases, path_cases,  surface_cases, rough_cases,  light_cases,      image_cases};
+    hit_cases,   scale_cases,       spawn_cases, normal_cases,  refraction_cases,
+    solid_cases, environment_cases, path_cases,  surface_cases, rough_cases,
+    media_cases, light_cases,       image_cases};
 
 static const trial_case *case_at(size_t index)
 {

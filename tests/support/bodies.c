@@ -16,7 +16,7 @@ typedef struct scene_builder {
     double turn; // of all bodies, radians
 } scene_builder;
 
-static void put(scene_builder *b, const double at[3], float *p)
+static void put(const scene_builder *b, const double at[3], float *p)
 {
     const double c = cos(b->turn), s = sin(b->turn);
     const double x = c * at[0] + s * at[2], z = c * at[2] - s * at[0];
@@ -134,4 +134,26 @@ glint_scene bodies_scene(const bodies *all, double turn, bool backwards)
     }
     glint_scene_find_bounds(scene);
     return *scene;
+}
+
+void bodies_look(glint_scene *scene, const double at[3], double turn, bool orthographic)
+{
+    const scene_builder b = {.turn = turn};
+    static const double axes[3][3] = {{0.1, 0, -0.9}, {0.2, 1, 0.1}, {0.9, 0.3, 0.15}};
+    float eye[3]; // the nearest floats: an eye that is on a corner is there exactly
+    put(&b, at, eye);
+    glint_mat4 to_world = {.m[3][3] = 1};
+    for (int column = 0; column < 4; column++) {
+        float turned[3];
+        put(&b, column < 3 ? axes[column] : at, turned);
+        for (int row = 0; row < 3; row++) {
+            to_world.m[row][column] = (double)(column < 3 ? turned[row] : eye[row]);
+        }
+    }
+    glint_camera camera = {.orthographic = orthographic, .yfov = 1.3, .ymag = 0.45};
+    assert_true(glint_camera_from_matrix(&to_world, &camera));
+    scene->cameras = malloc(sizeof camera);
+    assert_non_null(scene->cameras);
+    scene->cameras[0] = camera;
+    scene->camera_count = 1;
 }

@@ -30,4 +30,8 @@ typedef struct bodies {
 // All turned about +Y and then about +X, by radians; in their order, or backwards.
 glint_scene bodies_scene(const bodies *all, double turn, bool backwards);
 
+// Gives the scene a camera at a point of the bodies, which is turned as they are. It looks about
+// along −X, and sees 75 degrees or, orthographic, 0.9 m.
+void bodies_look(glint_scene *scene, const double at[3], double turn, bool orthographic);
+
 #endif

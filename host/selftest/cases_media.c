@@ -1,0 +1,158 @@
+// Hard cases of solids that touch, overlap and hold the eye. The oracle judges, pixel by pixel: it
+// finds media by points on both sides of a surface, and keeps no stack.
+#include "selftest/judge.h"
+#include "selftest/shapes.h"
+#include "selftest/trial.h"
+
+#include <math.h>
+
+// E(d) = ½ + ½d, as the device has it.
+static void linear_light(const void *context, const double direction[3], double rgb[3])
+{
+    (void)context;
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = 0.5 + 0.5 * direction[k];
+    }
+}
+
+typedef struct media_view {
+    const char *what;
+    void (*build)(shape *s);
+    double eye[3];
+    double yfov; // 0: parallel rays
+    float priority, attenuation;
+} media_view;
+
+static void add_box(shape *s, const double bounds[2][3], shape_material material, bool inward)
+{
+    shape_add_box(s, &(shape_box){bounds[0], bounds[1], 2, material, inward});
+}
+
+// A hollow block of glass, whose hollow a core fills to its middle, on metal.
+static void build_filled(shape *s)
+{
+    static const double outer[2][3] = {{-0.5, -0.4, -0.5}, {0.5, 0.5, 0.5}};
+    static const double hollow[2][3] = {{-0.4, -0.3, -0.4}, {0.4, 0.4, 0.4}};
+    static const double core[2][3] = {{-0.4, -0.3, -0.4}, {0.4, 0.1, 0.4}};
+    static const double stand[2][3] = {{-0.6, -0.6, -0.6}, {0.6, -0.4, 0.6}};
+    add_box(s, outer, MATERIAL_GLASS, false);
+    add_box(s, hollow, MATERIAL_GLASS, true);
+    add_box(s, core, MATERIAL_CORE, false);
+    add_box(s, stand, MATERIAL_TINTED, false);
+}
+
+// Blocks that reach into each other, and a lesser one of the first one's glass that lies beside it.
+static void build_crossed(shape *s)
+{
+    static const double one[2][3] = {{-0.6, -0.3, -0.3}, {0.2, 0.3, 0.3}};
+    static const double beside[2][3] = {{0.2, -0.2, -0.3}, {0.45, 0.3, 0.2}};
+    static const double other[2][3] = {{-0.2, -0.5, -0.2}, {0.1, 0.45, 0.15}};
+    add_box(s, one, MATERIAL_GLASS, false);
+    add_box(s, beside, MATERIAL_GLASS, false);
+    add_box(s, other, MATERIAL_CORE, false);
+}
+
+// One in another.
+static void build_nested(shape *s)
+{
+    static const double outer[2][3] = {{-0.6, -0.5, -0.5}, {0.6, 0.5, 0.5}};
+    static const double inner[2][3] = {{-0.3, -0.4, -0.3}, {0.35, 0.3, 0.4}};
+    add_box(s, outer, MATERIAL_GLASS, false);
+    add_box(s, inner, MATERIAL_CORE, false);
+}
+
+static const media_view views[] = {
+    {"a core that touches its glass", build_filled, {1.1, 0.9, 1.6}, 0.7, 0, 0.6F},
+    {"blocks that overlap", build_crossed, {1.1, 0.9, 1.6}, 0.7, 0, 0.4F},
+    {"blocks of other priorities", build_crossed, {1.1, 0.9, 1.6}, 0.7, -1, 0.4F},
+    {"from inside two solids", build_nested, {0.1, 0.05, 0.2}, 1.2, 0, 0.6F},
+    {"from inside two that rank", build_nested, {0.1, 0.05, 0.2}, 1.2, 1, 0.6F},
+    {"from a solid's face", build_nested, {0.35, 0.05, 0.2}, 1.2, 0, 0.6F},
+    {"parallel rays from inside", build_nested, {0.1, 0.05, 0.2}, 0, 0, 0.6F},
+};
+
+// The oracle leaves surfaces 2e-6 beside them. Texels err by a ten-thousandth.
+#define MEDIA_BOUND 5e-4
+// Pixels that see an edge may differ freely.
+static void measure_pixels(trial *t, const media_view *of, const oracle_scene *scene,
+                           const oracle_view *view, const trial_picture *picture)
+{
+    glint_measure *m = trial_error(t, of->what, "of white", MEDIA_BOUND);
+    for (int p = 0; p < picture->width * picture->height; p++) {
+        const int pixel[2] = {p % picture->width, p / picture->width};
+        double expected[4];
+        oracle_report report;
+        oracle_pixel(scene, view, pixel, expected, &report);
+        if (report.surfaces == 0 || report.edge < ORACLE_EDGE_REACH) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            measure_value(m, picture->values[4 * p + k], expected[k], 1, "pixel (%d, %d)", pixel[0],
+                          pixel[1]);
+        }
+    }
+}
+
+static glint_status render_view(trial *t, const media_view *of)
+{
+    static const double target[3] = {-0.05, -0.02, -0.1};
+    glint_scene scene = {0};
+    glint_environment environment = {0};
+    trial_picture picture = {0};
+    judge j = {0};
+    glint_settings settings = trial_settings(t);
+    settings.width = 24;
+    settings.height = 18;
+    settings.depth = 6;
+    const glint_camera camera = shape_camera(of->eye, target, of->yfov, 0.4);
+    glint_status status;
+    shape s = shape_begin();
+    of->build(&s);
+    TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
+    scene.materials[MATERIAL_GLASS].priority = -of->priority;
+    scene.materials[MATERIAL_CORE].base_color[2] = 0.8F; // it matters whose surface is met
+    scene.materials[MATERIAL_CORE].attenuation_distance = 1;
+    scene.materials[MATERIAL_CORE].attenuation_color[1] = of->attenuation;
+    TRY_OR(cleanup, status, trial_linear_environment(64, &environment, t->error));
+    const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
+    TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
+    TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
+    j.scene.radiance = linear_light;
+    j.scene.overlaps = true;
+    oracle_view view = judge_view(&camera, &settings);
+    view.depth = settings.depth;
+    view.edges = true;
+    measure_pixels(t, of, &j.scene, &view, &picture);
+cleanup:
+    judge_end(&j);
+    trial_picture_free(&picture);
+    glint_environment_free(&environment);
+    glint_scene_free(&scene);
+    return status;
+}
+
+static glint_status solids_together(trial *t)
+{
+    for (size_t i = 0; i < 3; i++) {
+        TRY(render_view(t, &views[i]));
+    }
+    return GLINT_OK;
+}
+
+static glint_status eyes_in_solids(trial *t)
+{
+    for (size_t i = 3; i < sizeof views / sizeof *views; i++) {
+        TRY(render_view(t, &views[i]));
+    }
+    return GLINT_OK;
+}
+
+const trial_case media_cases[] = {
+    {"solids_together",
+     "solids that touch and overlap, by their volume and priority: the oracle's "
+     "colours",
+     solids_together},
+    {"eyes_in_solids", "an eye in nested solids, and on a face: the oracle's colours",
+     eyes_in_solids},
+    {0},
+};

@@ -1,0 +1,104 @@
+// Rule 5 for eyes inside solids: a path begins in those solids that its ray, if it went straight on,
+// would leave before it enters them. What is in one place with the eye is not met: a ray that sets
+// out from a solid's face is inside if it runs inwards.
+#if GLINT_INSIDE
+
+// Surfaces that are walked through at most.
+#define WALKED_MAX 256
+
+// Adds to `begun` what a walk finds that it was inside from the start: `before` has more than
+// `media`. Solids are left in their order from the innermost on.
+static inline void note_begun(lanes_int media, lanes_int before, int lane, int *count,
+                              lanes_int *begun)
+{
+    lane_int more = LANE_INT(before, lane), known = LANE_INT(media, lane);
+    for (; more != 0; more >>= GLINT_MEDIA_BITS) {
+        const lane_int medium = more & MEDIUM_MASK;
+#if GLINT_OVERLAPS
+        if (!remove_medium(&known, medium)) {
+            lane_int sorted = LANE_INT(*begun, lane);
+            insert_medium(&sorted, medium);
+            LANE_INT(*begun, lane) = sorted;
+        }
+#else
+        bool is_known = false;
+        for (lane_int left = known; left != 0; left >>= GLINT_MEDIA_BITS) {
+            is_known |= (left & MEDIUM_MASK) == medium;
+        }
+        if (!is_known && *count < GLINT_MEDIA_CAPACITY) {
+            LANE_INT(*begun, lane) |= medium << (GLINT_MEDIA_BITS * (*count)++);
+        }
+#endif
+    }
+}
+
+// The media on both sides of what a walk comes to; a solid that it leaves and has not entered is
+// before it.
+static inline void walk_media(const surface *s, lanes_int media, lanes_int *before,
+                              lanes_int *beyond)
+{
+#if GLINT_OVERLAPS
+    *before = s->media_before;
+    *beyond = s->media_beyond;
+#else
+    mask lost;
+    const mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
+    const lanes_int entered = enter_medium(media, s->medium, &lost);
+    const lanes_int left = leave_medium(media, s->medium);
+    *before = SELECT(solid & !s->outside & (left == media), entered, media);
+    *beyond = SELECT(solid, SELECT(s->outside, entered, left), media);
+#endif
+}
+
+// One step of a group's walk: past what the rays in `met` have met.
+static inline void walk_past(const scene_buffers *scene, path *ray, closest *hit, mask met,
+                             mask *first, lanes_int *places, int *counts, lanes_int *begun)
+{
+    triangle triangles = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
+    const lanes_int place = hit->place;
+    const surface s = find_surface_in_place(scene, ray, met, hit, &triangles);
+    const real height = hit->t * fabs(dot3(s.geometric_normal, ray->direction));
+    const mask here = met & *first & (height <= reach_of_place(&s, hit->t));
+    *places = SELECT(met & *first & !here, place, *places);
+    lanes_int before, beyond;
+    walk_media(&s, ray->media, &before, &beyond);
+    for (uint left = mask_bits(met & !here); left != 0; left &= left - 1) {
+        const int lane = lowest_bit(left);
+        note_begun(ray->media, before, lane, &counts[lane], begun);
+    }
+    ray->media = SELECT(met & !here, beyond, ray->media);
+    *first = *first & !(met & !here);
+    ray->origin = select3(met, scale_add(s.geometric_normal, -s.offset, s.position), ray->origin);
+    ray->from = SELECT(met, place, ray->from);
+}
+
+// Sets the media that paths begin in, and what their primary rays meet.
+static inline void find_beginnings(const scene_buffers *scene, paths *all, primary *firsts)
+{
+    path walkers[PATH_GROUPS];
+    mask active[PATH_GROUPS], first[PATH_GROUPS];
+    int counts[PATH_GROUPS][GLINT_WIDTH];
+    closest hits[PATH_GROUPS];
+    for (int g = 0; g < PATH_GROUPS; g++) {
+        walkers[SLOT(g)] = all->ray[SLOT(g)];
+        active[SLOT(g)] = all->active[SLOT(g)];
+        first[SLOT(g)] = mask_all();
+        firsts[SLOT(g)].places = int_of(-1);
+        for (int lane = 0; lane < GLINT_WIDTH; lane++) {
+            counts[SLOT(g)][lane] = 0;
+        }
+    }
+    for (int walked = 0; walked < WALKED_MAX && any_active(active); walked++) {
+        trace_groups(scene, walkers, active, hits);
+        for (int g = 0; g < PATH_GROUPS; g++) {
+            closest *hit = &hits[SLOT(g)];
+            active[SLOT(g)] = active[SLOT(g)] & (hit->place >= (lane_int)0);
+            if (any_lane(active[SLOT(g)])) {
+                walk_past(scene, &walkers[SLOT(g)], hit, active[SLOT(g)], &first[SLOT(g)],
+                          &firsts[SLOT(g)].places, counts[SLOT(g)], &all->ray[SLOT(g)].media);
+            }
+        }
+    }
+}
+
+#endif
