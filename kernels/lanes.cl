@@ -117,6 +117,10 @@ typedef LANES(int) mask;
 
 // clang's reductions become one or two instructions; without them halves are folded. Interpreters
 // such as Oclgrind accept them and cannot run them: -DGLINT_NO_REDUCTIONS takes the portable form.
+// So do drivers that compile to SPIR-V (Mesa's rusticl), which has no instruction for them.
+#if (defined(__SPIR) || defined(__SPIRV__)) && !defined(GLINT_NO_REDUCTIONS)
+#define GLINT_NO_REDUCTIONS
+#endif
 #if defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
 #if __has_builtin(__builtin_reduce_or)
 #define REDUCE_OR(m) __builtin_reduce_or(m)

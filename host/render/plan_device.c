@@ -9,12 +9,18 @@
 #include <math.h>
 #include <stdio.h>
 
-// A packet fills the widest vector of the device; where a work-item is one lane of the hardware's
-// own (GPUs), a packet is one ray.
+// Whether a work-item is one lane of the hardware: of GPUs, and of drivers for CPUs that fill
+// vectors with work-items themselves.
+static bool is_lane(const glint_capabilities *device)
+{
+    return !device->is_cpu || device->native_float_width <= 1;
+}
+
+// A packet fills the widest vector of the device, or is one ray.
 int glint_plan_native_width(const glint_capabilities *device, glint_precision precision)
 {
     const int per_lane = precision == GLINT_PRECISION_DOUBLE ? 2 : 1;
-    return !device->is_cpu ? 1 : device->native_float_width / per_lane >= 16 ? 16 : 8;
+    return is_lane(device) ? 1 : device->native_float_width / per_lane >= 16 ? 16 : 8;
 }
 
 static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
@@ -26,9 +32,10 @@ static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
     if (in->settings->kernel_width != 0) {
         plan->kernel_width = in->settings->kernel_width;
         snprintf(plan->width_reason, sizeof plan->width_reason, "asked for");
-    } else if (!device->is_cpu) {
+    } else if (is_lane(device)) {
         plan->kernel_width = glint_plan_native_width(device, plan->precision);
-        snprintf(plan->width_reason, sizeof plan->width_reason, "not a CPU: one ray a work-item");
+        snprintf(plan->width_reason, sizeof plan->width_reason, "%s: one ray a work-item",
+                 device->is_cpu ? "the driver makes vectors of work-items" : "not a CPU");
     } else {
         plan->kernel_width = glint_plan_native_width(device, plan->precision);
         snprintf(plan->width_reason, sizeof plan->width_reason,

@@ -65,7 +65,7 @@ inputs='env env-layout ball-circle ball-distance ball-fov env-flip camera eye lo
 # shellcheck disable=SC2046,SC2086 # lists of words
 {
     check 'render --help tells every option' help_mentions render $inputs output exposure tone compression \
-        exr-type preview stats progress progress-fd frames turntable fps skip-existing shard max-error surroundings \
+        exr-type preview stats progress progress-fd frames turntable fps strict skip-existing shard max-error surroundings \
         capture-size proxy env-at kernel-dir $(settings_of environment size frame device layers)
     check 'info --help tells every option' help_mentions info $inputs json \
         $(settings_of environment size frame device)
@@ -369,6 +369,12 @@ check 'with its share of the picture' grep -q 'volume_scatter.* ([1-9][0-9]*% of
 run render in/coated.gltf --eye 0,0,9 --look-at 0,0,99 --size 8x8 -o out/x.png --progress none
 check 'also where that is nothing' grep -q 'volume_scatter.* (not in view)$' stderr
 clean
+run render in/coated.gltf --strict --size 8x8 -o out/x.png --progress none
+check '--strict: a warning is an error' test "$status" -eq 3 -a ! -e out/x.png
+check '--strict: and says so' grep -q '^glint: in/coated.gltf: 1 warning, and --strict wants none' stderr
+run render in/mirror.gltf --strict --size 8x8 -o out/x.png --progress none
+check '--strict: nothing to warn of' test "$status" -eq 0 -a -s out/x.png
+clean
 run render in/mirror.gltf --size 8x8 -o out/x.exr --exposure 1 --progress none
 check 'an exposure that is left out is said' grep -q 'warning: .*exposure' stderr
 clean
@@ -522,6 +528,18 @@ check 'info --json: bytes per triangle' stat_is_positive bvh bytes_per_triangle
 run info in/coated.gltf --json
 cp stdout out/coated.json
 check 'info --json: the warning' "$json_get" out/coated.json warnings 0
+wine=${BASH_SOURCE[0]%/*}/../../scenes/wine.gltf
+run info "$wine"
+check 'info names solids that touch' grep -q '"goblet" (node 1, glass) touches "wine" (node 2, wine)' stdout
+check 'and that overlap' grep -q '"wine" (node 2, wine) overlaps "ice" (node 3, ice): where .* it is ice' stdout
+run info "$wine" --json
+cp stdout out/stats.json
+check 'info --json: contacts' stat_is overlap scene contacts 1 kind
+check 'info --json: which is there' stat_is 2 scene contacts 1 there
+check 'info --json: by its volume' stat_is true scene contacts 1 is_guess
+run render "$wine" --strict --size 8x8 --depth 1 -o out/x.png --progress none
+check '--strict: solids that touch' test "$status" -eq 3 -a ! -e out/x.png
+check '--strict: which' grep -q '"goblet" .* touches "wine" .*, and 2 more pairs: where both are' stderr
 run info in/mirror.gltf --env in/sun.hdr
 check 'info says why texels are float' grep -q 'float texels: .* 131072' stdout
 clean

@@ -10,7 +10,7 @@ quick=equal_indices,metal_at_its_ends
 # ---- help and mistakes --------------------------------------------------------------------------
 
 check 'selftest --help tells every option' help_mentions selftest list case precision kernel-width \
-    rays seed fail-fast device kernel-dir expect junit json help
+    rays seed case-timeout fail-fast device kernel-dir expect junit json help
 run --help
 check 'glint --help lists it' grep -q '^  selftest ' stdout
 refuses 2 'unknown case' selftest --case nonsense

@@ -7,6 +7,7 @@
 #include "cli/common/json_output.h"
 #include "cli/selftest/expectations.h"
 #include "cli/selftest/selftest_table.h"
+#include "cli/selftest/worker.h"
 #include "image/output_file.h"
 #include "report/machine.h"
 #include "report/selftest/junit.h"
@@ -18,6 +19,7 @@
 #include <sys/stat.h>
 
 #define CASES_MAX 128
+#define DEFAULT_LIMIT (-1.0) // of a case's time, where none is given
 
 // The cases that --case names.
 typedef struct case_selection {
@@ -35,6 +37,7 @@ typedef struct selftest_request {
     int precision; // see precisions
     double rays;
     int seed;
+    double limit_s; // of a case; 0: none
     const char *expect;
     const char *junit, *json;
 } selftest_request;
@@ -119,6 +122,10 @@ static const glint_option selftest_options[] = {
     {GLINT_OPTION_INT, .name = "seed", .argument = "N",
      .help = "Draw other rays, angles and places; the bounds stay the same.", .fallback = "0",
      .offset = offsetof(selftest_request, seed), .minimum = 0, .maximum = 2147483647},
+    {GLINT_OPTION_REAL, .name = "case-timeout", .argument = "SECONDS",
+     .help = "A case that takes longer is broken: the driver hangs. 0: no limit.",
+     .fallback = "900, and none with more rays", .offset = offsetof(selftest_request, limit_s),
+     .minimum = 0, .maximum = 1e6},
     {GLINT_OPTION_FLAG, .name = "fail-fast", .help = "Stop after the first case that fails.",
      .offset = offsetof(selftest_request, fail_fast)},
     {GLINT_OPTION_HEADING, .help = "Device"},
@@ -147,6 +154,7 @@ static void set_defaults(void *context)
 {
     selftest_request *request = context;
     request->precision = ALL_PRECISIONS;
+    request->limit_s = DEFAULT_LIMIT;
     request->rays = (double)GLINT_SELFTEST_RAYS;
 }
 
@@ -176,7 +184,7 @@ static glint_status check_request(const selftest_request *request, glint_error *
 
 typedef struct selftest_work {
     const selftest_request *request;
-    glint_device *device;
+    selftest_worker worker;
     glint_selftest_result *results; // owned
     size_t count;
     size_t troubled; // failed or broken, which was not expected
@@ -224,7 +232,7 @@ static glint_status run_case(selftest_work *work, size_t index,
 {
     glint_selftest_result *result = &work->results[work->count++];
     glint_error trouble = {0};
-    glint_status status = glint_selftest_run(index, options, result, &trouble);
+    glint_status status = selftest_worker_run(&work->worker, index, options, result, &trouble);
     if (status != GLINT_OK) {
         glint_error_free(error);
         *error = trouble;
@@ -235,7 +243,7 @@ static glint_status run_case(selftest_work *work, size_t index,
     work->expected += result->expected;
     if (prints_table(work)) {
         if (work->count == 1) {
-            glint_selftest_print_device(glint_device_capabilities(work->device), stdout);
+            glint_selftest_print_device(&work->worker.capabilities, stdout);
         }
         if (is_first) {
             glint_selftest_print_head(result, stdout);
@@ -256,8 +264,7 @@ static glint_status run_cases(selftest_work *work, int width, glint_precision pr
                               glint_error *error)
 {
     const selftest_request *request = work->request;
-    const glint_selftest_options options = {.device = work->device,
-                                            .kernel_dir = request->kernel_dir,
+    const glint_selftest_options options = {.kernel_dir = request->kernel_dir,
                                             .width = width,
                                             .precision = precision,
                                             .rays = (uint64_t)request->rays,
@@ -275,7 +282,7 @@ static glint_status run_cases(selftest_work *work, int width, glint_precision pr
 static glint_status run_all(selftest_work *work, glint_error *error)
 {
     const selftest_request *request = work->request;
-    const bool has_double = glint_device_capabilities(work->device)->has_double;
+    const bool has_double = work->worker.capabilities.has_double;
     for (int w = 0; w < ALL_WIDTHS; w++) {
         const bool all = request->width == ALL_WIDTHS;
         if (all ? w == 0 : w != request->width) {
@@ -300,7 +307,7 @@ static glint_status write_reports(const selftest_work *work, glint_error *error)
     glint_machine_describe(&machine);
     const selftest_request *request = work->request;
     const glint_selftest_run_report run = {
-        .device = glint_device_capabilities(work->device),
+        .device = &work->worker.capabilities,
         .date = machine.date,
         .machine = machine.system,
         .rays = (uint64_t)request->rays,
@@ -355,7 +362,7 @@ static glint_status give_verdict(const selftest_work *work, glint_error *error)
         snprintf(names + used, room, "%s%s", comma, work->results[i].name);
     }
     return glint_fail(error, GLINT_MISMATCH, "%zu of %zu cases failed on '%s': %s", work->troubled,
-                      work->count, glint_device_capabilities(work->device)->name, names);
+                      work->count, work->worker.capabilities.name, names);
 }
 
 static void print_list(void)
@@ -377,12 +384,15 @@ static glint_status selftest(const selftest_request *request, glint_error *error
         TRY_OR(cleanup, status,
                selftest_expectations_read(request->expect, &work.expectations, error));
     }
-    TRY_OR(cleanup, status, glint_device_open(request->device, &work.device, error));
+    const bool many_rays = request->rays > (double)GLINT_SELFTEST_RAYS;
+    work.worker.device = request->device;
+    work.worker.limit_s = request->limit_s >= 0 ? request->limit_s : many_rays ? 0 : 900;
+    TRY_OR(cleanup, status, selftest_worker_start(&work.worker, error));
     TRY_OR(cleanup, status, run_all(&work, error));
     TRY_OR(cleanup, status, write_reports(&work, error));
     TRY_OR(cleanup, status, give_verdict(&work, error));
 cleanup:
-    glint_device_close(work.device);
+    selftest_worker_stop(&work.worker);
     selftest_expectations_free(&work.expectations);
     free(work.results);
     return status;

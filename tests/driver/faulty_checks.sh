@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# A driver that aborts, crashes, exits, hangs, refuses, computes nothing or does not compile is a
+# finding of the self-test and not its end: the other cases are reported.
+# driver/faulty_checks.sh GLINT FAULTY_DRIVER
+set -eu
+glint=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+FAULTY_REAL=$(cat /etc/OpenCL/vendors/pocl.icd)
+export FAULTY_REAL
+mkdir "$folder/vendors"
+echo "$2" >"$folder/vendors/faulty.icd"
+export OCL_ICD_VENDORS=$folder/vendors
+cases=fresnel_at_its_ends,metal_at_its_ends,cube_ties
+failed=0
+
+# run WAY KERNEL: its table, what it says, JUnit's report, and its status.
+run() {
+    status=0
+    FAULTY_WAY=$1 FAULTY_KERNEL=$2 "$glint" selftest --precision float --case $cases --case-timeout 20 \
+        --junit "$folder/$1.xml" >"$folder/$1.table" 2>"$folder/$1.said" || status=$?
+}
+
+# expect WAY TEXT: what is in TEXT stands in the table.
+expect() {
+    if [ "$status" != 7 ]; then
+        echo "$1: exit status $status, not 7"
+        failed=1
+    fi
+    if ! grep -qF -- "$2" "$folder/$1.table"; then
+        echo "$1: no '$2' in the table:"
+        cat "$folder/$1.table" "$folder/$1.said"
+        failed=1
+    fi
+}
+
+run none none
+[ "$status" = 0 ] || { echo "the driver that is not at fault: status $status"; cat "$folder/none.said"; exit 1; }
+
+for way in abort crash exit hang garbage refuse; do
+    run $way probe_metal
+    case $way in
+    abort) expect $way 'ended the process: Aborted (it said: faulty driver: probe_metal is too much' ;;
+    crash) expect $way 'ended the process: Segmentation fault (it said: faulty driver' ;;
+    exit) expect $way 'ended the process with status 5 (it said: faulty driver' ;;
+    hang) expect $way 'did not come back within 20 s (it said: faulty driver' ;;
+    garbage) expect $way 'FAILED' ;;
+    refuse) expect $way 'CL_OUT_OF_RESOURCES' ;;
+    esac
+    if [ "$(grep -c ' ok$' "$folder/$way.table")" -lt 5 ]; then
+        echo "$way: the other cases do not pass:"
+        cat "$folder/$way.table"
+        failed=1
+    fi
+    if [ "$(grep -c '<testcase' "$folder/$way.xml")" != 3 ]; then
+        echo "$way: JUnit's report does not have all three cases"
+        failed=1
+    fi
+done
+
+run compile none
+expect compile 'BROKEN'
+[ "$(grep -c '<testcase' "$folder/compile.xml")" = 3 ] || { echo "compile: JUnit lacks cases"; failed=1; }
+exit $failed
