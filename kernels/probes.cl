@@ -303,3 +303,18 @@ kernel void probe_tile_place(PROBE_ARGUMENTS)
         }
     }
 }
+
+// In: rounds, those of a packet's first element. Out: the upper 24 bits of a generator of random
+// numbers after so many, from 1 on.
+kernel void probe_loop(PROBE_ARGUMENTS)
+{
+    for (PROBE_PACKETS) {
+        const int rounds = (int)in[GLINT_PROBE_VALUES * packet * GLINT_WIDTH];
+        uint state = 1;
+        for (int i = 0; i < rounds; i++) {
+            state = state * 1664525u + 1013904223u;
+        }
+        const real zero = real_of(0);
+        probe_store4(out, packet, real3_of(real_of((scalar)(state >> 8)), zero, zero), zero);
+    }
+}

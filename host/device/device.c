@@ -257,6 +257,7 @@ static glint_status open_device(const found_device *found, glint_device **device
     }
     opened->id = found->id;
     opened->capabilities = found->capabilities;
+    glint_driver_cache_set_device(found->capabilities.name);
     const glint_status status = create_context_and_queues(opened, error);
     if (status != GLINT_OK) {
         glint_device_close(opened);

@@ -27,6 +27,8 @@ static char folder[PATH_MAX];    // of the cache; "" before it is known
 static char temporary[PATH_MAX]; // of ours; "": none
 static char note[GLINT_MESSAGE_CAPACITY];
 static char epitaph[GLINT_MESSAGE_CAPACITY];
+static char run_epitaph[GLINT_MESSAGE_CAPACITY];
+static atomic_bool runs;
 static char mark_path[PATH_MAX + sizeof "/" MARK];
 static char mark_text[32];
 static time_t begun;
@@ -50,10 +52,24 @@ static void find_folder(void)
         snprintf(folder, sizeof folder, "/tmp/pocl/kcache");
     }
     snprintf(mark_path, sizeof mark_path, "%s/" MARK, folder);
+    glint_driver_cache_set_device(NULL);
+}
+
+void glint_driver_cache_set_device(const char *device)
+{
+    char by[300] = "";
+    if (device != NULL && device[0] != '\0') {
+        snprintf(by, sizeof by, "device '%.250s': ", device);
+    }
     snprintf(epitaph, sizeof epitaph,
-             "glint: %.700s: the driver died while it compiled kernels, or loaded them from this "
+             "glint: %s%.500s: the driver died while it compiled kernels, or loaded them from this "
              "cache (run glint again: it will compile them anew)\n",
-             folder);
+             by, folder);
+    snprintf(
+        run_epitaph, sizeof run_epitaph,
+        "glint: %sthe process died while the driver ran kernels (glint selftest says what this "
+        "driver does wrong, glint devices which others there are)\n",
+        by);
 }
 
 // Makes the folder with those above it. False where that fails.
@@ -231,6 +247,19 @@ void glint_driver_cache_is_mended(void)
              folder);
 }
 
+void glint_driver_run_begin(void)
+{
+    atomic_store(&runs, true);
+    if (watcher != NULL) {
+        watcher();
+    }
+}
+
+void glint_driver_run_end(void)
+{
+    atomic_store(&runs, false);
+}
+
 // ---- In signal handlers -------------------------------------------------------------------------
 
 bool glint_driver_cache_is_used(void)
@@ -250,4 +279,9 @@ void glint_driver_cache_mark(void)
 const char *glint_driver_cache_epitaph(void)
 {
     return epitaph;
+}
+
+const char *glint_driver_run_epitaph(void)
+{
+    return atomic_load(&runs) ? run_epitaph : NULL;
 }

@@ -28,6 +28,17 @@ bool glint_driver_cache_clean(void);
 // Notes that cleaning helped.
 void glint_driver_cache_is_mended(void);
 
+// The device that is used: what is said of a death names it. NULL or "": unknown.
+void glint_driver_cache_set_device(const char *device);
+
+// Between the two the driver runs kernels.
+void glint_driver_run_begin(void);
+void glint_driver_run_end(void);
+
+// For signal handlers: a line about a process that died while the driver ran kernels; NULL: it did
+// not.
+const char *glint_driver_run_epitaph(void);
+
 // For signal handlers: whether the driver compiles or loads; and, if it died of that, a mark for
 // the next run, and a line about it.
 bool glint_driver_cache_is_used(void);

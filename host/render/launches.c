@@ -2,6 +2,7 @@
 #include "render/launches.h"
 
 #include "base/clock.h"
+#include "device/driver_cache.h"
 #include "device/opencl_error.h"
 
 #include <math.h>
@@ -174,10 +175,12 @@ glint_status glint_launches_run(const glint_launcher *launcher, glint_frame_reco
         .step = round_up((size_t)fmax(1, first_step), local_side(plan)),
     };
     const double begun = glint_now_ms();
+    glint_driver_run_begin();
     const glint_status status = run_all(&l, progress, error);
     while (l.under_way > 0) {
         end_launch(&l, NULL);
     }
+    glint_driver_run_end();
     if (status == GLINT_OK) {
         *bands_per_ms = (double)l.bands / fmax(glint_now_ms() - begun, 1e-3);
     }

@@ -31,6 +31,7 @@ static const struct {
     [GLINT_PROBE_PRIMARY] = {"probe_primary", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
     [GLINT_PROBE_PRIMARY_ORIGIN] = {"probe_primary_origin", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
     [GLINT_PROBE_TILE_PLACE] = {"probe_tile_place", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
+    [GLINT_PROBE_LOOP] = {"probe_loop", GLINT_PROBE_VALUES, GLINT_PROBE_VALUES},
 };
 
 _Static_assert(CHUNK_ELEMENTS % (16 * 16) == 0, "a chunk is no whole number of work-items");

@@ -22,6 +22,7 @@ typedef enum glint_probe_part {
     GLINT_PROBE_PRIMARY,
     GLINT_PROBE_PRIMARY_ORIGIN,
     GLINT_PROBE_TILE_PLACE,
+    GLINT_PROBE_LOOP,
     GLINT_PROBE_PARTS,
 } glint_probe_part;
 

@@ -256,10 +256,38 @@ static glint_status large_numbers(trial *t)
     return GLINT_OK;
 }
 
+// A path through much glass takes some hundred thousand rounds in all.
+static glint_status long_loops(trial *t)
+{
+    enum { COUNT = 64, ROUNDS = 1000000 };
+    static double in[COUNT][4], out[COUNT][4];
+    glint_measure *wrong = trial_events(t, "loops of a million rounds that end early", 0);
+    uint32_t state = 1;
+    for (int i = 0; i < ROUNDS; i++) {
+        state = state * 1664525U + 1013904223U;
+    }
+    for (int i = 0; i < COUNT; i++) {
+        in[i][0] = ROUNDS;
+    }
+    glint_probe *probe;
+    glint_status status;
+    TRY_OR(cleanup, status, trial_functions(t, &probe));
+    TRY_OR(cleanup, status,
+           trial_call(t, probe, GLINT_PROBE_LOOP, &(trial_numbers){in, out, COUNT}));
+    for (int i = 0; i < COUNT; i++) {
+        measure_event(wrong, out[i][0] != state >> 8, "state %.9g instead of %u", out[i][0],
+                      state >> 8);
+    }
+cleanup:
+    glint_probe_free(probe);
+    return status;
+}
+
 const trial_case image_cases[] = {
     {"extreme_cameras", "parallel rays, 0.01°, 179° and more: the rays in closed form",
      extreme_cameras},
     {"odd_sizes", "pictures of 1×1, 1×N, 65536×1 pixels and more: rays and colours", odd_sizes},
     {"large_numbers", "places in pictures of more than 2^31 values", large_numbers},
+    {"long_loops", "loops of a million rounds: the driver ends none of them early", long_loops},
     {0},
 };

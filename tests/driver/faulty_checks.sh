@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A driver that aborts, crashes, exits, hangs, refuses, computes nothing or does not compile is a
 # finding of the self-test and not its end: the other cases are reported.
-# driver/faulty_checks.sh GLINT FAULTY_DRIVER
+# driver/faulty_checks.sh GLINT FAULTY_DRIVER SCENE
 set -eu
 glint=$1
 folder=$(mktemp -d)
@@ -61,4 +61,17 @@ done
 run compile none
 expect compile 'BROKEN'
 [ "$(grep -c '<testcase' "$folder/compile.xml")" = 3 ] || { echo "compile: JUnit lacks cases"; failed=1; }
+# render: one line that names the device, and exit status 4, also while kernels run.
+for after in 0 1; do
+    status=0
+    FAULTY_WAY=abort FAULTY_KERNEL=render_tiles FAULTY_AFTER=$after POCL_CACHE_DIR=$folder/cache \
+        "$glint" render "$3" --size 64x48 -o "$folder/frame.png" 2>"$folder/render.said" || status=$?
+    said="^glint: device '.*: the driver died while it compiled"
+    [ $after = 0 ] || said="^glint: device '.*': the process died while the driver ran kernels"
+    if [ $status != 4 ] || ! grep -q "$said" "$folder/render.said" || [ -e "$folder/frame.png" ]; then
+        echo "render, after $after launches: status $status, and:"
+        cat "$folder/render.said"
+        failed=1
+    fi
+done
 exit $failed

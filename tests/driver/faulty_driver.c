@@ -39,7 +39,10 @@ static CL_API_ENTRY cl_int CL_API_CALL enqueue(cl_command_queue queue, cl_kernel
     char name[128] = "";
     const char *faulty = getenv("FAULTY_KERNEL");
     real.clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof name, name, NULL);
-    if (faulty != NULL && strcmp(name, faulty) == 0) {
+    static int launches;
+    const char *after = getenv("FAULTY_AFTER");
+    if (faulty != NULL && strcmp(name, faulty) == 0 &&
+        ++launches > (after != NULL ? atoi(after) : 0)) {
         if (is_way("abort") || is_way("crash") || is_way("exit") || is_way("hang")) {
             fprintf(stderr, "faulty driver: %s is too much for me\n", name);
         }

@@ -21,6 +21,11 @@ static void end_if_driver_died(void)
         (void)!write(STDERR_FILENO, line, strlen(line));
         _exit(GLINT_DEVICE_FAILED);
     }
+    const char *line = glint_driver_run_epitaph();
+    if (line != NULL) {
+        (void)!write(STDERR_FILENO, line, strlen(line));
+        _exit(GLINT_DEVICE_FAILED);
+    }
 }
 
 // Its action is the default again: what is no driver's death dies of the signal.
