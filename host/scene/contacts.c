@@ -316,7 +316,7 @@ static bool is_solid(const glint_scene *scene, const glint_instance *instance)
     return glint_material_lobes(&scene->materials[instance->material]).solid;
 }
 
-// All that solids are in.
+// All that solids are in, and what may touch it.
 static box bounds_of_solids(const glint_scene *scene, const glint_topology *topology)
 {
     box all = empty_box();
@@ -326,20 +326,32 @@ static box bounds_of_solids(const glint_scene *scene, const glint_topology *topo
             grow_box(&all, c->low, c->high);
         }
     }
+    for (int k = 0; k < 3; k++) {
+        const float margin = (float)(4 * FARTHER * (double)GLINT_TOUCHING); // coordinates are ≤ 1
+        all.low[k] -= margin;
+        all.high[k] += margin;
+    }
     return all;
 }
 
-// Lists the triangles of solids and those that are near some, by their corners. Returns how many
-// corners these are.
+// Lists the triangles of solids and those near some, by their corners; NULL: only counts them.
+// Returns how many triangles these are.
 static size_t list_corners(const search *s, unsigned int *corners)
 {
     const glint_scene *scene = s->scene;
     const box near = bounds_of_solids(scene, s->topology);
     size_t count = 0;
     for (size_t i = 0; i < scene->triangle_count; i++) {
-        const box own = box_of(s, (uint32_t)i);
-        for (size_t k = 0; k < 3 && boxes_meet(&own, &near); k++) {
-            corners[count++] = (unsigned int)(3 * i + k);
+        box own = empty_box();
+        for (size_t k = 0; k < 3; k++) {
+            const float *p = scene->positions + 9 * i + 3 * k;
+            grow_box(&own, p, p);
+        }
+        if (boxes_meet(&own, &near)) {
+            for (size_t k = 0; corners != NULL && k < 3; k++) {
+                corners[3 * count + k] = (unsigned int)(3 * i + k);
+            }
+            count++;
         }
     }
     return count;
@@ -349,18 +361,16 @@ static size_t list_corners(const search *s, unsigned int *corners)
 static bool sort_triangles(search *s)
 {
     const glint_scene *scene = s->scene;
-    const size_t most = 3 * scene->triangle_count;
-    unsigned int *corners = glint_allocate(most, sizeof *corners);
-    unsigned int *sorted = glint_allocate(most, sizeof *sorted);
-    bool done = corners != NULL && sorted != NULL;
+    s->count = list_corners(s, NULL);
+    unsigned int *corners = glint_allocate(3 * s->count, sizeof *corners);
+    unsigned int *sorted = glint_allocate(3 * s->count, sizeof *sorted);
+    s->order = glint_allocate(s->count, sizeof *s->order);
+    const bool done = corners != NULL && sorted != NULL && s->order != NULL;
     if (done) {
-        const size_t count = list_corners(s, corners);
-        meshopt_spatialSortTriangles(sorted, corners, count, scene->positions, most,
-                                     3 * sizeof(float));
-        s->count = count / 3;
-        s->order = glint_allocate(s->count, sizeof *s->order);
-        done = s->order != NULL;
-        for (size_t i = 0; done && i < s->count; i++) {
+        list_corners(s, corners);
+        meshopt_spatialSortTriangles(sorted, corners, 3 * s->count, scene->positions,
+                                     3 * scene->triangle_count, 3 * sizeof(float));
+        for (size_t i = 0; i < s->count; i++) {
             s->order[i] = sorted[3 * i] / 3;
         }
     }

@@ -6,15 +6,6 @@
 
 #include <math.h>
 
-// E(d) = ½ + ½d, as the device has it.
-static void linear_light(const void *context, const double direction[3], double rgb[3])
-{
-    (void)context;
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = 0.5 + 0.5 * direction[k];
-    }
-}
-
 typedef struct media_view {
     const char *what;
     void (*build)(shape *s);
@@ -117,7 +108,7 @@ static glint_status render_view(trial *t, const media_view *of)
     const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
     TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
     TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
-    j.scene.radiance = linear_light;
+    judge_use_linear_light(&j);
     j.scene.overlaps = true;
     oracle_view view = judge_view(&camera, &settings);
     view.depth = settings.depth;

@@ -7,24 +7,6 @@
 
 #include <math.h>
 
-// E(d) = ½ + ½d, as the device has it.
-static void linear_light(const void *context, const double direction[3], double rgb[3])
-{
-    (void)context;
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = 0.5 + 0.5 * direction[k];
-    }
-}
-
-// Its mean about n, weighed by the cosine: that of d is ⅔ n.
-static void linear_irradiance(const void *context, const double normal[3], double rgb[3])
-{
-    (void)context;
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = 0.5 + normal[k] / 3;
-    }
-}
-
 typedef struct rough_ball {
     const char *what;
     shape_material material;
@@ -124,8 +106,7 @@ static glint_status render_ball(trial *t, const rough_ball *ball)
     const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
     TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
     TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
-    j.scene.radiance = linear_light;
-    j.scene.irradiance = linear_irradiance;
+    judge_use_linear_light(&j);
     oracle_view view = judge_view(&camera, &settings);
     view.depth = ball->depth;
     view.roughness = ball->strata;

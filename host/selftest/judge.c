@@ -248,6 +248,31 @@ void judge_end(judge *j)
     *j = (judge){0};
 }
 
+// ---- Light --------------------------------------------------------------------------------------
+
+static void linear_light(const void *context, const double direction[3], double rgb[3])
+{
+    (void)context;
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = 0.5 + 0.5 * direction[k];
+    }
+}
+
+// Its mean about n, weighed by the cosine: that of d is ⅔ n.
+static void linear_irradiance(const void *context, const double normal[3], double rgb[3])
+{
+    (void)context;
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = 0.5 + normal[k] / 3;
+    }
+}
+
+void judge_use_linear_light(judge *j)
+{
+    j->scene.radiance = linear_light;
+    j->scene.irradiance = linear_irradiance;
+}
+
 // ---- Rays ---------------------------------------------------------------------------------------
 
 oracle_hit judge_ray(const oracle_scene *scene, const glint_probe_ray *ray)

@@ -23,6 +23,9 @@ typedef struct judge {
 glint_status judge_begin(const glint_scene *scene, judge *j, glint_error *error);
 void judge_end(judge *j); // a zeroed one is allowed
 
+// The light of trial_linear_environment: E(d) = ½ + ½d.
+void judge_use_linear_light(judge *j);
+
 // The closest hit of a ray in metres.
 oracle_hit judge_ray(const oracle_scene *scene, const glint_probe_ray *ray);
 
