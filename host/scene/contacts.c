@@ -21,10 +21,14 @@
 #define FAN 8       // children of a box, and triangles of the least ones
 #define LEVELS 12   // 8^12 triangles
 #define FARTHER 4.0 // than the kernels look
+// Pairs of triangles that are looked at, some seconds' worth. In a heap of triangles that all cross
+// each other there are more, and more contacts than anyone reads: then all may touch.
+#define PAIRS_MAX ((size_t)16 * 1024 * 1024)
+#define CONTACTS_MAX ((size_t)256 * 1024)
 #define MIXED 0xFFFFFFFFu
 #define NO_SOLID 0xFFFFFFFEu // in place of a component: of no solid
-#define NEARLY_PARALLEL                                                                            \
-    0.9 // cosine of the angle between planes that are in one place; kernels: 0.99
+// The cosine between planes that are in one place; the kernels have 0.99.
+#define NEARLY_PARALLEL 0.9
 
 typedef struct box {
     float low[3], high[3];
@@ -41,6 +45,7 @@ typedef struct search {
     size_t sizes[LEVELS];
     int levels;
     size_t capacity; // of the contacts
+    size_t pairs;    // of triangles that may still be looked at
     bool complete;
 } search;
 
@@ -183,6 +188,45 @@ static int compare_contacts(const void *left, const void *right)
     return (int)b->overlap - (int)a->overlap;
 }
 
+// One of each pair: that which overlaps, if one does.
+static void sort_contacts(glint_solids *solids)
+{
+    if (solids->contact_count == 0) {
+        return;
+    }
+    glint_contact *all = solids->contacts;
+    qsort(all, solids->contact_count, sizeof *all, compare_contacts);
+    size_t kept = 1;
+    for (size_t i = 1; i < solids->contact_count; i++) {
+        if (memcmp(all[i].components, all[kept - 1].components, sizeof all[i].components) != 0) {
+            all[kept++] = all[i];
+        }
+    }
+    solids->contact_count = kept;
+}
+
+// Where the list is full one of each pair is kept; what is still more than half full grows.
+static bool make_room(search *s)
+{
+    glint_solids *solids = s->solids;
+    if (solids->contact_count < s->capacity) {
+        return true;
+    }
+    sort_contacts(solids);
+    if (solids->contact_count < s->capacity / 2) {
+        return true;
+    }
+    const size_t larger = s->capacity > 0 ? 2 * s->capacity : 16;
+    glint_contact *contacts = realloc(solids->contacts, larger * sizeof *contacts);
+    if (contacts == NULL) {
+        return false;
+    }
+    solids->contacts = contacts;
+    s->capacity = larger;
+    s->pairs = larger > CONTACTS_MAX ? 0 : s->pairs;
+    return true;
+}
+
 static void note_contact(search *s, uint32_t a, uint32_t b, bool overlap)
 {
     glint_solids *solids = s->solids;
@@ -192,15 +236,9 @@ static void note_contact(search *s, uint32_t a, uint32_t b, bool overlap)
         compare_contacts(&solids->contacts[solids->contact_count - 1], &contact) == 0) {
         return;
     }
-    if (solids->contact_count == s->capacity) {
-        const size_t larger = s->capacity > 0 ? 2 * s->capacity : 16;
-        glint_contact *contacts = realloc(solids->contacts, larger * sizeof *contacts);
-        if (contacts == NULL) {
-            s->complete = false;
-            return;
-        }
-        solids->contacts = contacts;
-        s->capacity = larger;
+    if (!make_room(s)) {
+        s->complete = false;
+        return;
     }
     solids->contacts[solids->contact_count++] = contact;
 }
@@ -213,9 +251,10 @@ static void meet_triangles(search *s, size_t i, size_t j)
         return;
     }
     const bool same = left->component == right->component;
-    if (same && !may_touch_itself(s, left->component)) {
+    if (s->pairs == 0 || (same && !may_touch_itself(s, left->component))) {
         return;
     }
+    s->pairs--;
     const uint32_t a = s->order[i];
     const uint32_t b = s->order[j];
     const face one = face_of(s->scene, a);
@@ -244,8 +283,9 @@ static void join(search *s, int level, size_t i, size_t j)
         meet_triangles(s, i, j);
         return;
     }
-    if (!boxes_meet(a, b) || (a->component == b->component && a->component != MIXED &&
-                              !may_touch_itself(s, a->component))) {
+    if (s->pairs == 0 || !boxes_meet(a, b) ||
+        (a->component == b->component && a->component != MIXED &&
+         !may_touch_itself(s, a->component))) {
         return;
     }
     const size_t count = s->sizes[level - 1];
@@ -401,30 +441,27 @@ static bool build(search *s)
     return true;
 }
 
-// One of each pair: that which overlaps, if one does.
-static void sort_contacts(glint_solids *solids)
+// Where not all pairs were looked at, all may touch.
+static void mark_rest(search *s)
 {
-    if (solids->contact_count == 0) {
-        return;
+    for (size_t i = 0; s->pairs == 0 && i < s->count; i++) {
+        s->solids->of_triangle[s->order[i]].medium |= GLINT_SOLID_TOUCHES;
+        s->solids->touch_others = true;
     }
-    glint_contact *all = solids->contacts;
-    qsort(all, solids->contact_count, sizeof *all, compare_contacts);
-    size_t kept = 1;
-    for (size_t i = 1; i < solids->contact_count; i++) {
-        if (memcmp(all[i].components, all[kept - 1].components, sizeof all[i].components) != 0) {
-            all[kept++] = all[i];
-        }
-    }
-    solids->contact_count = kept;
 }
 
 bool glint_contacts_find(const glint_scene *scene, const glint_topology *topology,
                          glint_solids *solids)
 {
-    search s = {.scene = scene, .topology = topology, .solids = solids, .complete = true};
+    search s = {.scene = scene,
+                .topology = topology,
+                .solids = solids,
+                .pairs = PAIRS_MAX,
+                .complete = true};
     s.complete = solids->component_count == 0 || build(&s);
     if (s.complete && s.count > 0) {
         join(&s, s.levels - 1, 0, 0);
+        mark_rest(&s);
     }
     free(s.order);
     for (int i = 0; i < LEVELS; i++) {
