@@ -8,6 +8,7 @@
 #include "device/driver_cache.h"
 
 #include <signal.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,10 +29,15 @@ static void end_if_driver_died(void)
     }
 }
 
-// Its action is the default again: what is no driver's death dies of the signal.
-static void on_fatal_signal(int number)
+// Its action is the default again: what is no driver's death, as a signal that another process sent
+// is not, dies of the signal.
+static void on_fatal_signal(int number, siginfo_t *from, void *context)
 {
-    end_if_driver_died();
+    (void)context;
+    const bool is_sent = from->si_code == SI_USER || from->si_code == SI_QUEUE;
+    if (!is_sent || from->si_pid == getpid()) {
+        end_if_driver_died();
+    }
     raise(number);
 }
 
@@ -48,7 +54,8 @@ static const int fatal[] = {
 // Anew for each build: LLVM puts handlers of its own before these, which let abort() pass.
 static void install_handlers(void)
 {
-    struct sigaction action = {.sa_handler = on_fatal_signal, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_sigaction = on_fatal_signal,
+                               .sa_flags = (int)(SA_RESETHAND | SA_SIGINFO)};
     sigemptyset(&action.sa_mask);
     for (size_t i = 0; i < sizeof fatal / sizeof fatal[0]; i++) {
         sigaction(fatal[i], &action, NULL);
