@@ -1,8 +1,10 @@
-// Rule 5 where solids touch or overlap, by points: a solid is there where its surface is seen all
-// around. No stack is kept, and no order of triangles matters.
+// Rule 5: what absorbs a path's light, and, where solids touch or overlap, which of them is there.
+// That is found by points: a solid is there where its surface is seen all around. No stack is kept,
+// and no order of triangles matters.
 #include "oracle/overlaps.h"
 #include "oracle/hit.h"
 #include "oracle/surface.h"
+#include "oracle/walk.h"
 
 #include <math.h>
 
@@ -155,4 +157,18 @@ vector oracle_start_beside(const oracle_scene *scene, int triangle, vector point
     vector n = normal_of(t);
     double step = LEAVING * largest_coordinate(t);
     return plus(point, scaled(n, dot(direction, n) < 0.0 ? -step : step));
+}
+
+// The segment that ends at this surface was inside the topmost solid. Meeting a solid's back face
+// while inside none means that the path began inside that solid.
+void oracle_absorb(const oracle_scene *scene, path *p, const surface *s, double distance)
+{
+    if (p->inside.count == 0 && !s->front && oracle_is_solid(s->material) && !scene->overlaps)
+        media_enter(&p->inside, s->index);
+    if (p->inside.count == 0)
+        return;
+    const oracle_material *m = &scene->materials[p->inside.solid[p->inside.count - 1]];
+    for (int i = 0; i < 3; i++)
+        p->weight.at[i] *=
+            oracle_transmittance(m->attenuation[i], m->attenuation_distance, distance);
 }

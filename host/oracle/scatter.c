@@ -4,6 +4,7 @@
 #include "oracle/lights.h"
 #include "oracle/overlaps.h"
 #include "oracle/rough.h"
+#include "oracle/shadow.h"
 #include "oracle/vector.h"
 #include "oracle/walk.h"
 
@@ -38,22 +39,6 @@ void oracle_escape(walk *w, const path *p, vector direction, vector weight)
         w->uncovered += largest(weight);
     else
         add(w, weight, environment(w->scene, w->scene->radiance, direction));
-}
-
-// Rule 5.
-
-// The segment that ends at this surface was inside the topmost solid. Meeting a solid's back face
-// while inside none means that the path began inside that solid.
-void oracle_absorb(const oracle_scene *scene, path *p, const surface *s, double distance)
-{
-    if (p->inside.count == 0 && !s->front && oracle_is_solid(s->material) && !scene->overlaps)
-        media_enter(&p->inside, s->index);
-    if (p->inside.count == 0)
-        return;
-    const oracle_material *m = &scene->materials[p->inside.solid[p->inside.count - 1]];
-    for (int i = 0; i < 3; i++)
-        p->weight.at[i] *=
-            oracle_transmittance(m->attenuation[i], m->attenuation_distance, distance);
 }
 
 // Rule 7: the end, or on to the next surface.
@@ -225,69 +210,7 @@ static vector irradiance(const walk *w, const surface *s)
     return scaled(environment(w->scene, w->scene->irradiance, s->lit), s->occlusion);
 }
 
-// Rule 13: how much of a clear coat there is. From within a solid none is seen.
-static double clearcoat_of(const walk *w, const surface *s)
-{
-    const oracle_material *m = s->material;
-    bool none =
-        w->view->no_fresnel || m->unlit || m->mirror >= 0.0 || (oracle_is_solid(m) && !s->front);
-    return none ? 0.0 : s->clearcoat;
-}
-
 // Rule 10: punctual lights.
-
-// The way of a light's to a surface: what is left of it, and the solids that it is inside.
-typedef struct shadow {
-    const walk *walk;
-    path way;
-} shadow;
-
-// What is there of the surfaces that a shadow's ray meets in one place, where solids may overlap.
-static bool shows(shadow *to_light, oracle_hit *hit, vector direction)
-{
-    const oracle_scene *scene = to_light->walk->scene;
-    const oracle_triangle *t = &scene->triangles[hit->triangle];
-    vector point = {{0.0, 0.0, 0.0}};
-    for (int i = 0; i < 3; i++)
-        point = plus(point, scaled(vector_of(t->position[i]), hit->barycentric[i]));
-    oracle_ray ray;
-    vector_store(minus(point, scaled(direction, hit->distance)), ray.origin);
-    vector_store(direction, ray.direction);
-    int sides[2];
-    bool there = oracle_sides(scene, &ray, hit, sides);
-    to_light->way.inside = media_of(sides[0]);
-    return there;
-}
-
-// Straight on: through what is not there, and through glass by its Fresnel term and colour.
-static vector pass_straight(void *state, const oracle_hit *hit, vector direction)
-{
-    shadow *to_light = state;
-    path *way = &to_light->way;
-    const walk *w = to_light->walk;
-    arrival by = {direction, 0.0, way->travelled + hit->distance, 1};
-    oracle_hit met = *hit;
-    bool shown = !w->scene->overlaps || shows(to_light, &met, direction);
-    surface s = oracle_surface_at(w->scene, &met, &by);
-    const oracle_material *m = s.material;
-    if (!shown)
-        s.coverage = 0.0;
-    w->report->jump = fmin(w->report->jump, s.jump);
-    oracle_absorb(w->scene, way, &s, hit->distance);
-    if (oracle_is_solid(m) && s.front)
-        media_enter(&way->inside, s.index);
-    else if (oracle_is_solid(m))
-        media_leave(&way->inside, s.index);
-    double f = 0.0;
-    if (!w->view->no_fresnel)
-        f = largest(oracle_dielectric(&s, 1.0, m->ior));
-    f += (1.0 - f) * clearcoat_of(w, &s) * oracle_fresnel(s.clearcoat_cosine, 1.0, 1.5);
-    double glass = m->unlit || m->mirror >= 0.0 ? 0.0 : (1.0 - s.metallic) * s.transmission;
-    double gone = 1.0 - s.coverage;
-    vector there = scaled(s.base, s.coverage * glass * (1.0 - f)), past = {{gone, gone, gone}};
-    way->weight = times(way->weight, plus(there, past));
-    return way->weight;
-}
 
 static receiver receiver_at(walk *w, const path *p, const surface *s, vector lit)
 {
@@ -306,9 +229,9 @@ static void add_lights(walk *w, const path *p, const surface *s, vector matte)
 {
     receiver r = receiver_at(w, p, s, s->lit);
     for (int i = 0; i < w->scene->light_count; i++) {
-        shadow to_light = {w, *p};
+        oracle_shadow to_light = {w, *p};
         to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
-        add(w, times(p->weight, matte), oracle_light_at(&r, i, pass_straight, &to_light));
+        add(w, times(p->weight, matte), oracle_light_at(&r, i, oracle_pass_straight, &to_light));
     }
 }
 
@@ -384,9 +307,10 @@ static lamp lamp_at(walk *w, const path *p, const surface *s, int number)
     double cosine = dot(s->normal, seen.to);
     seen.before = cosine > 0.0;
     if (seen.before) {
-        shadow to_light = {w, *p};
+        oracle_shadow to_light = {w, *p};
         to_light.way.weight = (vector){{1.0, 1.0, 1.0}};
-        seen.light = scaled(oracle_light_at(&r, number, pass_straight, &to_light), PI / cosine);
+        seen.light =
+            scaled(oracle_light_at(&r, number, oracle_pass_straight, &to_light), PI / cosine);
     }
     return seen;
 }
@@ -537,7 +461,7 @@ static void blend(walk *w, const path *p, const surface *s)
 // it leaves of the light. Without roughness it is a smooth one.
 static double add_clearcoat(walk *w, const path *p, const surface *s)
 {
-    double there = clearcoat_of(w, s);
+    double there = oracle_clearcoat_of(w, s);
     if (there == 0.0)
         return 1.0;
     surface coat = *s;

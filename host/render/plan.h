@@ -52,8 +52,9 @@ typedef struct glint_plan {
     bool depth_is_exact; // `depth` is what sight proved: nothing changes beyond
     int stack_capacity;  // waiting branches of a pixel; 0 without SPLIT
     char stack_reason[120];
-    char guesses[400]; // which solids touch or overlap without a word about which is there
-    int box_count;     // where solids are, in stored coordinates; the last one holds all others
+    char guesses[GLINT_CONTACT_TEXT]; // which solids touch or overlap without a word about which is
+                                      // there
+    int box_count; // where solids are, in stored coordinates; the last one holds all others
     float boxes[GLINT_PLAN_BOXES][2][3];
     int media_count;     // distinct media (index of refraction and absorption), without empty space
     int media_bits;      // bits of one entry of the stack of media

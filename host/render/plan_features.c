@@ -333,8 +333,7 @@ static void note_boxes(const glint_plan_inputs *in, glint_plan *plan)
     for (size_t i = 0;
          plan->features[GLINT_FEATURE_SOLID].compiled && i < in->topology->component_count; i++) {
         const glint_component *c = &in->topology->components[i];
-        if (!glint_material_lobes(&in->scene->materials[in->scene->instances[c->instance].material])
-                 .solid) {
+        if (!glint_instance_is_solid(in->scene, &in->scene->instances[c->instance])) {
             continue;
         }
         const bool is_new = plan->box_count < GLINT_PLAN_BOXES;

@@ -351,18 +351,13 @@ static bool build_level(search *s)
     return boxes != NULL;
 }
 
-static bool is_solid(const glint_scene *scene, const glint_instance *instance)
-{
-    return glint_material_lobes(&scene->materials[instance->material]).solid;
-}
-
 // All that solids are in, and what may touch it.
 static box bounds_of_solids(const glint_scene *scene, const glint_topology *topology)
 {
     box all = empty_box();
     for (size_t i = 0; i < topology->component_count; i++) {
         const glint_component *c = &topology->components[i];
-        if (is_solid(scene, &scene->instances[c->instance])) {
+        if (glint_instance_is_solid(scene, &scene->instances[c->instance])) {
             grow_box(&all, c->low, c->high);
         }
     }

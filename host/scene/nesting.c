@@ -82,7 +82,7 @@ bool glint_topology_solids_may_nest(const glint_scene *scene, const glint_topolo
     for (size_t i = 0; i < topology->component_count && !may_nest; i++) {
         const glint_component *component = &topology->components[i];
         const glint_instance *instance = &scene->instances[component->instance];
-        if (!glint_material_lobes(&scene->materials[instance->material]).solid) {
+        if (!glint_instance_is_solid(scene, instance)) {
             continue;
         }
         may_nest = !component->convex;

@@ -114,6 +114,12 @@ typedef struct glint_scene {
     glint_vec3 swept_low, swept_high; // bounds over the whole animation, where it does
 } glint_scene;
 
+// Whether an instance's material makes it a solid.
+static inline bool glint_instance_is_solid(const glint_scene *scene, const glint_instance *instance)
+{
+    return glint_material_lobes(&scene->materials[instance->material]).solid;
+}
+
 // Bytes of the arrays of so many triangles.
 static inline size_t glint_scene_bytes(size_t triangles, bool with_normals,
                                        const glint_attributes *set)

@@ -240,7 +240,7 @@ void glint_solids_describe_guesses(const glint_scene *scene, const glint_solids 
     }
     text[0] = '\0';
     if (first != NULL) {
-        char pair[360];
+        char pair[GLINT_CONTACT_TEXT];
         char more[40] = "";
         glint_contact_describe(scene, first, pair, sizeof pair);
         if (guesses > 1) {

@@ -49,6 +49,8 @@ void glint_solids_free(glint_solids *solids);
 // Whether some solid's material has a priority of its own.
 bool glint_solids_have_priorities(const glint_scene *scene);
 
+#define GLINT_CONTACT_TEXT 400 // bytes that hold any text of a contact, and of guesses
+
 // ""wine" (node 2, water) touches "bowl" (node 1, glass)" into `text`.
 void glint_contact_describe(const glint_scene *scene, const glint_contact *contact, char *text,
                             size_t capacity);

@@ -515,7 +515,7 @@ static glint_status find(const glint_scene *scene, bool solids_alone, glint_topo
     }
     for (size_t i = 0; i < scene->instance_count; i++) {
         const glint_instance *instance = &scene->instances[i];
-        if (solids_alone && !glint_material_lobes(&scene->materials[instance->material]).solid) {
+        if (solids_alone && !glint_instance_is_solid(scene, instance)) {
             memset(topology->component_of + instance->first_triangle, 0xFF,
                    instance->triangle_count * sizeof *topology->component_of);
             continue;

@@ -64,6 +64,7 @@ static const media_view views[] = {
 
 // The oracle leaves surfaces 2e-6 beside them. Texels err by a ten-thousandth.
 #define MEDIA_BOUND 5e-4
+
 // Pixels that see an edge may differ freely.
 static void measure_pixels(trial *t, const media_view *of, const oracle_scene *scene,
                            const oracle_view *view, const trial_picture *picture)

@@ -95,7 +95,7 @@ static void print_contacts(const glint_scene *scene, const glint_solids *solids)
         const glint_contact *contact = &solids->contacts[i];
         const glint_instance *there = &scene->instances[contact->instances[contact->there]];
         const char *material = scene->materials[there->material].name;
-        char text[360];
+        char text[GLINT_CONTACT_TEXT];
         glint_contact_describe(scene, contact, text, sizeof text);
         printf("  %s: where both are it is %s%s\n", text, name_or_none(material),
                contact->is_guess ? ", which has less volume" : "");
@@ -468,7 +468,7 @@ static glint_status gather(const info_request *request, info_work *work, glint_e
     const glint_scene *scene = &work->inputs.scene;
     TRY(glint_topology_find(scene, &work->topology, error));
     TRY(glint_solids_find(scene, &work->topology, &work->solids, error));
-    char guesses[400];
+    char guesses[GLINT_CONTACT_TEXT];
     glint_solids_describe_guesses(scene, &work->solids, guesses, sizeof guesses);
     glint_solids_warn(scene, guesses, &work->inputs.warnings);
     return make_plan(request, work, error);

@@ -37,6 +37,11 @@ static const glint_option output_options[] = {
              "curve.",
      .offset = offsetof(render_request, preview)},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_LAYERS, offsetof(render_request, inputs.settings)),
+    {GLINT_OPTION_FLAG, .name = "strict",
+     .help =
+         "Render nothing, with exit status 3, where there is a warning before the first frame: of "
+         "what is ignored or approximated in the file, or of solids that touch or overlap.",
+     .offset = offsetof(render_request, strict)},
     {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE|-",
      .help = "Write what the frame took and counted: phases in milliseconds, rays by kind, "
              "truncated light, the plan and the device. Of a sequence, an object a line: the run, "
@@ -70,11 +75,6 @@ static const glint_option sequence_options[] = {
     {GLINT_OPTION_REAL, .name = "fps", .argument = "RATE",
      .help = "Frames a second of the animation; frame 1 is its beginning.", .fallback = "24",
      .offset = offsetof(render_request, fps), .minimum = 1e-3, .maximum = 1e5},
-    {GLINT_OPTION_FLAG, .name = "strict",
-     .help =
-         "Render nothing, with exit status 3, where there is a warning before the first frame: of "
-         "what is ignored or approximated in the file, or of solids that touch or overlap.",
-     .offset = offsetof(render_request, strict)},
     {GLINT_OPTION_FLAG, .name = "skip-existing",
      .help = "Leave frames alone that are whole and were made from the same scene, environment and "
              "settings by the same version; render the others.",

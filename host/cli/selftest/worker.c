@@ -7,6 +7,7 @@
 #include "base/clock.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -15,6 +16,8 @@
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#define LAST_WORDS_MS 100
 
 typedef struct request {
     size_t index;
@@ -181,12 +184,14 @@ static const char *last_line(char *said)
 // Ends the worker, and says how it ended of itself, if it did.
 static void bury(selftest_worker *w, bool is_late, char *text, size_t capacity)
 {
-    while (w->words >= 0 && !is_late) { // all that it said, to the end
-        hear(w);
-    }
-    kill(w->process, SIGKILL);
+    kill(w->process, SIGKILL); // what has ended keeps how it did
     int how = 0;
     while (waitpid(w->process, &how, 0) < 0 && errno == EINTR) {
+    }
+    // All that it said; what the driver started may be there yet, and say nothing.
+    struct pollfd said = {.fd = w->words, .events = POLLIN};
+    while (w->words >= 0 && poll(&said, 1, LAST_WORDS_MS) > 0) {
+        hear(w);
     }
     w->process = 0;
     close_pipes(w);
@@ -207,7 +212,8 @@ static glint_status fork_worker(selftest_worker *w, glint_error *error)
 {
     int pipes[3][2];
     int made = 0;
-    while (made < 3 && pipe(pipes[made]) == 0) {
+    // What the driver starts, such as a linker, does not hold them open.
+    while (made < 3 && pipe2(pipes[made], O_CLOEXEC) == 0) {
         made++;
     }
     const pid_t self = getpid();
@@ -243,7 +249,6 @@ static glint_status fork_worker(selftest_worker *w, glint_error *error)
 
 glint_status selftest_worker_start(selftest_worker *w, glint_error *error)
 {
-    signal(SIGPIPE, SIG_IGN); // a worker that died answers no more, and that is how it shows
     TRY(fork_worker(w, error));
     static answer a;
     bool is_late;
