@@ -68,7 +68,12 @@ static inline void walk_past(const scene_buffers *scene, path *ray, closest *hit
     }
     ray->media = SELECT(met & !here, beyond, ray->media);
     *first = *first & !(met & !here);
-    ray->origin = select3(met, scale_add(s.geometric_normal, -s.offset, s.position), ray->origin);
+    path past = *ray;
+    start_off_surface(&past, &s, -s.offset);
+    ray->origin = select3(met, past.origin, ray->origin);
+#if LOCAL_RAYS
+    ray->origin_low = select3(met, past.origin_low, ray->origin_low);
+#endif
     ray->from = SELECT(met, place, ray->from);
 }
 

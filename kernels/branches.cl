@@ -30,6 +30,9 @@ typedef int pixels;
 
 typedef struct branch {
     scalar origin[3], direction[3], weight[3];
+#if LOCAL_RAYS
+    scalar origin_low[3];
+#endif
 #if CARRIES_CONES
     scalar width, spread; // see cone
 #endif
@@ -52,7 +55,7 @@ typedef struct branch {
 // By which the host knows how much room a tile's branches take.
 typedef char branch_is_as_large_as_layout_h_says
     [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA, GLINT_ROUGH,
-                                          GLINT_FACETS, GLINT_DISPERSION)
+                                          GLINT_FACETS, GLINT_DISPERSION, LOCAL_RAYS)
          ? 1
          : -1];
 
@@ -111,6 +114,9 @@ static inline void save_branch(const path *ray, const pixels *pixels, lanes_int 
                                branch *b)
 {
     save3(b->origin, &ray->origin, lane);
+#if LOCAL_RAYS
+    save3(b->origin_low, &ray->origin_low, lane);
+#endif
     save3(b->direction, &ray->direction, lane);
     save3(b->weight, &ray->weight, lane);
 #if CARRIES_CONES
@@ -198,6 +204,9 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
         const int lane = place % GLINT_WIDTH;
         path *ray = &rays[place / GLINT_WIDTH];
         restore3(list[i].origin, &ray->origin, lane);
+#if LOCAL_RAYS
+        restore3(list[i].origin_low, &ray->origin_low, lane);
+#endif
         restore3(list[i].direction, &ray->direction, lane);
         restore3(list[i].weight, &ray->weight, lane);
 #if CARRIES_CONES

@@ -70,10 +70,9 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
                                      int box, lanes_int from, closest *hit)
 {
     global const float *cluster = scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES;
-    const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
-    const int first = index * GLINT_CLUSTER_LANES;
+    const int count = count_of_cluster(cluster);
     uint met = frustum_meets_triangles(&b->bounds, cluster, count, b->farthest);
-    const leaf leaf = {cluster, scene->numbers, first};
+    const leaf leaf = leaf_at(scene, index);
     bool found = false;
     if (GLINT_WIDTH > 1 && popcount(met) > SPARSE_TRIANGLES) {
         uint rays = rays_at_box(b, scene, box, hit);
@@ -81,9 +80,11 @@ static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene
             return intersect_by_rays(b->rays, rays, from, &leaf, hit);
         }
     }
+    real room[3];
+    const real *origin = origins_at_leaf(b->rays, &leaf, room);
     for (; met != 0; met &= met - 1) {
-        found |= intersect_triangle(b->rays, b->axes, &leaf, first + lowest_bit(met), from,
-                                    b->active, hit);
+        found |= intersect_triangle(b->rays, origin, b->axes, &leaf, leaf.first + lowest_bit(met),
+                                    from, b->active, hit);
     }
     return found;
 }

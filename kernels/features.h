@@ -14,6 +14,8 @@
 
 #define GLINT_FEATURES(FEATURE)                                                                    \
     FEATURE(GEOMETRY, "rays are traced against triangles", 1, 0, ACTIVE)                           \
+    FEATURE(LOCAL_ORIGINS, "what is small beside the scene has an origin of its own",              \
+            GLINT_GEOMETRY, GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, ACTIVE)                  \
     FEATURE(SMOOTH_NORMALS, "shading normals are interpolated from vertices", 1, 0, ACTIVE)        \
     FEATURE(MANY_MATERIALS, "materials are looked up for each hit", GLINT_GEOMETRY, 0, IDLE)       \
     FEATURE(FRESNEL, "reflectance rises towards grazing angles", GLINT_GEOMETRY, 0, ACTIVE)        \

@@ -26,7 +26,7 @@ static inline void note_group(layers *l, const scene_buffers *scene,
     const triangle triangles = load_triangles(scene, first.places, met);
     const path ray = primary_rays(frame, &first);
     closest hit = no_hit();
-    measure_hits(image, triangles.vertices, first.x, first.y, first.length, met, &hit);
+    measure_hits(image, &triangles, first.x, first.y, first.length, met, &hit);
     const surface s = find_surface(scene, &ray, &hit, &triangles);
     // Along the axis of view: there directions come 1 far before they are unit vectors.
     const real depth = hit.t / first.length + JOIN(frame->start[0], frame->start[1]);

@@ -105,13 +105,14 @@ static inline uint frustum_meets_triangles(const frustum *f, global const float 
 {
     global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
     const uchar16 a = vload16(0, corners), b = vload16(1, corners), c = vload16(2, corners);
-    block along = load_block(cluster + f->along * GLINT_CLUSTER_LANES);
+    block along =
+        FROM_SCENE(cluster, f->along, load_block(cluster + f->along * GLINT_CLUSTER_LANES));
     block distance = along * f->sign;
     block outside[4];
 #pragma unroll
     for (int i = 0; i < 2; i++) {
-        const int k = across_axis(f->along, i) * GLINT_CLUSTER_LANES;
-        block across = load_block(cluster + k);
+        const int k = across_axis(f->along, i);
+        block across = FROM_SCENE(cluster, k, load_block(cluster + k * GLINT_CLUSTER_LANES));
         outside[2 * i] = fused(block_of(f->slope[i][0]), along, block_of(f->offset[i][0])) - across;
         outside[2 * i + 1] =
             across - fused(block_of(f->slope[i][1]), along, block_of(f->offset[i][1]));

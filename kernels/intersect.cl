@@ -16,6 +16,9 @@
 // What the tests need of the rays.
 typedef struct packet {
     real origin[3];
+#if LOCAL_RAYS
+    real origin_low[3]; // what that lacks
+#endif
     real direction[3];
     lanes_int axis; // the direction's largest component: the third axis of the sheared space
     real shear_x, shear_y, shear_z;
@@ -41,6 +44,7 @@ static inline real finite_inverse(real d)
     return copysign(R(1.0) / magnitude, d);
 }
 
+// But for the origin's low part: packet_of_paths.
 static inline packet make_packet(real3 origin, real3 direction)
 {
     packet p;
@@ -92,6 +96,30 @@ typedef struct leaf {
     global const int *numbers;
     int first;
 } leaf;
+
+static inline leaf leaf_at(const scene_buffers *scene, int index)
+{
+    const leaf l = {scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES, scene->numbers,
+                    index * GLINT_CLUSTER_LANES};
+    return l;
+}
+
+// Rays' origins as a leaf's vertices are told; with LOCAL_ORIGINS they are worked out in `room`.
+static inline const real *origins_at_leaf(const packet *p, const leaf *leaf, real room[3])
+{
+#if GLINT_LOCAL_ORIGINS
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        room[k] = FROM_ANCHOR(leaf->cluster, k, p->origin[k]);
+#if LOCAL_RAYS
+        room[k] += p->origin_low[k];
+#endif
+    }
+    return room;
+#else
+    return p->origin;
+#endif
+}
 
 // Reads the three vertices, x y z each, of the triangle in one lane of a cluster.
 static inline void load_triangle(global const float *cluster, int lane, float vertices[9])
@@ -169,12 +197,17 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
 }
 
 // How far from a triangle's plane rays start that leave it, in terms of its vertices' distances from
-// the origin of coordinates along the plane's normal; place_on_triangle says why.
+// the origin of coordinates along the plane's normal; place_on_triangle says why. With
+// LOCAL_ORIGINS that is the cluster's, and telling the start from there takes two roundings more.
+#if GLINT_LOCAL_ORIGINS
+#define START_OFFSET (R(12.0) * EPSILON)
+#else
 #define START_OFFSET (R(8.0) * EPSILON)
+#endif
 
 // Whether three points lie in the plane of a triangle: all of them as near to it as rays start off
 // it (place_on_triangle).
-static inline bool lie_in_plane(const float own[9], const float corners[9])
+static inline bool lie_in_plane(const float own[9], const scalar corners[9])
 {
     scalar a[3], b[3], farthest = R(0.0), off[3] = {R(0.0), R(0.0), R(0.0)};
 #pragma unroll
@@ -190,7 +223,7 @@ static inline bool lie_in_plane(const float own[9], const float corners[9])
                                        fabs((scalar)own[6 + k]));
 #pragma unroll
         for (int v = 0; v < 3; v++) {
-            off[v] = fused(n, (scalar)corners[3 * v + k] - (scalar)own[k], off[v]);
+            off[v] = fused(n, corners[3 * v + k] - (scalar)own[k], off[v]);
         }
     }
     return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <= START_OFFSET * farthest;
@@ -203,10 +236,14 @@ static inline bool lies_in_plane_of(const leaf *leaf, int start, const float cor
         return false;
     }
     const int cluster = start / GLINT_CLUSTER_LANES - leaf->first / GLINT_CLUSTER_LANES;
+    global const float *from = leaf->cluster + (long)cluster * GLINT_CLUSTER_VALUES;
     float own[9];
-    load_triangle(leaf->cluster + (long)cluster * GLINT_CLUSTER_VALUES, start % GLINT_CLUSTER_LANES,
-                  own);
-    return lie_in_plane(own, corners);
+    scalar told[9];
+    load_triangle(from, start % GLINT_CLUSTER_LANES, own);
+    for (int k = 0; k < 9; k++) {
+        told[k] = FROM_ANCHOR(from, k % 3, FROM_SCENE(leaf->cluster, k % 3, R(0.0))) + corners[k];
+    }
+    return lie_in_plane(own, told);
 }
 
 // A ray that leaves a plane meets no triangle that lies in it. Where it starts in the plane itself,
@@ -227,10 +264,34 @@ static inline mask start_off_plane(const leaf *leaf, lanes_int from, const float
     return start == (lane_int)0;
 }
 
+#if LOCAL_RAYS
+// How far it is to a triangle that is large beside that: `t` is what its corners' depths, along axis
+// z from the rays' origins, tell.
+static inline real distance_nearby(const packet *p, const leaf *leaf, int z, const float corners[9],
+                                   const real depths[3], real t)
+{
+    const int x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
+    real slopes[3], anchor[3], vertices[9];
+    slopes[z] = real_of(1);
+    slopes[x] = p->shear_x;
+    slopes[y] = p->shear_y;
+#pragma unroll
+    for (int k = 0; k < 9; k++) {
+        anchor[k % 3] = real_of(FROM_SCENE(leaf->cluster, k % 3, R(0.0)));
+        vertices[k] = real_of(corners[k]);
+    }
+    const real found = depth_of_plane(vertices, anchor, p->origin, p->origin_low, slopes);
+    const mask within = (found >= SMALLEST3(depths[0], depths[1], depths[2])) &
+                        (found <= LARGEST3(depths[0], depths[1], depths[2]));
+    return SELECT(within, found * p->shear_z, t);
+}
+#endif
+
 // Tests a leaf's triangle at `place` against the rays in `active`, which start on the triangles at
-// the places `from`, and keeps the nearer hit.
-static inline bool intersect_triangle(const packet *p, int axes, const leaf *leaf, int place,
-                                      lanes_int from, mask active, closest *hit)
+// the places `from`, and keeps the nearer hit. `origin` is as origins_at_leaf says.
+static inline bool intersect_triangle(const packet *p, const real *origin, int axes,
+                                      const leaf *leaf, int place, lanes_int from, mask active,
+                                      closest *hit)
 {
     bool found = false;
     float vertices[9];
@@ -243,14 +304,14 @@ static inline bool intersect_triangle(const packet *p, int axes, const leaf *lea
         }
         const int x = (k + 1) % 3, y = (k + 2) % 3, z = k;
         // Vertices relative to the origin, sheared.
-        real az = vertices[z] - p->origin[z], bz = vertices[3 + z] - p->origin[z];
-        real cz = vertices[6 + z] - p->origin[z];
-        real ax = fused(-p->shear_x, az, vertices[x] - p->origin[x]);
-        real ay = fused(-p->shear_y, az, vertices[y] - p->origin[y]);
-        real bx = fused(-p->shear_x, bz, vertices[3 + x] - p->origin[x]);
-        real by = fused(-p->shear_y, bz, vertices[3 + y] - p->origin[y]);
-        real cx = fused(-p->shear_x, cz, vertices[6 + x] - p->origin[x]);
-        real cy = fused(-p->shear_y, cz, vertices[6 + y] - p->origin[y]);
+        real az = vertices[z] - origin[z], bz = vertices[3 + z] - origin[z];
+        real cz = vertices[6 + z] - origin[z];
+        real ax = fused(-p->shear_x, az, vertices[x] - origin[x]);
+        real ay = fused(-p->shear_y, az, vertices[y] - origin[y]);
+        real bx = fused(-p->shear_x, bz, vertices[3 + x] - origin[x]);
+        real by = fused(-p->shear_y, bz, vertices[3 + y] - origin[y]);
+        real cx = fused(-p->shear_x, cz, vertices[6 + x] - origin[x]);
+        real cy = fused(-p->shear_y, cz, vertices[6 + y] - origin[y]);
         // Twice the areas that the ray cuts off, on either side of it. Not fused: see above.
         real u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
         real least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
@@ -271,10 +332,17 @@ static inline bool intersect_triangle(const packet *p, int axes, const leaf *lea
         refine_weights(up, across, inside, weights);
         determinant = weights[0] + weights[1] + weights[2];
         real inverse = R(1.0) / SELECT(inside, determinant, real_of(1));
+        const real reach = LARGEST3(fabs(az), fabs(bz), fabs(cz)) * fabs(p->shear_z);
         real t =
             fused(weights[0], az, fused(weights[1], bz, weights[2] * cz)) * p->shear_z * inverse;
+#if LOCAL_RAYS
+        const mask nearby = inside & (LARGE_TRIANGLE * fabs(t) < reach);
+        if (any_lane(nearby)) {
+            const real depths[3] = {az, bz, cz};
+            t = SELECT(nearby, distance_nearby(p, leaf, z, vertices, depths, t), t);
+        }
+#endif
         inside = inside & (t > R(0.0));
-        const real reach = LARGEST3(fabs(az), fabs(bz), fabs(cz)) * fabs(p->shear_z);
         const mask near = inside & (t < NEXT_TO_NOTHING * reach);
         if (any_lane(near)) {
             inside = inside & start_off_plane(leaf, from, vertices, near);
@@ -295,6 +363,9 @@ static inline bool intersect_triangle(const packet *p, int axes, const leaf *lea
 // One ray of a packet, for tests against many boxes or triangles at once.
 typedef struct lone_ray {
     scalar origin[3];
+#if LOCAL_RAYS
+    scalar origin_low[3];
+#endif
     scalar shear_x, shear_y, shear_z;
     int axis, from; // `from` is the place of the triangle that it starts on, −1: none
 } lone_ray;
@@ -305,6 +376,9 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         ray.origin[k] = LANE(p->origin[k], lane);
+#if LOCAL_RAYS
+        ray.origin_low[k] = LANE(p->origin_low[k], lane);
+#endif
     }
     ray.shear_x = LANE(p->shear_x, lane);
     ray.shear_y = LANE(p->shear_y, lane);
@@ -312,6 +386,16 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
     ray.axis = (int)LANE_INT(p->axis, lane);
     ray.from = (int)LANE_INT(from, lane);
     return ray;
+}
+
+// Its origin along axis k as a leaf's vertices are told: as origins_at_leaf.
+static inline scalar origin_at_leaf(const lone_ray *ray, const leaf *leaf, int k)
+{
+    scalar origin = FROM_ANCHOR(leaf->cluster, k, ray->origin[k]);
+#if LOCAL_RAYS
+    origin += ray->origin_low[k];
+#endif
+    return origin;
 }
 
 // A ray against all triangles of a cluster: bits say for which the ray is inside or, perhaps by
@@ -327,14 +411,13 @@ static inline void test_cluster(const lone_ray *ray, const leaf *leaf, cluster_t
 {
     global const float *cluster = leaf->cluster;
     const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
-    const int count = ((global const int *)cluster)[GLINT_CLUSTER_COUNT];
+    const int count = count_of_cluster(cluster);
+    const scalar ox = origin_at_leaf(ray, leaf, x), oy = origin_at_leaf(ray, leaf, y);
     const block shear_x = block_of(-ray->shear_x), shear_y = block_of(-ray->shear_y);
     // Vertices relative to the origin, sheared, and then those of each corner.
-    block depth = load_block(cluster + z * GLINT_CLUSTER_LANES) - ray->origin[z];
-    block across =
-        fused(shear_x, depth, load_block(cluster + x * GLINT_CLUSTER_LANES) - ray->origin[x]);
-    block up =
-        fused(shear_y, depth, load_block(cluster + y * GLINT_CLUSTER_LANES) - ray->origin[y]);
+    block depth = load_block(cluster + z * GLINT_CLUSTER_LANES) - origin_at_leaf(ray, leaf, z);
+    block across = fused(shear_x, depth, load_block(cluster + x * GLINT_CLUSTER_LANES) - ox);
+    block up = fused(shear_y, depth, load_block(cluster + y * GLINT_CLUSTER_LANES) - oy);
     global const uchar *corners = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
     const uchar16 a = vload16(0, corners), b = vload16(1, corners), c = vload16(2, corners);
     block ax = permute_block(across, a), ay = permute_block(up, a);
@@ -352,6 +435,23 @@ static inline void test_cluster(const lone_ray *ray, const leaf *leaf, cluster_t
     test->w = w;
 }
 
+#if LOCAL_RAYS
+// What distance_nearby needs of a packet, the same in all lanes.
+static inline packet packet_of_lone(const lone_ray *ray)
+{
+    packet p;
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        p.origin[k] = real_of(ray->origin[k]);
+        p.origin_low[k] = real_of(ray->origin_low[k]);
+    }
+    p.shear_x = real_of(ray->shear_x);
+    p.shear_y = real_of(ray->shear_y);
+    p.shear_z = real_of(ray->shear_z);
+    return p;
+}
+#endif
+
 // The second half, for triangle i: whether it is hit before *hit, in one lane of which the ray's
 // hit is. Then it takes its place.
 static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const cluster_test *test,
@@ -360,14 +460,15 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
     float at[9];
     load_triangle(leaf->cluster, i, at);
     const int z = ray->axis, x = z < 2 ? z + 1 : 0, y = z > 0 ? z - 1 : 2;
-    const scalar *o = ray->origin;
-    const scalar az = at[z] - o[z], bz = at[3 + z] - o[z], cz = at[6 + z] - o[z];
-    const scalar ax = fused(-ray->shear_x, az, at[x] - o[x]),
-                 ay = fused(-ray->shear_y, az, at[y] - o[y]),
-                 bx = fused(-ray->shear_x, bz, at[3 + x] - o[x]),
-                 by = fused(-ray->shear_y, bz, at[3 + y] - o[y]),
-                 cx = fused(-ray->shear_x, cz, at[6 + x] - o[x]),
-                 cy = fused(-ray->shear_y, cz, at[6 + y] - o[y]);
+    const scalar ox = origin_at_leaf(ray, leaf, x), oy = origin_at_leaf(ray, leaf, y),
+                 oz = origin_at_leaf(ray, leaf, z);
+    const scalar az = at[z] - oz, bz = at[3 + z] - oz, cz = at[6 + z] - oz;
+    const scalar ax = fused(-ray->shear_x, az, at[x] - ox),
+                 ay = fused(-ray->shear_y, az, at[y] - oy),
+                 bx = fused(-ray->shear_x, bz, at[3 + x] - ox),
+                 by = fused(-ray->shear_y, bz, at[3 + y] - oy),
+                 cx = fused(-ray->shear_x, cz, at[6 + x] - ox),
+                 cy = fused(-ray->shear_y, cz, at[6 + y] - oy);
     if ((test->on_edge & (1u << i)) &&
         !(SMALLEST3(ax, bx, cx) <= R(0.0) && LARGEST3(ax, bx, cx) >= R(0.0) &&
           SMALLEST3(ay, by, cy) <= R(0.0) && LARGEST3(ay, by, cy) >= R(0.0))) {
@@ -382,12 +483,20 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
     refine_weights(up, across, mask_all(), weights);
     const scalar u = LANE(weights[0], 0), v = LANE(weights[1], 0), w = LANE(weights[2], 0);
     const scalar inverse = R(1.0) / (u + v + w);
-    const scalar t = fused(u, az, fused(v, bz, w * cz)) * ray->shear_z * inverse;
+    const scalar reach = LARGEST3(fabs(az), fabs(bz), fabs(cz)) * fabs(ray->shear_z);
+    scalar t = fused(u, az, fused(v, bz, w * cz)) * ray->shear_z * inverse;
+#if LOCAL_RAYS
+    if (LARGE_TRIANGLE * fabs(t) < reach) {
+        const real depths[3] = {real_of(az), real_of(bz), real_of(cz)};
+        const packet one = packet_of_lone(ray);
+        const real nearby = distance_nearby(&one, leaf, z, at, depths, real_of(t));
+        t = LANE(nearby, 0);
+    }
+#endif
     const scalar before = LANE(hit->t, lane);
     if (!(t > R(0.0) && t <= before)) {
         return false;
     }
-    const scalar reach = LARGEST3(fabs(az), fabs(bz), fabs(cz)) * fabs(ray->shear_z);
     if (t < NEXT_TO_NOTHING * reach && lies_in_plane_of(leaf, ray->from, at)) {
         return false;
     }

@@ -96,9 +96,10 @@ typedef struct glint_split_vector {
 
 // A leaf is one cluster: up to 16 triangles of one material and the vertices that they share, at
 // most 16. It is 64 32-bit values, 256 bytes aligned to 64:
-//   x[16], y[16], z[16]     floats: the vertices' positions in stored coordinates
+//   x[16], y[16], z[16]     floats: the vertices' positions in stored coordinates, from the anchor
 //   3 × 16 bytes            the triangles' first, second and third corner, each a vertex's lane
-//   count, material, 0, 0   ints: how many triangles there are, 1 to 16, and their material
+//   count + 32 × material   an int: how many triangles there are, 1 to 16, and their material
+//   anchor x, y, z          floats: what to add to the positions, with GLINT_LOCAL_ORIGINS; else 0
 // Lanes past the last vertex repeat the first; triangles past the last have corners 0, 0, 0.
 // Clusters stand in the order of the leaves, left to right, whatever the nodes' width. A triangle's
 // place is cluster × 16 + its lane. Beside the clusters stand
@@ -107,10 +108,12 @@ typedef struct glint_split_vector {
 //                           ties; −1 in lanes without a triangle
 #define GLINT_CLUSTER_LANES 16
 #define GLINT_CLUSTER_VALUES 64
-#define GLINT_CLUSTER_CORNERS 48  // where the corners begin, in values
-#define GLINT_CLUSTER_COUNT 60    // of triangles
-#define GLINT_CLUSTER_MATERIAL 61 // their common material
-#define GLINT_CLUSTER_NORMALS 48  // values of normals per cluster
+#define GLINT_CLUSTER_CORNERS 48 // where the corners begin, in values
+#define GLINT_CLUSTER_FACTS 60   // count and material
+#define GLINT_CLUSTER_COUNT_BITS 5
+#define GLINT_CLUSTER_COUNT_MASK 31
+#define GLINT_CLUSTER_ANCHOR 61
+#define GLINT_CLUSTER_NORMALS 48 // values of normals per cluster
 // The largest number of triangles that a place can name even if each has a cluster of its own.
 #define GLINT_TRIANGLES_MAX ((1u << 27) - 1)
 
@@ -328,10 +331,11 @@ typedef struct glint_frame_record {
 // What a branch that waits takes (branches.cl, with GLINT_SPLIT), in bytes, where a number of the
 // precision takes `number`: eleven of these, two more where rays carry cones, three ints, and one
 // more each with GLINT_ALPHA and GLINT_DISPERSION; with GLINT_ROUGH four more numbers, with
-// GLINT_FACETS two; rounded up to whole numbers.
-#define GLINT_BRANCH_BYTES(number, cones, alpha, rough, facets, dispersion)                        \
-    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u) + ((facets) ? 2u : 0u)) + 12u +  \
-      ((alpha) ? 4u : 0u) + ((dispersion) ? 4u : 0u) + (number)-1) /                               \
+// GLINT_FACETS two, where origins are sums of two floats three; rounded up to whole numbers.
+#define GLINT_BRANCH_BYTES(number, cones, alpha, rough, facets, dispersion, sums)                  \
+    (((number) * (11u + ((cones) ? 2u : 0u) + ((rough) ? 4u : 0u) + ((facets) ? 2u : 0u) +         \
+                  ((sums) ? 3u : 0u)) +                                                            \
+      12u + ((alpha) ? 4u : 0u) + ((dispersion) ? 4u : 0u) + (number)-1) /                         \
      (number) * (number))
 
 // ---- Layers ------------------------------------------------------------------------------------
@@ -405,9 +409,9 @@ enum glint_counter {
 
 // ---- Probes ------------------------------------------------------------------------------------
 // Numbers of an element of the arrays that kernels/probes.cl reads and writes.
-#define GLINT_PROBE_RAY 8
+#define GLINT_PROBE_RAY 12
 #define GLINT_PROBE_HIT 4
-#define GLINT_PROBE_BOUNCE 32
+#define GLINT_PROBE_BOUNCE 36
 #define GLINT_PROBE_VALUES 4
 
 #endif

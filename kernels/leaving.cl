@@ -17,7 +17,7 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     }
     if (HAS_PLACES) {
         const real offset = SELECT(beyond, -s->offset, s->offset);
-        branch.origin = scale_add(s->geometric_normal, offset, s->position);
+        start_off_surface(&branch, s, offset);
         branch.from = hit->place;
     }
 #if GLINT_ABSORPTION

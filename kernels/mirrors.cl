@@ -22,7 +22,7 @@ static inline real3 mirror_normals(const image_space *image, const triangle *t, 
                                    const primary *first, mask met)
 {
 #if GLINT_SMOOTH_NORMALS
-    const image_corners corners = corners_in_image(image, t->vertices);
+    const image_corners corners = corners_in_image(image, t);
     real weights[3];
     image_weights(&corners, first->x, first->y, met, weights);
     const real3 *n = t->normals;

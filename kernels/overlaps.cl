@@ -11,7 +11,12 @@
 static inline real reach_of_place(const surface *s, real t)
 {
     const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET;
-    return fused(t + R(1.0), real_of(CROSSING_SLACK), s->offset * of_offset);
+#if GLINT_LOCAL_ORIGINS
+    const real size = s->size;
+#else
+    const real size = real_of(1);
+#endif
+    return fused(t + size, real_of(CROSSING_SLACK), s->offset * of_offset);
 }
 
 #if GLINT_OVERLAPS
@@ -138,8 +143,7 @@ static inline void find_crossed(const crossing_ray *c, const scene_buffers *scen
             }
             continue;
         }
-        const leaf leaf = {scene->clusters + (size_t)~child * GLINT_CLUSTER_VALUES, scene->numbers,
-                           ~child * GLINT_CLUSTER_LANES};
+        const leaf leaf = leaf_at(scene, ~child);
         cluster_test test;
         test_cluster(&c->ray.ray, &leaf, &test);
         for (uint left = test.inside; left != 0; left &= left - 1) {
@@ -278,7 +282,7 @@ static inline surface find_surface_in_place(const scene_buffers *scene, const pa
                                             closest *hit, triangle *t)
 {
     surface s = find_surface(scene, ray, hit, t);
-    const packet p = make_packet(ray->origin, ray->direction);
+    const packet p = packet_of_paths(ray);
     const real reach = reach_of_place(&s, hit->t);
     const real cosine = fabs(dot3(s.geometric_normal, ray->direction));
     const real depth = reach / LARGER(cosine, real_of(CROSSING_SLACK));

@@ -5,6 +5,9 @@
 // A path on its way: a ray, its weight and what it has passed.
 typedef struct path {
     real3 origin, direction; // the direction is a unit vector
+#if LOCAL_RAYS
+    real3 origin_low; // what the origin lacks
+#endif
     real3 weight;            // what a unit of radiance that arrives now adds to the pixel
 #if GLINT_ABSORPTION
     real travelled; // the segment's length before its origin: primary rays start late
@@ -31,3 +34,14 @@ typedef struct path {
     cone lobe; // what of the lobes of rough glass its direction stands for; 0 before any
 #endif
 } path;
+
+static inline packet packet_of_paths(const path *rays)
+{
+    packet p = make_packet(rays->origin, rays->direction);
+#if LOCAL_RAYS
+    p.origin_low[0] = rays->origin_low.x;
+    p.origin_low[1] = rays->origin_low.y;
+    p.origin_low[2] = rays->origin_low.z;
+#endif
+    return p;
+}

@@ -31,9 +31,20 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;
     path ray;
+#if LOCAL_RAYS
+    const glint_split_vector *o = &frame->origin;
+    const real3 from_middle =
+        scale_add(join_vector(&frame->origin_y), y, scale(join_vector(&frame->origin_x), x));
+    const pair at_x = sum_of(real_of(o->high[0]), from_middle.x);
+    const pair at_y = sum_of(real_of(o->high[1]), from_middle.y);
+    const pair at_z = sum_of(real_of(o->high[2]), from_middle.z);
+    ray.origin = real3_of(at_x.high, at_y.high, at_z.high);
+    ray.origin_low = real3_of(at_x.low + o->low[0], at_y.low + o->low[1], at_z.low + o->low[2]);
+#else
     ray.origin =
         scale_add(join_vector(&frame->origin_y), y,
                   scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
+#endif
     real3 d = primary_directions(frame, x, y);
     real length_squared = dot3(d, d);
     real inverse = inverse_root(length_squared);
@@ -80,6 +91,9 @@ static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray,
 static inline void assign_path(path *ray, const path *branch, mask yes)
 {
     ray->origin = select3(yes, branch->origin, ray->origin);
+#if LOCAL_RAYS
+    ray->origin_low = select3(yes, branch->origin_low, ray->origin_low);
+#endif
     ray->direction = select3(yes, branch->direction, ray->direction);
     ray->weight = select3(yes, branch->weight, ray->weight);
 #if GLINT_ABSORPTION
@@ -500,7 +514,10 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     if (GLINT_GEOMETRY && any_lane(met)) {
         triangle triangles = load_triangles(scene, hit->place, met);
         if (first != 0) {
-            measure_hits(image, triangles.vertices, first->x, first->y, first->length, met, hit);
+            measure_hits(image, &triangles, first->x, first->y, first->length, met, hit);
+#if LOCAL_RAYS
+            measure_nearby(&all->ray[slot], &triangles, met, hit);
+#endif
         }
         active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);
     }

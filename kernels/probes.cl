@@ -44,13 +44,16 @@ static inline real probe_flag(mask yes) { return SELECT(yes, real_of(1), real_of
 // ---- Rays --------------------------------------------------------------------------------------
 
 // A ray is GLINT_PROBE_RAY numbers: origin, unit direction, the place of the triangle that it
-// starts on (−1: none), the stack of media that it is inside.
+// starts on (−1: none), the stack of media that it is inside, what floats leave out of the origin.
 static inline void probe_rays(global const scalar *in, size_t first, path *rays, mask *active)
 {
     for (int g = 0; g < PATH_GROUPS; g++) {
         path *ray = &rays[SLOT(g)];
         const size_t packet = first + g;
         ray->origin = probe_load3(in, packet, GLINT_PROBE_RAY, 0);
+#if LOCAL_RAYS
+        ray->origin_low = probe_load3(in, packet, GLINT_PROBE_RAY, 8);
+#endif
         ray->direction = probe_load3(in, packet, GLINT_PROBE_RAY, 3);
         ray->from = to_int_truncated(probe_load(in, packet, GLINT_PROBE_RAY, 6));
         ray->media = to_int_truncated(probe_load(in, packet, GLINT_PROBE_RAY, 7));
@@ -136,6 +139,9 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, cl
     probe_store3(out, packet, values, 12, reflected.direction);
     probe_store(out, packet, values, 15, largest3(light.reflected_weight));
     probe_store3(out, packet, values, 16, reflected.origin);
+#if LOCAL_RAYS
+    probe_store3(out, packet, values, 30, reflected.origin_low);
+#endif
     probe_store(out, packet, values, 19, to_real(hit->place));
     probe_store(out, packet, values, 20, to_real(light.media_reflected));
     if (GLINT_GLASS) {
@@ -143,6 +149,9 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, cl
         probe_store3(out, packet, values, 21, transmitted.direction);
         probe_store(out, packet, values, 24, largest3(light.transmitted_weight));
         probe_store3(out, packet, values, 25, transmitted.origin);
+#if LOCAL_RAYS
+        probe_store3(out, packet, values, 33, transmitted.origin_low);
+#endif
         probe_store(out, packet, values, 28, to_real(light.media_transmitted));
         probe_store(out, packet, values, 29, probe_flag(light.total_reflection));
     }

@@ -162,7 +162,7 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
             continue;
         }
         path to_light = *ray;
-        to_light.origin = scale_add(s->geometric_normal, s->offset, s->position);
+        start_off_surface(&to_light, s, s->offset);
         to_light.direction = a.direction;
         to_light.from = places;
 #if GLINT_SOLID

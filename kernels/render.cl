@@ -31,10 +31,12 @@ GLINT_FEATURES(CHECK)
 #include "cubemap.cl"
 #include "optics.cl"
 #include "media.cl"
+#include "places.cl"
 #include "frustum.cl"
 #include "stack.cl"
 #include "intersect.cl"
 #include "bundle.cl"
+#include "triangles.cl"
 #include "tile.cl"
 #include "traverse_tile.cl"
 #include "light.cl"
@@ -154,7 +156,7 @@ static inline void describe_hits(const scene_buffers *scene, const glint_frame_r
         if (any_lane(met)) {
             const triangle triangles = load_triangles(scene, first.places, met);
             primary_rays(frame, &first); // for their length
-            measure_hits(image, triangles.vertices, first.x, first.y, first.length, met, &hit);
+            measure_hits(image, &triangles, first.x, first.y, first.length, met, &hit);
             const real zero = real_of(0);
             hit.t = SELECT(met, hit.t, zero);
             hit.b1 = SELECT(met, hit.b1, zero);

@@ -239,7 +239,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
     s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
     if (HAS_PLACES) {
-        place_on_triangle(vertices, hit, &s);
+        place_on_triangle(t, ray, hit, &s);
     }
     load_materials(scene, t, &s);
 #if GLINT_FACETS

@@ -14,7 +14,7 @@ static inline bool lets_light_pass(const scene_buffers *scene, global const floa
 {
 #if TRANSMITS
     const int material =
-        GLINT_MANY_MATERIALS ? ((global const int *)cluster)[GLINT_CLUSTER_MATERIAL] : 0;
+        GLINT_MANY_MATERIALS ? material_of_cluster(cluster) : 0;
     return (scene->materials[material].flags & (GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN |
                                                 GLINT_MATERIAL_MASK | GLINT_MATERIAL_COVER)) != 0;
 #else
@@ -34,10 +34,11 @@ static inline bool meet_before_light(const stream_ray *r, const leaf *leaf,
         return false;
     }
     if (LANE(trial.t, r->lane) > (R(1.0) - NEXT_TO_NOTHING) * light_at) {
-        float own[9], at[9];
+        float own[9];
+        scalar at[9];
         load_triangle(leaf->cluster, i, own);
         for (int k = 0; k < 9; k++) {
-            at[k] = light->position[k % 3];
+            at[k] = FROM_ANCHOR(leaf->cluster, k % 3, (scalar)light->position[k % 3]);
         }
         if (lie_in_plane(own, at)) {
             return false;
@@ -64,8 +65,7 @@ static inline bool is_blocked(stream_ray *r, const scene_buffers *scene,
             }
             continue;
         }
-        const leaf leaf = {scene->clusters + (size_t)~child * GLINT_CLUSTER_VALUES, scene->numbers,
-                           ~child * GLINT_CLUSTER_LANES};
+        const leaf leaf = leaf_at(scene, ~child);
         cluster_test test;
         bool found = false;
         test_cluster(&r->ray, &leaf, &test);
@@ -119,7 +119,7 @@ static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
                                   global const glint_light_record *light, real distance,
                                   mask wanted, closest *hit)
 {
-    const packet p = make_packet(rays->origin, rays->direction);
+    const packet p = packet_of_paths(rays);
     lanes_int blocked = int_of(0);
     *hit = no_hit();
     const real light_at = SMALLER(distance, hit->t);
@@ -194,7 +194,7 @@ static inline void pass_surfaces(const scene_buffers *scene, path *rays, closest
 #endif
     *left = select3(met, multiply(*left, passing), *left);
     rays->media = SELECT(met, beyond, rays->media);
-    rays->origin = scale_add(s.geometric_normal, -s.offset, s.position);
+    start_off_surface(rays, &s, -s.offset);
     rays->from = hit->place;
 }
 

@@ -118,9 +118,8 @@ static inline int order_children(node_pointer node, uint met, int rays, int alon
 static inline void stream_meets_leaf(stream *s, const stream_child *child,
                                      const scene_buffers *scene, closest *hits)
 {
-    const int index = ~child->child, *list = s->list + child->first;
-    const leaf leaf = {scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES, scene->numbers,
-                       index * GLINT_CLUSTER_LANES};
+    const int *list = s->list + child->first;
+    const leaf leaf = leaf_at(scene, ~child->child);
     cluster_test tests[STREAM_TESTS];
     for (int begin = 0; begin < child->count; begin += STREAM_TESTS) {
         const int count = min(child->count - begin, STREAM_TESTS);

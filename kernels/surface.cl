@@ -16,6 +16,12 @@ typedef struct facet {
 // A hit, ready for optics.
 typedef struct surface {
     real3 position;         // on the triangle, stored coordinates
+#if LOCAL_RAYS
+    real3 position_low; // what that lacks
+#endif
+#if GLINT_LOCAL_ORIGINS
+    real size; // the largest coordinate that tells of its corners
+#endif
     real offset;            // how far from it a ray must start, along the geometric normal
     real3 geometric_normal; // unit, towards the viewer
     real3 lit_normal;       // unit shading normal, of which light is received
@@ -115,111 +121,6 @@ typedef struct surface {
 #endif
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 
-// The corners of the triangles hit, and their normals; zeros for rays that hit nothing.
-typedef struct triangle {
-    real3 vertices[3];
-#if GLINT_SMOOTH_NORMALS
-    real3 normals[3];
-#endif
-#if GLINT_MANY_MATERIALS
-    lanes_int material;
-#endif
-#if GLINT_HITS
-    real number; // in the scene
-#endif
-} triangle;
-
-// Which of a cluster's 16 values rays take, of its triangles or its vertices. Neighbouring rays
-// tend to hit the same triangles, so what was hit is fetched once: where an instruction permutes
-// vectors a cluster at a time, of which each ray takes its own value, else a triangle at a time,
-// whose values all its rays take.
-#if HAS_MASK_REGISTERS && GLINT_WIDTH == 16
-#define FETCHED_BITS 4 // of a place: what they tell apart is fetched at once
-typedef lanes_int choice;
-static inline choice choice_of(lanes_int places, int first) { return places; }
-static inline real value_at(global const float *values, choice which)
-{
-    return __builtin_ia32_permvarsf512(vload16(0, values), which);
-}
-static inline real number_at(global const int *numbers, choice which)
-{
-    return to_real(__builtin_ia32_permvarsi512(vload16(0, numbers), which));
-}
-static inline choice corner_at(global const uchar *corners, choice which)
-{
-    return __builtin_ia32_permvarsi512(convert_int16(vload16(0, corners)), which);
-}
-#else
-#define FETCHED_BITS 0
-typedef int choice;
-static inline choice choice_of(lanes_int places, int first) { return first % GLINT_CLUSTER_LANES; }
-static inline real value_at(global const float *values, choice which)
-{
-    return real_of(values[which]);
-}
-static inline real number_at(global const int *numbers, choice which)
-{
-    return real_of((scalar)numbers[which]);
-}
-static inline choice corner_at(global const uchar *corners, choice which) { return corners[which]; }
-#endif
-
-// Sets a vertex's coordinates from x[16] y[16] z[16] for the rays in `yes`.
-static inline void set_vertex(global const float *values, choice corner, mask yes, real3 *vertex)
-{
-    vertex->x = SELECT(yes, value_at(values, corner), vertex->x);
-    vertex->y = SELECT(yes, value_at(values + GLINT_CLUSTER_LANES, corner), vertex->y);
-    vertex->z = SELECT(yes, value_at(values + 2 * GLINT_CLUSTER_LANES, corner), vertex->z);
-}
-
-// The triangles at the places of the rays in `met`.
-static inline triangle load_triangles(const scene_buffers *scene, lanes_int places, mask met)
-{
-    const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
-    triangle t;
-#pragma unroll
-    for (int k = 0; k < 3; k++) {
-        t.vertices[k] = zero;
-#if GLINT_SMOOTH_NORMALS
-        t.normals[k] = zero;
-#endif
-    }
-#if GLINT_MANY_MATERIALS
-    t.material = int_of(0);
-#endif
-#if GLINT_HITS
-    t.number = real_of(-1);
-#endif
-    uint left = mask_bits(met);
-    while (left != 0) {
-        int first;
-        mask here = next_alike(places >> FETCHED_BITS, &left, &first);
-        first <<= FETCHED_BITS;
-        const choice triangles = choice_of(places, first);
-        const size_t cluster = (size_t)first / GLINT_CLUSTER_LANES;
-        global const float *values = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
-        global const uchar *corners = (global const uchar *)(values + GLINT_CLUSTER_CORNERS);
-#if GLINT_MANY_MATERIALS
-        const int material = ((global const int *)values)[GLINT_CLUSTER_MATERIAL];
-        t.material = SELECT(here, int_of(material), t.material);
-#endif
-#if GLINT_HITS
-        global const int *numbers = scene->numbers + cluster * GLINT_CLUSTER_LANES;
-        t.number = SELECT(here, number_at(numbers, triangles), t.number);
-#endif
-#pragma unroll
-        for (int k = 0; k < 3; k++) {
-            const choice corner = corner_at(corners + k * GLINT_CLUSTER_LANES, triangles);
-            set_vertex(values, corner, here, &t.vertices[k]);
-#if GLINT_SMOOTH_NORMALS
-            set_vertex(scene->normals + cluster * GLINT_CLUSTER_NORMALS, corner, here,
-                       &t.normals[k]);
-#endif
-        }
-    }
-    return t;
-}
-
 // The geometric normal, as long as twice the triangle's area.
 static inline real3 normal_of(const real3 vertices[3])
 {
@@ -238,12 +139,67 @@ static inline real3 interpolate(const real3 vertices[3], real b1, real b2)
     return scale_add(vertices[2], b2, scale_add(vertices[1], b1, scale(vertices[0], b0)));
 }
 
+#if LOCAL_RAYS
+// Sets a surface's position to the sum of two floats along each axis.
+static inline void set_position(surface *s, pair x, pair y, pair z)
+{
+    s->position = real3_of(x.high, y.high, z.high);
+    s->position_low = real3_of(x.low, y.low, z.low);
+}
+
+// The distance to such a triangle that primary rays meet, which measure_hits takes from its corners.
+static inline void measure_nearby(const path *ray, const triangle *t, mask met, closest *hit)
+{
+    real size = real_of(0), corners[9];
+#pragma unroll
+    for (int k = 0; k < 3; k++) {
+        corners[3 * k] = t->vertices[k].x;
+        corners[3 * k + 1] = t->vertices[k].y;
+        corners[3 * k + 2] = t->vertices[k].z;
+        size = LARGER(size, largest_magnitude3(t->vertices[k]));
+    }
+    const mask nearby = met & (LARGE_TRIANGLE * hit->t < size);
+    if (!any_lane(nearby)) {
+        return;
+    }
+    const real anchor[3] = {t->anchor.x, t->anchor.y, t->anchor.z};
+    const real origin[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
+    const real low[3] = {ray->origin_low.x, ray->origin_low.y, ray->origin_low.z};
+    const real d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
+    const real found = depth_of_plane(corners, anchor, origin, low, d);
+    const mask sound = (found > R(0.0)) & (LARGE_TRIANGLE * fabs(found - hit->t) < size);
+    hit->t = SELECT(nearby & sound, found, hit->t);
+}
+
+// On a triangle that is large beside the ray's way to it the place is told from the ray's origin,
+// which is nearer than the corners. It is then off the plane by roundings of that way alone. What a
+// ray from there meets next to nothing away is no mistake: distance_nearby tells it as exactly.
+static inline void place_nearby(const path *ray, const closest *hit, surface *s)
+{
+    const mask nearby = LARGE_TRIANGLE * hit->t < s->size;
+    if (!any_lane(nearby)) {
+        return;
+    }
+    surface there = *s;
+    const real3 d = ray->direction, o = ray->origin, low = ray->origin_low;
+    set_position(&there, sum_of(o.x, fused(d.x, hit->t, low.x)),
+                 sum_of(o.y, fused(d.y, hit->t, low.y)), sum_of(o.z, fused(d.z, hit->t, low.z)));
+    const real3 n = s->geometric_normal;
+    const real across = fabs(n.x * d.x) + fabs(n.y * d.y) + fabs(n.z * d.z);
+    s->position = select3(nearby, there.position, s->position);
+    s->position_low = select3(nearby, there.position_low, s->position_low);
+    s->offset = SELECT(nearby, START_OFFSET * across * hit->t, s->offset);
+}
+#endif
+
 // The position, and a bound of its distance to the triangle's plane: the interpolation makes about
 // 8 roundings of values no larger than the largest vertex, coordinate by coordinate (Pharr, Jakob,
 // Humphreys, Physically Based Rendering, 6.8). A ray that starts this far off the plane, on the
 // side that it leaves to, cannot meet the neighbours of its triangle because of rounding.
-static inline void place_on_triangle(const real3 vertices[3], const closest *hit, surface *s)
+static inline void place_on_triangle(const triangle *t, const path *ray, const closest *hit,
+                                     surface *s)
 {
+    const real3 *vertices = t->vertices;
     s->position = interpolate(vertices, hit->b1, hit->b2);
     real3 reach;
     reach.x = LARGER(fabs(vertices[0].x), LARGER(fabs(vertices[1].x), fabs(vertices[2].x)));
@@ -252,6 +208,28 @@ static inline void place_on_triangle(const real3 vertices[3], const closest *hit
     real3 n = real3_of(fabs(s->geometric_normal.x), fabs(s->geometric_normal.y),
                        fabs(s->geometric_normal.z));
     s->offset = START_OFFSET * dot3(n, reach);
+#if GLINT_LOCAL_ORIGINS
+    s->size = largest3(reach);
+#if LOCAL_RAYS
+    const real3 at = s->position;
+    set_position(s, sum_of(t->anchor.x, at.x), sum_of(t->anchor.y, at.y),
+                 sum_of(t->anchor.z, at.z));
+    place_nearby(ray, hit, s);
+#else
+    s->position = add(t->anchor, s->position);
+#endif
+#endif
+}
+
+// Lets a ray start from a surface, so far off it along the geometric normal.
+static inline void start_off_surface(path *ray, const surface *s, real offset)
+{
+#if LOCAL_RAYS
+    ray->origin = s->position;
+    ray->origin_low = scale_add(s->geometric_normal, offset, s->position_low);
+#else
+    ray->origin = scale_add(s->geometric_normal, offset, s->position);
+#endif
 }
 
 #if GLINT_NORMAL_MAPS

@@ -15,6 +15,9 @@
 // The primary rays of a frame in image coordinates.
 typedef struct image_space {
     scalar origin[3];                      // where the middle ray starts, stored coordinates
+#if LOCAL_RAYS
+    scalar origin_low[3]; // what that lacks
+#endif
     scalar rows[3][3];                     // x, y and z of a point relative to it
     scalar offset, slope;                  // h = offset + slope z
     scalar key_one, key_depth, key_normal; // see image_key
@@ -48,6 +51,9 @@ static inline image_space make_image_space(const glint_frame_record *frame)
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         s.origin[k] = JOIN(frame->origin.high[k], frame->origin.low[k]);
+#if LOCAL_RAYS
+        s.origin_low[k] = frame->origin.low[k];
+#endif
         s.rows[0][k] = JOIN(frame->image_x.high[k], frame->image_x.low[k]);
         s.rows[1][k] = JOIN(frame->image_y.high[k], frame->image_y.low[k]);
         s.rows[2][k] = JOIN(frame->image_z.high[k], frame->image_z.low[k]);

@@ -48,13 +48,23 @@ static inline uint tile_meets_boxes(const image_space *s, const tile *t, node_po
 
 // ---- Triangles ---------------------------------------------------------------------------------
 
+// The origin along axis k as a cluster's vertices are told.
+static inline scalar image_origin(const image_space *s, global const float *cluster, int k)
+{
+    scalar origin = FROM_ANCHOR(cluster, k, s->origin[k]);
+#if LOCAL_RAYS
+    origin += s->origin_low[k];
+#endif
+    return origin;
+}
+
 // x, y, z and h of the cluster's vertices.
 static inline void to_image(const image_space *s, global const float *cluster, block v[4])
 {
     block d[3];
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        d[k] = load_block(cluster + GLINT_CLUSTER_LANES * k) - s->origin[k];
+        d[k] = load_block(cluster + GLINT_CLUSTER_LANES * k) - image_origin(s, cluster, k);
     }
 #pragma unroll
     for (int r = 0; r < 3; r++) {
@@ -191,8 +201,7 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
     block_mask edge_on = !(fabs(side) > R(2.0) * largest_h * bound);
     out->uncertain = SELECT(edge_on, block_of(HUGE), bound);
 
-    global const int *facts = (global const int *)cluster;
-    block_mask seen = block_of(facts[GLINT_CLUSTER_COUNT]) > BLOCK_LANES;
+    block_mask seen = block_of(count_of_cluster(cluster)) > BLOCK_LANES;
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         block *edge = out->edges[k];
@@ -422,13 +431,22 @@ static inline void trace_tile(const image_space *s, tile *t, const scene_buffers
 }
 
 // The corners in image coordinates.
-static inline image_corners corners_in_image(const image_space *s, const real3 vertices[3])
+static inline image_corners corners_in_image(const image_space *s, const triangle *t)
 {
+    const real3 *vertices = t->vertices;
     image_corners c;
+    real3 origin = real3_of(real_of(s->origin[0]), real_of(s->origin[1]), real_of(s->origin[2]));
+#if GLINT_LOCAL_ORIGINS
+    origin = subtract(origin, t->anchor);
+#if LOCAL_RAYS
+    origin = add(origin, real3_of(real_of(s->origin_low[0]), real_of(s->origin_low[1]),
+                                  real_of(s->origin_low[2])));
+#endif
+#endif
 #pragma unroll
     for (int k = 0; k < 3; k++) {
-        real dx = vertices[k].x - s->origin[0], dy = vertices[k].y - s->origin[1];
-        real dz = vertices[k].z - s->origin[2];
+        real dx = vertices[k].x - origin.x, dy = vertices[k].y - origin.y;
+        real dz = vertices[k].z - origin.z;
 #pragma unroll
         for (int r = 0; r < 3; r++) {
             c.at[k][r] = fused(real_of(s->rows[r][0]), dx,
@@ -441,10 +459,10 @@ static inline image_corners corners_in_image(const image_space *s, const real3 v
 
 // Distances and barycentric weights of what the pixels at (x, y) see, the corners of which are
 // given. `length` is that of their directions before they were made unit vectors.
-static inline void measure_hits(const image_space *s, const real3 vertices[3], real x, real y,
+static inline void measure_hits(const image_space *s, const triangle *t, real x, real y,
                                 real length, mask met, closest *hit)
 {
-    const image_corners c = corners_in_image(s, vertices);
+    const image_corners c = corners_in_image(s, t);
     real weights[3];
     image_weights(&c, x, y, met, weights);
     real inverse = R(1.0) / SELECT(met, weights[0] + weights[1] + weights[2], real_of(1));

@@ -262,7 +262,7 @@ static inline void trace_groups(const scene_buffers *scene, const path *rays, co
         c.left[g] =
             active[g] & (ray->looked_up == (lane_int)0) & is_sound(ray->origin, ray->direction);
         if (any_lane(c.left[g])) {
-            c.packets[g] = make_packet(ray->origin, ray->direction);
+            c.packets[g] = packet_of_paths(ray);
         }
     }
     while (any_active(c.left)) {

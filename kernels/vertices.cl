@@ -69,7 +69,7 @@ static inline path rays_to_vertices(const glint_frame_record *frame, real3 verti
 static inline uint seen_from_outside(const glint_frame_record *frame, global const float *vertices)
 {
     global const uchar *corners = (global const uchar *)(vertices + GLINT_CLUSTER_CORNERS);
-    const int count = ((global const int *)vertices)[GLINT_CLUSTER_COUNT];
+    const int count = count_of_cluster(vertices);
     uint seen = 0;
     for (int i = 0; i < count; i++) {
         real3 p[3];
@@ -132,7 +132,7 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
                                 size_t cluster, int first, global float *values)
 {
     global const float *vertices = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
-    const int material = ((global const int *)vertices)[GLINT_CLUSTER_MATERIAL];
+    const int material = material_of_cluster(vertices);
     real distance;
     path ray = rays_to_vertices(frame, load_vertices3(vertices, first), &distance);
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));

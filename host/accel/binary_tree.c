@@ -107,7 +107,7 @@ static void make_references(size_t index, void *context)
     builder *b = context;
     chunk *c = &b->chunks[index];
     glint_reference references[CHUNK];
-    c->made_count = glint_references_make(b->in->positions, c->first, c->count, references);
+    c->made_count = glint_references_make(b->in, c->first, c->count, references);
     c->made_triangles = 0;
     c->made = glint_allocate_unset(c->made_count, sizeof *c->made);
     if (c->made == NULL) {

@@ -16,8 +16,19 @@
 typedef struct glint_cluster {
     float positions[3][GLINT_CLUSTER_LANES]; // x, y, z of each vertex
     uint8_t corners[3][GLINT_CLUSTER_LANES]; // first, second, third corner of each triangle
-    int32_t count, material, unused[2];
+    int32_t facts;                           // see glint_cluster_count and glint_cluster_material
+    float anchor[3];
 } glint_cluster;
+
+static inline int32_t glint_cluster_count(const glint_cluster *cluster)
+{
+    return cluster->facts & GLINT_CLUSTER_COUNT_MASK;
+}
+
+static inline int32_t glint_cluster_material(const glint_cluster *cluster)
+{
+    return cluster->facts >> GLINT_CLUSTER_COUNT_BITS;
+}
 
 // What was built, for `info` and statistics.
 typedef struct glint_bvh_report {
@@ -53,12 +64,28 @@ typedef struct glint_bvh {
 // Triangles as a scene holds them. Pointers are borrowed.
 typedef struct glint_bvh_inputs {
     const float *positions;      // [triangle_count][3 vertices][3], magnitudes below GLINT_FAR
-    const float *normals;        // the same shape, or NULL
+    const float *told;           // the same from the anchors of parts; NULL: there are no parts
+    const uint32_t *part_of;     // [triangle_count], where there are
+    const float (*anchors)[3];   // of the parts
+    const float *normals;        // the same shape as positions, or NULL
     const uint32_t *material_of; // [triangle_count]
     size_t triangle_count;
     int width;      // children of a node: 8 or 16
     size_t threads; // 0: as many as there are cores; the tree is the same for any number
 } glint_bvh_inputs;
+
+// What clusters hold of the triangles' corners.
+static inline const float *glint_bvh_told(const glint_bvh_inputs *in)
+{
+    return in->told != NULL ? in->told : in->positions;
+}
+
+// Triangles of one group may stand in one cluster: they have one material and one anchor.
+static inline uint64_t glint_bvh_group(const glint_bvh_inputs *in, size_t triangle)
+{
+    const uint64_t part = in->told != NULL ? in->part_of[triangle] : 0;
+    return part << 32 | in->material_of[triangle];
+}
 
 // Deterministic: the same input gives the same tree. Triangles without area, whose corners are in
 // line as they are stored (a loader keeps them out, but scenes are made by hand too), are left out:

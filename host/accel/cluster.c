@@ -5,8 +5,8 @@
 
 _Static_assert(sizeof(glint_cluster) == GLINT_CLUSTER_VALUES * sizeof(float) &&
                    offsetof(glint_cluster, corners) == GLINT_CLUSTER_CORNERS * sizeof(float) &&
-                   offsetof(glint_cluster, count) == GLINT_CLUSTER_COUNT * sizeof(float) &&
-                   offsetof(glint_cluster, material) == GLINT_CLUSTER_MATERIAL * sizeof(float),
+                   offsetof(glint_cluster, facts) == GLINT_CLUSTER_FACTS * sizeof(float) &&
+                   offsetof(glint_cluster, anchor) == GLINT_CLUSTER_ANCHOR * sizeof(float),
                "glint_cluster differs from kernels/layout.h");
 
 // values[axis][lane] of each vertex of the leaf.
@@ -26,12 +26,14 @@ void glint_cluster_fill(const glint_bvh_inputs *in, const glint_leaf *leaf, cons
 {
     glint_cluster *cluster = &bvh->clusters[index];
     int32_t *numbers = bvh->numbers + index * GLINT_CLUSTER_LANES;
-    *cluster = (glint_cluster){
-        .count = leaf->count,
-        .material = (int32_t)in->material_of[leaf->triangles[0]],
-    };
+    *cluster = (glint_cluster){0};
+    const uint32_t first = leaf->triangles[0];
+    cluster->facts = leaf->count | (int32_t)(in->material_of[first] << GLINT_CLUSTER_COUNT_BITS);
+    if (in->told != NULL) {
+        memcpy(cluster->anchor, in->anchors[in->part_of[first]], sizeof cluster->anchor);
+    }
     memcpy(cluster->corners, leaf->corners, sizeof cluster->corners);
-    gather(in->positions, leaf, cluster->positions[0]);
+    gather(glint_bvh_told(in), leaf, cluster->positions[0]);
     if (in->normals != NULL) {
         gather(in->normals, leaf, bvh->normals + index * GLINT_CLUSTER_NORMALS);
     }

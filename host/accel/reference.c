@@ -60,7 +60,7 @@ static size_t make_four(const float *positions, size_t first, glint_reference *r
     return made + make_pair(boxes + 2, first + 2, references + made);
 }
 
-size_t glint_references_make(const float *positions, size_t first, size_t count,
+size_t glint_references_make(const glint_bvh_inputs *in, size_t first, size_t count,
                              glint_reference *references)
 {
     const size_t last = first + count;
@@ -69,16 +69,16 @@ size_t glint_references_make(const float *positions, size_t first, size_t count,
         const size_t own = last - i < GLINT_BUNDLE_MAX ? last - i : GLINT_BUNDLE_MAX;
         bool kept[GLINT_BUNDLE_MAX], all = own == GLINT_BUNDLE_MAX;
         for (size_t k = 0; k < own; k++) {
-            kept[k] = glint_triangle_has_area(positions + 9 * (i + k));
+            kept[k] = glint_triangle_has_area(glint_bvh_told(in) + 9 * (i + k));
             all = all && kept[k];
         }
         if (all) {
-            made += make_four(positions, i, references + made);
+            made += make_four(in->positions, i, references + made);
             continue;
         }
         for (size_t k = 0; k < own; k++) {
             if (kept[k]) {
-                references[made++] = make(triangle_box(positions, i + k), i + k, 1);
+                references[made++] = make(triangle_box(in->positions, i + k), i + k, 1);
             }
         }
     }

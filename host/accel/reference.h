@@ -5,6 +5,7 @@
 #define GLINT_ACCEL_REFERENCE_H
 
 #include "accel/box.h"
+#include "accel/bvh.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -41,8 +42,8 @@ static inline uint32_t glint_reference_count(glint_reference reference)
 
 // Makes references to `count` triangles from number `first` on, a multiple of GLINT_BUNDLE_MAX;
 // those whose common box is hardly larger than their own are bundled. Triangles without area are
-// left out. `positions` are the scene's. Returns the number of references, at most `count`.
-size_t glint_references_make(const float *positions, size_t first, size_t count,
+// left out. Returns the number of references, at most `count`.
+size_t glint_references_make(const glint_bvh_inputs *in, size_t first, size_t count,
                              glint_reference *references);
 
 // Makes a reference to each triangle of some references, in their order.

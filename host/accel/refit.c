@@ -19,14 +19,18 @@ typedef struct refit {
     atomic_bool has_torn; // some cluster's triangles no longer belong together
 } refit;
 
-// Whether each triangle of a cluster still has an area and the cluster's material.
+// Whether each triangle of a cluster still has an area, the cluster's material and one anchor.
 static bool is_whole(const glint_bvh_inputs *in, const glint_cluster *cluster,
                      const int32_t *numbers)
 {
-    for (int k = 0; k < cluster->count; k++) {
+    const uint64_t group = glint_bvh_group(in, (size_t)numbers[0]);
+    if ((uint32_t)group != (uint32_t)glint_cluster_material(cluster)) {
+        return false;
+    }
+    for (int k = 0; k < glint_cluster_count(cluster); k++) {
         const size_t number = (size_t)numbers[k];
-        if (in->material_of[number] != (uint32_t)cluster->material ||
-            !glint_triangle_has_area(in->positions + 9 * number)) {
+        if (glint_bvh_group(in, number) != group ||
+            !glint_triangle_has_area(glint_bvh_told(in) + 9 * number)) {
             return false;
         }
     }
@@ -47,7 +51,7 @@ static bool gather(const float *from, const glint_cluster *cluster, const int32_
                    float *values)
 {
     bool is_set[GLINT_CLUSTER_LANES] = {false};
-    for (int k = 0; k < cluster->count; k++) {
+    for (int k = 0; k < glint_cluster_count(cluster); k++) {
         for (int corner = 0; corner < 3; corner++) {
             const int lane = cluster->corners[corner][k];
             const float *v = from + 9 * (size_t)numbers[k] + 3 * corner;
@@ -74,8 +78,9 @@ static glint_box cluster_box(const glint_cluster *cluster)
 {
     glint_box box = glint_box_empty();
     for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {
-        const glint_float4 point = {cluster->positions[0][lane], cluster->positions[1][lane],
-                                    cluster->positions[2][lane], 0};
+        const glint_float4 point = {cluster->anchor[0] + cluster->positions[0][lane],
+                                    cluster->anchor[1] + cluster->positions[1][lane],
+                                    cluster->anchor[2] + cluster->positions[2][lane], 0};
         box = glint_box_union(box, glint_box_of(point));
     }
     return box;
@@ -92,11 +97,15 @@ static void refit_some(size_t task, void *context)
         glint_cluster *cluster = &bvh->clusters[i];
         const int32_t *numbers = bvh->numbers + i * GLINT_CLUSTER_LANES;
         if (!is_whole(r->in, cluster, numbers) ||
-            !gather(r->in->positions, cluster, numbers, cluster->positions[0]) ||
+            !gather(glint_bvh_told(r->in), cluster, numbers, cluster->positions[0]) ||
             (bvh->normals != NULL &&
              !gather(r->in->normals, cluster, numbers, bvh->normals + i * GLINT_CLUSTER_NORMALS))) {
             atomic_store(&r->has_torn, true);
             return;
+        }
+        if (r->in->told != NULL) {
+            memcpy(cluster->anchor, r->in->anchors[r->in->part_of[numbers[0]]],
+                   sizeof cluster->anchor);
         }
         r->boxes[i] = cluster_box(cluster);
     }
@@ -134,7 +143,7 @@ static size_t count_with_area(const glint_bvh_inputs *in)
 {
     size_t count = 0;
     for (size_t i = 0; i < in->triangle_count; i++) {
-        count += glint_triangle_has_area(in->positions + 9 * i);
+        count += glint_triangle_has_area(glint_bvh_told(in) + 9 * i);
     }
     return count;
 }

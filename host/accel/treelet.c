@@ -15,7 +15,8 @@ typedef struct treelet {
     float scale; // of areas
     int count;
     glint_reference references[CAPACITY];
-    uint32_t triangles[CAPACITY], materials[CAPACITY];
+    uint32_t triangles[CAPACITY];
+    uint64_t groups[CAPACITY];      // see glint_bvh_group
     uint16_t vertices[CAPACITY][4]; // of each triangle: three, numbered from 0
     uint8_t order[3][CAPACITY];     // the triangles by their centres' coordinate, on each axis
     uint16_t stamps[3 * CAPACITY];  // by vertex: the last count that it was counted in
@@ -47,8 +48,8 @@ static inline vertex_bits bits_of(const glint_bvh_inputs *in, size_t value)
 {
     vertex_bits bits;
     uint32_t last[2] = {0, 0};
-    memcpy(&bits.words[0], in->positions + value, sizeof bits.words[0]);
-    memcpy(&last[0], in->positions + value + 2, sizeof last[0]);
+    memcpy(&bits.words[0], glint_bvh_told(in) + value, sizeof bits.words[0]);
+    memcpy(&last[0], glint_bvh_told(in) + value + 2, sizeof last[0]);
     bits.words[1] = 0;
     if (in->normals != NULL) {
         memcpy(&bits.words[1], in->normals + value, sizeof bits.words[1]);
@@ -157,13 +158,13 @@ static void sort_axis(treelet *t, glint_box middles, int axis)
 // them. `step` is 1 or −1.
 static int fitting_count(treelet *t, const uint8_t *order, int step, int count)
 {
-    const uint32_t material = t->materials[*order];
+    const uint64_t group = t->groups[*order];
     int vertices = 0;
     int most = count < GLINT_CLUSTER_LANES ? count : GLINT_CLUSTER_LANES;
     t->stamp++;
     for (int i = 0; i < most; i++, order += step) {
         vertices += new_vertices(t, *order);
-        if (vertices > GLINT_CLUSTER_LANES || t->materials[*order] != material) {
+        if (vertices > GLINT_CLUSTER_LANES || t->groups[*order] != group) {
             return i;
         }
     }
@@ -321,7 +322,7 @@ bool glint_treelet_build(const glint_bvh_inputs *in, const glint_treelet_range *
         t.references[i] = range->references[i];
         middles = glint_box_union(middles, glint_box_of(glint_box_middle(t.references[i])));
         t.triangles[i] = glint_reference_first(t.references[i]);
-        t.materials[i] = in->material_of[t.triangles[i]];
+        t.groups[i] = glint_bvh_group(in, t.triangles[i]);
     }
     for (int axis = 0; axis < 3; axis++) {
         sort_axis(&t, middles, axis);

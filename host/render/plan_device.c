@@ -103,7 +103,9 @@ static void limit_branches(glint_plan *plan)
                                              plan->features[GLINT_FEATURE_ALPHA].compiled,
                                              plan->features[GLINT_FEATURE_ROUGH].compiled,
                                              plan->features[GLINT_FEATURE_FACETS].compiled,
-                                             plan->features[GLINT_FEATURE_DISPERSION].compiled);
+                                             plan->features[GLINT_FEATURE_DISPERSION].compiled,
+                                             plan->features[GLINT_FEATURE_LOCAL_ORIGINS].compiled &&
+                                                 plan->precision != GLINT_PRECISION_DOUBLE);
     const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
     if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
         plan->tiles = false;

@@ -279,6 +279,11 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     decide(plan, GLINT_FEATURE_GEOMETRY, scene->triangle_count > 0, "%zu triangles",
            scene->triangle_count);
     const bool by_vertex = glint_plan_shades_vertices(plan);
+    const bool has_parts = scene->parts.count > 0;
+    decide(plan, GLINT_FEATURE_LOCAL_ORIGINS, has_parts && !by_vertex, "%s",
+           !has_parts  ? "nothing is small beside the scene"
+           : by_vertex ? "vertices are shaded, where paths end at once"
+                       : "some parts are small beside the scene");
     decide(plan, GLINT_FEATURE_SMOOTH_NORMALS, scene->normals != NULL || by_vertex, "%s",
            scene->normals != NULL ? "some primitive has normals"
            : by_vertex            ? "vertices are shaded, by their triangle's normal"

@@ -7,7 +7,11 @@
 static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *scene,
                                     const float *normals)
 {
+    const bool about_parts = plan->features[GLINT_FEATURE_LOCAL_ORIGINS].compiled;
     return (glint_bvh_inputs){
+        .told = about_parts ? scene->parts.positions : NULL,
+        .part_of = scene->parts.part_of,
+        .anchors = (const float(*)[3])scene->parts.anchors,
         .positions = scene->positions,
         .normals = normals,
         .material_of = scene->material_of,

@@ -31,6 +31,8 @@ typedef struct glint_probe_ray {
     double origin[3], direction[3];
     double from;  // place of the triangle that it starts on; −1: none
     double media; // the stack of media that it is inside, as the kernels pack it; 0: empty space
+    double origin_low[3]; // what floats leave out of the origin, with LOCAL_ORIGINS; else 0
+    double unused;
 } glint_probe_ray;
 
 typedef struct glint_probe_hit {
@@ -52,8 +54,8 @@ typedef struct glint_probe_bounce {
     double transmitted[3], transmitted_weight; // 0 where the scene has no glass
     double transmitted_origin[3];
     double transmitted_media;
-    double total_reflection; // 1 where all is reflected
-    double unused[2];
+    double total_reflection;                     // 1 where all is reflected
+    double reflected_low[3], transmitted_low[3]; // as origin_low
 } glint_probe_bounce;
 
 typedef struct glint_probe glint_probe;

@@ -58,21 +58,24 @@ typedef struct face {
 
 static face face_of(const glint_scene *scene, uint32_t triangle)
 {
-    const float *p = scene->positions + (size_t)triangle * 9;
+    const bool has_parts = scene->parts.count > 0;
+    const float *told =
+        (has_parts ? scene->parts.positions : scene->positions) + (size_t)triangle * 9;
     face f;
-    glint_vec3 most = {0, 0, 0};
+    double most[3] = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
-        f.at[i] = (glint_vec3){p[3 * i], p[3 * i + 1], p[3 * i + 2]};
-        most.x = fmax(most.x, fabs(f.at[i].x));
-        most.y = fmax(most.y, fabs(f.at[i].y));
-        most.z = fmax(most.z, fabs(f.at[i].z));
+        f.at[i] = glint_scene_corner(scene, triangle, i);
+        for (int k = 0; k < 3; k++) {
+            most[k] = fmax(most[k], fabs((double)told[3 * i + k]));
+        }
     }
+    const double size = has_parts ? fmax(most[0], fmax(most[1], most[2])) : 1;
     f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
                                                      glint_vec3_subtract(f.at[2], f.at[0])));
     // The last term is for what rays themselves are rounded by, on planes through the origin.
-    f.reach =
-        FARTHER * (double)GLINT_TOUCHING *
-        (fabs(f.normal.x) * most.x + fabs(f.normal.y) * most.y + fabs(f.normal.z) * most.z + 0.5);
+    f.reach = FARTHER * (double)GLINT_TOUCHING *
+              (fabs(f.normal.x) * most[0] + fabs(f.normal.y) * most[1] +
+               fabs(f.normal.z) * most[2] + 0.5 * size);
     return f;
 }
 

@@ -82,9 +82,26 @@ bool is_collapsed(const Triangle &triangle)
            equal(triangle[2].local, triangle[0].local);
 }
 
-Bounds measure(const std::vector<Draw> &draws)
+double larger(double a, double b, double c)
 {
+    return std::max(a, std::max(b, c));
+}
+
+// What is found before anything is stored.
+struct Measures {
     Bounds bounds;
+    double smallest = INFINITY; // triangle, metres across
+};
+
+double width_of(const Bounds &bounds)
+{
+    return larger(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y,
+                  bounds.high.z - bounds.low.z);
+}
+
+Measures measure(const std::vector<Draw> &draws)
+{
+    Measures measures;
     for (const Draw &draw : draws) {
         for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
             Triangle triangle = corners_of(draw, t, false);
@@ -96,6 +113,7 @@ Bounds measure(const std::vector<Draw> &draws)
             if (is_collapsed(triangle)) {
                 continue;
             }
+            Bounds own;
             for (const Corner &corner : triangle) {
                 glint_vec3 p = glint_mat4_point(&draw.to_world, corner.local);
                 // Written so that NaN is refused, too.
@@ -105,16 +123,13 @@ Bounds measure(const std::vector<Draw> &draws)
                            "its mesh reaches farther than " + shown(farthest) +
                                " m from the origin (use smaller coordinates or scales)");
                 }
-                bounds.grow(p);
+                measures.bounds.grow(p);
+                own.grow(p);
             }
+            measures.smallest = std::min(measures.smallest, width_of(own));
         }
     }
-    return bounds;
-}
-
-double larger(double a, double b, double c)
-{
-    return std::max(a, std::max(b, c));
+    return measures;
 }
 
 // `step` is a power of two; beyond 2^52 steps every double is a whole number of them.
@@ -135,7 +150,7 @@ void choose_frame(const Bounds &bounds, glint_scene &scene)
     if (bounds.is_empty()) {
         return;
     }
-    double half = larger(high.x - low.x, high.y - low.y, high.z - low.z) / 2;
+    double half = width_of(bounds) / 2;
     int exponent = 0;
     double mantissa = std::frexp(half, &exponent); // half = mantissa × 2^exponent, in [1/2, 1)
     // Not so small that metres per unit leave a float's range.
@@ -158,10 +173,15 @@ class Writer
   public:
     Writer(Load &load, glint_scene &scene) : load_(load), draws_(load.draws), scene_(scene) {}
 
-    // `default_material` stands for the primitives that name none.
-    void write(std::size_t triangles, bool with_normals, std::uint32_t default_material)
+    // `default_material` stands for the primitives that name none. Small parts are looked for where
+    // there may be some.
+    void write(std::size_t triangles, bool with_normals, std::uint32_t default_material,
+               bool looks_for_parts)
     {
         allocate(triangles, with_normals);
+        if (looks_for_parts) {
+            find_parts();
+        }
         for (const Draw &draw : draws_) {
             glint_instance &instance = scene_.instances[scene_.instance_count];
             instance.node_index = draw.node;
@@ -215,17 +235,45 @@ class Writer
         }
     }
 
+    // Of all triangles that are not collapsed: what turns out to have no area is dropped later.
+    void find_parts()
+    {
+        std::vector<double> exact;
+        for (const Draw &draw : draws_) {
+            for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
+                const Triangle triangle = corners_of(draw, t, winds_back(draw, t));
+                for (std::size_t c = 0; !is_collapsed(triangle) && c < 3; c++) {
+                    const glint_vec3 p = stored_place(draw, triangle[c]);
+                    exact.insert(exact.end(), {p.x, p.y, p.z});
+                }
+            }
+        }
+        if (glint_parts_find(exact.data(), exact.size() / 9, &scene_.parts, nullptr) != GLINT_OK) {
+            throw std::bad_alloc();
+        }
+    }
+
+    static bool winds_back(const Draw &draw, std::size_t t)
+    {
+        const bool inside_out = draw.shape != nullptr && draw.shape->is_mirrored(t);
+        return (glint_mat4_determinant3(&draw.to_world) < 0) != inside_out;
+    }
+
+    glint_vec3 stored_place(const Draw &draw, const Corner &corner) const
+    {
+        const glint_vec3 world = glint_mat4_point(&draw.to_world, corner.local);
+        return glint_vec3_scale(glint_vec3_subtract(world, scene_.origin), 1 / scene_.unit);
+    }
+
     void write_draw(const Draw &draw, std::uint32_t material)
     {
-        bool mirrored = glint_mat4_determinant3(&draw.to_world) < 0;
         const std::array<glint_vec3, 3> turned = {
             glint_mat4_normal(&draw.to_world, {1, 0, 0}),
             glint_mat4_normal(&draw.to_world, {0, 1, 0}),
             glint_mat4_normal(&draw.to_world, {0, 0, 1}),
         };
         for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
-            const bool inside_out = draw.shape != nullptr && draw.shape->is_mirrored(t);
-            Triangle triangle = corners_of(draw, t, mirrored != inside_out);
+            Triangle triangle = corners_of(draw, t, winds_back(draw, t));
             float *p = scene_.positions + 9 * scene_.triangle_count;
             if (is_collapsed(triangle) || !store_positions(draw, triangle, p)) {
                 scene_.degenerate_triangles++;
@@ -250,17 +298,32 @@ class Writer
     }
 
     // False where nothing is left of the triangle.
-    bool store_positions(const Draw &draw, const Triangle &triangle, float *p) const
+    bool store_positions(const Draw &draw, const Triangle &triangle, float *p)
     {
+        if (scene_.parts.count > 0) {
+            return take_from_part(p);
+        }
         for (std::size_t c = 0; c < 3; c++) {
-            glint_vec3 world = glint_mat4_point(&draw.to_world, triangle[c].local);
-            glint_vec3 stored =
-                glint_vec3_scale(glint_vec3_subtract(world, scene_.origin), 1 / scene_.unit);
+            const glint_vec3 stored = stored_place(draw, triangle[c]);
             p[3 * c] = static_cast<float>(stored.x);
             p[3 * c + 1] = static_cast<float>(stored.y);
             p[3 * c + 2] = static_cast<float>(stored.z);
         }
         return glint_triangle_has_area(p);
+    }
+
+    // The same for the next of the triangles that parts were found of.
+    bool take_from_part(float *p)
+    {
+        const glint_parts &parts = scene_.parts;
+        const std::size_t from = taken_++;
+        const std::size_t to = scene_.triangle_count;
+        std::copy_n(parts.positions + 9 * from, 9, parts.positions + 9 * to);
+        parts.part_of[to] = parts.part_of[from];
+        for (int k = 0; k < 9; k++) {
+            p[k] = parts.anchors[parts.part_of[to]][k % 3] + parts.positions[9 * to + k];
+        }
+        return glint_triangle_has_area(parts.positions + 9 * to);
     }
 
     // Normals that are zero, NaN or infinite become (0, 0, 0) in glint_vec3_normalize.
@@ -299,6 +362,7 @@ class Writer
     Load &load_;
     const std::vector<Draw> &draws_;
     glint_scene &scene_;
+    std::size_t taken_ = 0; // of the triangles in parts, before those without area are dropped
     std::array<float, 3> low_ = {INFINITY, INFINITY, INFINITY};
     std::array<float, 3> high_ = {-INFINITY, -INFINITY, -INFINITY};
 };
@@ -385,11 +449,13 @@ void flatten(Load &load, glint_scene &scene)
                                 [&](const Shape *shape) { return drawn.count(shape) == 0; }),
                  shapes.end());
     deform(shapes, with_normals, load.tally);
-    choose_frame(measure(load.draws), scene);
+    const Measures measures = measure(load.draws);
+    choose_frame(measures.bounds, scene);
     std::size_t default_material = objects_of(load.document.root, "materials").size();
     scene.attribute_set = attributes_of(load);
     Writer(load, scene)
-        .write(triangles, with_normals, static_cast<std::uint32_t>(default_material));
+        .write(triangles, with_normals, static_cast<std::uint32_t>(default_material),
+               glint_parts_may_be_there(measures.smallest / scene.unit));
     load.poses.clear(); // their memory is free while the scene is rendered
     load.draws.clear();
     name_nodes(load.model, scene);

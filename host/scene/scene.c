@@ -54,12 +54,21 @@ void glint_scene_free(glint_scene *scene)
     free(scene->attributes);
     glint_textures_release(scene->textures);
     free(scene->material_of);
+    glint_parts_free(&scene->parts);
     free(scene->materials);
     free(scene->nodes);
     free(scene->instances);
     free(scene->cameras);
     free(scene->lights);
     *scene = (glint_scene){0};
+}
+
+void glint_scene_round_positions(glint_scene *scene)
+{
+    const glint_parts *parts = &scene->parts;
+    for (size_t i = 0; parts->count > 0 && i < 9 * scene->triangle_count; i++) {
+        scene->positions[i] = parts->anchors[parts->part_of[i / 9]][i % 3] + parts->positions[i];
+    }
 }
 
 void glint_scene_find_bounds(glint_scene *scene)

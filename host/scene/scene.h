@@ -7,6 +7,7 @@
 #include "scene/camera.h"
 #include "scene/lights.h"
 #include "scene/material.h"
+#include "scene/parts.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -77,6 +78,7 @@ typedef struct glint_scene {
     float *normals;   // the same shape, unit, or NULL when no primitive has any; (0, 0, 0) where
                       // a vertex has none that is usable: the geometric normal serves there
     uint32_t *material_of; // [triangle_count], index into materials
+    glint_parts parts;     // what positions leave out of small parts, see glint_scene_corner; owned
 
     // What vertices hold beside: per triangle three corners, each of glint_attributes_stride
     // floats. NULL where there is nothing.
@@ -118,6 +120,21 @@ typedef struct glint_scene {
 static inline bool glint_instance_is_solid(const glint_scene *scene, const glint_instance *instance)
 {
     return glint_material_lobes(&scene->materials[instance->material]).solid;
+}
+
+// A corner's place in stored coordinates, to all digits that there are: those in `positions` are
+// rounded to floats.
+static inline glint_vec3 glint_scene_corner(const glint_scene *scene, size_t triangle, int corner)
+{
+    const glint_parts *parts = &scene->parts;
+    const size_t at = 9 * triangle + 3 * (size_t)corner;
+    if (parts->count == 0) {
+        const float *p = scene->positions + at;
+        return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
+    }
+    const float *p = parts->positions + at, *a = parts->anchors[parts->part_of[triangle]];
+    return (glint_vec3){(double)a[0] + (double)p[0], (double)a[1] + (double)p[1],
+                        (double)a[2] + (double)p[2]};
 }
 
 // Bytes of the arrays of so many triangles.
@@ -183,6 +200,9 @@ void glint_scene_close(glint_scene_source *source); // NULL is allowed
 // The bounds that cameras without a place of their own are put up for: of all that is there, over
 // the whole animation.
 void glint_scene_shown_bounds(const glint_scene *scene, glint_vec3 *low, glint_vec3 *high);
+
+// Sets `positions` to what the parts say, rounded; where there are none nothing changes.
+void glint_scene_round_positions(glint_scene *scene);
 
 // Sets the bounds from the triangles.
 void glint_scene_find_bounds(glint_scene *scene);

@@ -168,6 +168,12 @@ static void drop(glint_scene *scene, const bool *is_marked, bool unwanted)
             memmove(scene->attributes + floats * triangles, scene->attributes + floats * from,
                     floats * count * sizeof *scene->attributes);
         }
+        if (scene->parts.count > 0) {
+            memmove(scene->parts.positions + 9 * triangles, scene->parts.positions + 9 * from,
+                    9 * count * sizeof *scene->parts.positions);
+            memmove(scene->parts.part_of + triangles, scene->parts.part_of + from,
+                    count * sizeof *scene->parts.part_of);
+        }
         memmove(scene->material_of + triangles, scene->material_of + from,
                 count * sizeof *scene->material_of);
         instance.first_triangle = triangles;

@@ -69,7 +69,7 @@ static sheet sheet_of(const tangents *t, size_t triangle)
     const int at = glint_material_tangent_texture(material_of(t, triangle))->texcoord == 1 ? 2 : 0;
     sheet s = {.turn = 0};
     for (int c = 0; c < 3; c++) {
-        s.positions[c] = vector_of(t->scene->positions + 9 * triangle + 3 * c);
+        s.positions[c] = glint_scene_corner(t->scene, triangle, (int)c);
         s.uv[c] = corner_attributes(t, triangle, c) + at;
     }
     const double u1 = (double)s.uv[1][0] - (double)s.uv[0][0];

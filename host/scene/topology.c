@@ -45,7 +45,9 @@ typedef struct component_sums {
 
 // The work on one instance. Arrays are as large as the largest instance needs.
 typedef struct welding {
-    const float *positions; // of the instance's first triangle
+    const float *positions;  // of the instance's first triangle, from its part's anchor
+    const uint32_t *part_of; // of that; NULL: there are no parts
+    const float (*anchors)[3];
     uint32_t *component_of; // [triangle of the instance], among the topology's
     uint32_t corner_count;
     uint32_t vertex_count;
@@ -60,6 +62,7 @@ typedef struct welding {
     size_t gathered_capacity;
 } welding;
 
+// From the anchor of the corner's part: a component is in one.
 static glint_vec3 position_at(const welding *weld, uint32_t corner)
 {
     const float *p = weld->positions + (size_t)corner * 3;
@@ -71,9 +74,20 @@ static uint32_t next_corner(uint32_t corner)
     return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
 
-static uint32_t hash_position(const float *p)
+static uint32_t part_at(const welding *weld, uint32_t corner)
 {
-    uint32_t hash = 2166136261u;
+    return weld->part_of != NULL ? weld->part_of[corner / 3] : 0;
+}
+
+static const float *anchor_at(const welding *weld, uint32_t corner)
+{
+    static const float origin[3] = {0, 0, 0};
+    return weld->part_of != NULL ? weld->anchors[part_at(weld, corner)] : origin;
+}
+
+static uint32_t hash_position(const float *p, uint32_t part)
+{
+    uint32_t hash = 2166136261u ^ part;
     for (int k = 0; k < 3; k++) {
         float value = p[k] + 0.0f; // −0 becomes 0
         uint32_t bits;
@@ -100,7 +114,8 @@ static void weld_corners(welding *weld)
     weld->vertex_count = 0;
     for (uint32_t corner = 0; corner < weld->corner_count; corner++) {
         const float *p = weld->positions + (size_t)corner * 3;
-        uint32_t slot = hash_position(p) & mask;
+        const uint32_t part = part_at(weld, corner);
+        uint32_t slot = hash_position(p, part) & mask;
         for (;; slot = (slot + 1) & mask) {
             uint32_t vertex = weld->table[slot];
             if (vertex == NONE) {
@@ -110,7 +125,8 @@ static void weld_corners(welding *weld)
                 weld->parent[vertex] = vertex;
             }
             const float *q = weld->positions + (size_t)weld->corner_of[vertex] * 3;
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
+            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2] &&
+                part == part_at(weld, weld->corner_of[vertex])) {
                 weld->vertex_of[corner] = vertex;
                 break;
             }
@@ -210,8 +226,9 @@ static bool number_components(welding *weld, uint32_t instance, glint_topology *
         sums->vertices++;
         sums->sum = glint_vec3_add(sums->sum, (glint_vec3){p[0], p[1], p[2]});
         for (int k = 0; k < 3; k++) {
-            component->low[k] = fminf(component->low[k], p[k]);
-            component->high[k] = fmaxf(component->high[k], p[k]);
+            const float at = anchor_at(weld, weld->corner_of[vertex])[k] + p[k];
+            component->low[k] = fminf(component->low[k], at);
+            component->high[k] = fmaxf(component->high[k], at);
         }
     }
     return true;
@@ -348,7 +365,10 @@ static void add_volumes(const welding *weld, glint_topology *topology)
 {
     for (uint32_t corner = 0; corner < weld->corner_count; corner += 3) {
         glint_component *c = &topology->components[weld->component_of[corner / 3]];
-        const glint_vec3 top = {c->low[0], c->low[1], c->low[2]};
+        const float *anchor = anchor_at(weld, corner);
+        const glint_vec3 top = {(double)c->low[0] - (double)anchor[0],
+                                (double)c->low[1] - (double)anchor[1],
+                                (double)c->low[2] - (double)anchor[2]};
         const glint_vec3 p0 = glint_vec3_subtract(position_at(weld, corner), top);
         const glint_vec3 p1 = glint_vec3_subtract(position_at(weld, corner + 1), top);
         const glint_vec3 p2 = glint_vec3_subtract(position_at(weld, corner + 2), top);
@@ -520,7 +540,11 @@ static glint_status find(const glint_scene *scene, bool solids_alone, glint_topo
                    instance->triangle_count * sizeof *topology->component_of);
             continue;
         }
-        weld.positions = scene->positions + instance->first_triangle * 9;
+        const glint_parts *parts = &scene->parts;
+        weld.positions =
+            (parts->count > 0 ? parts->positions : scene->positions) + instance->first_triangle * 9;
+        weld.part_of = parts->count > 0 ? parts->part_of + instance->first_triangle : NULL;
+        weld.anchors = (const float(*)[3])parts->anchors;
         weld.component_of = topology->component_of + instance->first_triangle;
         weld.corner_count = (uint32_t)(instance->triangle_count * 3);
         if (!find_in_instance(&weld, (uint32_t)i, topology, &capacity)) {

@@ -43,24 +43,30 @@ static glint_status closed_scene(trial *t, int which, glint_scene *scene)
     case 3:
         shape_add_ball(&s, &(shape_ball){origin, 0x1p-10, 4, MATERIAL_TINTED, true, NULL});
         break;
+    case 4: // with an origin of its own
+        shape_add_ball(&s, &(shape_ball){aside, 0x1p-10, 4, MATERIAL_TINTED, true, bumpy});
+        return shape_end_with_parts(&s, 1, scene, NULL, t->error);
     default:
         shape_add_ball(&s, &(shape_ball){aside, 0.15, 5, MATERIAL_TINTED, true, bumpy});
         break;
     }
     return shape_end(&s, scene, t->error);
 }
-#define CLOSED_SCENES 5
+#define CLOSED_SCENES 6
 
 // A point on an edge of a random triangle, or a vertex.
 static void random_target(trial *t, const glint_scene *scene, bool at_vertex, double target[3])
 {
     const size_t number = (size_t)(glint_random_number(&t->random) * (double)scene->triangle_count);
-    const size_t edge = (size_t)(3 * glint_random_number(&t->random));
-    const float *a = scene->positions + 9 * number + 3 * edge;
-    const float *b = scene->positions + 9 * number + 3 * ((edge + 1) % 3);
+    const int edge = (int)(3 * glint_random_number(&t->random));
+    const glint_vec3 a = glint_scene_corner(scene, number, edge);
+    const glint_vec3 b = glint_scene_corner(scene, number, (edge + 1) % 3);
     const double share = at_vertex ? 0 : glint_random_number(&t->random);
+    const glint_vec3 on_edge =
+        glint_vec3_add(a, glint_vec3_scale(glint_vec3_subtract(b, a), share));
+    const double exact[3] = {on_edge.x, on_edge.y, on_edge.z};
     for (int k = 0; k < 3; k++) {
-        target[k] = trial_rounded(t, (double)a[k] + share * ((double)b[k] - (double)a[k]));
+        target[k] = scene->parts.count > 0 ? exact[k] : trial_rounded(t, exact[k]);
     }
 }
 

@@ -1,6 +1,6 @@
 // Hard cases of solids that touch, overlap and hold the eye. The oracle judges, pixel by pixel: it
 // finds media by points on both sides of a surface, and keeps no stack.
-#include "selftest/judge.h"
+#include "selftest/judged.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 
@@ -66,21 +66,20 @@ static const media_view views[] = {
 #define MEDIA_BOUND 5e-4
 
 // Pixels that see an edge may differ freely.
-static void measure_pixels(trial *t, const media_view *of, const oracle_scene *scene,
-                           const oracle_view *view, const trial_picture *picture)
+static void measure_pixels(trial *t, const media_view *of, const judged *frame)
 {
+    const trial_picture *picture = &frame->picture;
     glint_measure *m = trial_error(t, of->what, "of white", MEDIA_BOUND);
     for (int p = 0; p < picture->width * picture->height; p++) {
-        const int pixel[2] = {p % picture->width, p / picture->width};
         double expected[4];
         oracle_report report;
-        oracle_pixel(scene, view, pixel, expected, &report);
+        judged_pixel(frame, p, expected, &report);
         if (report.surfaces == 0 || report.edge < ORACLE_EDGE_REACH) {
             continue;
         }
         for (int k = 0; k < 3; k++) {
-            measure_value(m, picture->values[4 * p + k], expected[k], 1, "pixel (%d, %d)", pixel[0],
-                          pixel[1]);
+            measure_value(m, picture->values[4 * p + k], expected[k], 1, "pixel (%d, %d)",
+                          p % picture->width, p / picture->width);
         }
     }
 }
@@ -89,9 +88,7 @@ static glint_status render_view(trial *t, const media_view *of)
 {
     static const double target[3] = {-0.05, -0.02, -0.1};
     glint_scene scene = {0};
-    glint_environment environment = {0};
-    trial_picture picture = {0};
-    judge j = {0};
+    judged frame = {0};
     glint_settings settings = trial_settings(t);
     settings.width = 24;
     settings.height = 18;
@@ -105,20 +102,12 @@ static glint_status render_view(trial *t, const media_view *of)
     scene.materials[MATERIAL_CORE].base_color[2] = 0.8F; // it matters whose surface is met
     scene.materials[MATERIAL_CORE].attenuation_distance = 1;
     scene.materials[MATERIAL_CORE].attenuation_color[1] = of->attenuation;
-    TRY_OR(cleanup, status, trial_linear_environment(64, &environment, t->error));
-    const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
-    TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
-    TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
-    judge_use_linear_light(&j);
-    j.scene.overlaps = true;
-    oracle_view view = judge_view(&camera, &settings);
-    view.depth = settings.depth;
-    view.edges = true;
-    measure_pixels(t, of, &j.scene, &view, &picture);
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    frame.judge.scene.overlaps = true;
+    frame.view.edges = true;
+    measure_pixels(t, of, &frame);
 cleanup:
-    judge_end(&j);
-    trial_picture_free(&picture);
-    glint_environment_free(&environment);
+    judged_end(&frame);
     glint_scene_free(&scene);
     return status;
 }

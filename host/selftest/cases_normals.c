@@ -225,6 +225,7 @@ static glint_status drift(trial *t)
         for (int i = 0; i < COUNT; i++) {
             measure_event(lost, !(bounces[i].hit.triangle >= 0), "ray %d at bounce %d", i, n);
             memcpy(rays[i].origin, bounces[i].reflected_origin, sizeof rays[i].origin);
+            memcpy(rays[i].origin_low, bounces[i].reflected_low, sizeof rays[i].origin_low);
             memcpy(rays[i].direction, bounces[i].reflected, sizeof rays[i].direction);
             rays[i].from = bounces[i].place;
         }

@@ -1,7 +1,7 @@
 // Hard cases of surfaces that send light in many directions: lobes of metal and paint, facets of
 // glass, clear coats, dispersion, thin films. The oracle judges, by plain quadrature.
 #include "base/memory.h"
-#include "selftest/judge.h"
+#include "selftest/judged.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 
@@ -65,17 +65,16 @@ static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_er
 }
 
 // Relative RMSE of the pixels that show the ball.
-static void measure_ball(trial *t, const oracle_scene *scene, const oracle_view *view,
-                         const trial_picture *picture, const rough_ball *ball)
+static void measure_ball(trial *t, const judged *frame, const rough_ball *ball)
 {
+    const trial_picture *picture = &frame->picture;
     glint_measure *m = trial_error(t, ball->what, "of the mean", ball->bound);
     double squares = 0, light = 0;
     int count = 0;
     for (int p = 0; p < picture->width * picture->height; p++) {
-        const int pixel[2] = {p % picture->width, p / picture->width};
         double expected[4];
         oracle_report report;
-        oracle_pixel(scene, view, pixel, expected, &report);
+        judged_pixel(frame, p, expected, &report);
         for (int k = 0; k < 3 && report.surfaces > 0; k++, count++) {
             const double off = picture->values[4 * p + k] - expected[k];
             squares += off * off;
@@ -88,11 +87,8 @@ static void measure_ball(trial *t, const oracle_scene *scene, const oracle_view 
 static glint_status render_ball(trial *t, const rough_ball *ball)
 {
     static const double eye[3] = {0.3, 0.4, 2.6}, target[3] = {0, 0, 0};
-    const int edge = 64;
     glint_scene scene = {0};
-    glint_environment environment = {0};
-    trial_picture picture = {0};
-    judge j = {0};
+    judged frame = {0};
     glint_settings settings = trial_settings(t);
     settings.width = 16;
     settings.height = 12;
@@ -102,19 +98,11 @@ static glint_status render_ball(trial *t, const rough_ball *ball)
     const glint_camera camera = shape_camera(eye, target, 0.75, 0);
     glint_status status;
     TRY_OR(cleanup, status, make_ball(ball, &scene, t->error));
-    TRY_OR(cleanup, status, trial_linear_environment(edge, &environment, t->error));
-    const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
-    TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
-    TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
-    judge_use_linear_light(&j);
-    oracle_view view = judge_view(&camera, &settings);
-    view.depth = ball->depth;
-    view.roughness = ball->strata;
-    measure_ball(t, &j.scene, &view, &picture, ball);
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    frame.view.roughness = ball->strata;
+    measure_ball(t, &frame, ball);
 cleanup:
-    judge_end(&j);
-    trial_picture_free(&picture);
-    glint_environment_free(&environment);
+    judged_end(&frame);
     glint_scene_free(&scene);
     return status;
 }

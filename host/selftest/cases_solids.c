@@ -55,6 +55,7 @@ static glint_status follow(trial *t, const flock *f, int surfaces, unsigned refl
             const bool met = b->hit.triangle >= 0;
             for (int k = 0; k < 3; k++) {
                 rays[i].origin[k] = back ? b->reflected_origin[k] : b->transmitted_origin[k];
+                rays[i].origin_low[k] = back ? b->reflected_low[k] : b->transmitted_low[k];
                 // A ray that met nothing has no direction any more: NaN fails every measure.
                 rays[i].direction[k] = !met ? NAN : back ? b->reflected[k] : b->transmitted[k];
             }

@@ -12,8 +12,9 @@ static void copy_triangle(const glint_scene *scene, size_t i, oracle_triangle *t
 {
     const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
     for (size_t v = 0; v < 9; v++) {
-        t->position[v / 3][v % 3] =
-            origin[v % 3] + scene->unit * (double)scene->positions[9 * i + v];
+        const glint_vec3 corner = glint_scene_corner(scene, i, (int)(v / 3));
+        const double at[3] = {corner.x, corner.y, corner.z};
+        t->position[v / 3][v % 3] = origin[v % 3] + scene->unit * at[v % 3];
         t->normal[v / 3][v % 3] = scene->normals != NULL ? (double)scene->normals[9 * i + v] : 0;
     }
     t->material = (int)scene->material_of[i];
@@ -232,6 +233,17 @@ glint_status judge_begin(const glint_scene *scene, judge *j, glint_error *error)
                               .light_count = (int)scene->light_count,
                               .tree = j->tree};
     return GLINT_OK;
+}
+
+glint_status judge_move(judge *j, const glint_scene *scene, const double *exact, glint_error *error)
+{
+    const double origin[3] = {scene->origin.x, scene->origin.y, scene->origin.z};
+    for (size_t v = 0; v < 9 * scene->triangle_count; v++) {
+        j->triangles[v / 9].position[v / 3 % 3][v % 3] = origin[v % 3] + scene->unit * exact[v];
+    }
+    oracle_tree_free(j->tree);
+    j->scene.tree = j->tree = oracle_tree_create(j->triangles, j->scene.triangle_count);
+    return j->tree != NULL ? GLINT_OK : glint_fail_memory(error, "a self-test");
 }
 
 void judge_end(judge *j)

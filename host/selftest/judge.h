@@ -23,6 +23,10 @@ typedef struct judge {
 glint_status judge_begin(const glint_scene *scene, judge *j, glint_error *error);
 void judge_end(judge *j); // a zeroed one is allowed
 
+// Puts the corners to where they are said to be, [triangle][3][3] in stored coordinates.
+glint_status judge_move(judge *j, const glint_scene *scene, const double *exact,
+                        glint_error *error);
+
 // The light of trial_linear_environment: E(d) = ½ + ½d.
 void judge_use_linear_light(judge *j);
 

@@ -10,7 +10,10 @@
 static const trial_case *const groups[] = {
     hit_cases,   scale_cases,       spawn_cases, normal_cases,  refraction_cases,
     solid_cases, environment_cases, path_cases,  surface_cases, rough_cases,
-    media_cases, light_cases,       image_cases};
+    media_cases, light_cases,       image_cases, place_cases,   material_cases};
+
+// What a quick run has: cases that between them go through most of the kernels.
+static const char *const quick[] = {"rays_at_shared_edges", "materials_and_settings"};
 
 static const trial_case *case_at(size_t index)
 {
@@ -34,6 +37,16 @@ const char *glint_selftest_summary(size_t index)
 {
     const trial_case *c = case_at(index);
     return c != NULL ? c->summary : NULL;
+}
+
+bool glint_selftest_is_quick(size_t index)
+{
+    const char *name = glint_selftest_name(index);
+    bool is_quick = false;
+    for (size_t i = 0; name != NULL && i < sizeof quick / sizeof *quick; i++) {
+        is_quick = is_quick || strcmp(quick[i], name) == 0;
+    }
+    return is_quick;
 }
 
 bool glint_measure_holds(const glint_measure *measure)

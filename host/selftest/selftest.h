@@ -11,8 +11,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define GLINT_SELFTEST_MEASURES 16 // of a case, at most
-#define GLINT_SELFTEST_RAYS 262144 // of the cases that count leaks, if nobody says otherwise
+#define GLINT_SELFTEST_MEASURES 16      // of a case, at most
+#define GLINT_SELFTEST_RAYS 262144      // of the cases that count leaks, if nobody says otherwise
+#define GLINT_SELFTEST_QUICK_RAYS 16384 // of a quick run
 #define GLINT_SELFTEST_RAYS_MAX 1000000000000.0
 
 // One thing that a case measures. It holds where measured ≤ bound, which NaN is not.
@@ -60,6 +61,9 @@ typedef struct glint_selftest_options {
 // come out; both NULL past the last. Static text.
 const char *glint_selftest_name(size_t index);
 const char *glint_selftest_summary(size_t index);
+
+// Whether the case is one of the few that a quick run has; false past the last.
+bool glint_selftest_is_quick(size_t index);
 
 // Runs one case; `index` is one of those that have a name. What the driver fails at is the case's
 // verdict (GLINT_BROKEN), and error->details may then hold a build log. Errors: GLINT_BAD_INPUT for

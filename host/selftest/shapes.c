@@ -33,6 +33,7 @@ static bool make_room(shape *s)
         s->capacity = s->capacity > 0 ? 2 * s->capacity : FIRST_CAPACITY;
         const size_t bytes = s->capacity * 9 * sizeof(float);
         scene->positions = grow(s, scene->positions, bytes);
+        s->exact = grow(s, s->exact, s->capacity * 9 * sizeof(double));
         scene->normals = grow(s, scene->normals, bytes);
         scene->material_of = grow(s, scene->material_of, s->capacity * sizeof(uint32_t));
     }
@@ -63,6 +64,7 @@ void shape_add(shape *s, const double corners[3][3], const double normals[3][3],
     }
     glint_scene *scene = &s->scene;
     for (size_t i = 0; i < 9; i++) {
+        s->exact[9 * scene->triangle_count + i] = corners[i / 3][i % 3];
         scene->positions[9 * scene->triangle_count + i] = (float)corners[i / 3][i % 3];
         scene->normals[9 * scene->triangle_count + i] =
             normals != NULL ? (float)normals[i / 3][i % 3] : 0;
@@ -170,6 +172,7 @@ static bool add_materials(shape *s)
 
 glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glint_error *error)
 {
+    free(s->exact);
     s->scene.unit = unit;
     const bool complete = !s->failed && add_materials(s);
     glint_scene_find_bounds(&s->scene);
@@ -179,6 +182,27 @@ glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glin
         return glint_fail_memory(error, "a scene");
     }
     return GLINT_OK;
+}
+
+glint_status shape_end_with_parts(shape *s, double unit, glint_scene *scene, double **exact,
+                                  glint_error *error)
+{
+    double *own = s->exact;
+    s->exact = NULL;
+    glint_status status = shape_end_with_unit(s, unit, scene, error);
+    if (status == GLINT_OK) {
+        status = glint_parts_find(own, scene->triangle_count, &scene->parts, error);
+        glint_scene_round_positions(scene);
+    }
+    if (status != GLINT_OK) {
+        glint_scene_free(scene);
+    }
+    if (exact != NULL) {
+        *exact = own;
+    } else {
+        free(own);
+    }
+    return status;
 }
 
 glint_status shape_end(shape *s, glint_scene *scene, glint_error *error)

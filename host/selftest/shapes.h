@@ -26,6 +26,7 @@ typedef enum shape_material {
 // A scene on its way. Where memory ran out shape_end says so, and nobody else need.
 typedef struct shape {
     glint_scene scene;
+    double *exact; // the positions before they are rounded
     size_t capacity;
     bool failed;
 } shape;
@@ -69,6 +70,12 @@ void shape_add_ball(shape *s, const shape_ball *ball);
 // [−1, 1]); or with another power of two, by which stored ones are multiplied.
 glint_status shape_end(shape *s, glint_scene *scene, glint_error *error);
 glint_status shape_end_with_unit(shape *s, double unit, glint_scene *scene, glint_error *error);
+
+// The same of a scene that may have small parts, as loaders find them (scene/parts.h). *exact is
+// where its corners are, [triangle][3][3] in stored coordinates: for free(), whatever the outcome;
+// `exact` may be NULL.
+glint_status shape_end_with_parts(shape *s, double unit, glint_scene *scene, double **exact,
+                                  glint_error *error);
 
 // Gives a scene without lights these.
 glint_status shape_set_lights(const glint_punctual_light *lights, size_t count, glint_scene *scene,

@@ -27,7 +27,7 @@ typedef struct trial_case {
 // The cases of each file, ended by a name that is NULL.
 extern const trial_case hit_cases[], scale_cases[], spawn_cases[], normal_cases[],
     refraction_cases[], solid_cases[], environment_cases[], path_cases[], surface_cases[],
-    rough_cases[], media_cases[], light_cases[], image_cases[];
+    rough_cases[], media_cases[], light_cases[], image_cases[], place_cases[], material_cases[];
 
 // ---- Measures ----------------------------------------------------------------------------------
 // A new measure of the trial's result. Texts are static.

@@ -169,10 +169,9 @@ static void check_cluster(test_walk *w, size_t index, const float low[3], const 
     const glint_cluster *cluster = &w->bvh->clusters[index];
     const float *normals = w->bvh->normals + index * GLINT_CLUSTER_NORMALS;
     const int32_t *numbers = w->bvh->numbers + index * GLINT_CLUSTER_LANES;
-    assert_in_range(cluster->count, 1, GLINT_CLUSTER_LANES);
-    assert_true(cluster->unused[0] == 0 && cluster->unused[1] == 0);
+    assert_in_range(glint_cluster_count(cluster), 1, GLINT_CLUSTER_LANES);
     for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {
-        if (lane >= cluster->count) {
+        if (lane >= glint_cluster_count(cluster)) {
             assert_int_equal(numbers[lane], -1);
             assert_int_equal(cluster->corners[0][lane] | cluster->corners[1][lane] |
                                  cluster->corners[2][lane],
@@ -182,7 +181,7 @@ static void check_cluster(test_walk *w, size_t index, const float low[3], const 
         assert_in_range(numbers[lane], 0, w->soup->count - 1);
         size_t triangle = (size_t)numbers[lane];
         assert_int_equal(w->seen[triangle]++, 0);
-        assert_int_equal(w->soup->material_of[triangle], cluster->material);
+        assert_int_equal(w->soup->material_of[triangle], glint_cluster_material(cluster));
         for (int corner = 0; corner < 3; corner++) {
             size_t value = 9 * triangle + 3 * (size_t)corner;
             check_corner(cluster->positions[0], cluster, corner, lane, w->soup->positions + value);

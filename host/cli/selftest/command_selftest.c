@@ -28,7 +28,7 @@ typedef struct case_selection {
 } case_selection;
 
 typedef struct selftest_request {
-    bool list;
+    bool list, quick;
     case_selection cases;
     bool fail_fast;
     const char *device;
@@ -45,7 +45,7 @@ typedef struct selftest_request {
 // In the order of the options' choices.
 static const int widths[] = {0, 1, 8, 16};
 enum { ALL_WIDTHS = 4 };
-enum { FLOAT, DOUBLE, ALL_PRECISIONS };
+enum { FLOAT, DOUBLE, ALL_PRECISIONS, UNSAID };
 
 // ---- Options -----------------------------------------------------------------------------------
 
@@ -104,12 +104,16 @@ static const glint_option selftest_options[] = {
     {GLINT_OPTION_HEADING, .help = "What is run"},
     {GLINT_OPTION_FLAG, .name = "list", .help = "Print the cases, a line each, and run none.",
      .offset = offsetof(selftest_request, list)},
+    {GLINT_OPTION_FLAG, .name = "quick",
+     .help = "A minute's choice: the cases that break most often, in float and with few rays, "
+             "unless --precision or --rays say otherwise.",
+     .offset = offsetof(selftest_request, quick)},
     {GLINT_OPTION_CUSTOM, .name = "case", .argument = "NAME[,NAME…]",
      .help = "Run these cases alone. Any number of times.", .fallback = "all",
      .offset = offsetof(selftest_request, cases), .parse = parse_cases},
     {GLINT_OPTION_CHOICE, .name = "precision", .argument = "P",
-     .help = "float, double, or all: both, double where the device has it.", .fallback = "all",
-     .offset = offsetof(selftest_request, precision),
+     .help = "float, double, or all: both, double where the device has it.",
+     .fallback = "all; with --quick float", .offset = offsetof(selftest_request, precision),
      .choices = GLINT_CHOICES("float", "double", "all")},
     {GLINT_OPTION_CHOICE, .name = "kernel-width", .argument = "N",
      .help = "Rays of a packet: 1, 8 or 16; auto: what the device renders with; all: the three, "
@@ -117,7 +121,7 @@ static const glint_option selftest_options[] = {
      .fallback = "auto", .offset = offsetof(selftest_request, width),
      .choices = GLINT_CHOICES("auto", "1", "8", "16", "all")},
     {GLINT_OPTION_REAL, .name = "rays", .argument = "N",
-     .help = "Rays of each case that counts leaks.", .fallback = "262144",
+     .help = "Rays of each case that counts leaks.", .fallback = "262144; with --quick 16384",
      .offset = offsetof(selftest_request, rays), .minimum = 1, .maximum = GLINT_SELFTEST_RAYS_MAX},
     {GLINT_OPTION_INT, .name = "seed", .argument = "N",
      .help = "Draw other rays, angles and places; the bounds stay the same.", .fallback = "0",
@@ -153,9 +157,24 @@ static const glint_option *const groups[] = {selftest_options, NULL};
 static void set_defaults(void *context)
 {
     selftest_request *request = context;
-    request->precision = ALL_PRECISIONS;
+    request->precision = UNSAID;
     request->limit_s = DEFAULT_LIMIT;
-    request->rays = (double)GLINT_SELFTEST_RAYS;
+    request->rays = 0;
+}
+
+// What was not said depends on what was.
+static void complete(selftest_request *request)
+{
+    if (request->precision == UNSAID) {
+        request->precision = request->quick ? FLOAT : ALL_PRECISIONS;
+    }
+    if (request->rays == 0) {
+        request->rays = request->quick ? GLINT_SELFTEST_QUICK_RAYS : GLINT_SELFTEST_RAYS;
+    }
+    for (size_t i = 0; request->quick && !request->cases.any && i < case_count(); i++) {
+        request->cases.has[i] = glint_selftest_is_quick(i);
+    }
+    request->cases.any = request->cases.any || request->quick;
 }
 
 static glint_status check_request(const selftest_request *request, glint_error *error)
@@ -401,7 +420,8 @@ cleanup:
 static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
     (void)arguments;
-    const selftest_request *request = context;
+    selftest_request *request = context;
+    complete(request);
     if (request->list) {
         print_list();
         return GLINT_OK;
@@ -421,6 +441,7 @@ const glint_command glint_command_selftest = {
         "measure has a bound that is derived from the rounding error u; one that is exceeded is "
         "explained, and gives exit status 7. No files are needed.",
     .examples = "  glint selftest\n"
+                "  glint selftest --quick\n"
                 "  glint selftest --device gpu --junit selftest.xml\n"
                 "  glint selftest --case slivers,prism --kernel-width all\n"
                 "  glint selftest --expect known.txt --junit selftest.xml\n"

@@ -138,6 +138,12 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
     const double moves = scene->moves ? 1 : 0; // which the plan heeds
     add_numbers(state, &moves, 1);
     add_array(state, scene->positions, 9 * sizeof *scene->positions, scene->triangle_count);
+    if (scene->parts.count > 0) {
+        add_array(state, scene->parts.anchors, sizeof *scene->parts.anchors, scene->parts.count);
+        add_array(state, scene->parts.part_of, sizeof *scene->parts.part_of, scene->triangle_count);
+        add_array(state, scene->parts.positions, 9 * sizeof *scene->parts.positions,
+                  scene->triangle_count);
+    }
     add_array(state, scene->normals, 9 * sizeof *scene->normals, scene->triangle_count);
     add_array(state, scene->material_of, sizeof *scene->material_of, scene->triangle_count);
     add_array(state, scene->attributes,

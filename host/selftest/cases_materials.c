@@ -1,0 +1,255 @@
+// Hard cases of materials and of what settings make of a frame: each is a small scene that cannot
+// look right where one rule of ARCHITECTURE.md, "Light transport", is broken. The oracle's colours.
+#include "selftest/judged.h"
+#include "selftest/shapes.h"
+
+#include <math.h>
+
+typedef struct look {
+    const char *what;
+    void (*build)(shape *s);
+    void (*dress)(glint_material *materials); // may be NULL
+    void (*set)(glint_settings *settings);    // may be NULL
+    double eye[3];
+    int depth;
+} look;
+
+// ---- Scenes -------------------------------------------------------------------------------------
+
+static void add_ball(shape *s, double x, double z, double size, shape_material material)
+{
+    const double centre[3] = {x, 0, z};
+    shape_add_ball(s, &(shape_ball){centre, size, 3, material, true, NULL});
+}
+
+// Upright, from left to right; its right end is `slant` farther away.
+static void add_wall(shape *s, double half, double z, double slant, shape_material material)
+{
+    const double corners[4][3] = {
+        {-half, -half, z}, {half, -half, z - slant}, {half, half, z - slant}, {-half, half, z}};
+    shape_add_quad(s, corners, material);
+}
+
+static void build_pane(shape *s)
+{
+    add_wall(s, 0.7, 0.6, 0.6, MATERIAL_GLASS);
+    add_ball(s, 0.3, -0.5, 0.4, MATERIAL_TINTED);
+}
+
+static void build_back(shape *s)
+{
+    const double corners[4][3] = {
+        {0.6, -0.5, 0.2}, {-0.6, -0.5, 0}, {-0.6, 0.5, 0}, {0.6, 0.5, 0.2}};
+    shape_add_quad(s, corners, MATERIAL_CORE); // winds left as seen from behind
+    add_ball(s, -0.2, -0.7, 0.25, MATERIAL_TINTED);
+}
+
+static void build_ball_and_wall(shape *s)
+{
+    add_wall(s, 0.9, -0.6, -0.3, MATERIAL_TINTED);
+    add_ball(s, 0.1, 0.2, 0.45, MATERIAL_GLASS);
+}
+
+static void build_two_balls(shape *s)
+{
+    add_ball(s, -0.45, 0, 0.4, MATERIAL_TINTED);
+    add_ball(s, 0.45, 0.1, 0.4, MATERIAL_PAINT);
+    add_wall(s, 0.9, -0.6, 0.2, MATERIAL_CORE);
+}
+
+static void build_in_glass(shape *s)
+{
+    const double low[3] = {-0.6, -0.5, -0.4}, high[3] = {0.5, 0.6, 0.4};
+    shape_add_box(s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
+    add_ball(s, 0.1, 0, 0.25, MATERIAL_CORE);
+    add_wall(s, 0.9, -0.8, 0.2, MATERIAL_TINTED);
+}
+
+// ---- Materials ----------------------------------------------------------------------------------
+
+static void set_color(float color[3], float r, float g, float b)
+{
+    color[0] = r;
+    color[1] = g;
+    color[2] = b;
+}
+
+static void make_thin(glint_material *m)
+{
+    m[MATERIAL_GLASS].thickness = 0;
+    set_color(m[MATERIAL_GLASS].base_color, 0.9F, 0.6F, 0.3F);
+}
+
+static void make_absorbing(glint_material *m)
+{
+    m[MATERIAL_CORE].ior = 1.4F;
+    m[MATERIAL_CORE].attenuation_distance = 1.5F;
+    set_color(m[MATERIAL_CORE].attenuation_color, 0.9F, 0.5F, 0.2F);
+}
+
+static void make_mixed(glint_material *m)
+{
+    m[MATERIAL_GLASS].metallic = 0.4F;
+    m[MATERIAL_GLASS].transmission = 0.7F;
+    set_color(m[MATERIAL_GLASS].base_color, 0.9F, 0.6F, 0.3F);
+    set_color(m[MATERIAL_GLASS].emission, 0.2F, 0.1F, 0.05F);
+    set_color(m[MATERIAL_TINTED].emission, 0, 0.05F, 0.1F);
+}
+
+// The lecture's blend, colours without light, and paint that shines.
+static void make_plain(glint_material *m)
+{
+    m[MATERIAL_TINTED].mirror = 0.35F;
+    m[MATERIAL_CORE].unlit = true;
+    m[MATERIAL_CORE].transmission = m[MATERIAL_CORE].thickness = 0;
+    set_color(m[MATERIAL_CORE].base_color, 0.2F, 0.7F, 0.4F);
+    m[MATERIAL_PAINT].roughness = 0;
+    set_color(m[MATERIAL_PAINT].base_color, 0.8F, 0.5F, 0.2F);
+}
+
+// All that changes what surfaces reflect.
+static void make_coated(glint_material *m)
+{
+    glint_material *paint = &m[MATERIAL_PAINT], *metal = &m[MATERIAL_TINTED],
+                   *glass = &m[MATERIAL_CORE];
+    paint->roughness = 0;
+    paint->specular = 0.6F;
+    set_color(paint->specular_color, 0.9F, 0.7F, 0.5F);
+    paint->diffuse_transmission = 0.4F;
+    set_color(paint->diffuse_transmission_color, 0.3F, 0.9F, 0.6F);
+    paint->clearcoat = 0.7F;
+    metal->iridescence = 0.8F;
+    metal->iridescence_ior = 1.4F;
+    metal->iridescence_thickness[1] = 400;
+    glass->thickness = 0;
+    glass->specular = 0.5F;
+    glass->clearcoat = 0.5F;
+}
+
+static void make_dispersive(glint_material *m)
+{
+    m[MATERIAL_GLASS].dispersion = 4;
+    m[MATERIAL_CORE].attenuation_distance = 0.5F;
+    set_color(m[MATERIAL_CORE].attenuation_color, 0.3F, 0.6F, 0.9F);
+}
+
+// ---- Settings -----------------------------------------------------------------------------------
+
+static void cut_by_weight(glint_settings *settings)
+{
+    settings->min_weight = 0.1;
+}
+
+static void turn(glint_settings *settings)
+{
+    settings->env_rotate = 37;
+}
+
+static void sample_twice(glint_settings *settings)
+{
+    settings->samples_per_axis = 2;
+    settings->transparent = true;
+}
+
+static void take_harmonics(glint_settings *settings)
+{
+    settings->irradiance = GLINT_IRRADIANCE_SH;
+}
+
+static void divide_light(glint_settings *settings)
+{
+    settings->wavelengths = 3;
+}
+
+static const look looks[] = {
+    {"a thin pane, at a slant", build_pane, make_thin, NULL, {0.2, 0.1, 2.2}, 3},
+    {"absorbing glass, from behind", build_back, make_absorbing, NULL, {0.2, 0.1, 2.2}, 3},
+    {"metal, glass and paint in one, emitting",
+     build_ball_and_wall,
+     make_mixed,
+     NULL,
+     {0.3, 0.2, 2},
+     5},
+    {"paths that end by their weight",
+     build_ball_and_wall,
+     make_mixed,
+     cut_by_weight,
+     {0.3, 0.2, 2},
+     12},
+    {"an environment turned by 37°", build_two_balls, make_plain, turn, {0.2, 0.3, 2}, 3},
+    {"four samples, no background", build_two_balls, make_plain, sample_twice, {0.2, 0.3, 2}, 3},
+    {"irradiance as a polynomial", build_two_balls, make_plain, take_harmonics, {0.2, 0.3, 2}, 3},
+    {"coats, films and paint lit from behind",
+     build_two_balls,
+     make_coated,
+     NULL,
+     {0.2, 0.3, 2},
+     3},
+    {"light divided by glass", build_in_glass, make_dispersive, divide_light, {0.3, 0.2, 2.2}, 5},
+};
+
+// ---- Judging ------------------------------------------------------------------------------------
+
+// A look-up in the environment errs by 2/edge² at most, and what is divided by half a wavelength's
+// weight by twice that; the irradiance's map by as much. Rounding grows by what curved surfaces
+// bend.
+#define LOOK_BOUND 4e-4
+
+// Pixels where rounding may decide otherwise are left out.
+static bool is_decided(const oracle_report *report)
+{
+    return report->edge >= ORACLE_EDGE_REACH && report->critical > 1e-4 &&
+           report->threshold > 1e-4 && report->jump > 1e-4;
+}
+
+static glint_status judge_look(trial *t, const look *of)
+{
+    static const double target[3] = {0, 0, 0};
+    glint_measure *m = trial_error(t, of->what, "of white", LOOK_BOUND);
+    glint_scene scene = {0};
+    judged frame = {0};
+    glint_settings settings = trial_settings(t);
+    settings.width = 32;
+    settings.height = 24;
+    settings.depth = of->depth;
+    settings.all_features = true;
+    if (of->set != NULL) {
+        of->set(&settings);
+    }
+    const glint_camera camera = shape_camera(of->eye, target, 0.8, 0);
+    glint_status status;
+    shape s = shape_begin();
+    of->build(&s);
+    TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
+    of->dress(scene.materials);
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    frame.view.edges = true;
+    for (int p = 0; p < settings.width * settings.height; p++) {
+        double expected[4];
+        oracle_report report;
+        judged_pixel(&frame, p, expected, &report);
+        for (int k = 0; is_decided(&report) && k < 4; k++) {
+            measure_value(m, frame.picture.values[4 * p + k], expected[k], 1,
+                          "pixel (%d, %d), value %d", p % settings.width, p / settings.width, k);
+        }
+    }
+cleanup:
+    judged_end(&frame);
+    glint_scene_free(&scene);
+    return status;
+}
+
+static glint_status materials(trial *t)
+{
+    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
+        TRY(judge_look(t, &looks[i]));
+    }
+    return GLINT_OK;
+}
+
+const trial_case material_cases[] = {
+    {"materials_and_settings",
+     "what one surface or one setting does to light, each by itself: the oracle's colours",
+     materials},
+    {0},
+};

@@ -1,0 +1,35 @@
+// A frame beside the oracle. See judged.h.
+#include "selftest/judged.h"
+
+glint_status judged_frame(trial *t, const glint_scene *scene, const glint_camera *camera,
+                          const glint_settings *settings, judged *out)
+{
+    glint_environment environment = {0};
+    *out = (judged){0};
+    glint_status status;
+    TRY_OR(cleanup, status, trial_linear_environment(JUDGED_EDGE, &environment, t->error));
+    const glint_renderer_inputs inputs = trial_inputs(t, scene, &environment, settings);
+    TRY_OR(cleanup, status, trial_frame(t, &inputs, camera, &out->picture));
+    TRY_OR(cleanup, status, judge_begin(scene, &out->judge, t->error));
+    judge_use_linear_light(&out->judge);
+    out->view = judge_view(camera, settings);
+    out->view.depth = settings->depth;
+    out->view.min_weight = settings->min_weight;
+    out->view.transparent = settings->transparent;
+    out->judge.scene.environment_rotation = settings->env_rotate;
+cleanup:
+    glint_environment_free(&environment);
+    return status;
+}
+
+void judged_pixel(const judged *of, int p, double expected[4], oracle_report *report)
+{
+    const int pixel[2] = {p % of->picture.width, p / of->picture.width};
+    oracle_pixel(&of->judge.scene, &of->view, pixel, expected, report);
+}
+
+void judged_end(judged *of)
+{
+    judge_end(&of->judge);
+    trial_picture_free(&of->picture);
+}

@@ -1,0 +1,225 @@
+// Small parts: what is told from an origin of its own, and how exactly.
+#include "scene/parts.h"
+#include "scene/subset.h"
+#include "support/gltf_text.h"
+#include "support/scratch.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 64 };
+
+typedef struct heap {
+    double corners[MOST][3][3];
+    size_t count;
+} heap;
+
+static void add(heap *h, const double a[3], const double b[3], const double c[3])
+{
+    memcpy(h->corners[h->count][0], a, 3 * sizeof *a);
+    memcpy(h->corners[h->count][1], b, 3 * sizeof *b);
+    memcpy(h->corners[h->count++][2], c, 3 * sizeof *c);
+}
+
+static void add_quad(heap *h, const double corners[4][3])
+{
+    add(h, corners[0], corners[1], corners[2]);
+    add(h, corners[0], corners[2], corners[3]);
+}
+
+static void add_floor(heap *h)
+{
+    const double corners[4][3] = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+    add_quad(h, corners);
+}
+
+// Four corners about a place.
+static void add_tetrahedron(heap *h, const double place[3], double size)
+{
+    double p[4][3];
+    for (int i = 0; i < 4; i++) {
+        for (int k = 0; k < 3; k++) {
+            p[i][k] = place[k] + (i == k + 1 ? size : 0);
+        }
+    }
+    add(h, p[0], p[2], p[1]);
+    add(h, p[0], p[1], p[3]);
+    add(h, p[0], p[3], p[2]);
+    add(h, p[1], p[2], p[3]);
+}
+
+static glint_parts parts_of(const heap *h)
+{
+    glint_parts parts;
+    assert_int_equal(glint_parts_find(&h->corners[0][0][0], h->count, &parts, NULL), GLINT_OK);
+    return parts;
+}
+
+// How far corners are from where they should be, at most.
+static double largest_error(const heap *h, const glint_parts *parts, size_t first, size_t end)
+{
+    double largest = 0;
+    for (size_t i = 9 * first; i < 9 * end; i++) {
+        const double anchor = (double)parts->anchors[parts->part_of[i / 9]][i % 3];
+        const double exact = h->corners[i / 9][i / 3 % 3][i % 3];
+        largest = fmax(largest, fabs(anchor + (double)parts->positions[i] - exact));
+    }
+    return largest;
+}
+
+static void no_parts_without_need(void **state)
+{
+    (void)state;
+    const double place[3] = {0.3, 0.1, 0.2};
+    heap h = {.count = 0};
+    add_floor(&h);
+    add_tetrahedron(&h, place, 0.1);
+    glint_parts parts = parts_of(&h);
+    assert_int_equal(parts.count, 0);
+    assert_null(parts.positions);
+    // Nor of something small in many pieces as large as it is.
+    assert_false(glint_parts_may_be_there(0.01));
+    assert_true(glint_parts_may_be_there(0.001));
+    h.count = 0;
+    parts = parts_of(&h);
+    assert_int_equal(parts.count, 0);
+}
+
+static void small_parts_keep_their_digits(void **state)
+{
+    (void)state;
+    for (int size = 10; size < 40; size++) {
+        const double place[3] = {0.7 + 1e-10, 1e-9, -0.9 + 1e-11};
+        heap h = {.count = 0};
+        add_floor(&h);
+        add_tetrahedron(&h, place, ldexp(1, -size));
+        glint_parts parts = parts_of(&h);
+        assert_int_equal(parts.count, 2);
+        assert_int_equal(parts.part_of[0], 0);
+        assert_int_equal(parts.part_of[1], 0);
+        for (int k = 0; k < 3; k++) {
+            assert_true(parts.anchors[0][k] == 0);
+        }
+        for (size_t i = 2; i < h.count; i++) {
+            assert_int_equal(parts.part_of[i], 1);
+        }
+        // The anchor is at most four sizes away: half a rounding of that. It is a float itself, so
+        // that parts of 2⁻²⁴ and less are told from as far as floats step.
+        const double reach = fmax(4 * ldexp(1, -size), 0x1p-24);
+        assert_true(largest_error(&h, &parts, 2, h.count) <= reach * 0x1p-24);
+        glint_parts_free(&parts);
+    }
+}
+
+static bool share_anchor(const heap *h, size_t a, size_t b)
+{
+    glint_parts parts = parts_of(h);
+    assert_true(parts.count > 0);
+    const bool share = parts.part_of[a] == parts.part_of[b];
+    glint_parts_free(&parts);
+    return share;
+}
+
+static void what_shares_an_edge_has_one_anchor(void **state)
+{
+    (void)state;
+    const double s = 0x1p-12, far[3] = {-0.8, 0.5, 0.3};
+    // A strip of small quads, longer than a small part may be.
+    heap h = {.count = 0};
+    for (int i = 0; i < 24; i++) {
+        const double x = 16 * s * i;
+        const double corners[4][3] = {{x, 0, 0}, {x + 16 * s, 0, 0}, {x + 16 * s, s, 0}, {x, s, 0}};
+        add_quad(&h, corners);
+    }
+    add_tetrahedron(&h, far, s);
+    assert_true(share_anchor(&h, 0, 47));
+    assert_false(share_anchor(&h, 0, 48));
+    // Small neighbours whose common edge differs by less than floats can tell.
+    const double a[4][3] = {{0.7, 0, 0}, {0.7 + s, 0, 0}, {0.7 + s, s, 0}, {0.7, s, 0}};
+    const double b[4][3] = {{0.7 + s + 1e-12, 0, 0},
+                            {0.7 + 400 * s, 0, 0},
+                            {0.7 + 400 * s, s, 0},
+                            {0.7 + s + 1e-12, s, 0}};
+    h.count = 0;
+    add_floor(&h);
+    add_tetrahedron(&h, far, s);
+    add_quad(&h, a);
+    add_quad(&h, b);
+    assert_true(share_anchor(&h, 6, 8));
+}
+
+static void what_shares_a_corner_alone_is_apart(void **state)
+{
+    (void)state;
+    const double corner[3] = {1, 0, 1};
+    heap h = {.count = 0};
+    add_floor(&h);
+    add_tetrahedron(&h, corner, 0x1p-12);
+    assert_false(share_anchor(&h, 0, 3));
+}
+
+static void zeros_of_both_signs_are_one(void **state)
+{
+    (void)state;
+    const double s = 0x1p-12;
+    const double a[3] = {0.5, -0.0, 0}, b[3] = {0.5 + s, 0, -0.0}, c[3] = {0.5, s, 0};
+    const double b_again[3] = {0.5 + s, -0.0, 0}, a_again[3] = {0.5, 0, -0.0},
+                 d[3] = {0.5, -600 * s, 0};
+    heap h = {.count = 0};
+    add_floor(&h);
+    add(&h, a, b, c);
+    add(&h, b_again, a_again, d);
+    add_tetrahedron(&h, c, s / 4); // so that there are parts
+    assert_true(share_anchor(&h, 2, 3));
+}
+
+// ---- Files --------------------------------------------------------------------------------------
+
+// The tetrahedron as a floor's corner, a thousand metres long, and as a bead of a millimetre on it.
+static void a_file_keeps_what_is_small(void **state)
+{
+    glint_scene scene = load_rest(
+        *state, &the_tetrahedron, sizeof the_tetrahedron,
+        TETRAHEDRON ",\"nodes\":[{\"mesh\":0,\"scale\":[1000,1000,1000]},"
+                    "{\"mesh\":0,\"scale\":[0.001,0.001,0.001],\"translation\":[700.1,0.3,11.7]}],"
+                    "\"scenes\":[{\"nodes\":[0,1]}]");
+    assert_int_equal(scene.triangle_count, 8);
+    assert_int_equal(scene.parts.count, 2);
+    const glint_vec3 place = {700.1, 0.3, 11.7};
+    for (size_t t = 4; t < 8; t++) {
+        for (int c = 0; c < 3; c++) {
+            const glint_vec3 stored = glint_scene_corner(&scene, t, c);
+            const glint_vec3 at =
+                glint_vec3_add(scene.origin, glint_vec3_scale(stored, scene.unit));
+            const glint_vec3 off = glint_vec3_scale(glint_vec3_subtract(at, place), 1000);
+            // Within a millionth of the bead at a corner of the tetrahedron.
+            const double sum = off.x + off.y + off.z;
+            assert_true(fabs(sum) < 1e-6 || fabs(sum - 1) < 1e-6);
+        }
+    }
+    assert_int_equal(glint_scene_remove_nodes(&scene, "0", NULL), GLINT_OK);
+    assert_int_equal(scene.triangle_count, 4);
+    assert_true(scene.parts.part_of[0] == 1);
+    glint_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_parts_without_need),
+        cmocka_unit_test(small_parts_keep_their_digits),
+        cmocka_unit_test(what_shares_an_edge_has_one_anchor),
+        cmocka_unit_test(what_shares_a_corner_alone_is_apart),
+        cmocka_unit_test(zeros_of_both_signs_are_one),
+        cmocka_unit_test(a_file_keeps_what_is_small),
+    };
+    return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}
