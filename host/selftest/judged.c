@@ -1,13 +1,18 @@
 // A frame beside the oracle. See judged.h.
 #include "selftest/judged.h"
 
+#include <math.h>
+
 glint_status judged_frame(trial *t, const glint_scene *scene, const glint_camera *camera,
                           const glint_settings *settings, judged *out)
 {
     glint_environment environment = {0};
-    *out = (judged){0};
+    *out = (judged){.proxy = out->proxy};
     glint_status status;
     TRY_OR(cleanup, status, trial_linear_environment(JUDGED_EDGE, &environment, t->error));
+    if (out->proxy != NULL) {
+        environment.proxy = *out->proxy;
+    }
     const glint_renderer_inputs inputs = trial_inputs(t, scene, &environment, settings);
     TRY_OR(cleanup, status, trial_frame(t, &inputs, camera, &out->picture));
     TRY_OR(cleanup, status, judge_begin(scene, &out->judge, t->error));
@@ -26,6 +31,23 @@ void judged_pixel(const judged *of, int p, double expected[4], oracle_report *re
 {
     const int pixel[2] = {p % of->picture.width, p / of->picture.width};
     oracle_pixel(&of->judge.scene, &of->view, pixel, expected, report);
+}
+
+double judged_rmse(const judged *of)
+{
+    const int pixels = of->picture.width * of->picture.height;
+    double squares = 0, light = 0;
+    for (int p = 0; p < pixels; p++) {
+        double expected[4];
+        oracle_report report;
+        judged_pixel(of, p, expected, &report);
+        for (int k = 0; k < 3; k++) {
+            const double off = of->picture.values[4 * p + k] - expected[k];
+            squares += off * off;
+            light += expected[k];
+        }
+    }
+    return sqrt(3.0 * pixels * squares) / light;
 }
 
 void judged_end(judged *of)

@@ -8,6 +8,7 @@
 #define JUDGED_EDGE 128 // look-ups err by 2/edge² at most
 
 typedef struct judged {
+    const glint_proxy *proxy; // of the environment; NULL: none. Set by the user, as zeros or this
     trial_picture picture;
     judge judge;
     oracle_view view; // of the same depth; its user may ask for more
@@ -20,6 +21,9 @@ glint_status judged_frame(trial *t, const glint_scene *scene, const glint_camera
 
 // What the oracle sees in pixel `p`, counted from the top left, row by row.
 void judged_pixel(const judged *of, int p, double expected[4], oracle_report *report);
+
+// The root mean square of all pixels' differences in R, G and B, over the mean.
+double judged_rmse(const judged *of);
 
 void judged_end(judged *of); // a zeroed one is allowed
 

@@ -8,12 +8,38 @@
 #include <string.h>
 
 static const trial_case *const groups[] = {
-    hit_cases,   scale_cases,       spawn_cases, normal_cases,  refraction_cases,
-    solid_cases, environment_cases, path_cases,  surface_cases, rough_cases,
-    media_cases, light_cases,       image_cases, place_cases,   material_cases};
+    hit_cases,         scale_cases, spawn_cases,    normal_cases, refraction_cases, solid_cases,
+    environment_cases, path_cases,  surface_cases,  rough_cases,  media_cases,      light_cases,
+    image_cases,       place_cases, material_cases, output_cases};
 
 // What a quick run has: cases that between them go through most of the kernels.
-static const char *const quick[] = {"rays_at_shared_edges", "materials_and_settings"};
+static const char *const quick[] = {
+    "rays_at_shared_edges",
+    "primary_rays_at_edges",
+    "directions_with_zeros",
+    "slivers",
+    "edge_on_triangles",
+    "far_from_origin",
+    "grazing_rays",
+    "leaning_normals",
+    "odd_normals",
+    "critical_angle",
+    "fresnel_at_its_ends",
+    "metal_at_its_ends",
+    "ball_in_ball",
+    "cube_ties",
+    "cube_seams",
+    "latlong_poles",
+    "dressed_room",
+    "lit_room",
+    "rough_balls",
+    "solids_together",
+    "odd_sizes",
+    "large_numbers",
+    "beads_on_floors",
+    "plain_materials",
+    "coats_and_settings",
+};
 
 static const trial_case *case_at(size_t index)
 {

@@ -342,6 +342,9 @@ glint_status trial_frame(trial *t, const glint_renderer_inputs *inputs, const gl
            glint_renderer_frame(
                &(glint_frame_request){renderer, camera, NULL, &image, &picture->report}, t->error));
     TRY_OR(cleanup, status, read_picture(renderer, &image, picture, t->error));
+    if (inputs->settings->aovs != 0 || inputs->settings->terms > 0) {
+        TRY_OR(cleanup, status, glint_renderer_layers(renderer, &picture->layers, t->error));
+    }
 cleanup:
     glint_image_free(&image);
     glint_renderer_free(renderer);
@@ -351,5 +354,6 @@ cleanup:
 void trial_picture_free(trial_picture *picture)
 {
     free(picture->values);
+    glint_layers_free(&picture->layers);
     *picture = (trial_picture){0};
 }

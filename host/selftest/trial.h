@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "image/image.h"
 #include "render/frame.h"
+#include "render/layers.h"
 #include "render/probe.h"
 #include "selftest/selftest.h"
 #include "selftest/shapes.h"
@@ -27,7 +28,8 @@ typedef struct trial_case {
 // The cases of each file, ended by a name that is NULL.
 extern const trial_case hit_cases[], scale_cases[], spawn_cases[], normal_cases[],
     refraction_cases[], solid_cases[], environment_cases[], path_cases[], surface_cases[],
-    rough_cases[], media_cases[], light_cases[], image_cases[], place_cases[], material_cases[];
+    rough_cases[], media_cases[], light_cases[], image_cases[], place_cases[], material_cases[],
+    output_cases[];
 
 // ---- Measures ----------------------------------------------------------------------------------
 // A new measure of the trial's result. Texts are static.
@@ -109,6 +111,7 @@ typedef struct trial_picture {
     double *values; // [height][width][4], owned
     glint_frame_report report;
     glint_plan plan;
+    glint_layers layers; // that the settings ask for, and terms
 } trial_picture;
 
 // Settings of frames at the trial's width and precision: 64 × 48 pixels, min_weight 0.

@@ -9,7 +9,7 @@ quick=equal_indices,metal_at_its_ends
 
 # ---- help and mistakes --------------------------------------------------------------------------
 
-check 'selftest --help tells every option' help_mentions selftest list case precision kernel-width \
+check 'selftest --help tells every option' help_mentions selftest list quick jobs case precision kernel-width \
     rays seed case-timeout fail-fast device kernel-dir expect junit json help
 run --help
 check 'glint --help lists it' grep -q '^  selftest ' stdout
@@ -21,6 +21,8 @@ refuses 2 '--precision' selftest --precision half
 refuses 2 '--rays' selftest --rays 0
 refuses 2 '--rays' selftest --rays many
 refuses 2 '--seed' selftest --seed -1
+refuses 2 '--jobs' selftest --jobs 0
+refuses 2 '--jobs' selftest --jobs 17
 refuses 2 'unexpected' selftest something
 refuses 2 '--junit writes there' selftest --case $quick --junit out/x --json out/x
 refuses 3 'in/missing' selftest --kernel-dir in/missing
@@ -101,6 +103,18 @@ run selftest --case metal_at_its_ends --precision float --kernel-width 16 --kern
 check '--expect: elsewhere' test "$status" -eq 7
 run selftest --case metal_at_its_ends,odd_sizes --precision all --kernel-dir broken --fail-fast
 check '--fail-fast: one case' test "$(grep -c FAILED stdout)" -eq 1
+run selftest --case equal_indices,metal_at_its_ends,critical_angle
+cp stdout one_at_a_time
+run selftest --case equal_indices,metal_at_its_ends,critical_angle --jobs 3
+check '--jobs: the same table' cmp stdout one_at_a_time
+run selftest --quick --case $quick --json out/x.json
+cp out/x.json out/stats.json
+check '--quick: in float alone' test "$(grep -c '^float' stdout)-$(grep -c '^double' stdout)" = 1-0
+check '--quick: with few rays' stat_is 16384 rays
+run selftest --quick --precision double --rays 9 --case $quick --json out/x.json
+cp out/x.json out/stats.json
+check '--quick: unless otherwise said' test "$(grep -c '^float' stdout)-$(grep -c '^double' stdout)" = 0-1
+check '--quick: rays as said' stat_is 9 rays
 printf 'this is no kernel\n' >>broken/optics.cl
 run selftest --case $quick --precision float --kernel-dir broken --junit out/x.xml
 check 'kernels that do not compile: exit status 7' test "$status" -eq 7

@@ -3,11 +3,12 @@
 #include "cli/common/options.h"
 #include "cli/common/say.h"
 
+#include "base/parallel.h"
 #include "cli/common/file_names.h"
 #include "cli/common/json_output.h"
 #include "cli/selftest/expectations.h"
+#include "cli/selftest/pool.h"
 #include "cli/selftest/selftest_table.h"
-#include "cli/selftest/worker.h"
 #include "image/output_file.h"
 #include "report/machine.h"
 #include "report/selftest/junit.h"
@@ -37,6 +38,7 @@ typedef struct selftest_request {
     int precision; // see precisions
     double rays;
     int seed;
+    int jobs;       // cases at a time; 0 where it was not said
     double limit_s; // of a case; 0: none
     const char *expect;
     const char *junit, *json;
@@ -130,6 +132,10 @@ static const glint_option selftest_options[] = {
      .help = "A case that takes longer is broken: the driver hangs. 0: no limit.",
      .fallback = "900, and none with more rays", .offset = offsetof(selftest_request, limit_s),
      .minimum = 0, .maximum = 1e6},
+    {GLINT_OPTION_INT, .name = "jobs", .argument = "N",
+     .help = "Run so many cases at a time, each in a process of its own.",
+     .fallback = "1; with --quick as many as there are processors, up to 4",
+     .offset = offsetof(selftest_request, jobs), .minimum = 1, .maximum = SELFTEST_WORKERS_MAX},
     {GLINT_OPTION_FLAG, .name = "fail-fast", .help = "Stop after the first case that fails.",
      .offset = offsetof(selftest_request, fail_fast)},
     {GLINT_OPTION_HEADING, .help = "Device"},
@@ -168,6 +174,10 @@ static void complete(selftest_request *request)
     if (request->precision == UNSAID) {
         request->precision = request->quick ? FLOAT : ALL_PRECISIONS;
     }
+    if (request->jobs == 0) {
+        const int processors = glint_usable_cores();
+        request->jobs = !request->quick ? 1 : processors < 4 ? processors : 4;
+    }
     if (request->rays == 0) {
         request->rays = request->quick ? GLINT_SELFTEST_QUICK_RAYS : GLINT_SELFTEST_RAYS;
     }
@@ -203,8 +213,9 @@ static glint_status check_request(const selftest_request *request, glint_error *
 
 typedef struct selftest_work {
     const selftest_request *request;
-    selftest_worker worker;
-    glint_selftest_result *results; // owned
+    selftest_pool pool;
+    selftest_job *jobs;             // owned
+    glint_selftest_result *results; // owned, in the same order
     size_t count;
     size_t troubled; // failed or broken, which was not expected
     size_t expected; // which was
@@ -212,14 +223,20 @@ typedef struct selftest_work {
     bool log_printed;
 } selftest_work;
 
+static const glint_capabilities *capabilities_of(const selftest_work *work)
+{
+    return &work->pool.workers[0].capabilities;
+}
+
 static bool prints_table(const selftest_work *work)
 {
     return !glint_is_stdout(work->request->json);
 }
 
 // A case failed, and the rest is not wanted any more.
-static bool has_enough(const selftest_work *work)
+static bool has_enough(const void *context)
 {
+    const selftest_work *work = context;
     return work->request->fail_fast && work->troubled > 0;
 }
 
@@ -245,26 +262,26 @@ static void compare_to_expectations(const selftest_work *work, glint_selftest_re
     }
 }
 
-static glint_status run_case(selftest_work *work, size_t index,
-                             const glint_selftest_options *options, bool is_first,
-                             glint_error *error)
+static glint_status take_result(void *context, selftest_job *job, glint_error *error)
 {
-    glint_selftest_result *result = &work->results[work->count++];
-    glint_error trouble = {0};
-    glint_status status = selftest_worker_run(&work->worker, index, options, result, &trouble);
-    if (status != GLINT_OK) {
+    selftest_work *work = context;
+    glint_selftest_result *result = job->result;
+    glint_error trouble = job->error;
+    job->error = (glint_error){0};
+    work->count++;
+    if (job->status != GLINT_OK) {
         glint_error_free(error);
         *error = trouble;
-        return status;
+        return job->status;
     }
     compare_to_expectations(work, result);
     work->troubled += is_troubled(result);
     work->expected += result->expected;
     if (prints_table(work)) {
         if (work->count == 1) {
-            glint_selftest_print_device(&work->worker.capabilities, stdout);
+            glint_selftest_print_device(capabilities_of(work), stdout);
         }
-        if (is_first) {
+        if (job->is_first) {
             glint_selftest_print_head(result, stdout);
         }
         glint_selftest_print(result, stdout);
@@ -279,8 +296,7 @@ static glint_status run_case(selftest_work *work, size_t index,
     return GLINT_OK;
 }
 
-static glint_status run_cases(selftest_work *work, int width, glint_precision precision,
-                              glint_error *error)
+static void add_jobs(selftest_work *work, int width, glint_precision precision)
 {
     const selftest_request *request = work->request;
     const glint_selftest_options options = {.kernel_dir = request->kernel_dir,
@@ -290,18 +306,21 @@ static glint_status run_cases(selftest_work *work, int width, glint_precision pr
                                             .seed = (uint32_t)request->seed};
     bool is_first = true;
     for (size_t i = 0; glint_selftest_name(i) != NULL; i++) {
-        if ((!request->cases.any || request->cases.has[i]) && !has_enough(work)) {
-            TRY(run_case(work, i, &options, is_first, error));
+        if (!request->cases.any || request->cases.has[i]) {
+            const size_t number = work->pool.job_count++;
+            work->jobs[number] = (selftest_job){.index = i,
+                                                .is_first = is_first,
+                                                .options = options,
+                                                .result = &work->results[number]};
             is_first = false;
         }
     }
-    return GLINT_OK;
 }
 
 static glint_status run_all(selftest_work *work, glint_error *error)
 {
     const selftest_request *request = work->request;
-    const bool has_double = work->worker.capabilities.has_double;
+    const bool has_double = capabilities_of(work)->has_double;
     for (int w = 0; w < ALL_WIDTHS; w++) {
         const bool all = request->width == ALL_WIDTHS;
         if (all ? w == 0 : w != request->width) {
@@ -312,12 +331,13 @@ static glint_status run_all(selftest_work *work, glint_error *error)
             const bool wanted = request->precision == ALL_PRECISIONS ? p == FLOAT || has_double
                                                                      : p == request->precision;
             if (wanted) {
-                TRY(run_cases(work, widths[w],
-                              p == DOUBLE ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT, error));
+                add_jobs(work, widths[w],
+                         p == DOUBLE ? GLINT_PRECISION_DOUBLE : GLINT_PRECISION_FLOAT);
             }
         }
     }
-    return GLINT_OK;
+    work->pool.jobs = work->jobs;
+    return selftest_pool_run(&work->pool, &(selftest_taker){take_result, has_enough, work}, error);
 }
 
 static glint_status write_reports(const selftest_work *work, glint_error *error)
@@ -326,7 +346,7 @@ static glint_status write_reports(const selftest_work *work, glint_error *error)
     glint_machine_describe(&machine);
     const selftest_request *request = work->request;
     const glint_selftest_run_report run = {
-        .device = &work->worker.capabilities,
+        .device = capabilities_of(work),
         .date = machine.date,
         .machine = machine.system,
         .rays = (uint64_t)request->rays,
@@ -381,7 +401,7 @@ static glint_status give_verdict(const selftest_work *work, glint_error *error)
         snprintf(names + used, room, "%s%s", comma, work->results[i].name);
     }
     return glint_fail(error, GLINT_MISMATCH, "%zu of %zu cases failed on '%s': %s", work->troubled,
-                      work->count, work->worker.capabilities.name, names);
+                      work->count, capabilities_of(work)->name, names);
 }
 
 static void print_list(void)
@@ -394,25 +414,32 @@ static void print_list(void)
 static glint_status selftest(const selftest_request *request, glint_error *error)
 {
     selftest_work work = {.request = request};
-    work.results = calloc((case_count() + 1) * ALL_WIDTHS * ALL_PRECISIONS, sizeof *work.results);
-    if (work.results == NULL) {
-        return glint_fail_memory(error, "the results");
+    const size_t most = (case_count() + 1) * ALL_WIDTHS * ALL_PRECISIONS;
+    work.results = calloc(most, sizeof *work.results);
+    work.jobs = calloc(most, sizeof *work.jobs);
+    glint_status status = GLINT_OK;
+    if (work.results == NULL || work.jobs == NULL) {
+        status = glint_fail_memory(error, "the results");
+        goto cleanup;
     }
-    glint_status status;
     if (request->expect != NULL) {
         TRY_OR(cleanup, status,
                selftest_expectations_read(request->expect, &work.expectations, error));
     }
     const bool many_rays = request->rays > (double)GLINT_SELFTEST_RAYS;
-    work.worker.device = request->device;
-    work.worker.limit_s = request->limit_s >= 0 ? request->limit_s : many_rays ? 0 : 900;
-    TRY_OR(cleanup, status, selftest_worker_start(&work.worker, error));
+    work.pool.workers[0].device = request->device;
+    work.pool.workers[0].limit_s = request->limit_s >= 0 ? request->limit_s : many_rays ? 0 : 900;
+    TRY_OR(cleanup, status, selftest_pool_start(&work.pool, request->jobs, error));
     TRY_OR(cleanup, status, run_all(&work, error));
     TRY_OR(cleanup, status, write_reports(&work, error));
     TRY_OR(cleanup, status, give_verdict(&work, error));
 cleanup:
-    selftest_worker_stop(&work.worker);
+    selftest_pool_stop(&work.pool);
     selftest_expectations_free(&work.expectations);
+    for (size_t i = 0; work.jobs != NULL && i < work.pool.job_count; i++) {
+        glint_error_free(&work.jobs[i].error); // of those that nobody took
+    }
+    free(work.jobs);
     free(work.results);
     return status;
 }

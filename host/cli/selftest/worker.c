@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,7 +73,7 @@ static void work(const char *device_name, int requests, int answers)
 {
     glint_error error = {0};
     glint_device *device = NULL;
-    static answer a; // too large for a stack
+    static answer a;
     a.status = glint_device_open(device_name, &device, &error);
     if (device != NULL) {
         a.capabilities = *glint_device_capabilities(device);
@@ -208,10 +209,13 @@ static void bury(selftest_worker *w, bool is_late, char *text, size_t capacity)
              last, last[0] != '\0' ? ")" : "");
 }
 
+// One at a time: a fork between another's pipes and its end would hold them open.
 static glint_status fork_worker(selftest_worker *w, glint_error *error)
 {
+    static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
     int pipes[3][2];
     int made = 0;
+    pthread_mutex_lock(&one_at_a_time);
     // What the driver starts, such as a linker, does not hold them open.
     while (made < 3 && pipe2(pipes[made], O_CLOEXEC) == 0) {
         made++;
@@ -235,6 +239,7 @@ static glint_status fork_worker(selftest_worker *w, glint_error *error)
             close(pipes[i][i == 0 ? 1 : 0]);
         }
     }
+    pthread_mutex_unlock(&one_at_a_time);
     if (!done) {
         return glint_fail(error, GLINT_DEVICE_FAILED, "no process for the device's work: %s",
                           strerror(errno));
@@ -250,7 +255,7 @@ static glint_status fork_worker(selftest_worker *w, glint_error *error)
 glint_status selftest_worker_start(selftest_worker *w, glint_error *error)
 {
     TRY(fork_worker(w, error));
-    static answer a;
+    static _Thread_local answer a; // too large for a stack
     bool is_late;
     if (!receive_answer(w, &a, w->limit_s, error, &is_late)) {
         char how[GLINT_MESSAGE_CAPACITY];
@@ -275,7 +280,7 @@ glint_status selftest_worker_run(selftest_worker *w, size_t index,
     }
     const double begun = glint_now_ms();
     const request wanted = {index, *options};
-    static answer a;
+    static _Thread_local answer a; // too large for a stack
     bool is_late = false;
     w->said[0] = '\0';
     if (write_all(w->requests, &wanted, sizeof wanted) &&
@@ -300,6 +305,9 @@ glint_status selftest_worker_run(selftest_worker *w, size_t index,
 void selftest_worker_stop(selftest_worker *w)
 {
     if (w->process > 0) {
+        // It waits for a case. Another worker may hold its pipe open, so that closing it would not
+        // do.
+        kill(w->process, SIGKILL);
         close_pipes(w);
         int how;
         while (waitpid(w->process, &how, 0) < 0 && errno == EINTR) {
