@@ -12,6 +12,7 @@ typedef struct look {
     void (*set)(glint_settings *settings);    // may be NULL
     double eye[3];
     int depth;
+    bool is_lit; // by a lamp
 } look;
 
 // ---- Scenes -------------------------------------------------------------------------------------
@@ -68,6 +69,14 @@ static void build_in_glass(shape *s)
     shape_add_box(s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
     add_ball(s, 0.1, 0, 0.25, MATERIAL_CORE);
     add_wall(s, 0.9, -0.8, 0.2, MATERIAL_TINTED);
+}
+
+static void build_paint_in_glass(shape *s)
+{
+    const double low[3] = {-0.6, -0.5, -0.4}, high[3] = {0.5, 0.6, 0.4};
+    shape_add_box(s, &(shape_box){low, high, 1, MATERIAL_CORE, false});
+    add_ball(s, 0, 0, 0.3, MATERIAL_PAINT);
+    add_wall(s, 0.9, -0.8, 0.2, MATERIAL_PAINT);
 }
 
 // ---- Materials ----------------------------------------------------------------------------------
@@ -149,6 +158,7 @@ static void cut_by_weight(glint_settings *settings)
 static void leave_to_plan(glint_settings *settings)
 {
     settings->depth = 0;
+    settings->min_weight = 1e-3;
     settings->all_features = false;
 }
 
@@ -171,40 +181,64 @@ static void divide_light(glint_settings *settings)
 }
 
 static const look looks[] = {
-    {"a thin pane, at a slant", build_pane, make_thin, NULL, {0.2, 0.1, 2.2}, 3},
-    {"absorbing glass, from behind", build_back, make_absorbing, NULL, {0.2, 0.1, 2.2}, 3},
+    {"a thin pane, at a slant", build_pane, make_thin, NULL, {0.2, 0.1, 2.2}, 3, false},
+    {"absorbing glass, from behind", build_back, make_absorbing, NULL, {0.2, 0.1, 2.2}, 3, false},
     {"metal, glass and paint in one, emitting",
      build_ball_and_wall,
      make_mixed,
      NULL,
      {0.3, 0.2, 2},
-     5},
+     5,
+     false},
     {"paths that end by their weight",
      build_ball_and_wall,
      make_mixed,
      cut_by_weight,
      {0.3, 0.2, 2},
-     12},
-    {"an environment turned by 37°", build_two_balls, make_plain, turn, {0.2, 0.3, 2}, 3},
+     12,
+     false},
+    {"an environment turned by 37°", build_two_balls, make_plain, turn, {0.2, 0.3, 2}, 3, false},
 };
 
 // With kernels of their own.
 static const look more_looks[] = {
-    {"one convex solid", build_lone_ball, NULL, leave_to_plan, {0.2, 0.3, 2}, 0},
+    {"paint in absorbing glass, under a lamp",
+     build_paint_in_glass,
+     make_absorbing,
+     NULL,
+     {0.3, 0.2, 2.2},
+     3,
+     true},
+    {"one convex solid", build_lone_ball, NULL, leave_to_plan, {0.2, 0.3, 2}, 0, false},
     {"four samples, no background, irradiance as a polynomial",
      build_two_balls,
      make_plain,
      sample_twice,
      {0.2, 0.3, 2},
-     3},
+     3,
+     false},
     {"coats, films and paint lit from behind",
      build_two_balls,
      make_coated,
      NULL,
      {0.2, 0.3, 2},
-     3},
-    {"light divided by glass", build_in_glass, make_dispersive, divide_light, {0.3, 0.2, 2.2}, 5},
+     3,
+     false},
+    {"light divided by glass",
+     build_in_glass,
+     make_dispersive,
+     divide_light,
+     {0.3, 0.2, 2.2},
+     5,
+     false},
 };
+
+// Above, to the right and before it: it shines through the glass onto what is in it and behind it.
+static const glint_punctual_light lamp = {.kind = GLINT_PUNCTUAL_POINT,
+                                          .position = {0.8, 1.3, 1.5},
+                                          .direction = {0, -1, 0},
+                                          .color = {3, 2, 1},
+                                          .range = INFINITY};
 
 // ---- Judging ------------------------------------------------------------------------------------
 
@@ -216,8 +250,8 @@ static const look more_looks[] = {
 // Pixels where rounding may decide otherwise are left out.
 static bool is_decided(const oracle_report *report)
 {
-    return report->edge >= ORACLE_EDGE_REACH && report->critical > 1e-4 &&
-           report->threshold > 1e-4 && report->jump > 1e-4;
+    return report->edge >= 1e-6 && report->critical > 1e-4 && report->threshold > 1e-4 &&
+           report->jump > 1e-4;
 }
 
 static glint_status judge_look(trial *t, const look *of)
@@ -241,6 +275,9 @@ static glint_status judge_look(trial *t, const look *of)
     TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
     if (of->dress != NULL) {
         of->dress(scene.materials);
+    }
+    if (of->is_lit) {
+        TRY_OR(cleanup, status, shape_set_lights(&lamp, 1, &scene, t->error));
     }
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
     frame.view.edges = true;
