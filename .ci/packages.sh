@@ -24,7 +24,7 @@ packages_of_renderers='blender/blender povray/povray python3-numpy jq/jq'
 packages_to_plot='jq/jq gnuplot-nox/gnuplot util-linux/taskset'
 
 packages_to_test_fully='
-    qemu-user/qemu-x86_64
+    qemu-user/qemu-x86_64 mesa-opencl-icd
     slurmctld slurmd slurm-client munge procps/pkill'
 
 needs_in_words="CMake 3.25, a C11 and C++17 compiler, pkg-config, an OpenCL ICD loader with its \

@@ -39,6 +39,8 @@ static const char *const quick[] = {
     "beads_on_floors",
     "plain_materials",
     "coats_and_settings",
+    "shaded_vertices",
+    "near_environment",
 };
 
 static const trial_case *case_at(size_t index)
