@@ -80,6 +80,13 @@ static inline const float *glint_bvh_told(const glint_bvh_inputs *in)
     return in->told != NULL ? in->told : in->positions;
 }
 
+// The anchor that a triangle's corners are told from.
+static inline const float *glint_bvh_anchor(const glint_bvh_inputs *in, size_t triangle)
+{
+    static const float origin[3] = {0, 0, 0};
+    return in->told != NULL ? in->anchors[in->part_of[triangle]] : origin;
+}
+
 // Triangles of one group may stand in one cluster: they have one material and one anchor.
 static inline uint64_t glint_bvh_group(const glint_bvh_inputs *in, size_t triangle)
 {

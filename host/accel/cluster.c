@@ -29,9 +29,7 @@ void glint_cluster_fill(const glint_bvh_inputs *in, const glint_leaf *leaf, cons
     *cluster = (glint_cluster){0};
     const uint32_t first = leaf->triangles[0];
     cluster->facts = leaf->count | (int32_t)(in->material_of[first] << GLINT_CLUSTER_COUNT_BITS);
-    if (in->told != NULL) {
-        memcpy(cluster->anchor, in->anchors[in->part_of[first]], sizeof cluster->anchor);
-    }
+    memcpy(cluster->anchor, glint_bvh_anchor(in, first), sizeof cluster->anchor);
     memcpy(cluster->corners, leaf->corners, sizeof cluster->corners);
     gather(glint_bvh_told(in), leaf, cluster->positions[0]);
     if (in->normals != NULL) {

@@ -103,10 +103,8 @@ static void refit_some(size_t task, void *context)
             atomic_store(&r->has_torn, true);
             return;
         }
-        if (r->in->told != NULL) {
-            memcpy(cluster->anchor, r->in->anchors[r->in->part_of[numbers[0]]],
-                   sizeof cluster->anchor);
-        }
+        memcpy(cluster->anchor, glint_bvh_anchor(r->in, (size_t)numbers[0]),
+               sizeof cluster->anchor);
         r->boxes[i] = cluster_box(cluster);
     }
 }

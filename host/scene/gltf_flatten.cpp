@@ -24,6 +24,9 @@ namespace
 
 // A scene of so many triangles takes 10 GiB; indices of their floats stay below 2^31.
 constexpr std::size_t most_triangles = std::size_t{1} << 27;
+// What the search for small parts takes for each triangle. Where memory is short there are none:
+// they are told as the rest is.
+constexpr std::size_t bytes_of_search = 320;
 // Metres. Beyond, squares of lengths leave a float's range.
 constexpr double farthest = 1e18;
 
@@ -179,8 +182,8 @@ class Writer
                bool looks_for_parts)
     {
         allocate(triangles, with_normals);
-        if (looks_for_parts) {
-            find_parts();
+        if (looks_for_parts && bytes_of_search * triangles <= glint_free_memory() / 2) {
+            find_parts(triangles);
         }
         for (const Draw &draw : draws_) {
             glint_instance &instance = scene_.instances[scene_.instance_count];
@@ -236,9 +239,10 @@ class Writer
     }
 
     // Of all triangles that are not collapsed: what turns out to have no area is dropped later.
-    void find_parts()
+    void find_parts(std::size_t triangles)
     {
         std::vector<double> exact;
+        exact.reserve(9 * triangles);
         for (const Draw &draw : draws_) {
             for (std::size_t t = 0; t < draw.primitive->triangles; t++) {
                 const Triangle triangle = corners_of(draw, t, winds_back(draw, t));

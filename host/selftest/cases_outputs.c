@@ -227,28 +227,33 @@ cleanup:
 
 // ---- Shading at vertices ------------------------------------------------------------------------
 
+static glint_status shade_at_vertices(trial *t, const glint_scene *scene, glint_shading shading,
+                                      glint_measure *m)
+{
+    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    judged frame = {0};
+    glint_settings settings = small_frame(t, 1);
+    settings.shading = shading;
+    const glint_status status = judged_frame(t, scene, &camera, &settings, &frame);
+    if (status == GLINT_OK) {
+        measure_error(m, judged_rmse(&frame), "over the picture");
+    }
+    judged_end(&frame);
+    return status;
+}
+
 // Triangles are an eightieth across: what is interpolated between their corners errs by that,
 // squared. Of the pane colours are found at its four corners alone.
 static glint_status shaded_vertices(trial *t)
 {
-    static const char *const what[] = {"directions at vertices", "colours at vertices"};
-    static const double bounds[] = {0.002, 0.02};
-    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    glint_measure *directions = trial_error(t, "directions at vertices", "relative RMSE", 0.002);
+    glint_measure *colors = trial_error(t, "colours at vertices", "relative RMSE", 0.02);
     glint_scene scene = {0};
     glint_status status;
     TRY_OR(cleanup, status, build_scene(t, 5, &scene));
-    for (int i = 0; i < 2; i++) {
-        glint_measure *m = trial_error(t, what[i], "relative RMSE", bounds[i]);
-        judged frame = {0};
-        glint_settings settings = small_frame(t, 1);
-        settings.shading = i == 0 ? GLINT_SHADING_VERTEX_DIRECTION : GLINT_SHADING_VERTEX_COLOR;
-        status = judged_frame(t, &scene, &camera, &settings, &frame);
-        if (status == GLINT_OK) {
-            measure_error(m, judged_rmse(&frame), "over the picture");
-        }
-        judged_end(&frame);
-        TRY_OR(cleanup, status, status);
-    }
+    TRY_OR(cleanup, status,
+           shade_at_vertices(t, &scene, GLINT_SHADING_VERTEX_DIRECTION, directions));
+    TRY_OR(cleanup, status, shade_at_vertices(t, &scene, GLINT_SHADING_VERTEX_COLOR, colors));
 cleanup:
     glint_scene_free(&scene);
     return status;
