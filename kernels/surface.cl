@@ -172,8 +172,9 @@ static inline void measure_nearby(const path *ray, const triangle *t, mask met, 
 }
 
 // On a triangle that is large beside the ray's way to it the place is told from the ray's origin,
-// which is nearer than the corners. It is then off the plane by roundings of that way alone. What a
-// ray from there meets next to nothing away is no mistake: distance_nearby tells it as exactly.
+// which is nearer than the corners. It is then off the plane by roundings of that way alone; or,
+// where the plane was not looked at again, of corners up to LARGE_TRIANGLE times as far. What a ray
+// from there meets next to nothing away is no mistake: distance_nearby tells it as exactly.
 static inline void place_nearby(const path *ray, const closest *hit, surface *s)
 {
     const mask nearby = LARGE_TRIANGLE * hit->t < s->size;
@@ -188,7 +189,7 @@ static inline void place_nearby(const path *ray, const closest *hit, surface *s)
     const real across = fabs(n.x * d.x) + fabs(n.y * d.y) + fabs(n.z * d.z);
     s->position = select3(nearby, there.position, s->position);
     s->position_low = select3(nearby, there.position_low, s->position_low);
-    s->offset = SELECT(nearby, START_OFFSET * across * hit->t, s->offset);
+    s->offset = SELECT(nearby, START_OFFSET * across * (LARGE_TRIANGLE * hit->t), s->offset);
 }
 #endif
 
