@@ -44,7 +44,7 @@ static inline real finite_inverse(real d)
     return copysign(R(1.0) / magnitude, d);
 }
 
-// But for the origin's low part: packet_of_paths.
+// Leaves origin_low unset: packet_of_paths, which rays are traced by, sets it as well.
 static inline packet make_packet(real3 origin, real3 direction)
 {
     packet p;

@@ -20,7 +20,7 @@ typedef struct surface {
     real3 position_low; // what that lacks
 #endif
 #if GLINT_LOCAL_ORIGINS
-    real size; // the largest coordinate that tells of its corners
+    real size; // the largest magnitude of its corners' coordinates, from the anchor
 #endif
     real offset;            // how far from it a ray must start, along the geometric normal
     real3 geometric_normal; // unit, towards the viewer
@@ -147,7 +147,8 @@ static inline void set_position(surface *s, pair x, pair y, pair z)
     s->position_low = real3_of(x.low, y.low, z.low);
 }
 
-// The distance to such a triangle that primary rays meet, which measure_hits takes from its corners.
+// How far primary rays run to a triangle that is large beside that way. measure_hits takes it from
+// the corners, which have no digits left for it; the plane has.
 static inline void measure_nearby(const path *ray, const triangle *t, mask met, closest *hit)
 {
     real size = real_of(0), corners[9];

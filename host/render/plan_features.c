@@ -282,7 +282,7 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     const bool has_parts = scene->parts.count > 0;
     decide(plan, GLINT_FEATURE_LOCAL_ORIGINS, has_parts && !by_vertex, "%s",
            !has_parts  ? "nothing is small beside the scene"
-           : by_vertex ? "vertices are shaded, where paths end at once"
+           : by_vertex ? "light is found at vertices, where paths end at once"
                        : "some parts are small beside the scene");
     decide(plan, GLINT_FEATURE_SMOOTH_NORMALS, scene->normals != NULL || by_vertex, "%s",
            scene->normals != NULL ? "some primitive has normals"

@@ -58,9 +58,7 @@ typedef struct face {
 
 static face face_of(const glint_scene *scene, uint32_t triangle)
 {
-    const bool has_parts = scene->parts.count > 0;
-    const float *told =
-        (has_parts ? scene->parts.positions : scene->positions) + (size_t)triangle * 9;
+    const float *told = glint_scene_told(scene) + (size_t)triangle * 9;
     face f;
     double most[3] = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
@@ -69,7 +67,7 @@ static face face_of(const glint_scene *scene, uint32_t triangle)
             most[k] = fmax(most[k], fabs((double)told[3 * i + k]));
         }
     }
-    const double size = has_parts ? fmax(most[0], fmax(most[1], most[2])) : 1;
+    const double size = scene->parts.count > 0 ? fmax(most[0], fmax(most[1], most[2])) : 1;
     f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
                                                      glint_vec3_subtract(f.at[2], f.at[0])));
     // The last term is for what rays themselves are rounded by, on planes through the origin.

@@ -11,11 +11,12 @@
 
 #define NONE 0xFFFFFFFFu
 
-// Half as far across as the scene, a part is small that is this much smaller, and if its smallest
-// triangle is this far across at most: larger ones have enough digits left.
+// A part is small if half of its extent is at most this, and its smallest triangle is at most so
+// far across, in stored units. Half of the scene's extent is about 1. Larger ones have digits
+// enough.
 #define SMALL_PART 0x1p-6
 #define SMALL_TRIANGLE 0x1p-9
-#define GRID_OF_PART 2.0
+#define GRID_OF_PART 2.0 // times a power of two that is more than half of the part's extent
 
 // A hash table of numbers, a power of two in size.
 typedef struct table {

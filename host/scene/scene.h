@@ -122,17 +122,23 @@ static inline bool glint_instance_is_solid(const glint_scene *scene, const glint
     return glint_material_lobes(&scene->materials[instance->material]).solid;
 }
 
+// [triangle_count][3 vertices][3]: the corners from their parts' anchors, or, where there are no
+// parts, as in `positions`.
+static inline const float *glint_scene_told(const glint_scene *scene)
+{
+    return scene->parts.count > 0 ? scene->parts.positions : scene->positions;
+}
+
 // A corner's place in stored coordinates, to all digits that there are: those in `positions` are
 // rounded to floats.
 static inline glint_vec3 glint_scene_corner(const glint_scene *scene, size_t triangle, int corner)
 {
     const glint_parts *parts = &scene->parts;
-    const size_t at = 9 * triangle + 3 * (size_t)corner;
+    const float *p = glint_scene_told(scene) + 9 * triangle + 3 * (size_t)corner;
     if (parts->count == 0) {
-        const float *p = scene->positions + at;
         return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
     }
-    const float *p = parts->positions + at, *a = parts->anchors[parts->part_of[triangle]];
+    const float *a = parts->anchors[parts->part_of[triangle]];
     return (glint_vec3){(double)a[0] + (double)p[0], (double)a[1] + (double)p[1],
                         (double)a[2] + (double)p[2]};
 }

@@ -541,8 +541,7 @@ static glint_status find(const glint_scene *scene, bool solids_alone, glint_topo
             continue;
         }
         const glint_parts *parts = &scene->parts;
-        weld.positions =
-            (parts->count > 0 ? parts->positions : scene->positions) + instance->first_triangle * 9;
+        weld.positions = glint_scene_told(scene) + instance->first_triangle * 9;
         weld.part_of = parts->count > 0 ? parts->part_of + instance->first_triangle : NULL;
         weld.anchors = (const float(*)[3])parts->anchors;
         weld.component_of = topology->component_of + instance->first_triangle;

@@ -4,7 +4,6 @@
 #include "selftest/shapes.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double eye[3] = {0.3, 0.25, 2.1}, target[3] = {0, 0, 0};
@@ -34,6 +33,16 @@ static glint_settings small_frame(const trial *t, int depth)
     settings.height = 24;
     settings.depth = depth;
     return settings;
+}
+
+// Renders the scene, its balls divided so finely, beside the oracle. Both are the caller's to free,
+// whatever the outcome.
+static glint_status show(trial *t, int level, const glint_settings *settings, glint_scene *scene,
+                         judged *frame)
+{
+    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    TRY(build_scene(t, level, scene));
+    return judged_frame(t, scene, &camera, settings, frame);
 }
 
 // ---- Layers -------------------------------------------------------------------------------------
@@ -97,10 +106,8 @@ static glint_status layers(trial *t)
     judged frame = {0};
     glint_settings settings = small_frame(t, 3);
     settings.aovs = GLINT_AOV_ALL;
-    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
     glint_status status;
-    TRY_OR(cleanup, status, build_scene(t, 2, &scene));
-    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    TRY_OR(cleanup, status, show(t, 2, &settings, &scene, &frame));
     for (int p = 0; p < settings.width * settings.height; p++) {
         measure_layers(&scene, &frame, p, &of);
     }
@@ -138,10 +145,8 @@ static glint_status terms(trial *t)
     judged frame = {0};
     glint_settings settings = small_frame(t, 3);
     settings.terms = TERMS;
-    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
     glint_status status;
-    TRY_OR(cleanup, status, build_scene(t, 2, &scene));
-    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    TRY_OR(cleanup, status, show(t, 2, &settings, &scene, &frame));
     for (int p = 0; p < settings.width * settings.height; p++) {
         double sum[3];
         sum_terms(&frame.picture.layers, p, sum);
@@ -167,10 +172,8 @@ static glint_status counted_light(trial *t)
     glint_settings settings = small_frame(t, 2);
     settings.min_weight = 0.1;
     settings.truncation_squares = true;
-    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
     glint_status status;
-    TRY_OR(cleanup, status, build_scene(t, 2, &scene));
-    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    TRY_OR(cleanup, status, show(t, 2, &settings, &scene, &frame));
     double by_depth = 0, by_weight = 0, squares = 0;
     const int pixels = settings.width * settings.height;
     for (int p = 0; p < pixels; p++) {
@@ -269,10 +272,8 @@ static glint_status averaged_environment(trial *t)
     judged frame = {0};
     glint_settings settings = small_frame(t, 3);
     settings.filter = GLINT_FILTER_MIP;
-    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
     glint_status status;
-    TRY_OR(cleanup, status, build_scene(t, 3, &scene));
-    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    TRY_OR(cleanup, status, show(t, 3, &settings, &scene, &frame));
     measure_error(m, judged_rmse(&frame), "over the picture");
 cleanup:
     judged_end(&frame);

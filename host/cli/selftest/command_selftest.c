@@ -107,8 +107,8 @@ static const glint_option selftest_options[] = {
     {GLINT_OPTION_FLAG, .name = "list", .help = "Print the cases, a line each, and run none.",
      .offset = offsetof(selftest_request, list)},
     {GLINT_OPTION_FLAG, .name = "quick",
-     .help = "A minute's choice: the cases that break most often, in float and with few rays, "
-             "unless --precision or --rays say otherwise.",
+     .help = "A minute's choice: cases that between them go through most of the kernels, in float "
+             "and with few rays, unless --case, --precision or --rays say otherwise.",
      .offset = offsetof(selftest_request, quick)},
     {GLINT_OPTION_CUSTOM, .name = "case", .argument = "NAME[,NAME…]",
      .help = "Run these cases alone. Any number of times.", .fallback = "all",
