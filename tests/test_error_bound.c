@@ -168,6 +168,26 @@ static void what_a_grid_may_miss_can_be_afforded(void **state)
     close_stage(&s);
 }
 
+// Rays that a mirror sends to another one may pass its edge on the wrong side, in a pixel that a
+// grid misses. A mirror alone has no such rays.
+static void mirrors_that_show_mirrors_have_edges(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"mirror_sphere", "lecture_example_2"};
+    for (int i = 0; i < 2; i++) {
+        stage s;
+        glint_image image = {0};
+        glint_error_choice choice;
+        open_stage(scenes[i], 480, 270, &s);
+        render_within(&s, 0.3, &image, &choice);
+        assert_int_not_equal(choice.rung.settings.precision, GLINT_PRECISION_DOUBLE);
+        assert_false(choice.grid_is_frame);
+        assert_true(i == 0 ? choice.unseen_of_float == 0 : choice.unseen_of_float > 0.001);
+        glint_image_free(&image);
+        close_stage(&s);
+    }
+}
+
 // A ball of glass that a few pixels see, between those of the grid or hardly among them: what they
 // are cut short of is known once the frame is there, which is then rendered once more.
 static void what_lies_between_is_seen_of_the_frame(void **state)
@@ -391,6 +411,7 @@ int main(void)
         cmocka_unit_test(contrast_may_be_the_scenes_own),
         cmocka_unit_test(what_a_grid_cannot_see_is_reckoned_with),
         cmocka_unit_test(what_a_grid_may_miss_can_be_afforded),
+        cmocka_unit_test(mirrors_that_show_mirrors_have_edges),
         cmocka_unit_test(what_lies_between_is_seen_of_the_frame),
         cmocka_unit_test(odd_light_gets_the_reference),
         cmocka_unit_test(frames_may_have_any_shape),

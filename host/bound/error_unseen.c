@@ -1,8 +1,9 @@
 // What single precision makes of a frame's pixels here and there. See error_unseen.h.
 //
-//  - At edges and folds of glass it shows the other side in a pixel here and there, which may be
-//    off by ten times the mean. How many there may be, and of what size, follows from the jumps
-//    between the grid's pixels and places beside them (error_grid.h).
+//  - At edges and folds of glass, and where mirrors show each other, it shows the other side in a
+//    pixel here and there, which may be off by ten times the mean. How many there may be, and of
+//    what size, follows from the jumps between the grid's pixels and places beside them
+//    (error_grid.h).
 //  - Where light bounces so often between curved surfaces that it has no digits left, one pixel in
 //    ten thousand is off by many times the mean. How likely that is of the grid's pixels is found
 //    in double precision, and those are taken to show what another direction of the environment
@@ -61,7 +62,8 @@ glint_status glint_error_find_edges(glint_error_search *s, const glint_image *im
     const glint_error_edges edges = {image, &in_float, MENDED_EDGES * s->asked->bound};
     glint_edge_errors found;
     TRY(glint_error_grid_find_edges(&s->grid, &edges, &found, error));
-    const bool counts = s->glass || s->deepest > CHAOS_DEPTH;
+    // Where paths end at their first surface, rays are off by so little that it may be left out.
+    const bool counts = s->glass || s->deepest > 1;
     s->unseen = hypot(s->unseen, counts ? found.at_most : 0);
     s->mended_unseen = hypot(s->mended_unseen, counts ? found.mended : 0);
     s->mend = found.mend;

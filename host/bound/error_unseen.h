@@ -17,7 +17,8 @@ bool glint_error_may_be_float(const glint_error_search *search, double mend);
 double glint_error_with_unseen(const glint_error_search *search, const glint_rung *rung,
                                double error);
 
-// Adds what edges make of single precision where there is glass, and finds by what to mend it.
+// Adds what edges make of single precision where there is glass or a path meets a second surface,
+// and finds by what to mend it.
 // `image` is the grid by `settings`, whatever their precision. Errors, here and below: as
 // glint_renderer_set_settings and glint_renderer_frame.
 glint_status glint_error_find_edges(glint_error_search *search, const glint_image *image,
