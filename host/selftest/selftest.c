@@ -41,6 +41,10 @@ static const char *const quick[] = {
     "coats_and_settings",
     "shaded_vertices",
     "near_environment",
+    "layers",
+    "terms",
+    "listed_pixels",
+    "spot_edges",
 };
 
 static const trial_case *case_at(size_t index)
