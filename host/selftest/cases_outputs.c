@@ -6,7 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double eye[3] = {0.3, 0.25, 2.1}, target[3] = {0, 0, 0};
+#define UNIT 2 // metres per stored unit, so that layers in metres are not stored units by chance
+
+static const double eye[3] = {0.3 * UNIT, 0.25 * UNIT, 2.1 * UNIT}, target[3] = {0, 0, 0};
 
 // A ball of tinted metal and one of paint before glass.
 static glint_status build_scene(trial *t, int level, glint_scene *scene)
@@ -20,7 +22,7 @@ static glint_status build_scene(trial *t, int level, glint_scene *scene)
     shape_add_ball(&s, &(shape_ball){metal, 0.4, level, MATERIAL_TINTED, true, NULL});
     shape_add_ball(&s, &(shape_ball){paint, 0.4, level, MATERIAL_PAINT, true, NULL});
     shape_add_quad(&s, wall, MATERIAL_GLASS);
-    TRY(shape_end(&s, scene, t->error));
+    TRY(shape_end_with_unit(&s, UNIT, scene, t->error));
     scene->materials[MATERIAL_GLASS].thickness = 0;
     scene->materials[MATERIAL_PAINT].base_color[1] = 0.5F;
     return GLINT_OK;
@@ -305,13 +307,14 @@ static void leave_proxy(const glint_proxy *proxy, const double o[3], const doubl
 // What an eye within a proxy sees of it, and in a mirror, whose image of the eye is beyond it.
 static glint_status see_proxy(trial *t, const glint_proxy *proxy, glint_measure *m)
 {
+    static const double within[3] = {0.3, 0.25, 2.1};
     static const double corners[4][3] = {
         {-0.5, -0.6, -0.3}, {0.4, -0.6, -0.3}, {0.4, 0.5, -0.3}, {-0.5, 0.5, -0.3}};
     glint_scene scene = {0};
     judged frame = {.proxy = proxy};
     glint_settings settings = small_frame(t, 2);
     settings.proxy = true;
-    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    const glint_camera camera = shape_camera(within, target, 0.8, 0);
     glint_status status;
     shape s = shape_begin();
     shape_add_quad(&s, corners, MATERIAL_MIRROR);
