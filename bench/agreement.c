@@ -1,4 +1,4 @@
-// Whether two programs made the same frame. See agreement.h.
+// Compares the frames of two programs. See agreement.h.
 #include "agreement.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ bench_agreement bench_compare_colors(const glint_image *glint, const float *othe
     return found;
 }
 
-// The point's depth along the camera's axis, in stored units.
+// Depth of the hit point along the camera's axis, in stored units.
 static double hit_depth(const bench_scene *scene, const float *hit)
 {
     const glint_scene *soup = &scene->scene;
@@ -77,7 +77,7 @@ glint_status bench_check_agreement(const bench_agreement *agreement, const char 
                                    const char *job, glint_error *error)
 {
     double share = (double)agreement->different_pixels / (double)agreement->pixels;
-    // NaN is refused.
+    // Refuses NaN, too.
     if (share <= BENCH_DIFFERENT_SHARE_MAX && agreement->relative_rmse <= BENCH_RELATIVE_RMSE_MAX) {
         return GLINT_OK;
     }

@@ -1,12 +1,14 @@
-// bench_bound WIDTHxHEIGHT VIEWS ROUNDS SCENE…: what --max-error chooses, against the truth. For
-// each scene (a file or a built-in one) in the studio, from so many places of a turntable, and for
-// each bound of 0.1, 0.01, 0.001 and 0.0001: the choice, what it is said to err by and what it errs
-// by over the whole frame, and how long its frames take against those of the reference and of the
-// fastest way that keeps the bound: all are rendered once, the five fastest again in turns with the
-// choice. One line of figures each, with
-// tabs between: scene, view, bound, options, error said, error, frames rendered, choosing in
-// milliseconds, the frame's milliseconds, the reference's over these, the best way's options, the
-// frame's milliseconds over that one's (median and quartiles of ROUNDS in turns).
+// bench_bound WIDTHxHEIGHT VIEWS ROUNDS SCENE…: compares the settings that --max-error chooses with
+// the fastest settings that keep the bound.
+//
+// It takes each scene (a file or a built-in scene) in the studio, from VIEWS places of a turntable,
+// with the bounds 0.1, 0.01, 0.001 and 0.0001. It renders all candidate settings once. The five
+// fastest within the bound run again, in turns with the choice.
+//
+// Prints one line for each bound, with tabs between: scene, view, bound, options, predicted error,
+// error over the whole frame, frames rendered, milliseconds for choosing, milliseconds of the
+// frame, the reference's time over the frame's, options of the fastest way, and the frame's time
+// over the fastest way's (median and quartiles over ROUNDS).
 #include "options.h"
 
 #include "base/statistics.h"
@@ -24,7 +26,7 @@ enum { ROUNDS_MAX = 32, WAYS_MAX = 80, BOUNDS = 4, FINALISTS = 5 };
 
 static const double bounds[BOUNDS] = {0.1, 0.01, 0.001, 0.0001};
 
-// One way of rendering, and what came of it.
+// One way of rendering, with its measured error and time.
 typedef struct way {
     glint_rung rung;
     double error, ms;
@@ -77,7 +79,7 @@ static double error_of(const contest *c)
     return metrics.relative_rmse;
 }
 
-// All that --max-error chooses among.
+// Lists all settings that --max-error chooses from.
 static void list_ways(contest *c)
 {
     const bool splits = glint_renderer_plan(c->renderer)->features[GLINT_FEATURE_SPLIT].compiled;
@@ -112,8 +114,7 @@ static glint_status try_ways(contest *c, glint_error *error)
     return GLINT_OK;
 }
 
-// The fastest ways within the bound, as far as one frame of each tells; the reference where there
-// are none.
+// Finds the fastest ways within the bound, by one frame each. Without any, returns the reference.
 static size_t best_within(const contest *c, double bound, way best[FINALISTS])
 {
     size_t count = 0;
@@ -139,8 +140,8 @@ static size_t best_within(const contest *c, double bound, way best[FINALISTS])
 
 typedef struct verdict {
     const glint_rung *fastest;
-    glint_summary ratio; // of the choice's time over the fastest's
-    double ms;           // the choice's
+    glint_summary ratio; // the choice's time over the fastest way's
+    double ms;           // the choice's median
 } verdict;
 
 typedef struct finalists {
@@ -148,7 +149,7 @@ typedef struct finalists {
     size_t count;
 } finalists;
 
-// All in turns.
+// Times the choice and the finalists in turns.
 static glint_status compare(contest *c, const glint_settings *chosen, const finalists *best,
                             verdict *v, glint_error *error)
 {

@@ -1,11 +1,11 @@
-# Frames of a glTF scene by Blender's Cycles, for bench/renderers:
+# Renders frames of a glTF scene by Blender's Cycles, for bench/renderers:
 #
 #   blender --background --factory-startup --python bench/cycles.py -- \
 #       SCENE ENVIRONMENT OUTPUT WIDTHxHEIGHT SAMPLES [TURNTABLE]
 #
-# OUTPUT is a prefix: frames are OUTPUT0001.exr and so on; TURNTABLE turns the camera as glint does.
-# What glint does not do is off: denoising, adaptive sampling, clamping; a pixel's samples are spread
-# over its square.
+# OUTPUT is a prefix: frames are OUTPUT0001.exr and so on. TURNTABLE turns the camera as glint does.
+# Features that glint lacks are off: denoising, adaptive sampling, clamping. The samples of a pixel
+# cover its square.
 import math
 import sys
 
@@ -13,7 +13,7 @@ import bpy
 import numpy
 from mathutils import Matrix
 
-# Blender 3.4's glTF importer asks for a name that numpy 1.24, Debian 12's, no longer has.
+# Blender 3.4's glTF importer uses a name that numpy 1.24 (Debian 12) no longer has.
 numpy.bool = bool
 
 scene_path, environment, output, size, samples, *rest = sys.argv[sys.argv.index("--") + 1 :]
@@ -25,7 +25,7 @@ bpy.ops.import_scene.gltf(filepath=scene_path)
 scene = bpy.context.scene
 scene.camera = next(thing for thing in scene.objects if thing.type == "CAMERA")
 
-# The importer turns +Y up into +Z up. Blender has +X in the middle of a lat-long, OpenEXR +Z.
+# The importer turns +Y up into +Z up. In the middle of a lat-long Blender has +X, OpenEXR +Z.
 world = bpy.data.worlds.new("studio")
 world.use_nodes = True
 nodes, links = world.node_tree.nodes, world.node_tree.links

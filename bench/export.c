@@ -1,6 +1,6 @@
-// bench_export SCENE WIDTHxHEIGHT FOLDER: the built-in studio and a scene for other renderers.
-// FOLDER gets studio.hdr, a lat-long picture with OpenEXR's conventions, and scene.pov for POV-Ray,
-// with the triangles as glint stores them.
+// bench_export SCENE WIDTHxHEIGHT FOLDER: writes a scene and the built-in studio for other
+// renderers. FOLDER gets studio.hdr, a lat-long image with OpenEXR's conventions, and scene.pov for
+// POV-Ray, with the triangles as glint stores them.
 #include "environment/environment.h"
 #include "image/image_io.h"
 #include "scene/scene.h"
@@ -69,9 +69,9 @@ static void put_camera(FILE *out, const glint_camera *camera, int width, int hei
     fputs("\n}\n", out);
 }
 
-// Metal and thin walls by Schlick's approximation, as POV-Ray's variable reflection is; solids by
-// Fresnel's equations. Paint gets its reflection alone: light from an image reaches its matte part
-// in POV-Ray by radiosity only, which is an estimate.
+// Writes a material. Metal and thin walls use Schlick's approximation, as POV-Ray's variable
+// reflection does; solids use Fresnel's equations. Paint gets its reflection only: in POV-Ray an
+// image lights matte surfaces through radiosity, which is an estimate.
 static void put_texture(FILE *out, const glint_material *m)
 {
     const float *c = m->base_color;
@@ -104,7 +104,7 @@ static void put_texture(FILE *out, const glint_material *m)
     fputs(" }\n", out);
 }
 
-// Triangles do not share vertices here, as they do not in a scene.
+// Triangles do not share vertices, as in a glint_scene.
 static void put_mesh(FILE *out, const glint_scene *scene, uint32_t material)
 {
     size_t count = 0;
@@ -136,7 +136,7 @@ static void put_mesh(FILE *out, const glint_scene *scene, uint32_t material)
     for (size_t i = 0; i < count; i++) {
         fprintf(out, ",\n    <%zu, %zu, %zu>", 3 * i, 3 * i + 1, 3 * i + 2);
     }
-    // What is inside a closed mesh is on no side of a direction that hits its surface once.
+    // POV-Ray finds the inside of a closed mesh by a ray along this vector.
     fputs("\n  }\n  inside_vector <0.3, 1, 0.2>\n", out);
     put_texture(out, &scene->materials[material]);
     fputs("}\n", out);

@@ -1,4 +1,4 @@
-// Meshes for the measurements. See mesh.h.
+// Makes meshes for the measurements. See mesh.h.
 #include "mesh.h"
 
 #include "base/memory.h"
@@ -17,8 +17,7 @@ void bench_mesh_free(bench_mesh *mesh)
     *mesh = (bench_mesh){0};
 }
 
-// `count` more elements after the first `used`, in place of *array, which stays as it is on
-// failure.
+// Replaces *array, of `used` elements, by an array with `count` more. On failure *array stays.
 static bool extend(void **array, size_t used, size_t count, size_t size)
 {
     void *larger = glint_allocate(used + count, size);
@@ -33,7 +32,7 @@ static bool extend(void **array, size_t used, size_t count, size_t size)
     return true;
 }
 
-// Room for more vertices and triangles, which are counted and zero; *first is the first vertex.
+// Adds zeroed vertices and triangles to the mesh; *first is the first new vertex.
 static glint_status grow(bench_mesh *mesh, size_t vertices, size_t triangles, uint32_t *first,
                          glint_error *error)
 {
@@ -100,7 +99,7 @@ static void face_corners(int face, int corners[3])
     memcpy(corners, table[face / 5], sizeof table[0]);
 }
 
-// A face's points, row by row from its first corner on: row r has r + 1 of them.
+// Points of a face, row by row from its first corner; row r has r + 1 points.
 typedef struct face_grid {
     int frequency;
     glint_vec3 *directions;
@@ -118,7 +117,7 @@ static glint_vec3 middle(const face_grid *grid, int row, int i, int row_step, in
     return glint_vec3_normalize(glint_vec3_add(a, b));
 }
 
-// Points a step apart, evenly on the face's plane, and then put on the sphere.
+// Spaces points a step apart evenly on the face's plane, then projects them to the sphere.
 static void fill_coarse(face_grid *grid, const glint_vec3 corners[3], int step)
 {
     for (int row = 0; row <= grid->frequency; row += step) {
@@ -148,12 +147,13 @@ static void fill_grid(face_grid *grid, const glint_vec3 corners[3])
     }
 }
 
-// Vertices: the corners, then the points inside each edge, then those inside each face.
+// An icosphere's vertices in order: the corners, the points inside each edge, the points inside
+// each face.
 typedef struct icosphere {
     const bench_ball *ball;
     int frequency;
     uint32_t first;
-    int edges[CORNERS][CORNERS]; // from the lower to the higher corner; −1 where there is none
+    int edges[CORNERS][CORNERS]; // from the lower to the higher corner; −1: no edge
 } icosphere;
 
 static void number_edges(icosphere *sphere)
@@ -172,7 +172,8 @@ static void number_edges(icosphere *sphere)
     }
 }
 
-// The vertex at steps s[k] of the way to each corner, which add up to the frequency.
+// The vertex at s[k] steps from the sides opposite the corners c[k]. The steps add up to the
+// frequency.
 static uint32_t vertex_at(const icosphere *sphere, int face, const int c[3], const int s[3])
 {
     const uint32_t inside_edge = (uint32_t)sphere->frequency - 1;
@@ -195,7 +196,7 @@ static uint32_t vertex_at(const icosphere *sphere, int face, const int c[3], con
     return sphere->first + CORNERS + EDGES * inside_edge + (uint32_t)face * inside_face + within;
 }
 
-// `triangles` are the face's own.
+// Adds a face. `triangles` has room for this face's triangles.
 static void add_face(bench_mesh *mesh, const icosphere *sphere, const face_grid *grid, int face,
                      uint32_t (*triangles)[3])
 {
@@ -262,7 +263,7 @@ glint_status bench_mesh_add_latlong(bench_mesh *mesh, const bench_ball *ball, in
     if (status != GLINT_OK) {
         return status;
     }
-    // The poles, then the rings from the top.
+    // Add the poles, then the rings from the top.
     mesh->vertices[first] = place_on_ball(ball, (glint_vec3){0, 1, 0});
     mesh->vertices[first + 1] = place_on_ball(ball, (glint_vec3){0, -1, 0});
     for (uint32_t ring = 0; ring < rings; ring++) {

@@ -1,4 +1,4 @@
-// Options that the contests share. See options.h.
+// Parses the options that all contests share. See options.h.
 #include "options.h"
 
 #include "series.h"

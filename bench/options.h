@@ -1,4 +1,4 @@
-// Options that the contests share, and their values.
+// Parses the options that all contests share.
 #ifndef GLINT_BENCH_OPTIONS_H
 #define GLINT_BENCH_OPTIONS_H
 
@@ -7,15 +7,15 @@
 #include <getopt.h>
 #include <stdbool.h>
 
-// What every contest is asked for.
+// Values of the shared options.
 typedef struct bench_request {
     char *scenes;              // names with commas between, owned
-    int width, height, rounds; // pixels; frames of each
-    const char *json;          // the file to write, NULL: none
+    int width, height, rounds; // pixels; frames of each program
+    const char *json;          // path of the report, NULL: none
     bool help;
 } bench_request;
 
-// Their entries in the table of long options; a contest's own options begin at BENCH_OWN_OPTIONS.
+// Values in the table of long options; a contest's own options begin at BENCH_OWN_OPTIONS.
 enum { BENCH_SCENES = 1, BENCH_ROUNDS, BENCH_SIZE, BENCH_JSON, BENCH_HELP, BENCH_OWN_OPTIONS };
 #define BENCH_SHARED_OPTIONS                                                                       \
     {"scenes", required_argument, NULL, BENCH_SCENES},                                             \
@@ -26,32 +26,32 @@ enum { BENCH_SCENES = 1, BENCH_ROUNDS, BENCH_SIZE, BENCH_JSON, BENCH_HELP, BENCH
         "help", no_argument, NULL, BENCH_HELP                                                      \
     }
 
-// Takes one of these with its value in optarg. Errors: GLINT_USAGE, also for any other option.
+// Takes a shared option with its value in optarg. Errors: GLINT_USAGE, also for other options.
 glint_status bench_take_option(int option, bench_request *request, glint_error *error);
 
-// A program's options, and what takes each of them.
+// The options of a program, and the function that takes them.
 typedef struct bench_parser {
     const struct option *options;
     glint_status (*take)(int option, void *request, glint_error *error);
     void *request;
 } bench_parser;
 
-// Hands each option of the command line to `take`. Errors: its, and GLINT_USAGE for what is no
-// option.
+// Hands each option of the command line to `take`. Errors: those of `take`; GLINT_USAGE for unknown
+// options.
 glint_status bench_parse_options(int argc, char **argv, const bench_parser *parser,
                                  glint_error *error);
 
-// Prints the error of a program that failed, and frees it. Returns the exit status.
+// Prints and frees the error of a failed program. Returns the exit status.
 int bench_finish(const char *program, glint_status status, glint_error *error);
 
-// "1920x1088": each a multiple of 16 from 16 to 16384. Errors: GLINT_USAGE.
+// Parses "1920x1088": two multiples of 16, from 16 to 16384. Errors: GLINT_USAGE.
 glint_status bench_parse_size(const char *text, int *width, int *height, glint_error *error);
 
-// A number from 1 to `most`; `name` is the option's, without dashes. Errors: GLINT_USAGE.
+// Parses a number from 1 to `most`; `name` is the option without dashes. Errors: GLINT_USAGE.
 glint_status bench_parse_count(const char *name, const char *text, double most, double *value,
                                glint_error *error);
 
-// Puts a copy of `text` in place of *copy, which is owned. Errors: GLINT_OUT_OF_MEMORY.
+// Replaces *copy, which the caller owns, by a copy of `text`. Errors: GLINT_OUT_OF_MEMORY.
 glint_status bench_set_text(char **copy, const char *text, glint_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// What the contests' reports share. See results.h.
+// Writes the shared parts of the contests' reports. See results.h.
 #include "results.h"
 
 #include "report/json.h"

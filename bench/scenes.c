@@ -1,4 +1,4 @@
-// The scenes and the environment. See scenes.h.
+// Makes the scenes and the environment of the measurements. See scenes.h.
 #include "scenes.h"
 
 #include "base/memory.h"
@@ -57,8 +57,8 @@ static glint_status make_needles(bench_mesh *mesh, glint_error *error)
     return bench_mesh_add_needles(mesh, &hair, error);
 }
 
-// A hall of 200 × 60 × 120 m that faces inwards, and a ball of half a metre that stands in it away
-// from its centre.
+// Makes a hall of 200 × 60 × 120 m that faces inwards, and in it, off its centre, a ball of half a
+// metre.
 static glint_status make_stadium(bench_mesh *mesh, glint_error *error)
 {
     static const bench_sheet walls[6] = {
@@ -115,8 +115,8 @@ static void look_at(const recipe *from, glint_camera *camera)
     camera->up = glint_vec3_cross(camera->back, camera->right);
 }
 
-// The stored space that scene.h asks for: the centre of the bounds, and the least power of two that
-// holds half their extent.
+// Places the scene in the stored space of scene.h: the origin is the centre of the bounds, the unit
+// the least power of two that holds half their extent.
 static void place_scene(const bench_mesh *mesh, glint_scene *scene)
 {
     glint_vec3 low = mesh->vertices[0], high = low;
@@ -158,7 +158,7 @@ static glint_status store_vertices(const bench_mesh *mesh, bench_scene *scene, g
     return GLINT_OK;
 }
 
-// The soup of triangles, with one instance of one material.
+// Stores the triangle soup, as one instance of one material.
 static glint_status store_soup(bench_scene *scene, glint_error *error)
 {
     glint_scene *soup = &scene->scene;
@@ -198,7 +198,7 @@ static glint_status store(const recipe *from, bench_mesh *mesh, bench_scene *sce
     return GLINT_OK;
 }
 
-// The number of "PREFIX:NUMBER"; 0 for other names.
+// Parses NUMBER of "PREFIX:NUMBER"; 0 for other names.
 static size_t icosphere_size(const char *name, const char *prefix)
 {
     const size_t length = strlen(prefix);
@@ -271,8 +271,9 @@ void bench_scene_set_material(bench_scene *scene, bench_job job)
 
 // ---- Environment -------------------------------------------------------------------------------
 
-// A sum of waves of falling amplitude in the direction's components, the shortest of which is 10
-// texels long in the middle of a face, as a logarithm; and three soft lights.
+// Radiance along a direction: the exponential of a sum of waves in the direction's components, plus
+// three soft lights. Shorter waves have smaller amplitudes; in the middle of a face the shortest is
+// 10 texels long.
 static double radiance(glint_vec3 d, int channel)
 {
     static const struct {

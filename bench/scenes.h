@@ -1,5 +1,5 @@
-// What the measurements render: scenes and an environment made in memory, the same on every
-// machine but for the last bits of sin and cos.
+// Makes the scenes and the environment of the measurements in memory. They are the same on every
+// machine, except for the last bits of sin and cos.
 //
 //   S0, S1     a displaced icosphere of 82 thousand and of 1.3 million triangles
 //   S2         nine displaced spheres over a plane, 292 thousand
@@ -7,7 +7,7 @@
 //   stadium    a displaced icosphere, 82 thousand, that is small inside a hall of 12
 //   G0         S0's mesh as solid glass
 //   ico:N      like S0, of about N triangles, 20 at least
-//   ball:N     likewise, without displacement
+//   ball:N     like ico:N, without displacement
 #ifndef GLINT_BENCH_SCENES_H
 #define GLINT_BENCH_SCENES_H
 
@@ -19,9 +19,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What is done with a scene.
+// Work to do with a scene.
 typedef enum bench_job {
-    BENCH_TRAVERSE, // primary rays: what they hit, and where
+    BENCH_TRAVERSE, // primary rays: the hit triangle and point
     BENCH_REFLECT,  // a mirror: the environment along the reflected direction
     BENCH_REFRACT,  // glass without Fresnel's equations: in, out, the environment (depth 2)
     BENCH_GLASS,    // glass with both branches, to depth 8 and weight 1/256
@@ -29,14 +29,14 @@ typedef enum bench_job {
 } bench_job;
 
 #define BENCH_IOR 1.5f
-#define BENCH_GLASS_DEPTH 8 // and the most
+#define BENCH_GLASS_DEPTH 8 // also the maximum
 #define BENCH_GLASS_MIN_WEIGHT (1.0f / 256)
 
-// "traverse", …
+// The job's name, such as "traverse".
 const char *bench_job_name(bench_job job);
 
-// The mesh twice: as the soup of triangles that glint takes and as indexed vertices. Triangles have
-// the same numbers in both, and coordinates are the scene's stored ones.
+// A mesh in two forms: the triangle soup of glint, and indexed vertices. Triangle numbers are the
+// same in both, and coordinates are the scene's stored ones.
 typedef struct bench_scene {
     char name[32];
     unsigned jobs; // bit 1 << job: the job makes sense here
@@ -48,19 +48,19 @@ typedef struct bench_scene {
     glint_camera camera; // nothing in it is owned
 } bench_scene;
 
-// The names of the scenes that have one, NULL at the end.
+// The names of the scenes without a number, NULL at the end.
 extern const char *const bench_scene_names[];
 
-// Errors: GLINT_USAGE for an unknown name, GLINT_DEVICE_FAILED where memory is short; `scene` is
-// for bench_scene_free whatever the outcome.
+// Makes a scene. Free it with bench_scene_free, also after an error. Errors: GLINT_USAGE for an
+// unknown name, GLINT_DEVICE_FAILED if memory is short.
 glint_status bench_scene_make(const char *name, bench_scene *scene, glint_error *error);
 void bench_scene_free(bench_scene *scene);
 
 // Gives the scene the material of the job.
 void bench_scene_set_material(bench_scene *scene, bench_job job);
 
-// A cube map of 6 × 512² texels: smooth, detailed down to some ten texels, of high contrast. Its
-// fourth value is 1.
+// Makes a cube map of 6 × 512² texels: smooth, with details of about ten texels, and of high
+// contrast. The fourth value of its texels is 1.
 glint_status bench_environment_make(glint_environment *environment, glint_error *error);
 
 #endif

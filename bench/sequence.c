@@ -1,7 +1,8 @@
-// bench_sequence SCENE [FRAMES [ROUNDS [FOLDER [ENCODING]]]]: frames of a turntable on the disk a
-// second, for each way to encode them or for one ("exr zip"), against what the
-// cores allow: tracing alone takes all of them for a while, encoding alone takes one for a while,
-// and the two together can take no less than both.
+// bench_sequence SCENE [FRAMES [ROUNDS [FOLDER [ENCODING]]]]: measures how many frames of a
+// turntable reach the disk each second, for each way to encode them or for one ("exr zip").
+//
+// It compares this with the limit of the cores: tracing alone uses all cores for a while, encoding
+// alone uses one core for a while. Both together cannot take less than the sum.
 #include "render/sequence.h"
 #include "base/clock.h"
 #include "base/parallel.h"
@@ -41,16 +42,16 @@ typedef struct bench {
     glint_device *device;
     glint_renderer *renderer;
     glint_camera camera;
-    glint_image sample; // the frame that is encoded alone
+    glint_image sample; // the frame for timing the encoder alone
     const char *folder;
-    const char *chosen; // the name of the one encoding that is measured; NULL: all
+    const char *chosen; // the name of the only encoding to measure; NULL: all
     int frames, rounds, cores;
-    const encoding *kind; // in use
+    const encoding *kind; // the current encoding
     int next;
     bool failed;
-    double trace_ms[ROUNDS_MAX];               // a frame, on all cores
-    double encode_ms[ENCODINGS][ROUNDS_MAX];   // a frame, on one core
-    double sequence_ms[ENCODINGS][ROUNDS_MAX]; // a frame, of a sequence
+    double trace_ms[ROUNDS_MAX];               // for a frame, on all cores
+    double encode_ms[ENCODINGS][ROUNDS_MAX];   // for a frame, on one core
+    double sequence_ms[ENCODINGS][ROUNDS_MAX]; // for a frame of a sequence
     double bytes[ENCODINGS];
 } bench;
 
@@ -97,7 +98,7 @@ static glint_status trace_alone(bench *b, int round, glint_error *error)
     return GLINT_OK;
 }
 
-// The processor's time alone: waiting for the disk takes no core.
+// Times the encoder by CPU time: waiting for the disk uses no core.
 static glint_status encode_alone(bench *b, int index, int round, glint_error *error)
 {
     char path[4096];
@@ -205,7 +206,7 @@ static void remove_frames(bench *b)
     }
 }
 
-// All ways in turns, round by round.
+// Measures all encodings in turns, round by round.
 static glint_status measure(bench *b, glint_error *error)
 {
     for (int round = 0; round < b->rounds; round++) {

@@ -1,4 +1,4 @@
-// Times of rounds, and what they come to. See series.h.
+// Collects and summarises the times of rounds. See series.h.
 #include "series.h"
 
 #include <math.h>

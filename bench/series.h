@@ -1,4 +1,4 @@
-// Times of rounds, and what they come to.
+// Collects and summarises the times of rounds.
 #ifndef GLINT_BENCH_SERIES_H
 #define GLINT_BENCH_SERIES_H
 
@@ -10,7 +10,7 @@ typedef struct bench_series {
     double ms[BENCH_ROUNDS_MAX];
 } bench_series;
 
-// NaN where there are none.
+// NaN for an empty series.
 typedef struct bench_summary {
     double median, min, max;
 } bench_summary;
@@ -19,7 +19,7 @@ void bench_series_add(bench_series *series, double ms);
 
 bench_summary bench_summarize(const bench_series *series);
 
-// Of the quotients round by round; both have as many.
+// Summarises the ratios round by round. Both series have the same length.
 bench_summary bench_summarize_ratio(const bench_series *above, const bench_series *below);
 
 #endif

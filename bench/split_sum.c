@@ -1,8 +1,9 @@
-// bench_split_sum [ENVIRONMENT…]: by how much real-time engines' way of rough metal errs, the split
-// sum: an environment that was blurred once for each roughness, as if seen straight on, times the
-// lobe's albedo. White metal on a ball that is seen from afar, in the built-in studio or in the
-// files that are named, at 11 roughnesses; the truth is the sum over all texels. One line each,
-// with tabs between: environment, roughness, relative RMSE.
+// bench_split_sum [ENVIRONMENT…]: measures the error of the split sum for rough metal.
+//
+// Real-time engines use the split sum: an environment blurred once for each roughness, as if seen
+// straight on, times the albedo of the lobe. The scene is white metal on a distant ball, at 11
+// roughnesses, in the built-in studio or in the given files. The reference is the sum over all
+// texels. Prints one line each, with tabs between: environment, roughness, relative RMSE.
 #include "base/parallel.h"
 #include "base/vector.h"
 #include "environment/environment.h"
@@ -11,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { EDGE = 128, PLACES = 256 }; // texels along a face's edge that are summed; on the ball
+enum { EDGE = 128, PLACES = 256 }; // texels along a face's edge; places on the ball
 
 typedef struct texel {
     glint_vec3 direction;
@@ -43,7 +44,8 @@ static texel texel_at(const glint_cube *cube, int face, int column, int row)
     return result;
 }
 
-// ∫ D V E n·l dl for each colour, with GGX's D and Smith's height-correlated V; and where E is 1.
+// Computes ∫ D V E n·l dl for each colour, with GGX's D and Smith's height-correlated V. Returns
+// the integral for E = 1.
 static double sum_lobe(const ball *b, glint_vec3 n, glint_vec3 v, double sum[3])
 {
     const double a = b->roughness * b->roughness, a2 = a * a, nv = glint_vec3_dot(n, v);
@@ -70,7 +72,8 @@ static double sum_lobe(const ball *b, glint_vec3 n, glint_vec3 v, double sum[3])
     return white;
 }
 
-// A place on the half of the ball that is seen along −z, spread evenly over its disk.
+// Compares one place on the visible half of the ball, seen along −z. The places cover its disk
+// evenly.
 static void look_at(size_t place, void *context)
 {
     ball *b = context;

@@ -1,4 +1,4 @@
-// glint's side of a contest. See stage.h.
+// Runs glint's side of a contest. See stage.h.
 #include "stage.h"
 
 glint_settings bench_stage_settings(const bench_stage *stage, bench_job job, int depth)

@@ -1,8 +1,8 @@
-// The arguments of the kernels: the one list that the parameters of the kernels and the arguments
-// that the host sets are made of (host/render/arguments.h). ARGUMENT takes the type in OpenCL C and
-// the name. Every kernel takes the scene, then what is its own, then the frame: a
-// glint_frame_record. layout.h describes the buffers; one that no compiled feature reads may be of
-// any size.
+// Lists the arguments of the kernels once. The kernels' parameters and the arguments that the host
+// sets both come from this list (host/render/arguments.h). ARGUMENT takes the type in OpenCL C and
+// the name. Every kernel takes the scene, then its own arguments, then the frame: a
+// glint_frame_record. layout.h describes the buffers. A buffer that no compiled feature reads may
+// have any size.
 #ifndef GLINT_KERNELS_ARGUMENTS_H
 #define GLINT_KERNELS_ARGUMENTS_H
 
@@ -24,15 +24,15 @@
     ARGUMENT(global float *, vertices)    /* shade_vertices writes them, the others read */        \
     ARGUMENT(global const uint *, listed) /* pixels, with GLINT_PIXEL_LIST */
 
-// What render_tiles writes: pixels [height][width][4] (R, G, B premultiplied, alpha); counters;
-// layers [height][width]; terms.
+// The buffers that render_tiles writes: pixels [height][width][4] (R, G, B premultiplied, alpha);
+// counters; layers [height][width]; terms.
 #define GLINT_OUTPUT_ARGUMENTS(ARGUMENT)                                                           \
     ARGUMENT(global scalar *, pixels)                                                              \
     ARGUMENT(global uint *, counters)                                                              \
     ARGUMENT(global glint_layers_record *, layers)                                                 \
     ARGUMENT(global float *, terms)
 
-// What the kernels of probes.cl read and write.
+// The buffers that the kernels of probes.cl read and write.
 #define GLINT_PROBE_ARGUMENTS(ARGUMENT)                                                            \
     ARGUMENT(global const scalar *, in)                                                            \
     ARGUMENT(global scalar *, out)

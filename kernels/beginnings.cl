@@ -1,13 +1,14 @@
-// Rule 5 for eyes inside solids: a path begins in those solids that its ray, if it went straight on,
-// would leave before it enters them. What is in one place with the eye is not met: a ray that sets
-// out from a solid's face is inside if it runs inwards.
+// Applies rule 5 to eyes inside solids. A path begins inside the solids that its ray, going
+// straight on, would leave before it enters them. A walk along the ray finds them. Surfaces at the
+// position of the eye do not count as met: a ray that starts on a solid's face and runs inwards
+// begins inside.
 #if GLINT_INSIDE
 
-// Surfaces that are walked through at most.
+// The largest number of surfaces that a walk passes.
 #define WALKED_MAX 256
 
-// Adds to `begun` what a walk finds that it was inside from the start: `before` has more than
-// `media`. Solids are left in their order from the innermost on.
+// Adds the solids to `begun` that a walk was inside of from the start: entries of `before` that
+// `media` lacks. A walk leaves solids in their order, the innermost first.
 static inline void note_begun(lanes_int media, lanes_int before, int lane, int *count,
                               lanes_int *begun)
 {
@@ -32,8 +33,8 @@ static inline void note_begun(lanes_int media, lanes_int before, int lane, int *
     }
 }
 
-// The media on both sides of what a walk comes to; a solid that it leaves and has not entered is
-// before it.
+// The media on both sides of the walk's next surface. If the walk leaves a solid that it has not
+// entered, the solid counts as before the surface.
 static inline void walk_media(const surface *s, lanes_int media, lanes_int *before,
                               lanes_int *beyond)
 {
@@ -50,7 +51,7 @@ static inline void walk_media(const surface *s, lanes_int media, lanes_int *befo
 #endif
 }
 
-// One step of a group's walk: past what the rays in `met` have met.
+// Makes one step of a group's walk, past the hits of the rays in `met`.
 static inline void walk_past(const scene_buffers *scene, path *ray, closest *hit, mask met,
                              mask *first, lanes_int *places, int *counts, lanes_int *begun)
 {
@@ -77,7 +78,7 @@ static inline void walk_past(const scene_buffers *scene, path *ray, closest *hit
     ray->from = SELECT(met, place, ray->from);
 }
 
-// Sets the media that paths begin in, and what their primary rays meet.
+// Sets the media that paths begin in, and the first hits of their primary rays.
 static inline void find_beginnings(const scene_buffers *scene, paths *all, primary *firsts)
 {
     path walkers[PATH_GROUPS];

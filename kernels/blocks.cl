@@ -1,5 +1,5 @@
-// Vectors whose lanes are not rays: blocks of 16 values, one for each vertex or triangle of a
-// cluster or group of a tile; boxes, one value for each child of a node.
+// Defines vectors whose lanes are not rays. Blocks have 16 values, one per vertex or triangle of a
+// cluster, or one per group of a tile. Boxes have one value per child of a node.
 
 // ---- Blocks ------------------------------------------------------------------------------------
 
@@ -14,7 +14,7 @@ typedef MASK_TYPE(16) block_mask;
 #endif
 #define block_of(x) ((block)(scalar)(x))
 #define block_bits(m) bits_of_16(m)
-// The lanes' numbers, as whole numbers and to compare with values.
+// The lanes' numbers, as whole numbers, and as values to compare with.
 #define BLOCK_NUMBERS (block_mask)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #define BLOCK_LANES to_block(BLOCK_NUMBERS)
 

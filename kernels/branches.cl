@@ -1,16 +1,16 @@
-// The branches of a tile's paths that wait for their turn. Where paths split, those of a tile
-// advance in lists: one list holds, of each pixel at most one, branches that have met equally many
-// surfaces. Of the two branches into which a path splits, the lighter joins the list that is
-// followed next, and the heavier one that waits until nothing is left of the first: each pixel's
-// branches are followed depth first, in an order that no other pixel has a say in. A list fills
-// packets whatever became of its pixels' neighbours, sorted by the way the rays run.
+// Keeps the branches of a tile's paths that wait for their turn. Where paths split, the branches of
+// a tile advance in lists. A list holds branches that have met equally many surfaces, at most one
+// per pixel. When a path splits, the lighter branch joins the list that is followed next. The
+// heavier branch joins a list that waits until the first list is empty. So each pixel's branches
+// are followed depth first, in an order that does not depend on other pixels. A list fills packets
+// completely, whatever happened to neighbouring pixels; it is sorted by the rays' directions.
 //
-// As the lighter branch has at most half of the weight, at most log2(1/min-weight) + 1 of a pixel's
-// branches ever wait (the argument that bounds quicksort's stack), and GLINT_STACK_CAPACITY, chosen
-// by the plan, holds them all unless the plan says not.
+// The lighter branch has at most half of the weight. So at most log2(1/min-weight) + 1 branches of
+// a pixel wait at any time (the argument that bounds quicksort's stack). The plan chooses
+// GLINT_STACK_CAPACITY: it holds all of them, except where the plan reports otherwise.
 
-// Which of the tile's pixels the rays of a packet belong to: where paths do not split, those of a
-// group in their order.
+// The pixels of the tile that the rays of a packet belong to. Where paths do not split, they are
+// the pixels of one group in their order.
 #if GLINT_SPLIT
 typedef lanes_int pixels;
 #define pixels_of_group(group) (lane_numbers() + (lane_int)((group)*GLINT_WIDTH))
@@ -23,8 +23,8 @@ typedef int pixels;
 
 #if GLINT_SPLIT
 
-// Kinds of branches: six for the ways they run, and those that are looked up without being traced,
-// by what path.looked_up says.
+// Kinds of branches: six for the directions of rays, then the branches that are looked up without
+// tracing, by the value of path.looked_up.
 #define BRANCH_KINDS (CUT_SHORT + ESCAPES)
 #define CUT_SHORT 6
 
@@ -52,7 +52,7 @@ typedef struct branch {
 #endif
 } branch;
 
-// By which the host knows how much room a tile's branches take.
+// The host relies on this size when it reserves room for a tile's branches.
 typedef char branch_is_as_large_as_layout_h_says
     [sizeof(branch) == GLINT_BRANCH_BYTES(sizeof(scalar), CARRIES_CONES, GLINT_ALPHA, GLINT_ROUGH,
                                           GLINT_FACETS, GLINT_DISPERSION, LOCAL_RAYS)
@@ -61,9 +61,9 @@ typedef char branch_is_as_large_as_layout_h_says
 
 typedef struct branches {
     int next_count, waiting_count;
-    int of_pixel[TILE_PIXELS]; // how many wait
+    int of_pixel[TILE_PIXELS]; // number of waiting branches
     branch next[TILE_PIXELS];
-    branch waiting[TILE_PIXELS * GLINT_STACK_CAPACITY]; // lists, told apart by `met`, which rises
+    branch waiting[TILE_PIXELS * GLINT_STACK_CAPACITY]; // lists, separated by `met`, which rises
 } branches;
 
 static inline void no_branches(branches *b)
@@ -74,8 +74,8 @@ static inline void no_branches(branches *b)
     }
 }
 
-// True where only one more branch fits: it must then be looked up, and so must the one that goes
-// on.
+// True if only one more branch fits. Then the new branch must be looked up, and so must the branch
+// that goes on.
 static inline mask nearly_full(const branches *b, const pixels *pixels)
 {
     lanes_int count;
@@ -144,7 +144,7 @@ static inline void save_branch(const path *ray, const pixels *pixels, lanes_int 
     b->pixel = pixel_of(*pixels, lane);
 }
 
-// Puts branches into the list that is followed next.
+// Appends branches to the list that is followed next.
 static inline void follow_next(branches *b, const path *ray, const pixels *pixels, mask these)
 {
     lanes_int kinds = kinds_of_rays(ray);
@@ -153,7 +153,7 @@ static inline void follow_next(branches *b, const path *ray, const pixels *pixel
     }
 }
 
-// Puts branches into the list that waits; what does not fit is lost (see nearly_full).
+// Appends branches to the list that waits. Branches that do not fit are lost (see nearly_full).
 static inline void let_wait(branches *b, const path *ray, const pixels *pixels, mask these)
 {
     lanes_int kinds = kinds_of_rays(ray);
@@ -167,8 +167,8 @@ static inline void let_wait(branches *b, const path *ray, const pixels *pixels, 
     }
 }
 
-// The list that is to be followed now: the next or, if that is empty, the latest that waits. Sets
-// its length.
+// Takes the list to follow now: the next list or, if it is empty, the latest waiting list. Sets its
+// length.
 static inline const branch *take_list(branches *b, int *count)
 {
     *count = b->next_count;
@@ -186,19 +186,20 @@ static inline const branch *take_list(branches *b, int *count)
     return b->waiting + begin;
 }
 
-// Fills packets with the list that is to be followed now, sorted by kind; `active` says which of
-// their rays there are.
+// Fills packets with the list to follow now, sorted by kind. `active` marks the rays that exist.
 static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *active)
 {
     int count;
     const branch *list = take_list(b, &count);
     int ends[BRANCH_KINDS + 1] = {0}; // where each kind ends so far, in the order of kinds
+    // Sort by counting: find where each kind begins.
     for (int i = 0; i < count; i++) {
         ends[list[i].kind + 1]++;
     }
     for (int kind = 1; kind < BRANCH_KINDS; kind++) {
         ends[kind] += ends[kind - 1];
     }
+    // Copy each branch to its place.
     for (int i = 0; i < count; i++) {
         const int place = ends[list[i].kind]++;
         const int lane = place % GLINT_WIDTH;
@@ -232,6 +233,7 @@ static inline void take_branches(branches *b, path *rays, pixels *pixels, mask *
         LANE_INT(ray->looked_up, lane) = max(list[i].kind - CUT_SHORT + 1, 0);
         LANE_INT(pixels[place / GLINT_WIDTH], lane) = list[i].pixel;
     }
+    // Mark the rays that exist.
     for (int g = 0; g < TILE_GROUPS; g++) {
         active[g] = lane_numbers() < (lane_int)(count - g * GLINT_WIDTH);
         rays[g].met = int_of(count > 0 ? list[0].met : 0);

@@ -1,7 +1,7 @@
-// A bundle of rays that run about the same way, at a leaf: its frustum selects triangles, and the
-// loop runs over these, each tested against all rays, or over the rays, each tested against all
-// triangles, whichever is less work. The same operations in either order: the same hits, bit for
-// bit.
+// Tests a bundle of rays with similar directions against a leaf. The bundle's frustum selects
+// triangles. Then the loop runs either over these triangles, each against all rays, or over the
+// rays, each against all triangles; it takes the cheaper order. Both orders use the same
+// operations, so the hits are the same, bit for bit.
 
 // Rays of a packet that run along one axis, and their frustum.
 typedef struct bundle {
@@ -9,7 +9,7 @@ typedef struct bundle {
     frustum bounds;
     mask active;
     int axes;        // bit k: some ray's largest component is k
-    scalar farthest; // along the frustum's axis, beyond which nothing can be the closest hit
+    scalar farthest; // along the frustum's axis; no closest hit lies beyond
 } bundle;
 
 static inline void update_farthest(bundle *b, const closest *hit)
@@ -34,7 +34,7 @@ static inline bundle make_bundle(const packet *p, int along, scalar sign, mask a
     return b;
 }
 
-// The rays that may meet a box, one of all nodes' children.
+// The rays that may meet a box. `box` counts the children of all nodes.
 static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int box,
                                const closest *hit)
 {
@@ -42,7 +42,7 @@ static inline uint rays_at_box(const bundle *b, const scene_buffers *scene, int 
     return mask_bits(b->active & rays_meet_box(b->rays, node, box % GLINT_BVH_WIDTH, hit->t));
 }
 
-// Tests some rays against all triangles of a cluster. True if one has met a triangle.
+// Tests some rays against all triangles of a cluster. True if a ray has hit a triangle.
 static inline bool intersect_by_rays(const packet *p, uint rays, lanes_int from, const leaf *leaf,
                                      closest *hit)
 {
@@ -61,11 +61,11 @@ static inline bool intersect_by_rays(const packet *p, uint rays, lanes_int from,
     return found;
 }
 
-// With more triangles than this it pays to find the rays that meet the cluster at all.
+// With more triangles than this, it pays off to find the rays that meet the cluster at all.
 #define SPARSE_TRIANGLES 4
 
-// `from` is the place of the triangle that each ray starts on, which it cannot hit: −1 for none.
-// True if a ray has met a triangle.
+// Tests the bundle against a cluster. `from` is the place of the triangle that each ray starts on
+// and cannot hit; −1: none. True if a ray has hit a triangle.
 static inline bool intersect_cluster(const bundle *b, const scene_buffers *scene, int index,
                                      int box, lanes_int from, closest *hit)
 {

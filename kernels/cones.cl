@@ -1,9 +1,9 @@
-// What of the environment and of textures a pixel sees: each ray carries a cone, how wide it is where the ray
-// starts and how fast it widens, which surfaces change as lenses do in paraxial optics
-// (Akenine-Möller et al., Improved Shader and Texture Level of Detail Using Ray Cones, 2021). Both
-// numbers keep their sign past a focus. Where the cone ends, the environment is taken from the
-// levels whose texels are as wide. Behind rough glass rays carry a second cone: what of the glass's
-// lobe a direction of the pixel stands for.
+// Tracks how much of the environment and of textures a pixel sees: its footprint. Each ray carries
+// a cone: its width at the ray's start, and how fast it widens. Surfaces change the cone as lenses
+// do in paraxial optics (Akenine-Möller et al., Improved Shader and Texture Level of Detail Using
+// Ray Cones, 2021). Both numbers keep their sign past a focus. At the end of the cone, the
+// environment is read from the levels whose texels are as wide as the cone. Behind rough glass rays
+// carry a second cone: the part of the glass's lobe that one direction of the pixel stands for.
 #define CARRIES_CONES (GLINT_MIP_LEVELS || GLINT_TEXTURES)
 #define HEEDS_CURVATURE (CARRIES_CONES || GLINT_FACETS)
 #define READS_LEVELS (GLINT_MIP_LEVELS || GLINT_FACETS) // of the environment
@@ -11,10 +11,11 @@
 
 typedef struct cone {
     real width;  // across, stored units
-    real spread; // what is added to the width per unit of length
+    real spread; // growth of the width per unit of length
 } cone;
 
-// The cone of a primary ray of length 1/inverse: its neighbour's distance, mean of both ways.
+// The cone of a primary ray whose direction has the length 1/inverse. Its width is the distance to
+// the neighbouring ray, averaged over both axes.
 static inline cone primary_cone(const glint_frame_record *frame, real inverse)
 {
     const scalar share = R(0.5) / (scalar)frame->samples_per_axis;
@@ -42,8 +43,8 @@ static inline cone primary_cone(const glint_frame_record *frame, real inverse)
 // The cone's width after the distance t.
 static inline real width_after(const cone *c, real t) { return fused(c->spread, t, c->width); }
 
-// How fast the normals of a triangle turn, per unit of length along it: the root mean square over
-// its edges, more than 0 where they part.
+// How fast the normals of a triangle turn per unit of length: the root mean square over its edges.
+// It is positive where the normals diverge.
 static inline real curvature_of(const real3 vertices[3], const real3 normals[3])
 {
     real turned = real_of(0), parted = real_of(0), length = real_of(0);
@@ -59,8 +60,8 @@ static inline real curvature_of(const real3 vertices[3], const real3 normals[3])
     return SELECT(parted < R(0.0), -magnitude, magnitude);
 }
 
-// The cone that leaves a surface: `scaled` is what becomes of the spread by itself (1, or η for
-// light that is refracted), `bend` how much the ray turns for each turn of the normal.
+// The cone that leaves a surface. `scaled` is the factor of the spread (1, or η for refracted
+// light). `bend` is the turn of the ray per turn of the normal.
 static inline cone leave_surface(real width, real spread, real scaled, real bend, real curvature)
 {
     cone c;
@@ -69,13 +70,13 @@ static inline cone leave_surface(real width, real spread, real scaled, real bend
     return c;
 }
 
-// How wide two widths are together that do not depend on each other: more than 0 unless both are 0.
+// The joint width of two independent widths; it is above 0, except if both are 0.
 static inline real joined_width(real one, real other)
 {
     return sqrt(fused(one, one, other * other));
 }
 
-// Levels finer than a cone's width by this much look sharper and hardly alias.
+// Reads levels finer than the cone's width by this factor; they look sharper and hardly alias.
 #define LEVEL_BIAS R(0.7071067811865476)
 
 // The level whose texels are about as wide as a cone, and how far towards the next one to go.
@@ -84,8 +85,8 @@ typedef struct level_choice {
     real blend; // [0, 1)
 } level_choice;
 
-// `direction` is a unit vector. A texel is 2/edge wide at a distance of 1/(its largest component).
-// Between powers of two log2 is taken to be linear.
+// Chooses the level for a unit vector `direction`. A texel is 2/edge wide at a distance of 1/(its
+// largest component). Between powers of two, log2 is approximated as linear.
 static inline level_choice choose_level(real spread, real3 direction, int edge, int last)
 {
     const scalar texels_at_1 = R(0.5) * (scalar)edge * LEVEL_BIAS;

@@ -1,5 +1,5 @@
-// Surfaces whose light was found at their vertices (vertices.cl): what pixels make of it, which is
-// to interpolate between the corners of the triangle that they see. See layout.h, "Vertices".
+// Shades surfaces whose light was found at their vertices (vertices.cl). Pixels interpolate between
+// the corners of the triangle that they see. See layout.h, "Vertices".
 #define SHADES_VERTICES ((GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION) && !GLINT_HITS)
 #if SHADES_VERTICES
 
@@ -8,10 +8,10 @@
 #else
 #define VERTEX_VECTORS GLINT_VERTEX_VECTORS
 #endif
-// Floats of a cluster's vertices.
+// The number of floats of a cluster's vertices.
 #define VERTEX_CLUSTER_VALUES (3 * VERTEX_VECTORS * GLINT_CLUSTER_LANES)
 
-// All vectors of the vertices, interpolated where the rays in `met` met their triangles.
+// All vectors of the vertices, interpolated at the hits of the rays in `met`.
 static inline void interpolate_corners(const scene_buffers *scene, const closest *hit, mask met,
                                        real3 results[VERTEX_VECTORS])
 {
@@ -43,14 +43,14 @@ static inline void interpolate_corners(const scene_buffers *scene, const closest
     }
 }
 
-// A sum of directions that is 0, as between opposite ones, is none: then `other` serves.
+// A sum of directions can be 0, as between opposite directions. Then `other` replaces it.
 static inline real3 some_direction(real3 sum, real3 other)
 {
     return select3(is_zero3(sum), other, sum);
 }
 
-// What the surfaces that the rays in `met` met add, and where their look-ups go, as the vertices
-// tell. Directions are as long as their interpolation makes them.
+// Interpolates the light and the look-ups' directions of surfaces that the rays in `met` have met.
+// The interpolated directions are not normalised.
 static inline scattering scatter_from_corners(const scene_buffers *scene,
                                               const glint_frame_record *frame, const path *ray,
                                               const surface *s, const closest *hit, mask met)

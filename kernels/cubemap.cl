@@ -1,20 +1,21 @@
-// The cube map (layout.h): look-up along a direction, bilinear, seamless by its border.
+// Looks up the cube map (layout.h) along a direction: bilinear, and seamless because of its border.
 
 typedef struct cube_map {
     global const void *texels;
     int edge;      // texels along a face's edge, without the border
-    bool are_half; // the texels, else float: known when the kernel is compiled
+    bool are_half; // texels are half, else float; a compile-time constant
 } cube_map;
 
 typedef struct cube_point {
-    lanes_int first;  // place of the upper left of the four texels
-    real right, down; // [0, 1): how far the point lies towards the right and the lower ones
+    lanes_int first;  // index of the upper left of the four texels
+    real right, down; // [0, 1): position towards the right and the lower texels
 } cube_point;
 
-// Where a direction of any length but zero meets the cube. On a tie of the largest components the
-// border makes all answers agree. `edge` is the map's or that of one of its levels, which begins at
-// the texel `start`.
+// Finds the point of the cube in a direction of any length but zero. If the largest components tie,
+// the border makes all answers agree. `edge` is the edge of the map or of one of its levels, which
+// begins at the texel `start`.
 static inline cube_point find_on_cube(real3 d, lanes_int edge, lanes_int start)
+// Find the face and the coordinates on it.
 {
     mask x_major, y_major;
     find_major(d, &x_major, &y_major);
@@ -37,12 +38,13 @@ static inline cube_point find_on_cube(real3 d, lanes_int edge, lanes_int start)
     real per_major = half_edge / major;
     real column = fused(s, per_major, half_edge + R(0.5));
     real row = fused(t, per_major, half_edge + R(0.5));
-    // A direction that is not finite must not read outside: NaN compares false and becomes 0.
+    // A direction that is not finite must not read outside the map: NaN compares false and becomes
+    // 0.
     real last = to_real(edge) + R(0.5);
     column = SELECT(column > R(0.0), SMALLER(column, last), real_of(0));
     row = SELECT(row > R(0.0), SMALLER(row, last), real_of(0));
 
-    // Neither is below 0, so that this rounds down.
+    // Neither value is negative, so truncation rounds down.
     lanes_int i = to_int_truncated(column), j = to_int_truncated(row);
     lanes_int pitch = edge + (lane_int)(2 * GLINT_CUBE_BORDER);
     cube_point point;
@@ -52,21 +54,21 @@ static inline cube_point find_on_cube(real3 d, lanes_int edge, lanes_int start)
     return point;
 }
 
-// The face on which a point lies of the map itself (not of a level of it).
+// The face of a point on the map itself (not on a coarser level).
 static inline lanes_int face_of(const cube_map *map, const cube_point *point)
 {
     const lane_int pitch = map->edge + 2 * GLINT_CUBE_BORDER;
     return point->first / (pitch * pitch);
 }
 
-// R, G, B and a fourth value of two texels side by side.
+// R, G, B and a fourth value of two neighbouring texels.
 static inline scalar8 load_texels(const cube_map *map, size_t place)
 {
     return TO_SCALAR8(map->are_half ? vload_half8(0, (global const half *)map->texels + 4 * place)
                                     : vload8(0, (global const float *)map->texels + 4 * place));
 }
 
-// Asks the memory for what fetch_from_cube will read.
+// Prefetches the texels that fetch_from_cube will read.
 static inline void prefetch_texels(const cube_map *map, int edge, size_t first)
 {
     const size_t size = map->are_half ? 4 * sizeof(half) : 4 * sizeof(float);
@@ -76,9 +78,9 @@ static inline void prefetch_texels(const cube_map *map, int edge, size_t first)
     prefetch_line(texel + size * pitch);
 }
 
-// R, G, B and a fourth value at one ray's point: `first` is its upper left texel, of the map or of
-// a level of the given edge. Two texels are a vector of eight, so it is interpolated downwards
-// first, and then to the right: the order is the same for every width, and with it the bits.
+// R, G, B and a fourth value at one ray's point. `first` is the upper left texel, of the map or of
+// a level of the given edge. Two texels are a vector of eight. So the code interpolates downwards
+// first, then to the right. This order, and so the bits, are the same at every width.
 static inline scalar4 fetch_from_cube(const cube_map *map, int edge, size_t first, scalar right,
                                       scalar down)
 {

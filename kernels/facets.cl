@@ -1,28 +1,29 @@
-// Rough glass: microfacets of GGX, α = roughness². A path goes on as from one facet that it sees,
-// which is smooth and stands at an angle to the surface. A pixel's directions are numbered. Each
-// number stands for other facets, and together they are spread evenly over those that a path sees.
+// Follows paths through rough glass, whose microfacets follow GGX, α = roughness². A path continues
+// as from one visible facet, which is smooth and tilted against the surface. The directions of a
+// pixel are numbered. Each number chooses other facets. Together the chosen facets are spread
+// evenly over the visible ones.
 #if GLINT_FACETS
 
-// A path takes the next of so many choices at each surface, and then the first again.
+// A path takes the next of these choices at each surface, and then the first again.
 #define FACET_CHOICES 4
 
-// Which facets a direction of a pixel stands for, in all its paths.
+// The facets that a direction of a pixel stands for, in all its paths.
 typedef struct facet_choice {
     scalar cosine[FACET_CHOICES], sine[FACET_CHOICES]; // of the turn about the normal
-    scalar down[FACET_CHOICES]; // from the cap's top, [0, 1]
-    scalar part[FACET_CHOICES]; // what is there by more than this is met, [0, 1]
-    scalar width;               // √(1/how many directions there are)
+    scalar down[FACET_CHOICES]; // distance from the cap's top, [0, 1]
+    scalar part[FACET_CHOICES]; // the path meets surfaces with a coverage above this, [0, 1]
+    scalar width;               // √(1/number of directions)
 } facet_choice;
 
-// Number i of a sequence that fills [0, 1] evenly: i times a fraction of 2³², without the whole.
+// Number i of a sequence that fills [0, 1] evenly: the fractional part of i × fraction/2³².
 static inline scalar part_of_turn(uint i, uint fraction)
 {
     return ((scalar)(i * fraction + 0x80000000u) + R(0.5)) * R(2.3283064365386963e-10);
 }
 
-// Direction i of `count`. The fractions are powers of 1/x with x³ = x + 1, x⁵ = x + 1 and
-// x⁹ = x + 1 (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018); and the
-// golden section and roots of 2, 3 and 7.
+// The choices of direction i of `count`. The fractions are powers of 1/x with x³ = x + 1, x⁵ = x +
+// 1 and x⁹ = x + 1 (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018), and
+// the golden section and roots of 2, 3 and 7.
 static inline facet_choice choose_facets(int i, int count)
 {
     const uint turns[FACET_CHOICES] = {0xc13fa9a9u, 0xa0f2ec75u, 0xc862b36fu, 0xaa324f91u};
@@ -40,10 +41,11 @@ static inline facet_choice choose_facets(int i, int count)
     return c;
 }
 
-// Measured: a direction's look-ups are blurred by this much more than what it stands for is wide.
+// The look-ups of a direction are blurred by this factor beyond the width that it stands for
+// (measured).
 #define FACET_BLUR R(2.0)
 
-// Of numbers by choice, those of rays that have met so many surfaces.
+// The value of the choice that rays take after `met` surfaces.
 static inline real chosen_of(const scalar values[FACET_CHOICES], lanes_int met)
 {
     real value = real_of(values[0]);
@@ -64,7 +66,7 @@ static inline mask are_faceted(const surface *s)
     return faceted;
 }
 
-// Axes at right angles to the normals, the first as near to the image's right as may be.
+// Axes at right angles to the normals. The first is as near as possible to the image's right.
 static inline void facet_axes(const glint_frame_record *frame, real3 normal, real3 *first,
                               real3 *second)
 {
@@ -78,9 +80,9 @@ static inline void facet_axes(const glint_frame_record *frame, real3 normal, rea
     *second = cross3(normal, *first);
 }
 
-// The facets' normals. Of what is seen of GGX's facets, stretched to a sphere, h = v + c is even
-// where c is even on the cap that v sees (Dupuy and Benyoub, Sampling visible GGX normals with
-// spherical caps, 2023).
+// The facets' normals. If the visible facets of GGX are stretched to a sphere, h = v + c is spread
+// evenly when c is spread evenly over the cap that v sees (Dupuy and Benyoub, Sampling visible GGX
+// normals with spherical caps, 2023).
 static inline real3 facet_normals(const glint_frame_record *frame, const facet_choice *chosen,
                                   lanes_int met, const surface *s, real alpha, real3 v)
 {
@@ -100,8 +102,8 @@ static inline real3 facet_normals(const glint_frame_record *frame, const facet_c
     return select3(valid & (dot3(h, v) > R(0.0)), h, s->normal);
 }
 
-// Puts a facet in the place of the surface for the rays in `faceted`, which are those that meet
-// rough glass. Of what is there in part a share of the directions passes.
+// Replaces the surface by a facet for the rays in `faceted`, which meet rough glass. If the surface
+// covers partly, a share of the directions passes it.
 static inline void take_facet(const glint_frame_record *frame, const facet_choice *chosen,
                               const path *ray, mask faceted, surface *s)
 {
@@ -116,6 +118,7 @@ static inline void take_facet(const glint_frame_record *frame, const facet_choic
     if (!any_lane(faceted)) {
         return;
     }
+    // Choose the facet's normal.
     const real3 v = negate(ray->direction);
     const real alpha = s->roughness * s->roughness;
     f->normal = s->normal;
@@ -124,7 +127,7 @@ static inline void take_facet(const glint_frame_record *frame, const facet_choic
     f->root = smith_root(f->alpha_squared, f->cosine);
     const real3 h = facet_normals(frame, chosen, ray->met, s, alpha, v);
     const real toward = dot3(h, v);
-    // The facets that are seen have the density 2 v·h D/(n·v + √…), D = α²/(π A²).
+    // Visible facets have the density 2 v·h D/(n·v + √…), D = α²/(π A²).
     const real up = dot3(h, f->normal);
     const real3 aside = cross3(h, f->normal);
     const real a = fused(f->alpha_squared * up, up, dot3(aside, aside));
@@ -135,8 +138,8 @@ static inline void take_facet(const glint_frame_record *frame, const facet_choic
     s->cosine = SELECT(faceted, SMALLER(toward, real_of(1)), s->cosine);
 }
 
-// How much of what leaves by a facet, at this cosine to the surface's normal, no other facet stops:
-// Smith's height-correlated G over that of what arrives.
+// The share of light leaving a facet, at this cosine to the surface's normal, that no other facet
+// blocks. It is Smith's height-correlated G, divided by the G of the arriving light.
 static inline real facet_openness(const facet *f, real cosine)
 {
     const real root = smith_root(f->alpha_squared, cosine);

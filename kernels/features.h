@@ -1,14 +1,14 @@
-// The one list of what a kernel can be compiled with. Each feature is passed to the kernel compiler
-// as -DGLINT_<NAME>=0 or 1, always. host/render/plan_features.c decides and gives the reason, which
-// `glint info` prints. The columns:
+// Lists the features that a kernel can be compiled with. The kernel compiler gets every feature as
+// -DGLINT_<NAME>=0 or 1. host/render/plan_features.c decides and gives the reason, which `glint
+// info` prints. The columns:
 //   name
 //   meaning   what the feature adds to the kernel
-//   needs     the kernel compiles with the feature only where this holds; 1: always
-//   excludes  and only where this does not; 0: nothing is excluded
-//   unneeded  IDLE: where no scene or setting needs the feature it changes no bit of a frame;
-//             ACTIVE: it changes the frame, or reads or writes buffers that are not there then
-// render.cl checks needs and excludes. tests/lint_kernels compiles each feature off and on with
-// what it needs. Tests compile all idle features to show that they change nothing.
+//   needs     a condition: the kernel compiles with the feature only if it is true; 1: always
+//   excludes  a condition: the kernel compiles with the feature only if it is false; 0: none
+//   unneeded  the effect of the feature if no scene or setting needs it. IDLE: it changes no bit of
+//             a frame. ACTIVE: it changes the frame, or accesses buffers that do not exist then
+// render.cl checks needs and excludes. tests/lint_kernels compiles each feature off and on,
+// together with its needs. Tests compile all idle features to show that they change nothing.
 #ifndef GLINT_KERNELS_FEATURES_H
 #define GLINT_KERNELS_FEATURES_H
 

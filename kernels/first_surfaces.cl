@@ -1,6 +1,6 @@
-// Layers that tell of the first surface: distance, normal and colour. The surface is found once
-// more beside the frame's own work, by the same functions, so that they say what optics sees
-// whatever way the samples take.
+// Fills the layers of the first surface: distance, normal and colour. It finds the surface a second
+// time, apart from the frame's own work, with the same functions. So the layers show the data that
+// the optics use, for every way of rendering samples.
 #if GLINT_DIAGNOSTICS
 
 static inline void note_first_surface(glint_layers_record *record, real3 normal, real3 color,
@@ -14,7 +14,7 @@ static inline void note_first_surface(glint_layers_record *record, real3 normal,
     record->albedo[2] = (float)LANE(color.z, lane);
 }
 
-// What a group's primary rays meet.
+// Records the hits of a group's primary rays.
 static inline void note_group(layers *l, const scene_buffers *scene,
                               const glint_frame_record *frame, const image_space *image,
                               primary first, int group)
@@ -28,7 +28,7 @@ static inline void note_group(layers *l, const scene_buffers *scene,
     closest hit = no_hit();
     measure_hits(image, &triangles, first.x, first.y, first.length, met, &hit);
     const surface s = find_surface(scene, &ray, &hit, &triangles);
-    // Along the axis of view: there directions come 1 far before they are unit vectors.
+    // Depth along the axis of view: a direction before normalisation advances the depth by 1.
     const real depth = hit.t / first.length + JOIN(frame->start[0], frame->start[1]);
     const real metres = depth * (scalar)frame->unit;
     for (uint left = mask_bits(met); left != 0; left &= left - 1) {
@@ -40,7 +40,7 @@ static inline void note_group(layers *l, const scene_buffers *scene,
     }
 }
 
-// What the primary rays of the middle samples meet.
+// Records the hits of the primary rays of the middle samples.
 static inline void note_first_surfaces(layers *l, const scene_buffers *scene,
                                        const glint_frame_record *frame, const image_space *image,
                                        const tile *t)

@@ -1,26 +1,28 @@
-// The frustum around a packet's rays: boxes and triangles that lie outside it are met by no ray.
+// Bounds a packet's rays by a frustum. No ray meets a box or triangle outside of it.
 //
-// The rays run along one axis, w = sign × that coordinate, with u and v the other two. Where the
-// first ray starts and where the scene ends, the least and largest u of all rays give two planes,
-// and v two more: rays are straight, so that they stay between them. Rounding, here and in the
-// tests of triangles, moves places by less than FRUSTUM_SLACK, so planes moved outwards by that
-// lose nothing that those tests would find. In units of EPSILON, with stored coordinates in [−1,
-// 1], slopes in ±2.5, ways of 2 and divisions off by 5 (OpenCL's 2.5 units in the last place): a
-// slope at the far end 30, the planes' slopes 30, their places 17, their offsets 17; Woop's test
-// 17, or 43 across an axis that is not the ray's largest: 140 in all.
+// The rays run along one axis; w = sign × that coordinate, u and v are the other two coordinates.
+// The least and largest u of all rays, at the first ray's start and at the scene's end, give two
+// planes; v gives two more. Rays are straight, so they stay between the planes.
+// Rounding, here and in the triangle tests, moves positions by less than FRUSTUM_SLACK. The planes
+// are moved outwards by FRUSTUM_SLACK, so they cull no hit that those tests would find. The errors,
+// in units of EPSILON, are:
+//   - a slope at the far end 30, the planes' slopes 30, their positions 17, their offsets 17
+//   - Woop's test 17, or 43 across an axis that is not the ray's largest: 140 in all
+// They hold for stored coordinates in [−1, 1], slopes in ±2.5, distances of 2, and divisions off by
+// 5 (OpenCL's 2.5 units in the last place).
 #define FRUSTUM_SLACK (R(256.0) * EPSILON)
-// A ray belongs to the frustum along an axis if its direction's component there is at least this
-// part of the largest.
+// A ray belongs to the frustum along an axis if the direction's component on this axis is at least
+// this part of its largest component.
 #define FRUSTUM_ALONG R(0.4)
-// The largest stored coordinate; and farther than the scene goes, so that children that are not
-// there (GLINT_FAR) lie beyond.
+// The largest stored coordinate; and a distance beyond the scene. Missing children (GLINT_FAR) lie
+// beyond both.
 #define SCENE_REACH R(1.0)
 #define SCENE_END R(4.0)
-// Rays that end farther apart than this do not stay together: of what their frustum meets, each may
-// meet little.
+// Rays whose ends are farther apart do not stay together: each ray may meet little of the boxes
+// that their common frustum meets.
 #define WIDE R(0.1)
-// The frustum around several groups is worth its while if its cross-section is no larger than this
-// many times theirs together.
+// A frustum around several groups pays off if its cross-section is at most this many times the sum
+// of the groups' cross-sections.
 #define COMPACT R(3.0)
 
 typedef struct frustum {
@@ -28,7 +30,8 @@ typedef struct frustum {
     scalar sign;   // of the directions along it: +1 or −1
     scalar begin;  // the least w of the origins
     real w, speed; // w of the origins, and how fast it rises
-    // Across u, then v: inside is u ≥ offset + slope × the coordinate along for [0] and ≤ for [1].
+    // Bounds of u, then of v: inside is coordinate ≥ offset + slope × the coordinate along the axis
+    // for [0], and ≤ for [1].
     scalar slope[2][2], offset[2][2];
     bool wide;
 } frustum;
@@ -36,7 +39,7 @@ typedef struct frustum {
 // The two coordinates across an axis follow it cyclically.
 static inline int across_axis(int along, int which) { return (along + 1 + which) % 3; }
 
-// The rays of `wanted` that run along the axis, upwards or downwards.
+// The rays of `wanted` that run along the axis in the direction of `sign`.
 static inline mask rays_along(const real3 *direction, int along, scalar sign, mask wanted)
 {
     real d = along == 0 ? direction->x : along == 1 ? direction->y : direction->z;
@@ -76,8 +79,8 @@ static inline frustum make_frustum(const real origin[3], const real direction[3]
     return f;
 }
 
-// Bit c is set if box c of the node reaches into the frustum before `farthest`; `near` is where
-// along the axis.
+// Sets bit c if box c of the node reaches into the frustum before `farthest`. `near` is the box's
+// position along the axis.
 static inline uint frustum_meets_boxes(const frustum *f, global const float *node, scalar farthest,
                                        boxes *near)
 {
@@ -99,7 +102,7 @@ static inline uint frustum_meets_boxes(const frustum *f, global const float *nod
     return box_bits(met);
 }
 
-// The same for the triangles of a cluster, lane by lane.
+// frustum_meets_boxes for the triangles of a cluster, lane by lane.
 static inline uint frustum_meets_triangles(const frustum *f, global const float *cluster, int count,
                                            scalar farthest)
 {

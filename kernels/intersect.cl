@@ -1,23 +1,25 @@
-// Tests of the packet's rays against boxes and triangles.
+// Tests the packet's rays against boxes and triangles.
 //
-// A triangle is tested as Woop, Benthin and Wald do (Watertight Ray/Triangle Intersection, 2013):
-// in a space sheared so that the ray is its third axis, the signs of three two-dimensional cross
-// products decide. Vertices are mapped alike for every triangle that shares them, the products are
-// rounded separately (no fused multiply-add: rounding is monotonic, so the sign of a difference of
-// rounded products is never wrong, it can only become 0), and 0 counts as inside: no ray passes
-// between two triangles that share an edge or a vertex. Where a product is 0, perhaps by rounding
-// alone, as for a triangle seen edge-on from afar, the ray must also pass within its corners'
-// bounds.
+// The watertight triangle test follows Woop, Benthin and Wald (Watertight Ray/Triangle
+// Intersection, 2013). It shears space so that the ray becomes the third axis. Then the signs of
+// three two-dimensional cross products decide. No ray passes between two triangles that share an
+// edge or a vertex, for three reasons:
+//   - A shared vertex is mapped in the same way for each of its triangles.
+//   - The products are rounded separately, without a fused multiply-add. Rounding is monotonic, so
+//     the sign of a difference of rounded products is never wrong; it can only become 0.
+//   - 0 counts as inside.
+// A product may be 0 only by rounding, as for a distant triangle seen edge-on. So if a product is
+// 0, the ray must also pass within the bounds of the triangle's corners.
 //
-// The barycentric weights of a triangle that was hit are taken from the same products again, this
-// time without cancellation: those of a sliver would else have no digit right, and with them the
-// place where it was hit.
+// After a hit the same products are computed again without cancellation, for the barycentric
+// weights. Otherwise the weights of a sliver, and the position of the hit, would have no correct
+// digit.
 
-// What the tests need of the rays.
+// The data of the rays that the tests need.
 typedef struct packet {
     real origin[3];
 #if LOCAL_RAYS
-    real origin_low[3]; // what that lacks
+    real origin_low[3]; // the low parts of the origins
 #endif
     real direction[3];
     lanes_int axis; // the direction's largest component: the third axis of the sheared space
@@ -26,17 +28,18 @@ typedef struct packet {
 } packet;
 
 typedef struct closest {
-    real t;          // in lengths of the direction; HUGE where nothing was hit
+    real t;          // in lengths of the direction; HUGE: no hit
     real b1, b2;     // barycentric weights of the second and third vertex
     lanes_int place; // of the triangle hit, −1: none
-} closest;
+} closest; // of the triangle hit; −1: none
 
-// The far distance is widened by this much, so that rounding never loses a box that is touched
-// (Ize, Robust BVH Ray Traversal, 2013): on either side a difference, a product and a division, and
-// OpenCL lets a division be wrong by 2.5 units in the last place, five times EPSILON.
+// Widens the far distance, so that rounding never loses a box that the ray touches (Ize, Robust BVH
+// Ray Traversal, 2013). Each side has a difference, a product and a division. OpenCL allows an
+// error of 2.5 units in the last place in a division, five times EPSILON.
 #define FAR_SLACK (R(1.0) + R(16.0) * EPSILON)
 
-// 1/d, kept finite so that 0 times it is 0 and not NaN: a ray along a box's face is inside it.
+// 1/d, kept finite so that 0 times it is 0 and not NaN. So a ray along a box's face is inside the
+// box.
 static inline real finite_inverse(real d)
 {
     const real smallest = real_of(R(1.0) / HUGE);
@@ -44,7 +47,7 @@ static inline real finite_inverse(real d)
     return copysign(R(1.0) / magnitude, d);
 }
 
-// Leaves origin_low unset: packet_of_paths, which rays are traced by, sets it as well.
+// Leaves origin_low unset. packet_of_paths, which makes the packets for tracing, also sets it.
 static inline packet make_packet(real3 origin, real3 direction)
 {
     packet p;
@@ -72,7 +75,7 @@ static inline packet make_packet(real3 origin, real3 direction)
     return p;
 }
 
-// The rays that may meet one box before what they have hit so far.
+// The rays that may meet one box before their nearest hit so far.
 static inline mask rays_meet_box(const packet *p, global const float *node, int child,
                                  real farthest)
 {
@@ -90,7 +93,7 @@ static inline mask rays_meet_box(const packet *p, global const float *node, int 
     return near <= far * FAR_SLACK;
 }
 
-// A cluster, whose triangles stand from place `first` on, and all triangles' numbers.
+// A cluster, the place `first` of its first triangle, and the numbers of all triangles.
 typedef struct leaf {
     global const float *cluster;
     global const int *numbers;
@@ -104,7 +107,8 @@ static inline leaf leaf_at(const scene_buffers *scene, int index)
     return l;
 }
 
-// Rays' origins as a leaf's vertices are told; with LOCAL_ORIGINS they are worked out in `room`.
+// The rays' origins, relative to the anchor of a leaf's vertices. With LOCAL_ORIGINS `room` holds
+// the result.
 static inline const real *origins_at_leaf(const packet *p, const leaf *leaf, real room[3])
 {
 #if GLINT_LOCAL_ORIGINS
@@ -135,8 +139,8 @@ static inline void load_triangle(global const float *cluster, int lane, float ve
     }
 }
 
-// Of two triangles at one distance the one with the lower number in the scene is seen, whatever the
-// order of the tests: where that is `place` and not `other`.
+// Of two triangles at the same distance, the triangle with the lower number in the scene is
+// visible, for every order of tests. Returns the rays for which `place` wins over `other`.
 static inline mask has_lower_number(global const int *numbers, int place, lanes_int other,
                                     mask wanted)
 {
@@ -148,14 +152,14 @@ static inline mask has_lower_number(global const int *numbers, int place, lanes_
     return lower != (lane_int)0;
 }
 
-// A triangle this much smaller than the box around it has its weights refined: those of others have
-// lost four digits at most.
+// A triangle whose area is this much smaller than its bounding box gets refined weights. The
+// weights of other triangles lose at most four digits.
 #define SLIVER R(0.0625)
 
-// The weights of corners at (x, y), where a triangle that holds (0, 0) has all at 0 or above or all
-// at 0 or below: for slivers again, as precise as the corners allow. Where (0, 0) then turns out to
-// lie beside the triangle, as rounding alone had put it inside, the nearest point of that edge is
-// taken: weights stay within [0, 1], and distances within what the triangle's box was tested for.
+// Recomputes the weights of slivers as precisely as the corners allow. The corners are at (x, y);
+// the triangle holds (0, 0), so all weights are ≥ 0 or all are ≤ 0. The refined weights may show
+// that (0, 0) lies beside the triangle, and that only rounding had put it inside. Then the nearest
+// point of that edge counts. So weights stay within [0, 1], and distances within the tested box.
 static inline void refine_weights(const real x[3], const real y[3], mask wanted, real weights[3])
 {
     const real width = LARGEST3(fabs(x[0]), fabs(x[1]), fabs(x[2]));
@@ -165,6 +169,7 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
     if (!any_lane(slivers)) {
         return;
     }
+    // Compute the weights again without cancellation.
     real refined[3];
 #pragma unroll
     for (int k = 0; k < 3; k++) {
@@ -181,6 +186,7 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
     for (int k = 0; k < 3; k++) {
         weights[k] = SELECT(inside, refined[k], weights[k]);
     }
+    // Beside the triangle: take the nearest point of the edge.
 #pragma unroll
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -196,17 +202,18 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
     }
 }
 
-// How far from a triangle's plane rays start that leave it, in terms of its vertices' distances from
-// the origin of coordinates along the plane's normal; place_on_triangle says why. With
-// LOCAL_ORIGINS that is the cluster's, and telling the start from there takes two roundings more.
+// Distance from a triangle's plane at which rays start that leave the triangle. It is a factor of
+// the vertices' distances from the origin of coordinates, along the plane's normal;
+// place_on_triangle gives the reason. With LOCAL_ORIGINS the origin is the cluster's, and the start
+// needs two more roundings.
 #if GLINT_LOCAL_ORIGINS
 #define START_OFFSET (R(12.0) * EPSILON)
 #else
 #define START_OFFSET (R(8.0) * EPSILON)
 #endif
 
-// Whether three points lie in the plane of a triangle: all of them as near to it as rays start off
-// it (place_on_triangle).
+// True if three points lie in the plane of a triangle. The tolerance is the distance from the plane
+// at which rays start (place_on_triangle).
 static inline bool lie_in_plane(const float own[9], const scalar corners[9])
 {
     scalar a[3], b[3], farthest = R(0.0), off[3] = {R(0.0), R(0.0), R(0.0)};
@@ -229,7 +236,7 @@ static inline bool lie_in_plane(const float own[9], const scalar corners[9])
     return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <= START_OFFSET * farthest;
 }
 
-// Whether a triangle lies in the plane of the one at place `start`, −1 for none.
+// True if a triangle lies in the plane of the triangle at place `start`; −1: none.
 static inline bool lies_in_plane_of(const leaf *leaf, int start, const float corners[9])
 {
     if (start < 0) {
@@ -246,13 +253,13 @@ static inline bool lies_in_plane_of(const leaf *leaf, int start, const float cor
     return lie_in_plane(own, told);
 }
 
-// A ray that leaves a plane meets no triangle that lies in it. Where it starts in the plane itself,
-// as on one through the origin of coordinates at right angles to an axis, rounding may say that it
-// does: at a depth of some 8u of the farthest corner's over the cosine to the normal, which is less
-// than this share of it down to cosines of 10⁻⁴.
+// A ray that leaves a plane meets no triangle in that plane. But rounding may report a hit if the
+// ray starts exactly in the plane, for example in a plane through the origin of coordinates at
+// right angles to an axis. The false hit has a depth of about 8u of the farthest corner's depth,
+// over the cosine to the normal. For cosines down to 10⁻⁴ this is less than the share below.
 #define NEXT_TO_NOTHING R(0.00390625)
 
-// False for those of some rays that start in the plane of a triangle; true for all others.
+// False for rays among `rays` that start in the plane of the triangle; true for all others.
 static inline mask start_off_plane(const leaf *leaf, lanes_int from, const float corners[9],
                                    mask rays)
 {
@@ -265,8 +272,8 @@ static inline mask start_off_plane(const leaf *leaf, lanes_int from, const float
 }
 
 #if LOCAL_RAYS
-// How far it is to a triangle that is large beside that: `t` is what its corners' depths, along axis
-// z from the rays' origins, tell.
+// The distance to a triangle that is large compared with that distance. `depths` are the corners'
+// depths along axis z from the rays' origins, and `t` is the distance computed from them.
 static inline real distance_nearby(const packet *p, const leaf *leaf, int z, const float corners[9],
                                    const real depths[3], real t)
 {
@@ -287,8 +294,8 @@ static inline real distance_nearby(const packet *p, const leaf *leaf, int z, con
 }
 #endif
 
-// Tests a leaf's triangle at `place` against the rays in `active`, which start on the triangles at
-// the places `from`, and keeps the nearer hit. `origin` is as origins_at_leaf says.
+// Tests a leaf's triangle at `place` against the rays in `active` and keeps the nearer hit. The
+// rays start on the triangles at the places `from`. `origin` comes from origins_at_leaf.
 static inline bool intersect_triangle(const packet *p, const real *origin, int axes,
                                       const leaf *leaf, int place, lanes_int from, mask active,
                                       closest *hit)
@@ -312,7 +319,8 @@ static inline bool intersect_triangle(const packet *p, const real *origin, int a
         real by = fused(-p->shear_y, bz, vertices[3 + y] - origin[y]);
         real cx = fused(-p->shear_x, cz, vertices[6 + x] - origin[x]);
         real cy = fused(-p->shear_y, cz, vertices[6 + y] - origin[y]);
-        // Twice the areas that the ray cuts off, on either side of it. Not fused: see above.
+        // Twice the signed areas of the three parts into which the ray divides the triangle. Not
+        // fused: see the top of the file.
         real u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
         real least = SMALLEST3(u, v, w), most = LARGEST3(u, v, w);
         real determinant = u + v + w;
@@ -323,10 +331,12 @@ static inline bool intersect_triangle(const packet *p, const real *origin, int a
         if (!any_lane(inside)) {
             continue;
         }
+        // On an edge, the ray must also pass within the bounds of the corners.
         if (any_lane(inside & ((least == R(0.0)) | (most == R(0.0))))) {
             inside = inside & (SMALLEST3(ax, bx, cx) <= R(0.0)) & (LARGEST3(ax, bx, cx) >= R(0.0)) &
                      (SMALLEST3(ay, by, cy) <= R(0.0)) & (LARGEST3(ay, by, cy) >= R(0.0));
         }
+        // Refine the weights and find the distance.
         const real across[3] = {ax, bx, cx}, up[3] = {ay, by, cy};
         real weights[3] = {u, v, w};
         refine_weights(up, across, inside, weights);
@@ -342,6 +352,7 @@ static inline bool intersect_triangle(const packet *p, const real *origin, int a
             t = SELECT(nearby, distance_nearby(p, leaf, z, vertices, depths, t), t);
         }
 #endif
+        // Keep hits in front of the start; of these the nearest, or on a tie the lower number.
         inside = inside & (t > R(0.0));
         const mask near = inside & (t < NEXT_TO_NOTHING * reach);
         if (any_lane(near)) {
@@ -367,7 +378,7 @@ typedef struct lone_ray {
     scalar origin_low[3];
 #endif
     scalar shear_x, shear_y, shear_z;
-    int axis, from; // `from` is the place of the triangle that it starts on, −1: none
+    int axis, from; // `from`: place of the triangle that the ray starts on; −1: none
 } lone_ray;
 
 static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
@@ -388,7 +399,7 @@ static inline lone_ray take_ray(const packet *p, int lane, lanes_int from)
     return ray;
 }
 
-// Its origin along axis k as a leaf's vertices are told: as origins_at_leaf.
+// The ray's origin along axis k, relative to the leaf's anchor, as in origins_at_leaf.
 static inline scalar origin_at_leaf(const lone_ray *ray, const leaf *leaf, int k)
 {
     scalar origin = FROM_ANCHOR(leaf->cluster, k, ray->origin[k]);
@@ -398,15 +409,16 @@ static inline scalar origin_at_leaf(const lone_ray *ray, const leaf *leaf, int k
     return origin;
 }
 
-// A ray against all triangles of a cluster: bits say for which the ray is inside or, perhaps by
-// rounding alone, on an edge; u, v and w as in intersect_triangle.
+// One ray against all triangles of a cluster. Bits mark the triangles that the ray is inside of,
+// and those where it is on an edge, perhaps only by rounding. u, v and w are as in
+// intersect_triangle.
 typedef struct cluster_test {
     uint inside, on_edge;
     block u, v, w;
 } cluster_test;
 
-// The first half of intersect_triangle for one ray and the triangles of a cluster: operation by
-// operation the same. Without a branch, so that one ray's test does not wait for another's.
+// The first half of intersect_triangle, for one ray and all triangles of a cluster, with exactly
+// the same operations. It has no branch, so one ray's test does not wait for another's.
 static inline void test_cluster(const lone_ray *ray, const leaf *leaf, cluster_test *test)
 {
     global const float *cluster = leaf->cluster;
@@ -414,7 +426,7 @@ static inline void test_cluster(const lone_ray *ray, const leaf *leaf, cluster_t
     const int count = count_of_cluster(cluster);
     const scalar ox = origin_at_leaf(ray, leaf, x), oy = origin_at_leaf(ray, leaf, y);
     const block shear_x = block_of(-ray->shear_x), shear_y = block_of(-ray->shear_y);
-    // Vertices relative to the origin, sheared, and then those of each corner.
+    // Vertices relative to the origin, sheared. Then permute them to the triangles' corners.
     block depth = load_block(cluster + z * GLINT_CLUSTER_LANES) - origin_at_leaf(ray, leaf, z);
     block across = fused(shear_x, depth, load_block(cluster + x * GLINT_CLUSTER_LANES) - ox);
     block up = fused(shear_y, depth, load_block(cluster + y * GLINT_CLUSTER_LANES) - oy);
@@ -436,7 +448,7 @@ static inline void test_cluster(const lone_ray *ray, const leaf *leaf, cluster_t
 }
 
 #if LOCAL_RAYS
-// What distance_nearby needs of a packet, the same in all lanes.
+// A packet with the data that distance_nearby needs, the same in all lanes.
 static inline packet packet_of_lone(const lone_ray *ray)
 {
     packet p;
@@ -452,8 +464,8 @@ static inline packet packet_of_lone(const lone_ray *ray)
 }
 #endif
 
-// The second half, for triangle i: whether it is hit before *hit, in one lane of which the ray's
-// hit is. Then it takes its place.
+// The second half, for triangle i. If the ray meets it before its hit so far, in lane `lane` of
+// *hit, it becomes the new hit.
 static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const cluster_test *test,
                                   int i, closest *hit, int lane)
 {
@@ -474,7 +486,7 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
           SMALLEST3(ay, by, cy) <= R(0.0) && LARGEST3(ay, by, cy) >= R(0.0))) {
         return false;
     }
-    // One ray's, in all lanes: the same operations as a packet's.
+    // One ray's values in all lanes: the same operations as for a packet.
     const real across[3] = {real_of(ax), real_of(bx), real_of(cx)};
     const real up[3] = {real_of(ay), real_of(by), real_of(cy)};
     real weights[3] = {real_of(((const scalar *)&test->u)[i]),
@@ -493,6 +505,7 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
         t = LANE(nearby, 0);
     }
 #endif
+    // Keep the nearer hit, or on a tie the lower number.
     const scalar before = LANE(hit->t, lane);
     if (!(t > R(0.0) && t <= before)) {
         return false;
@@ -511,7 +524,7 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
     return true;
 }
 
-// The triangles of the cluster that the test found, against the ray's hit. True if one is nearer.
+// Compares the triangles that the test found with the ray's hit. True if one of them is nearer.
 static inline bool take_nearest(const lone_ray *ray, const leaf *leaf, const cluster_test *test,
                                 closest *hit, int lane)
 {

@@ -1,15 +1,15 @@
-// Lanes: what a packet of rays is made of, at each width and precision. Other files loop over
-// GLINT_WIDTH lanes where they gather or scatter, and leave the rest to the types and functions
+// Defines the lanes of a packet of rays at each width and precision. Other files loop over
+// GLINT_WIDTH lanes only to gather or scatter. For everything else they use the types and functions
 // here.
 //
-// `real` is one value per ray of the packet: a scalar for GLINT_WIDTH 1, a vector of 8 or 16
-// otherwise; of float or, with GLINT_DOUBLE, of double. `mask` says yes or no for each ray and
-// `lanes_int` holds a whole number for each; both have the size of real's elements, so that one may
-// select the other. A comparison of scalars gives 1 and one of vectors gives −1, so masks are only
-// combined with & and |, negated with !, and read through any_lane, lane_is_set and select_….
+// `real` is one value per ray of the packet: a scalar for GLINT_WIDTH 1, else a vector of 8 or 16.
+// Its elements are float or, with GLINT_DOUBLE, double. `mask` holds yes or no per ray, `lanes_int`
+// a whole number per ray. Both have elements of the same size as real, so each can select between
+// the others. A comparison gives 1 for scalars and −1 for vectors. So masks are only combined with
+// & and |, negated with !, and read through any_lane, lane_is_set and select_….
 //
-// The same source gives the same bits at every width: contraction is off, and where a fused
-// multiply-add is wanted it is written fused().
+// The same source gives the same bits at every width: contraction is off, and code that wants a
+// fused multiply-add calls fused().
 #pragma OPENCL FP_CONTRACT OFF
 
 #if GLINT_DOUBLE
@@ -60,7 +60,7 @@ typedef int lane_int;
 typedef LANES(int) mask;
 #endif
 
-// The packet covers PACKET_WIDTH × PACKET_HEIGHT pixels, lanes row by row.
+// The packet covers PACKET_WIDTH × PACKET_HEIGHT pixels; its lanes run row by row.
 #define PACKET_WIDTH GLINT_PACKET_COLUMNS(GLINT_WIDTH)
 #define PACKET_HEIGHT GLINT_PACKET_ROWS(GLINT_WIDTH)
 
@@ -71,7 +71,7 @@ typedef LANES(int) mask;
 #define JOIN(high, low) (high)
 #endif
 
-// The number whose bits are the integer's, and the other way round.
+// Reinterprets the bits of an integer as a number, and the bits of a number as an integer.
 #if GLINT_DOUBLE
 #define AS_REAL_(width) as_double##width
 #define AS_INT_(width) as_long##width
@@ -93,31 +93,32 @@ typedef LANES(int) mask;
 #define LANE(value, lane) (((scalar *)&(value))[lane])
 #define LANE_INT(value, lane) (((lane_int *)&(value))[lane])
 
-// yes ? a : b, lane by lane. A NaN in the value that is not chosen does no harm.
+// yes ? a : b, lane by lane. A NaN in the value that is not selected does no harm.
 #define SELECT(yes, a, b) ((yes) ? (a) : (b))
 
-// The smaller and the larger; a NaN in `a` gives b.
+// The smaller and the larger value. If `a` is NaN the result is b.
 #define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define SMALLEST3(a, b, c) SMALLER(SMALLER(a, b), c)
 #define LARGEST3(a, b, c) LARGER(LARGER(a, b), c)
 
-// a × b + c, rounded once where the device does that in one instruction (FP_FAST_FMAF is OpenCL's
-// way to say so; PoCL's compiler says __FMA__). Elsewhere fma() is a function of many.
+// a × b + c, rounded once if the device has an instruction for it (OpenCL defines FP_FAST_FMAF,
+// PoCL's compiler __FMA__). Elsewhere fma() would be a slow function of many instructions.
 #if defined(FP_FAST_FMAF) || defined(__FMA__)
 #define fused(a, b, c) fma(a, b, c)
 #else
 #define fused(a, b, c) ((a) * (b) + (c))
 #endif
 
-// a b − c d within 1.5 units in the last place (Kahan; Jeannerod, Louvet and Muller, Further
-// analysis of Kahan's algorithm, 2013), where the difference of rounded products may have no digit
-// right.
+// a b − c d within 1.5 units in the last place. The plain difference of rounded products may have
+// no correct digit. (Kahan; Jeannerod, Louvet and Muller, Further analysis of Kahan's algorithm,
+// 2013.)
 #define DIFFERENCE_OF_PRODUCTS(a, b, c, d) (fma(a, b, -((c) * (d))) + fma(-(c), d, (c) * (d)))
 
-// clang's reductions become one or two instructions; without them halves are folded. Interpreters
-// such as Oclgrind accept them and cannot run them: -DGLINT_NO_REDUCTIONS takes the portable form.
-// So do drivers that compile to SPIR-V (Mesa's rusticl), which has no instruction for them.
+// clang's reductions become one or two instructions; the portable form folds halves. Interpreters
+// such as Oclgrind accept the reductions and cannot run them: -DGLINT_NO_REDUCTIONS selects the
+// portable form. SPIR-V has no instruction for them, so drivers that compile to it (Mesa's rusticl)
+// also take the portable form.
 #if (defined(__SPIR) || defined(__SPIRV__)) && !defined(GLINT_NO_REDUCTIONS)
 #define GLINT_NO_REDUCTIONS
 #endif
@@ -127,8 +128,8 @@ typedef LANES(int) mask;
 #endif
 #endif
 
-// A mask's lanes as bits of a whole number, lane i bit i. Compilers for x86 have an instruction for
-// it, which they do not find by themselves.
+// The lanes of a mask as bits of a whole number: lane i is bit i. x86 has an instruction for it,
+// which compilers do not find by themselves.
 #if defined(__AVX512DQ__) && !GLINT_DOUBLE && !defined(GLINT_NO_REDUCTIONS)
 #define HAS_MASK_REGISTERS 1
 #else
@@ -158,7 +159,7 @@ static inline uint bits_of_16(MASK_TYPE(16) m)
 #endif
 }
 
-// The same of 32-bit numbers, whatever the precision.
+// bits_of_16 for 32-bit numbers, at both precisions.
 #if GLINT_DOUBLE
 static inline uint bits_of_int16(int16 m) { return bits_of_16(convert_long16(m)); }
 #else
@@ -195,8 +196,8 @@ static inline int lowest_bit(uint bits)
 #endif
 }
 
-// Stores the numbers that `bits` chooses side by side; what follows them, up to 16 in all, means
-// nothing.
+// Stores the numbers that `bits` selects side by side in `list`. It may also overwrite the rest of
+// the list's first 16 entries with values without meaning.
 static inline void store_chosen(int16 numbers, uint bits, int *list)
 {
 #if HAS_MASK_REGISTERS
@@ -287,7 +288,7 @@ static inline bool lane_is_set(mask m, int lane) { return LANE_INT(m, lane) != 0
 
 static inline scalar largest_lane(real a) { return -smallest_lane(-a); }
 
-// In a fixed order, lane by lane, so that the sum is the same at every build.
+// Adds in a fixed order, lane by lane, so that every build gives the same sum.
 static inline scalar sum_of_lanes(real a)
 {
     scalar sum = 0;
@@ -308,8 +309,9 @@ static inline lanes_int lane_numbers(void)
 
 #endif
 
-// The rays among `left` whose number is that of the first of these, and their number: rays that are
-// close to each other tend to share what they meet, which is then fetched once.
+// Takes the lowest ray of `left` and all others with the same number out of `left`. Returns these
+// rays and sets their number. Neighbouring rays tend to share what they hit, so shared data is
+// fetched once.
 static inline mask next_alike(lanes_int numbers, uint *left, int *number)
 {
     *number = (int)LANE_INT(numbers, lowest_bit(*left));
@@ -318,8 +320,8 @@ static inline mask next_alike(lanes_int numbers, uint *left, int *number)
     return alike;
 }
 
-// Asks the memory for the line of 64 bytes at `p`, where the target has a cache and an instruction
-// for that; its compiler's builtin wants a pointer to private memory.
+// Prefetches the cache line of 64 bytes at `p`, if the target has a cache and an instruction for
+// it. The compiler's builtin wants a pointer to private memory.
 #if defined(__x86_64__) && defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
 #if __has_builtin(__builtin_prefetch)
 #define prefetch_line(p) __builtin_prefetch((const void *)(uintptr_t)(p))
@@ -355,7 +357,7 @@ typedef float16 pixel_row;
 #define store_pixel_row(values, row, pixels) vstore16(values, row, pixels)
 #endif
 
-// The same colours with alpha 0 or 1.
+// The same colours with alpha set to 0 or 1.
 #if GLINT_WIDTH == 1
 #define IS_COLOR (MASK_TYPE(4))(-1, -1, -1, 0)
 #else
@@ -364,7 +366,7 @@ typedef float16 pixel_row;
 #define without_alpha(row) (IS_COLOR ? (row) : (pixel_row)0)
 #define opaque(row) (IS_COLOR ? (row) : (pixel_row)1)
 
-// Stores a row of pixels that nothing here will read again, past the caches where the target can:
+// Stores a row of pixels past the caches if the target can, because no code here reads it again.
 // `pixels` is aligned to the row's size.
 #if GLINT_WIDTH > 1 && defined(__has_builtin) && !defined(GLINT_NO_REDUCTIONS)
 #if __has_builtin(__builtin_nontemporal_store)
@@ -393,7 +395,7 @@ typedef float16 pixel_row;
                             12 + i, i + 5, 13 + i, i + 6, 14 + i, i + 7, 15 + i)
 #endif
 
-// Eight pixels, from the pairs (R, G) and (B, alpha) of each.
+// Stores eight pixels from their pairs (R, G) and (B, alpha).
 static inline void store_eight_pixels(pixel_row rg, pixel_row ba, scalar *pixels)
 {
     vstore16(
@@ -477,8 +479,8 @@ static inline real largest_magnitude3(real3 a)
     return largest3(real3_of(fabs(a.x), fabs(a.y), fabs(a.z)));
 }
 
-// Where the largest component is x, and where y, else z. On a tie the order x, y, z decides, as in
-// ImfEnvmap.h.
+// Sets the masks of the rays whose largest component is x, and y; else it is z. On a tie the order
+// x, y, z decides, as in ImfEnvmap.h.
 static inline void find_major(real3 d, mask *x, mask *y)
 {
     real ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
@@ -486,9 +488,9 @@ static inline void find_major(real3 d, mask *x, mask *y)
     *y = !*x & (ay >= az);
 }
 
-// 1/√x for x in [2⁻⁶⁰, 2⁶⁰], within 2 units in the last place: Newton's iteration from an estimate
-// by the exponent, good to 0.2%, then 5e-6, then 4e-11 (Lomont, Fast Inverse Square Root, 2003).
-// The same on every device, and a third of the time of a root and a division.
+// 1/√x for x in [2⁻⁶⁰, 2⁶⁰], within 2 units in the last place. Newton's iteration starts from an
+// estimate by the exponent; the error is 0.2%, then 5e-6, then 4e-11 (Lomont, Fast Inverse Square
+// Root, 2003). It gives the same on every device, in a third of the time of a root and a division.
 static inline real inverse_root(real x)
 {
 #if GLINT_DOUBLE
@@ -501,8 +503,8 @@ static inline real inverse_root(real x)
 #endif
 }
 
-// 2⁻ᵉ for a in [2ᵉ, 2ᵉ⁺¹), and about that for values that are near the ends of the range: a product
-// with it is clear of overflow and underflow, and exact.
+// 2⁻ᵉ for a in [2ᵉ, 2ᵉ⁺¹), and about 2⁻ᵉ for values near the ends of the range. A product of `a`
+// with it is exact and safe from overflow and underflow.
 static inline real inverse_exponent(real a)
 {
 #if GLINT_DOUBLE
@@ -516,7 +518,7 @@ static inline real inverse_exponent(real a)
     return real_from_bits(twice_the_bias - bits);
 }
 
-// e of a finite a in [2ᵉ, 2ᵉ⁺¹).
+// The exponent e of a finite a in [2ᵉ, 2ᵉ⁺¹).
 static inline lanes_int exponent_of(real a)
 {
 #if GLINT_DOUBLE
@@ -526,31 +528,31 @@ static inline lanes_int exponent_of(real a)
 #endif
 }
 
-// A vector along `a` of a moderate length, the square of which is clear of overflow and underflow,
-// and whether there is one: not for zero, infinite or NaN components.
+// A vector along `a` of a moderate length, whose square is safe from overflow and underflow.
+// `valid` is false for zero, infinite and NaN components.
 static inline real3 moderate(real3 a, mask *valid)
 {
     real largest = largest_magnitude3(a);
-    // Written so that NaN is not valid: each comparison is false for it.
+    // Each comparison is false for NaN, so NaN is not valid.
     *valid = (largest > R(0.0)) & (fabs(a.x) < (scalar)INFINITY) & (fabs(a.y) < (scalar)INFINITY) &
              (fabs(a.z) < (scalar)INFINITY);
     return scale(a, inverse_exponent(SELECT(*valid, largest, real_of(1))));
 }
 
-// The unit vector along `a`, and whether there is one.
+// The unit vector along `a`; `valid` says if there is one.
 static inline real3 normalized(real3 a, mask *valid)
 {
     real3 b = moderate(a, valid);
     return scale(b, inverse_root(dot3(b, b)));
 }
 
-// All components are 0 or −0.
+// True if all components are 0 or −0.
 static inline mask is_zero3(real3 a)
 {
     const lanes_int bits = bits_from_real(a.x) | bits_from_real(a.y) | bits_from_real(a.z);
     return (bits << 1) == (lane_int)0;
 }
 
-// A unit vector that has drifted by a few rounding errors, put right by one step of Newton's
+// Corrects a unit vector that has drifted by a few rounding errors, by one step of Newton's
 // iteration for 1/√(v·v).
 static inline real3 renormalized(real3 v) { return scale(v, R(1.5) - R(0.5) * dot3(v, v)); }

@@ -1,12 +1,12 @@
-// Diagnostic layers: what the paths of each of a tile's pixels do on their way (glint_layers_record
-// in layout.h). A pixel's paths note things in an order of their own, so that the layers, as the
-// picture, are the same at every width and size of tiles.
+// Fills the diagnostic layers: records what happens to the paths of each of a tile's pixels
+// (glint_layers_record in layout.h). A pixel's paths are recorded in their own fixed order. So the
+// layers, like the image, are the same at every width and size of tiles.
 #if GLINT_DIAGNOSTICS
 
 typedef struct layers {
     glint_layers_record of_pixel[TILE_PIXELS];
-    scalar heaviest[TILE_PIXELS]; // weight of the look-up whose face is noted, 0: none yet
-    bool is_middle;               // this sample gives the first surface and the face
+    scalar heaviest[TILE_PIXELS]; // weight of the look-up whose face is stored; 0: none yet
+    bool is_middle;               // this sample sets the first surface and the face
 } layers;
 
 static inline void begin_layers(layers *l)
@@ -24,7 +24,7 @@ static inline void begin_layers(layers *l)
     }
 }
 
-// The rays in `met` have met a surface, each the given one of its path's.
+// Records that the rays in `met` have met a surface; `surface` is its number on the path.
 static inline void note_surfaces(layers *l, const pixels *pixels, mask met, lanes_int surface)
 {
     for (uint left = mask_bits(met); left != 0; left &= left - 1) {
@@ -41,7 +41,7 @@ static inline void note_total_reflections(layers *l, const pixels *pixels, mask 
     }
 }
 
-// The rays in `truncated` take the environment without being traced.
+// Records the rays in `truncated`, which take the environment without being traced.
 static inline void note_truncation(layers *l, const pixels *pixels, mask truncated, real3 weight)
 {
     const real largest = largest3(weight);
@@ -51,8 +51,8 @@ static inline void note_truncation(layers *l, const pixels *pixels, mask truncat
     }
 }
 
-// The rays in `wanted` are looked up at these points of the environment. Of look-ups that weigh the
-// same the first is kept; one without weight shows nothing.
+// Records the face that the rays in `wanted` look up. Of look-ups with equal weight the first is
+// kept. A look-up without weight records nothing.
 static inline void note_faces(layers *l, const pixels *pixels, mask wanted, real3 weight,
                               lanes_int face)
 {
@@ -66,7 +66,7 @@ static inline void note_faces(layers *l, const pixels *pixels, mask wanted, real
     }
 }
 
-// Writes those of the tile's pixels that lie inside the image.
+// Writes the tile's pixels that lie inside the image.
 static inline void store_layers(const layers *l, const glint_frame_record *frame, int column,
                                 int row, global glint_layers_record *stored)
 {

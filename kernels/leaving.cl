@@ -1,6 +1,6 @@
-// Branches that leave a surface: where they start, what they carry, and which of them end there.
+// Creates the branches that leave a surface: their start, the data they carry, and early ends.
 
-// One branch that leaves the surface: a ray along `direction`, on the viewer's side or `beyond`.
+// A branch that leaves the surface: a ray along `direction`, on the viewer's side or `beyond`.
 static inline path make_branch(const path *ray, const surface *s, const closest *hit,
                                real3 direction, mask beyond)
 {
@@ -26,8 +26,8 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     return branch;
 }
 
-// Rule 7: which of the branches that exist have met all the surfaces they may, or weigh too little.
-// What that leaves out is counted.
+// Rule 7: finds branches among `exists` that have met the largest number of surfaces, or that weigh
+// too little. Counts the light that this truncation leaves out.
 static inline mask ended(const glint_frame_record *frame, real weight, lanes_int met, mask exists,
                          const pixels *pixels, tally *tally)
 {
@@ -39,7 +39,8 @@ static inline mask ended(const glint_frame_record *frame, real weight, lanes_int
     return deep | light;
 }
 
-// How many surfaces that are there a path has met.
+// The number of surfaces that a path has met; surfaces that it passed through as absent do not
+// count.
 static inline lanes_int surfaces_met(const path *ray)
 {
 #if GLINT_ALPHA
@@ -49,8 +50,8 @@ static inline lanes_int surfaces_met(const path *ray)
 #endif
 }
 
-// Such a branch takes the environment along its direction; one that would not be traced anyway is
-// none of them.
+// Ends such branches: they take the environment along their direction. Branches that are already
+// looked up without tracing stay unchanged.
 static inline void end_branch(const glint_frame_record *frame, path *branch, mask exists,
                               const pixels *pixels, tally *tally)
 {
@@ -61,8 +62,8 @@ static inline void end_branch(const glint_frame_record *frame, path *branch, mas
 }
 
 #if GLINT_FACETS
-// What of lobes a branch's direction stands for. `how`: scaled and bend as in leave_surface, and by
-// how much the branch turns for each turn of a facet.
+// The part of a lobe that a branch's direction stands for. `how` holds scaled and bend as in
+// leave_surface, and the turn of the branch per turn of a facet.
 static inline cone leave_facet(const path *ray, real t, const surface *s, const real how[3])
 {
     const real width = width_after(&ray->lobe, t);
@@ -74,7 +75,8 @@ static inline cone leave_facet(const path *ray, real t, const surface *s, const 
 #endif
 
 #if GLINT_ROUGH && CARRIES_CONES
-// What leaves by a lobe: the surface's, or that of a coat that goes the same way.
+// The spread of a cone reflected by a lobe: the surface's lobe, or the lobe of a coat that takes
+// the same direction.
 static inline real widened_by_reflection(const surface *s, const scattering *out, real spread)
 {
     real roughness = s->roughness;
@@ -89,7 +91,7 @@ static inline real widened_by_reflection(const surface *s, const scattering *out
 #endif
 
 #if COATS_APART && GLINT_ROUGH
-// What a branch that leaves a coat apart brings of its lobe.
+// Hands the lobe of a coat apart to the branch that leaves it.
 static inline void leave_coat(const surface *s, const scattering *out, const seen_lobe *coat,
                               path *branch)
 {
@@ -104,7 +106,8 @@ static inline void leave_coat(const surface *s, const scattering *out, const see
 #endif
 
 #if GLINT_DISPERSION && GLINT_OVERLAPS
-// Whether the medium on top disperses light: of two that touch the other one's surface may be shown.
+// True if the medium on top disperses light. Where two surfaces touch, the hit may be the other
+// solid's.
 static inline mask do_disperse(const scene_buffers *scene, lanes_int media)
 {
     lanes_int does = int_of(0);
@@ -117,9 +120,9 @@ static inline mask do_disperse(const scene_buffers *scene, lanes_int media)
 #endif
 
 #if GLINT_DISPERSION
-// Of the rays in `met`, those that meet a solid which disperses light, and have not yet, are of the
-// round's wavelength from here on: each stands for the shares of R, G and B of as many rounds as
-// there are wavelengths.
+// Gives rays the round's wavelength when they first meet a dispersive solid. Each such ray stands
+// for the wavelength's shares of R, G and B, times the number of wavelengths, because every
+// wavelength has its own rounds.
 static inline void disperse(const scene_buffers *scene, const glint_frame_record *frame, mask met,
                             const pixels *pixels, path *ray, surface *s, tally *tally)
 {

@@ -1,4 +1,4 @@
-// What the frame says of directions, and what the environment sends to surfaces.
+// Reads directions from the frame, and finds the light that the environment sends to surfaces.
 
 static inline real3 join_vector(const glint_split_vector *v)
 {
@@ -6,7 +6,7 @@ static inline real3 join_vector(const glint_split_vector *v)
                     real_of(JOIN(v->high[2], v->low[2])));
 }
 
-// The environment turned by the angle a about +Y is looked up along d turned by −a.
+// If the environment is turned by the angle a about +Y, it is looked up along d turned by −a.
 static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)
 {
     if (!GLINT_ENV_ROTATION) {
@@ -17,8 +17,9 @@ static inline real3 turn_into_environment(const glint_frame_record *frame, real3
     return real3_of(fused(c, d.x, -(s * d.z)), d.y, fused(s, d.x, c * d.z));
 }
 
-// The irradiance over π: from the map or, with IRRADIANCE_HARMONICS, the polynomial of layout.h.
-// Where that is negative, which is a few percent of a single light's at most, there is no light.
+// The irradiance over π: from the map or, with IRRADIANCE_HARMONICS, from the polynomial of
+// layout.h. Negative values of the polynomial become 0. With a single light they are at most a few
+// percent.
 static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wanted)
 {
     if (!GLINT_IRRADIANCE_HARMONICS) {
@@ -35,9 +36,9 @@ static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wa
                     LARGER(sum.z, real_of(0)));
 }
 
-// Where rays leave the proxy's box: the last of the slabs' far planes that they come to first, if
-// they are then past the last near one. A ray in a slab's plane is in that slab: where 0 · ∞ is NaN
-// the comparisons let the other planes decide.
+// The distance at which rays leave the proxy's box: the nearest of the slabs' far planes. A ray
+// leaves the box only if this plane lies behind the last near plane. A ray in the plane of a slab
+// is inside that slab: there 0 · ∞ is NaN, and the comparisons let the other planes decide.
 static inline mask leave_box(real3 from_middle, real3 d, real3 half_extent, real *exit)
 {
     const real p[3] = {from_middle.x, from_middle.y, from_middle.z}, v[3] = {d.x, d.y, d.z};
@@ -54,8 +55,9 @@ static inline mask leave_box(real3 from_middle, real3 d, real3 half_extent, real
     return *exit > enter;
 }
 
-// Likewise the sphere. The distance of its middle to the ray is taken along what is left of the way
-// there at right angles to it, which keeps its digits however far the ray begins.
+// The same distance for a sphere. The distance from its middle to the ray is the length of the part
+// of the vector `from_middle` at right angles to d. It keeps its digits for any distance of the
+// ray's start.
 static inline mask leave_sphere(real3 from_middle, real3 d, real radius, real *exit)
 {
     const real along = dot3(from_middle, d);
@@ -65,9 +67,10 @@ static inline mask leave_sphere(real3 from_middle, real3 d, real radius, real *e
     return squared > R(0.0);
 }
 
-// The directions in which the environment shows what rays come to that start at `origin`, `behind`
-// further back at the eye, along the unit vectors d: from where it was seen to where they leave the
-// proxy. What does not come to it is seen as if it were infinitely far away.
+// Returns the directions in which the environment shows the points that rays reach. The rays start
+// at `origin` along the unit vectors d; the eye is `behind` further back. Each direction leads from
+// the point where the environment was seen to the point where the ray leaves the proxy. A ray that
+// misses the proxy sees the environment infinitely far away.
 static inline real3 toward_proxy(const glint_frame_record *frame, real3 origin, real3 d,
                                  real behind)
 {

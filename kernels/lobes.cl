@@ -1,20 +1,20 @@
-// What paths bring of the lobes of rough surfaces (rule 11 of ARCHITECTURE.md, Light transport).
+// Finds the light of rough surfaces' lobes on paths (rule 11 of docs/light_transport.md).
 #if GLINT_ROUGH
 
-// A lobe, and what is wanted of its light's parts.
+// A lobe, and the weights of its light's parts.
 typedef struct wanted_lobe {
     mask there;
     lobe_shape shape; // with the surface's normal, n·v ≥ 0
-    real weight;                // how much of the lobe is wanted, together
+    real weight;                // weight of the whole lobe
     real3 path_base, path_edge; // by a path
-    real3 matte_base, matte_edge;
+    real3 matte_base, matte_edge; // without a path
 } wanted_lobe;
 
-// What lobes show of the environment.
+// The light of the environment that a lobe shows.
 typedef struct seen_lobe {
     real3 matte; // without a path
-    real3 held;  // that the reflected path brings where it ends
-    real shown;  // how much of the environment's light it brings there beside that
+    real3 held;  // the reflected path adds this light at its end
+    real shown;  // weight of the environment's light at the path's end
 } seen_lobe;
 
 static inline wanted_lobe lobe_of_surface(const surface *s, const scattering *out, mask met)
@@ -36,7 +36,7 @@ static inline wanted_lobe lobe_of_sheen(const surface *s, const scattering *out,
 }
 #endif
 
-// Rule 11, for the rays that want it.
+// Rule 11, for the rays that have a lobe.
 static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_record *frame,
                                  const wanted_lobe *w, const path *ray)
 {
@@ -51,11 +51,13 @@ static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_r
     shape.along = turn_into_environment(frame, shape.along);
 #endif
     const real3 v = turn_into_environment(frame, negate(ray->direction));
+    // Integrate the lobe over the environment.
     const real share = share_of_lobe(&shape);
     const real least = real_of((scalar)GLINT_ROUGHNESS_NARROW);
     const lobe l = find_lobe(&scene->cells, &shape, v, LARGER(shape.roughness, least),
                              largest3(ray->weight) * w->weight);
     const lobe_light light = integrate_lobe(scene, &l, w->there);
+    // Divide the light into the part without a path and the part by a path.
     const real3 matte =
         add(multiply(w->matte_base, light.base), multiply(w->matte_edge, light.edge));
     const real3 by_path =
@@ -83,8 +85,8 @@ static inline wanted_lobe lobe_of_coat(const surface *s, const scattering *out, 
     return w;
 }
 
-// Joins what the coat shows to what is below it shows, where both go one way: each brings its
-// share of the environment's light.
+// Joins the coat's lobe to the lobe of the layers below, if both reflections take the same
+// direction. Each contributes its share of the environment's light.
 static inline void join_lobes(const surface *s, const scattering *out, const seen_lobe *coat,
                               seen_lobe *below)
 {
@@ -98,8 +100,8 @@ static inline void join_lobes(const surface *s, const scattering *out, const see
 #endif
 
 #if CARRIES_CONES
-// A lobe is about 2α wide, and so is what the reflected ray sees; but not below ROUGHNESS_NARROW,
-// where it shows what a mirror does.
+// Widens the cone of the reflected ray by the lobe's width, about 2α. Below ROUGHNESS_NARROW the
+// ray shows a mirror's light, and the cone stays as it is.
 static inline real widened_by_lobe(real roughness, mask rough, real spread)
 {
     const real width = R(2.0) * roughness * roughness;

@@ -1,25 +1,25 @@
-// Look-ups in the environment that wait until there are many of them: the memory's answers to one
-// overlap with the questions of the next, which they do not while paths are traced in between.
+// Collects look-ups in the environment and makes many of them together. Then the memory accesses of
+// consecutive look-ups overlap. They would not if paths were traced in between.
 //
-// What they bring is added up for each pixel, in the order in which they were asked for, apart from
-// what paths gather otherwise: so the sums do not depend on when the look-ups are made.
+// The results are summed for each pixel in the order of the requests, apart from the other light
+// that paths gather. So the sums do not depend on when the look-ups are made.
 
-#define LOOKUPS TILE_GROUPS // of packets of rays
+#define LOOKUPS TILE_GROUPS // of packets of rays; capacity of the list
 
 typedef struct lookups {
     int count;
     pixels pixels[LOOKUPS];
     uint wanted[LOOKUPS]; // rays, as bits
-    bool white[LOOKUPS];  // all wanted rays weigh 1
+    bool white[LOOKUPS];  // all wanted rays have the weight 1
     cube_point points[LOOKUPS];
 #if READS_LEVELS
     level_choice levels[LOOKUPS];
-    cube_point coarser[LOOKUPS]; // on the next level
+    cube_point coarser[LOOKUPS]; // the same points on the next level
     int level_count;
-    int level_starts[GLINT_LEVELS_MAX]; // texels before a level
+    int level_starts[GLINT_LEVELS_MAX]; // number of texels before a level
 #endif
     scalar weights[LOOKUPS * PIXEL_VALUES];
-    scalar *sums; // of the tile's pixels: R, G, B; the fourth value means nothing
+    scalar *sums; // of the tile's pixels: R, G, B; the fourth value is unused
 } lookups;
 
 #define ALL_RAYS ((uint)((1 << GLINT_WIDTH) - 1))
@@ -64,12 +64,12 @@ static inline scalar4 look_up(const lookups *l, const cube_map *map, int i, int 
     return light;
 }
 
-// Makes all look-ups that wait.
+// Makes all waiting look-ups.
 static inline void finish_lookups(lookups *l, const cube_map *map)
 {
     for (int i = 0; i < l->count; i++) {
         const scalar *weights = l->weights + i * PIXEL_VALUES;
-        if (l->white[i] && l->wanted[i] == ALL_RAYS) { // most are
+        if (l->white[i] && l->wanted[i] == ALL_RAYS) { // the most frequent case
             for (int lane = 0; lane < GLINT_WIDTH; lane++) {
                 const int pixel = pixel_of(l->pixels[i], lane);
                 vstore4(vload4(pixel, l->sums) + look_up(l, map, i, lane), pixel, l->sums);
@@ -87,7 +87,7 @@ static inline void finish_lookups(lookups *l, const cube_map *map)
 }
 
 #if READS_LEVELS
-// How wide what a ray sees of the environment is, as an angle.
+// The width of the environment's part that a ray sees, as an angle.
 static inline real spread_seen(const path *ray)
 {
 #if GLINT_MIP_LEVELS
@@ -102,7 +102,8 @@ static inline real spread_seen(const path *ray)
 }
 #endif
 
-// Finds where the directions of some rays meet the map, for later.
+// Finds the points of the map in the directions of some rays, prefetches their texels, and stores
+// the points for later.
 static inline void find_points(lookups *l, const cube_map *map, const path *rays, real3 direction,
                                uint wanted, int i)
 {
@@ -133,8 +134,8 @@ static inline void find_points(lookups *l, const cube_map *map, const path *rays
     }
 }
 
-// Adds what the environment sends to the rays in `wanted`, times their weights; `direction` is
-// theirs, turned into the environment.
+// Requests a look-up that adds the environment's light to the rays in `wanted`, times their
+// weights. `direction` is the rays' direction in the environment's axes.
 static inline void look_up_later(lookups *l, const cube_map *map, const path *rays, real3 direction,
                                  mask wanted, const pixels *pixels)
 {

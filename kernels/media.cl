@@ -1,14 +1,14 @@
-// The stack of solids that each path is inside, packed into one whole number: GLINT_MEDIA_BITS bits
-// an entry, the innermost lowest, GLINT_MEDIA_CAPACITY entries, 30 bits at most, so that the number
-// is never negative. Entry 0 is empty space.
+// Keeps the stack of solids that each path is inside, packed into one whole number. It has
+// GLINT_MEDIA_CAPACITY entries of GLINT_MEDIA_BITS bits each; the innermost solid is in the lowest
+// bits. It has at most 30 bits, so the number is never negative. Entry 0 is empty space.
 
 #define MEDIUM_MASK ((lane_int)((1 << GLINT_MEDIA_BITS) - 1))
 #define MEDIA_MASK ((lane_int)((1 << (GLINT_MEDIA_BITS * GLINT_MEDIA_CAPACITY)) - 1))
 
 static inline lanes_int medium_on_top(lanes_int media) { return media & MEDIUM_MASK; }
 
-// The stack inside `medium` as well. Where it was full, its outermost entry is lost, and `lost`
-// set.
+// Pushes `medium` onto the stack. If the stack was full, it loses its outermost entry, and `lost`
+// is set.
 static inline lanes_int enter_medium(lanes_int media, lanes_int medium, mask *lost)
 {
     if (!GLINT_NESTED_MEDIA) {
@@ -19,8 +19,8 @@ static inline lanes_int enter_medium(lanes_int media, lanes_int medium, mask *lo
     return ((media << (lane_int)GLINT_MEDIA_BITS) & MEDIA_MASK) | medium;
 }
 
-// The stack without the innermost entry that is `medium`; unchanged where there is none. Nearly
-// always that is the first one.
+// Removes the innermost entry `medium` from the stack. Without such an entry the stack stays
+// unchanged. Nearly always it is the first entry.
 static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
 {
     if (!GLINT_NESTED_MEDIA) {
@@ -39,10 +39,10 @@ static inline lanes_int leave_medium(lanes_int media, lanes_int medium)
 }
 
 #if GLINT_OVERLAPS
-// One path's stack is in order here: the highest medium is on top, whatever was entered last.
+// With OVERLAPS each stack is sorted: the highest medium is on top, whatever the path entered last.
 static inline lane_int top_medium(lane_int media) { return media & MEDIUM_MASK; }
 
-// The stack inside `medium` as well; true if its lowest entry was lost, as it was full.
+// Inserts `medium` into the stack. True if the stack was full and lost its lowest entry.
 static inline bool insert_medium(lane_int *media, lane_int medium)
 {
     const lane_int old = *media;
@@ -55,7 +55,7 @@ static inline bool insert_medium(lane_int *media, lane_int medium)
     return (old >> (GLINT_MEDIA_BITS * (GLINT_MEDIA_CAPACITY - 1))) != 0;
 }
 
-// The stack outside `medium`; false, and unchanged, if it was not in it.
+// Removes `medium` from the stack. False if it was not in the stack.
 static inline bool remove_medium(lane_int *media, lane_int medium)
 {
     const lane_int old = *media;
@@ -70,7 +70,7 @@ static inline bool remove_medium(lane_int *media, lane_int medium)
 }
 #endif
 
-// The index of refraction at a wavelength, of which `step` is the ior_step.
+// The index of refraction at a wavelength; `step` is the wavelength's ior_step.
 static inline real medium_ior(global const glint_medium_record *media, lanes_int medium,
                               scalar step)
 {
@@ -88,7 +88,7 @@ static inline real medium_ior(global const glint_medium_record *media, lanes_int
     return ior;
 }
 
-// What is left of light after the distance s in a medium: exp(−σs), Beer and Lambert.
+// The transmittance of a medium over the distance s: exp(−σs), Beer and Lambert.
 static inline real3 medium_transmittance(global const glint_medium_record *media, lanes_int medium,
                                          real s)
 {

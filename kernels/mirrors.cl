@@ -1,7 +1,7 @@
-// Frames in which every sample takes one look-up: mirrors that see nothing but the environment, and
-// the environment alone. A look-up's direction may be of any length, and which way a normal points
-// does not matter to r = 2n(n·v) − v, so nothing is made a unit vector or turned here: the normals
-// are sums of the vertices' with weights that need not sum to 1.
+// Renders frames in which every sample takes one look-up: mirrors that see only the environment,
+// and the environment alone. A look-up's direction may have any length, and r = 2n(n·v) − v does
+// not depend on the sign of the normal. So this code normalises and orients no vectors. The normals
+// are sums of the vertices' normals, whose weights need not add up to 1.
 #define ONE_LOOKUP                                                                                 \
     (!GLINT_INTERREFLECTION && !GLINT_GLASS && !GLINT_MIP_LEVELS && !GATHERS && !GLINT_HITS &&     \
      !GLINT_TERMS && !GLINT_VERTEX_DIRECTION && !GLINT_PROXY && !GLINT_TEXTURES &&                 \
@@ -9,15 +9,15 @@
      (GLINT_MIRROR || !GLINT_GEOMETRY))
 #if ONE_LOOKUP
 
-// Where the samples of a tile's pixels meet the environment.
+// The points where the samples of a tile's pixels see the environment.
 typedef struct sights {
     cube_point points[TILE_GROUPS];
-#if GLINT_TINT // which has GEOMETRY, too
+#if GLINT_TINT // TINT implies GEOMETRY
     scalar weights[TILE_GROUPS * PIXEL_VALUES];
 #endif
 } sights;
 
-// Normals along which the surfaces reflect: the interpolated ones, or the triangles' own.
+// The normals along which the surfaces reflect: interpolated normals or the triangles' own.
 static inline real3 mirror_normals(const image_space *image, const triangle *t, real3 geometric,
                                    const primary *first, mask met)
 {
@@ -40,18 +40,18 @@ static inline real3 mirror_normals(const image_space *image, const triangle *t, 
 #endif
 }
 
-// Directions in which mirrors show the environment to rays along d; `cosine` is that of the angle
-// between the normal and the viewer.
+// The directions in which mirrors show the environment to rays along d. `cosine` is the cosine of
+// the angle between the normal and the viewer.
 static inline real3 mirrored(const image_space *image, const triangle *t, const primary *first,
                              real3 d, mask met, real *cosine)
 {
     real3 geometric = normal_of(t->vertices);
-    // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
+    // A sliver whose edges are parallel in this precision has no normal; it faces the viewer.
     geometric = select3(is_zero3(geometric), d, geometric);
     const real3 n = mirror_normals(image, t, geometric, first, met);
     const real squared = dot3(n, n), along = dot3(n, d);
     real3 r = scale_add(n, R(-2.0) * along, scale(d, squared));
-    // What ends on the other side of the surface than the viewer's is folded back (fold_to_side).
+    // Fold directions on the other side than the viewer's back (fold_to_side).
     const real viewer_side = -dot3(d, geometric), side = dot3(r, geometric);
     mask beyond = met & ((side > R(0.0)) != (viewer_side > R(0.0)));
     if (any_lane(beyond)) {
@@ -63,7 +63,7 @@ static inline real3 mirrored(const image_space *image, const triangle *t, const 
     return r;
 }
 
-// The mirrors' weights. Counts the rays that they send on, and what the depth cuts off.
+// The mirrors' weights. Counts the reflected rays, and the light that the depth cuts off.
 static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame_record *frame,
                                    const triangle *t, real cosine, mask met, const pixels *pixels,
                                    tally *tally)
@@ -81,7 +81,7 @@ static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame
     return weights;
 }
 
-// Finds where the samples of a group see the environment.
+// Finds the points where the samples of a group see the environment.
 static inline void find_sights(const scene_buffers *scene, const glint_frame_record *frame,
                                const image_space *image, const primary *first, int group,
                                sights *all, tally *tally)
@@ -89,7 +89,7 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
     real3 d = primary_directions(frame, first->x, first->y);
     real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
     const pixels pixels = pixels_of_group(group);
-    mask met = first->places >= (lane_int)0; // pixels outside the image meet nothing: clear_tile
+    mask met = first->places >= (lane_int)0; // pixels outside the image hit nothing: clear_tile
     const bool shows_mirrors = GLINT_GEOMETRY && any_lane(met);
     if (shows_mirrors) {
         const triangle t = load_triangles(scene, first->places, met);
@@ -102,6 +102,7 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
         note_truncation(tally->layers, &pixels, met, weights);
 #endif
     }
+    // Find the texels of the look-up.
 #if GLINT_TINT
     to_pixels(weights.x, weights.y, weights.z, real_of(0), all->weights + group * PIXEL_VALUES);
 #endif
@@ -111,13 +112,13 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
 #if GLINT_DIAGNOSTICS
     note_faces(tally->layers, &pixels, mask_all(), weights, face_of(map, point));
 #endif
-    // Pixels that show nothing else share the environment's texels with their neighbours.
+    // Pixels that show only the environment share its texels with their neighbours.
     for (int lane = 0; lane < GLINT_WIDTH && shows_mirrors; lane++) {
         prefetch_texels(map, map->edge, (size_t)LANE_INT(point->first, lane));
     }
 }
 
-// What the environment sends to a row of a group's pixels.
+// The light from the environment for one row of a group's pixels.
 static inline pixel_row look_up_row(const cube_map *map, const cube_point *point, int row)
 {
     const int first = row * PACKET_WIDTH;
@@ -130,7 +131,7 @@ static inline pixel_row look_up_row(const cube_map *map, const cube_point *point
 #undef AT
 }
 
-// Adds a sample of each of the tile's pixels to their sums, which the first one sets.
+// Adds a sample of each of the tile's pixels to their sums. The first sample sets the sums.
 static inline void add_sights(const scene_buffers *scene, const sights *all, bool is_first,
                               scalar *sums)
 {

@@ -1,13 +1,15 @@
-// Rule 5 where solids touch or overlap: the media on both sides of what a ray meets. All surfaces of
-// solids in one place are crossed at once, whatever their order. The solid with the highest medium
-// is there, and of those surfaces its own is the one that light meets. Where the same is there on
-// both sides there is no surface at all. A surface that bounds no solid is met before those that do;
-// what passes it has crossed them all.
-// What rounding may move a hit along the normal, of the distance and the scene's size: the sheared
-// corners and the products of them take some eight roundings.
+// Applies rule 5 where solids touch or overlap: finds the media on both sides of the surfaces in
+// one place. A ray crosses all surfaces of solids in one place at once, in any order. The highest
+// medium there wins, and light meets the surface of its solid. If the same solid is on both sides,
+// there is no surface. A surface that bounds no solid is met before surfaces of solids; light that
+// passes it has crossed them all.
+//
+// CROSSING_SLACK bounds how far rounding moves a hit along the normal, relative to the distance and
+// the scene's size. The sheared corners and their products take about eight roundings.
 #define CROSSING_SLACK (R(16.0) * EPSILON)
 
-// How far from the surface, along its normal, others are in one place with it.
+// The distance from the surface, along its normal, within which other surfaces are in one place
+// with it.
 static inline real reach_of_place(const surface *s, real t)
 {
     const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET;
@@ -21,12 +23,13 @@ static inline real reach_of_place(const surface *s, real t)
 
 #if GLINT_OVERLAPS
 
-// Solids that a ray enters or leaves in one place; more are not looked at.
+// The largest number of solids that a ray enters or leaves in one place. Further solids are
+// ignored.
 #define CROSSED_MAX 16
-// The cosine between planes that may be in one place.
+// Planes in one place have at least this cosine between them.
 #define NEARLY_PARALLEL R(0.99)
-// A solid that a ray enters or leaves, and the lowest triangle by which it does. Of one that it
-// enters and leaves at once nothing is crossed.
+// A solid that a ray enters or leaves, and the lowest triangle by which it does. A solid that the
+// ray enters and leaves at once is not crossed (`stays`).
 typedef struct crossed_solid {
     int component, place, number;
     lane_int medium;
@@ -37,13 +40,13 @@ typedef struct crossed_solid {
 typedef struct crossed_solids {
     int count;
     crossed_solid solids[CROSSED_MAX];
-    crossed_solid other; // what bounds no solid there; its place is −1 where there is nothing
+    crossed_solid other; // a surface there that bounds no solid; its place is −1: none
 } crossed_solids;
 
-// One ray where it meets a triangle, whose winding makes `normal`.
+// One ray at a triangle that it meets; `normal` follows the triangle's winding.
 typedef struct crossing_ray {
     stream_ray ray;
-    scalar normal[3], begin; // from that distance on, to ray.farthest
+    scalar normal[3], begin; // the place reaches from `begin` to ray.farthest
     bool enters;
     int place;
 } crossing_ray;
@@ -91,7 +94,7 @@ static inline scalar turn_of_planes(const scalar n[3], const float at[9], scalar
     return turn;
 }
 
-// Triangle i of a leaf, if it is in the place that the ray crosses.
+// Adds triangle i of a leaf, if it is in the place that the ray crosses.
 static inline void cross_triangle(const crossing_ray *c, const scene_buffers *scene,
                                   const leaf *leaf, const cluster_test *test, int i,
                                   crossed_solids *all)
@@ -127,7 +130,7 @@ static inline void cross_triangle(const crossing_ray *c, const scene_buffers *sc
     cross_also(all, &crossed);
 }
 
-// What else is in the place that a ray crosses.
+// Finds the other triangles in the place that a ray crosses.
 static inline void find_crossed(const crossing_ray *c, const scene_buffers *scene,
                                 crossed_solids *all)
 {
@@ -152,7 +155,7 @@ static inline void find_crossed(const crossing_ray *c, const scene_buffers *scen
     }
 }
 
-// A path's media on both sides of a place.
+// A path's stacks of media on both sides of a place.
 typedef struct media_sides {
     lane_int before, beyond;
     bool lost;
@@ -167,7 +170,8 @@ static inline void mark_staying(crossed_solids *all)
     }
 }
 
-// A solid that is left and that the path is not inside is one that it began in.
+// Crosses all solids. If the path leaves a solid that is not in its stack, it began inside this
+// solid.
 static inline media_sides cross_all(lane_int media, const crossed_solids *all)
 {
     media_sides sides = {media, media, false};
@@ -186,8 +190,8 @@ static inline media_sides cross_all(lane_int media, const crossed_solids *all)
     return sides;
 }
 
-// Of the surfaces in one place the one that light meets: of solids that which is there on one side,
-// and not on the other.
+// Returns the surface in one place that light meets. Among solids, it belongs to the medium that is
+// on top on one side and not on the other.
 static inline const crossed_solid *shown_of(const crossed_solids *all, const media_sides *sides)
 {
     const lane_int wanted = max(top_medium(sides->before), top_medium(sides->beyond));
@@ -202,17 +206,17 @@ static inline const crossed_solid *shown_of(const crossed_solids *all, const med
     return shown;
 }
 
-// What rays come to in the places where they meet something.
+// The places where rays meet a surface.
 typedef struct crossing {
     lanes_int before, beyond; // stacks of media
-    lanes_int lost;           // 1: of one of these
-    lanes_int medium;         // of the surface that is met; 0: it bounds no solid
-    lanes_int gone;           // 1: there is none, as the same solid is on both sides
-    lanes_int several;        // 1: others are in one place with it
+    lanes_int lost;           // 1: one of these stacks lost a medium
+    lanes_int medium;         // of the surface that light meets; 0: it bounds no solid
+    lanes_int gone;           // 1: no surface, because the same solid is on both sides
+    lanes_int several;        // 1: other surfaces are in one place with it
     bool changed;             // some ray meets another surface than it hit first
 } crossing;
 
-// What one ray hit.
+// The hit of one ray as a crossed solid.
 static inline crossed_solid first_crossed(const scene_buffers *scene, const closest *hit,
                                           lanes_int outside, int lane, bool *touches)
 {
@@ -230,8 +234,8 @@ static inline crossed_solid first_crossed(const scene_buffers *scene, const clos
     return own;
 }
 
-// Adds what else is in the place that one ray crosses; `depth` is how far before and behind it
-// along the ray that place reaches.
+// Adds the other surfaces in the place that one ray crosses. The place reaches `depth` before and
+// behind the hit along the ray.
 static inline void cross_others(const scene_buffers *scene, const packet *p, const path *ray,
                                 const surface *s, const closest *hit, scalar depth, int lane,
                                 bool enters, crossed_solids *all)
@@ -250,7 +254,7 @@ static inline void cross_others(const scene_buffers *scene, const packet *p, con
     mark_staying(all);
 }
 
-// Notes what one ray comes to, and makes the surface that it meets its hit.
+// Records the crossing of one ray. The surface that light meets becomes the ray's hit.
 static inline void note_crossing(const scene_buffers *scene, const crossed_solids *all,
                                  lane_int media, int lane, closest *hit, crossing *c)
 {
@@ -276,8 +280,8 @@ static inline void note_crossing(const scene_buffers *scene, const crossed_solid
     }
 }
 
-// Finds the media on both sides of what the rays in `met` meet, and the surface that is there: *hit
-// and *t are then its.
+// Finds the media on both sides of the places that the rays in `met` meet, and the visible surface
+// there. *hit and *t then describe this surface.
 static inline surface find_surface_in_place(const scene_buffers *scene, const path *ray, mask met,
                                             closest *hit, triangle *t)
 {
@@ -288,6 +292,7 @@ static inline surface find_surface_in_place(const scene_buffers *scene, const pa
     const real depth = reach / LARGER(cosine, real_of(CROSSING_SLACK));
     const lanes_int outside = SELECT(s.outside, int_of(1), int_of(0));
     crossing c = {ray->media, ray->media, int_of(0), int_of(0), int_of(0), int_of(0), false};
+    // Find the crossing of each ray.
     for (uint left = mask_bits(met); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left);
         crossed_solids all;
@@ -301,6 +306,7 @@ static inline surface find_surface_in_place(const scene_buffers *scene, const pa
         }
         note_crossing(scene, &all, LANE_INT(ray->media, lane), lane, hit, &c);
     }
+    // Load the surfaces again if a ray now meets another one.
     if (c.changed) {
         *t = load_triangles(scene, SELECT(met, hit->place, int_of(0)), met);
         s = find_surface(scene, ray, hit, t);

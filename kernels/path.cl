@@ -1,37 +1,38 @@
-// What a path carries on its way.
+// Defines the state of a path.
 
 #define ESCAPES 2
 
-// A path on its way: a ray, its weight and what it has passed.
+// A path on its way: a ray, its weight and its history.
 typedef struct path {
     real3 origin, direction; // the direction is a unit vector
 #if LOCAL_RAYS
-    real3 origin_low; // what the origin lacks
+    real3 origin_low; // the low parts of the origin
 #endif
-    real3 weight;            // what a unit of radiance that arrives now adds to the pixel
+    real3 weight;            // factor of arriving radiance in the pixel's value
 #if GLINT_ABSORPTION
-    real travelled; // the segment's length before its origin: primary rays start late
+    real travelled; // length of the segment before the origin: primary rays start late
 #endif
 #if CARRIES_CONES
     cone cone;
 #endif
-    lanes_int from;      // place of the triangle that the ray starts on, −1: none
+    lanes_int from;      // place of the triangle that the ray starts on; −1: none
     lanes_int met;       // surfaces met so far
 #if GLINT_ALPHA
-    lanes_int passed; // of these, those that were not there where the ray met them
+    lanes_int passed; // number of these that were absent where the ray met them
 #endif
     lanes_int media;     // see media.cl
-    lanes_int looked_up; // takes the environment along its direction, without being traced: 1 as
-                         // it is cut short, ESCAPES as it meets nothing; else 0
+    // If it is not 0, the path takes the environment along its direction without tracing. 1: the
+    // path is cut short; ESCAPES: it meets nothing.
+    lanes_int looked_up;
 #if GLINT_ROUGH
-    real3 held; // light that it brings where it ends
-    real shown; // how much of the environment's light it brings there: 1, or less beside that
+    real3 held; // light that the path adds at its end
+    real shown; // weight of the environment's light at the path's end, beside `held`
 #endif
 #if GLINT_DISPERSION
     lanes_int dispersed; // 1: its light is of one wavelength
 #endif
 #if GLINT_FACETS
-    cone lobe; // what of the lobes of rough glass its direction stands for; 0 before any
+    cone lobe; // part of rough glass's lobes that the direction stands for; 0 before any
 #endif
 } path;
 

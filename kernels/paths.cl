@@ -1,13 +1,13 @@
-// Paths through the scene, from the primary ray to the environment.
+// Follows paths through the scene, from the primary ray to the environment.
 
-// A packet of primary rays, which pixels' samples they are, and what they meet.
+// A packet of primary rays: the pixels' samples that they belong to, and their hits.
 typedef struct primary {
-    real x, y;        // places on the image plane
-    real length;      // of the directions before they were made unit vectors
-    lanes_int places; // of the triangles hit, −1: none
+    real x, y;        // positions on the image plane
+    real length;      // of the directions before normalisation
+    lanes_int places; // of the triangles hit; −1: none
 } primary;
 
-// The primary rays of a group, and which triangles they meet.
+// The primary rays of a group, and the triangles that they hit.
 static inline primary primary_of(const tile *t, int group)
 {
     primary first;
@@ -18,7 +18,7 @@ static inline primary primary_of(const tile *t, int group)
 }
 
 // The directions of the primary rays through points (x, y) of the image plane, see
-// glint_frame_record: 1 long or more.
+// glint_frame_record. Their length is 1 or more.
 static inline real3 primary_directions(const glint_frame_record *frame, real x, real y)
 {
     return scale_add(
@@ -26,7 +26,7 @@ static inline real3 primary_directions(const glint_frame_record *frame, real x, 
         scale_add(join_vector(&frame->direction_x), x, join_vector(&frame->direction)));
 }
 
-// The primary rays; sets their length.
+// Makes the primary rays; sets the lengths in *first.
 static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;
@@ -79,7 +79,7 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 }
 
 #if GLINT_ABSORPTION
-// The light that is left of the segment that ends here, in the medium on top of the stack.
+// The weight after absorption along the segment that ends here, in the medium on top of the stack.
 static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray, real t)
 {
     real3 left = medium_transmittance(scene->media, medium_on_top(ray->media), t + ray->travelled);
@@ -131,20 +131,20 @@ static inline void count_transmissions(const surface *s, mask transmits, tally *
     tally->counts[GLINT_COUNT_TRANSMITTED] += (ulong)count_lanes(transmits & !solid);
 }
 
-// Pixels may see the background past surfaces, and leave it out.
+// Pixels may show the background through surfaces, and the image leaves the background out.
 #define SEES_THROUGH (GLINT_ALPHA && GLINT_TRANSPARENT)
 
-// The paths of some of a tile's pixels on their way.
+// The paths of some of a tile's pixels.
 typedef struct paths {
     path ray[PATH_GROUPS];
     mask active[PATH_GROUPS];
     pixels pixels[PATH_GROUPS];
 #if GATHERS
-    // Gathered on their way, without the environment, by the tile's groups of pixels.
+    // Light gathered so far without the environment, by the tile's groups of pixels.
     real3 radiance[PATH_GROUPS];
 #endif
 #if SEES_THROUGH
-    real uncovered[PATH_GROUPS]; // what of the background is seen past surfaces
+    real uncovered[PATH_GROUPS]; // share of the background visible past surfaces
 #endif
 #if GLINT_SPLIT
     branches branches;
@@ -171,7 +171,7 @@ static inline void gather(paths *all, int slot, real3 light, mask lit)
 #endif
 
 #if SEES_THROUGH
-// As gather, of one number.
+// gather for a single number.
 static inline void uncover(paths *all, int slot, real share, mask seen)
 {
 #if GLINT_SPLIT
@@ -186,8 +186,8 @@ static inline void uncover(paths *all, int slot, real share, mask seen)
 #endif
 
 #if GLINT_SPLIT
-// Both branches go on, the lighter first; where only one more may wait both are looked up, and
-// counted.
+// Follows both branches of a split, the lighter first. If only one more branch may wait, both are
+// looked up and counted as truncated.
 static inline void split_path(paths *all, int slot, path *reflected, path *transmitted,
                               mask reflects, mask transmits, tally *tally)
 {
@@ -215,8 +215,8 @@ static inline void split_path(paths *all, int slot, path *reflected, path *trans
 #endif
 
 #if GLINT_TERMS && GATHERS
-// What surfaces emit, apart from what the irradiance lights: what they would send back of one of 1
-// is more by that.
+// Records the terms of emission and of irradiance separately. The reflected light of an irradiance
+// of 1 is found as a difference: the result with irradiance 1, minus the emission.
 static inline void note_emission(terms *terms, const scene_buffers *scene, const surface *s,
                                  real3 v, const path *ray, mask met, const pixels *pixels)
 {
@@ -237,7 +237,7 @@ static inline void note_emission(terms *terms, const scene_buffers *scene, const
 #endif
 
 #if GLINT_DIFFUSE_TRANSMISSION
-// Rule 18: what lights matte paint from behind, over π.
+// Rule 18: the light on matte paint from behind, over π.
 static inline real3 light_from_behind(const scene_buffers *scene, const glint_frame_record *frame,
                                       const path *ray, const surface *s, lanes_int places,
                                       mask met, ulong *shadow_rays)
@@ -261,8 +261,7 @@ static inline real3 light_from_behind(const scene_buffers *scene, const glint_fr
 }
 #endif
 
-// What becomes of the light that the rays in `met` met their surfaces for; theirs are the media
-// that they have passed, and the weight that is left of them.
+// Scatters the rays in `met`; updates their media and their weights (absorption).
 static inline scattering scatter_on_path(const scene_buffers *scene,
                                          const glint_frame_record *frame, const surface *s,
                                          const closest *hit, mask met, path *ray, tally *tally)
@@ -283,13 +282,14 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
     return out;
 }
 
-// Shades the rays in `met` of a group, adds what the surfaces emit to their radiance, and puts the
-// branch that goes on in their place. The result says which rays go on.
+// Shades the rays in `met` of a group and adds the surfaces' emission to their radiance. The branch
+// that goes on replaces each ray. Returns the rays that go on.
 static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_record *frame,
                                  closest *hit, triangle *triangles, mask met, int slot, paths *all,
                                  tally *tally)
 {
     path *ray = &all->ray[slot];
+    // Find the surface, its facet and its wavelength.
     surface s = find_surface_in_place(scene, ray, met, hit, triangles);
 #if GLINT_FACETS
     const mask faceted = met & are_faceted(&s);
@@ -299,6 +299,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #if GLINT_DISPERSION
     disperse(scene, frame, met, &all->pixels[slot], ray, &s, tally);
 #endif
+    // Count the surfaces that paths have met.
 #if GLINT_ALPHA
     const mask there = met & (s.coverage > R(0.0));
 #else
@@ -309,6 +310,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #if GLINT_DIAGNOSTICS
     note_surfaces(tally->layers, &all->pixels[slot], there, depth);
 #endif
+    // Add direct light from the lights, then scatter.
 #if GLINT_LIGHTS
     light_surface(scene, ray, &s, hit->place, met, &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
 #endif
@@ -321,6 +323,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #else
     const scattering out = scatter_on_path(scene, frame, &s, hit, met, ray, tally);
 #endif
+    // Gather the light that the surface sends, and the light of its lobes.
 #if GATHERS
     gather(all, slot, multiply(ray->weight, out.emitted), met);
 #endif
@@ -347,6 +350,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     const real spread = ray->cone.spread;
 #endif
 
+    // Make the reflected branch.
     path reflected = make_branch(ray, &s, hit, out.reflected, mask_none());
     reflected.weight = multiply(ray->weight, out.reflected_weight);
     reflected.media = out.media_reflected;
@@ -368,7 +372,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     const real back[3] = {real_of(1), real_of(2), turn_back};
     reflected.lobe = leave_facet(ray, hit->t, &s, back);
 #endif
-    // A weight of exactly 0 adds nothing; NaN compares false and ends the path.
+    // A weight of exactly 0 adds nothing. NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, &all->pixels[slot], tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
@@ -376,6 +380,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
         assign_path(ray, &reflected, reflects);
         return reflects;
     }
+    // Make the transmitted branch.
     mask through = mask_all();
 #if COATS_APART
     through = !out.coat_apart;
@@ -401,6 +406,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
     end_branch(frame, &transmitted, transmits, &all->pixels[slot], tally);
+    // Count both branches, and follow them.
 #if GLINT_OVERLAPS
     count_transmissions(&s, transmits & through & there, tally);
 #else
@@ -422,7 +428,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
 }
 
-// The primary rays of a group: those in `active`.
+// Begins the paths of a group with the primary rays in `active`.
 static inline void begin_paths(const glint_frame_record *frame, primary *first, int slot, int group,
                                mask active, paths *all)
 {
@@ -438,8 +444,8 @@ static inline void begin_paths(const glint_frame_record *frame, primary *first, 
 }
 
 #if GLINT_DIAGNOSTICS
-// Notes what look-ups of the rays in `escaped` along directions in the environment tell of their
-// pixels.
+// Records for the layers the faces and the truncation of look-ups. `escaped` marks the rays, and
+// `direction` is in the environment's axes.
 static inline void note_look_ups(const cube_map *map, real3 direction, const path *ray,
                                  mask escaped, const pixels *pixels, layers *layers)
 {
@@ -449,7 +455,8 @@ static inline void note_look_ups(const cube_map *map, real3 direction, const pat
 }
 #endif
 
-// Along which directions the environment shows what the rays come to; `first` as below.
+// The directions in which the environment shows the points that rays reach; `first` as in
+// advance_paths.
 static inline real3 environment_seen(const glint_frame_record *frame, const path *ray,
                                      const primary *first)
 {
@@ -462,8 +469,8 @@ static inline real3 environment_seen(const glint_frame_record *frame, const path
 }
 
 #if GLINT_ROUGH
-// Gathers what the rays in `escaped` hold, and leaves them the weight of the environment's light;
-// returns those that still have some.
+// Gathers the light that the rays in `escaped` hold. Leaves them the weight for the environment's
+// light. Returns the rays whose weight is not 0.
 static inline mask bring_held(paths *all, int slot, mask escaped, tally *tally)
 {
     path *ray = &all->ray[slot];
@@ -478,8 +485,8 @@ static inline mask bring_held(paths *all, int slot, mask escaped, tally *tally)
 }
 #endif
 
-// Takes the paths in a slot on from what they have met: those that escaped are looked up, the
-// others go on from their surfaces. `first` says what primary rays are, and is NULL for others.
+// Advances the paths in a slot past their hits. Escaped paths look up the environment; the others
+// go on from their surfaces. `first` describes primary rays; it is NULL for other rays.
 static inline void advance_paths(const scene_buffers *scene, const glint_frame_record *frame,
                                  const image_space *image, const primary *first, int slot,
                                  closest *hit, paths *all, lookups *later, tally *tally)
@@ -489,7 +496,7 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     mask escaped = active & !met;
 #if SEES_THROUGH
     const mask past = escaped & (all->ray[slot].met == all->ray[slot].passed);
-    if (first == 0) { // else nothing was there at all
+    if (first == 0) { // else the pixel shows only background
         uncover(all, slot, all->ray[slot].weight.x, past);
     }
     escaped = escaped & !past;
@@ -497,6 +504,7 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
 #if GLINT_ROUGH
     escaped = bring_held(all, slot, escaped, tally);
 #endif
+    // Look up the environment for escaped rays.
     if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
         const path *ray = &all->ray[slot];
         const real3 direction = turn_into_environment(frame, environment_seen(frame, ray, first));
@@ -510,6 +518,7 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
                    ray->weight);
 #endif
     }
+    // Shade the surfaces that the other rays have met.
     active = mask_none();
     if (GLINT_GEOMETRY && any_lane(met)) {
         triangle triangles = load_triangles(scene, hit->place, met);
@@ -524,7 +533,7 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     all->active[slot] = active;
 }
 
-// Follows the primary rays of some groups, which stand in `first`, to their ends.
+// Follows the primary rays in `first`, of several groups, to the ends of their paths.
 static inline void follow_paths(const scene_buffers *scene, const glint_frame_record *frame,
                                 const image_space *image, const primary *first, paths *all,
                                 lookups *later, tally *tally)

@@ -1,11 +1,11 @@
-// Places with more digits than one float has (LOCAL_ORIGINS): a thing that is small beside the scene
-// has an origin of its own, from which its vertices are told, and which floats hold exactly. In
-// single precision a ray's origin is then the sum of two floats. A difference of two places is
-// rounded once they are subtracted, and no sooner: it is as exact for a bead on a wide floor as for
-// the bead alone.
+// Computes positions with more digits than one float has (LOCAL_ORIGINS). An object that is small
+// compared with the scene has its own origin, the anchor, which floats hold exactly. Its vertices
+// are relative to the anchor. In single precision a ray's origin is the sum of two floats. The
+// difference of two positions is rounded only after the subtraction. So a bead on a wide floor is
+// as exact as the bead alone.
 #define LOCAL_RAYS (GLINT_LOCAL_ORIGINS && !GLINT_DOUBLE)
 
-// A cluster's coordinate along axis k, told from its anchor or from the scene's origin.
+// Converts a coordinate along axis k: relative to a cluster's anchor, or to the scene's origin.
 #if GLINT_LOCAL_ORIGINS
 #define FROM_ANCHOR(cluster, k, value) ((value) - (scalar)(cluster)[GLINT_CLUSTER_ANCHOR + (k)])
 #define FROM_SCENE(cluster, k, value) ((value) + (scalar)(cluster)[GLINT_CLUSTER_ANCHOR + (k)])
@@ -14,7 +14,7 @@
 #define FROM_SCENE(cluster, k, value) (value)
 #endif
 
-// How many triangles a cluster has, and which material.
+// The number of triangles of a cluster, and their material.
 static inline int count_of_cluster(global const float *cluster)
 {
     return ((global const int *)cluster)[GLINT_CLUSTER_FACTS] & GLINT_CLUSTER_COUNT_MASK;
@@ -42,7 +42,7 @@ static inline pair sum_of(real a, real b)
     return s;
 }
 
-// a b: exactly, where a multiply-add is fused.
+// a b, exactly if the multiply-add is fused.
 static inline pair product_of(real a, real b)
 {
     pair p;
@@ -72,8 +72,8 @@ static inline pair negated(pair a)
     return a;
 }
 
-// How many times `d` it is from a ray's origin to the plane of a triangle. A plane through distant
-// corners has no digits left nearby: in pairs it has.
+// The distance from a ray's origin to a triangle's plane, as a multiple of `d`. A plane through
+// distant corners has no digits left near the origin; with pairs it has.
 static inline real depth_of_plane(const real corners[9], const real anchor[3], const real origin[3],
                                   const real origin_low[3], const real d[3])
 {
@@ -99,7 +99,8 @@ static inline real depth_of_plane(const real corners[9], const real anchor[3], c
     return (height.high + height.low) / fall;
 }
 
-// Of a triangle so many times as far across as a hit is away, the plane is looked at again.
+// The plane is measured again if the triangle is this many times larger than the distance to the
+// hit.
 #define LARGE_TRIANGLE R(16.0)
 
 #endif

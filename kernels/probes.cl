@@ -1,14 +1,14 @@
-// Kernels that take rays and numbers of the host's own through single parts of the renderer, for
-// host/render/probe.h: compiled behind render.cl, with the features of the scene at hand.
+// Runs single parts of the renderer on rays and numbers from the host, for host/render/probe.h.
+// These kernels are compiled behind render.cl, with the features of the current scene.
 //
-// Element i of an array goes to lane i % GLINT_WIDTH of packet i / GLINT_WIDTH; a work-item takes
-// PATH_GROUPS packets, and the host fills arrays up to a whole number of work-items.
+// Element i of an array belongs to lane i % GLINT_WIDTH of packet i / GLINT_WIDTH. A work-item
+// takes PATH_GROUPS packets. The host fills arrays up to a whole number of work-items.
 
 #define PROBE_ARGUMENTS                                                                            \
     GLINT_SCENE_ARGUMENTS(PARAMETER)                                                               \
     GLINT_PROBE_ARGUMENTS(PARAMETER) const glint_frame_record frame
 
-// Value `which` of the elements of a packet, of `values` each.
+// Loads value `which` of each element of a packet; an element has `values` values.
 static inline real probe_load(global const scalar *in, size_t packet, int values, int which)
 {
     real value;
@@ -43,8 +43,8 @@ static inline real probe_flag(mask yes) { return SELECT(yes, real_of(1), real_of
 
 // ---- Rays --------------------------------------------------------------------------------------
 
-// A ray is GLINT_PROBE_RAY numbers: origin, unit direction, the place of the triangle that it
-// starts on (−1: none), the stack of media that it is inside, what floats leave out of the origin.
+// Loads rays of GLINT_PROBE_RAY numbers: origin, unit direction, the place of the triangle that the
+// ray starts on (−1: none), the stack of media that it is inside, and the low parts of the origin.
 static inline void probe_rays(global const scalar *in, size_t first, path *rays, mask *active)
 {
     for (int g = 0; g < PATH_GROUPS; g++) {
@@ -88,7 +88,8 @@ static inline real probe_numbers(global const int *numbers, lanes_int places)
     return found;
 }
 
-// Distance, barycentric weights of the second and third vertex, the triangle's number (−1: none).
+// Stores distance, barycentric weights of the second and third vertex, and the triangle's number
+// (−1: none).
 static inline void probe_store_hit(global scalar *out, size_t packet, int values,
                                    global const int *numbers, const closest *hit)
 {
@@ -96,7 +97,7 @@ static inline void probe_store_hit(global scalar *out, size_t packet, int values
     probe_store(out, packet, values, 3, probe_numbers(numbers, hit->place));
 }
 
-// The closest hits of a work-item's rays, as secondary rays find them; sets the rays.
+// Finds the closest hits of a work-item's rays, as for secondary rays; sets the rays.
 static inline void probe_closest(const scene_buffers *scene, global const scalar *in, path *rays,
                                  closest *hits)
 {
@@ -117,8 +118,8 @@ kernel void probe_trace(PROBE_ARGUMENTS)
     }
 }
 
-// What becomes of rays at the next surface: see glint_probe_bounce for the GLINT_PROBE_BOUNCE
-// numbers.
+// Stores the reflected and the transmitted branch of rays at their next surface. glint_probe_bounce
+// describes the GLINT_PROBE_BOUNCE numbers.
 #if GLINT_GEOMETRY
 static inline void probe_surface(const scene_buffers *scene, const path *ray, closest *hit,
                                  global scalar *out, size_t packet)
@@ -131,10 +132,12 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, cl
     mask lost;
     lanes_int inside = ray->media;
     const scattering light = scatter(scene, &s, negate(ray->direction), &inside, dark, &lost);
+    // Store the surface.
     probe_store3(out, packet, values, 4, s.geometric_normal);
     probe_store(out, packet, values, 7, probe_flag(s.outside));
     probe_store3(out, packet, values, 8, s.normal);
     probe_store(out, packet, values, 11, s.cosine);
+    // Store the reflected branch.
     const path reflected = make_branch(ray, &s, hit, light.reflected, mask_none());
     probe_store3(out, packet, values, 12, reflected.direction);
     probe_store(out, packet, values, 15, largest3(light.reflected_weight));
@@ -190,8 +193,8 @@ static inline void probe_store4(global scalar *out, size_t packet, real3 v, real
     packet < (get_global_id(0) + 1) * PATH_GROUPS;                                                 \
     packet++
 
-// In: cos θi, η. Out: cos² θt, the reflectance (where there is no total reflection), and with 1/η as
-// an index of refraction the reflectance of its surface.
+// In: cos θi, η. Out: cos² θt; the reflectance (without total reflection); and the reflectance of a
+// surface with the index of refraction 1/η.
 kernel void probe_fresnel(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
@@ -205,8 +208,8 @@ kernel void probe_fresnel(PROBE_ARGUMENTS)
     }
 }
 
-// In: cos θi of a viewer in the xz plane, the normal +Z; η. Out: x and z of the refracted
-// direction, and of the reflected one.
+// In: cos θi of a viewer in the xz plane, where the normal is +Z; and η. Out: x and z of the
+// refracted direction, then of the reflected direction.
 kernel void probe_directions(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
@@ -229,7 +232,7 @@ kernel void probe_metal(PROBE_ARGUMENTS)
     }
 }
 
-// In: a vector. Out: the unit vector along it (0 where there is none), and whether there is one.
+// In: a vector. Out: the unit vector along it (0 if there is none), and 1 if there is one.
 kernel void probe_normalized(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
@@ -251,8 +254,8 @@ kernel void probe_environment(PROBE_ARGUMENTS)
     }
 }
 
-// In: a direction of any length. Out: the face of the cube that it falls on, and the column and row
-// there, in texels of the face with its border.
+// In: a direction of any length. Out: the face of the cube in this direction, and the column and
+// row on the face, in texels of the face with its border.
 kernel void probe_face(PROBE_ARGUMENTS)
 {
     const scene_buffers scene = SCENE_OF_ARGUMENTS;
@@ -267,8 +270,8 @@ kernel void probe_face(PROBE_ARGUMENTS)
     }
 }
 
-// The primary rays through the middles of the pixels that a packet's first two numbers name, column
-// and row.
+// The primary rays through the middles of pixels. The first two numbers of an element are the
+// pixel's column and row.
 static inline path probe_pixels(const glint_frame_record *frame, global const scalar *in,
                                 size_t packet)
 {
@@ -278,7 +281,7 @@ static inline path probe_pixels(const glint_frame_record *frame, global const sc
     return primary_rays(frame, &first);
 }
 
-// In: a column and a row. Out: where the primary ray starts.
+// In: a column and a row. Out: the start of the primary ray.
 kernel void probe_primary_origin(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
@@ -286,7 +289,7 @@ kernel void probe_primary_origin(PROBE_ARGUMENTS)
     }
 }
 
-// The same. Out: its unit direction.
+// In: a column and a row. Out: the unit direction of the primary ray.
 kernel void probe_primary(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
@@ -294,8 +297,8 @@ kernel void probe_primary(PROBE_ARGUMENTS)
     }
 }
 
-// In: a work-item's place in the global range. Out: column and row of the tile that it renders, and
-// where the tile's first pixel stands, in units of 2^24 values and the rest.
+// In: a work-item's index in the global range. Out: column and row of the tile that it renders, and
+// the index of the tile's first value, in units of 2^24 and the rest.
 kernel void probe_tile_place(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
@@ -313,8 +316,8 @@ kernel void probe_tile_place(PROBE_ARGUMENTS)
     }
 }
 
-// In: rounds, those of a packet's first element. Out: the upper 24 bits of a generator of random
-// numbers after so many, from 1 on.
+// In: the number of rounds, from the packet's first element. Out: the upper 24 bits of a random
+// number generator after these rounds, seeded with 1.
 kernel void probe_loop(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {

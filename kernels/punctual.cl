@@ -1,13 +1,15 @@
-// Punctual lights, by KHR_lights_punctual (glint_light_record of layout.h). They shine on matte
-// paint and in the lobes of rough surfaces. Mirrors and glass do not show them, as a point has no size.
+// Adds punctual lights (KHR_lights_punctual, glint_light_record of layout.h). They shine on matte
+// paint and in the lobes of rough surfaces. Mirrors and glass do not show them, because a point has
+// no size.
 #if GLINT_LIGHTS
 
-// What a light sends to surfaces if nothing is on the way.
+// The light that a lamp sends to surfaces if nothing is on the way.
 typedef struct arrival {
     real3 direction;  // unit, to the light
-    real distance;    // to the light; HUGE of a directional one
-    real3 radiance;   // irradiance over π of what faces the light; 0 where it is not above the surface
-    real3 irradiance; // over π
+    real distance;    // to the light; HUGE for a directional light
+    // Irradiance over π of a surface that faces the light; 0 if the light is not above the surface.
+    real3 radiance;
+    real3 irradiance; // irradiance over π of this surface
 } arrival;
 
 static inline real3 join_vector_of(global const glint_split_vector *v)
@@ -22,7 +24,7 @@ static inline real between_0_and_1(real x)
     return SMALLER(x, real_of(1));
 }
 
-// How much of a point's light is left at the square of the distance: max(1 − (d/range)⁴, 0)/d².
+// The falloff of a point light at the squared distance: max(1 − (d/range)⁴, 0)/d².
 static inline real falloff(global const glint_light_record *light, real squared)
 {
     const real share = squared * JOIN(light->inverse_range[0], light->inverse_range[1]);
@@ -30,7 +32,7 @@ static inline real falloff(global const glint_light_record *light, real squared)
     return LARGER(open, real_of(0)) / squared;
 }
 
-// What a spot's cone leaves of it: ((cos θ − cos outer)/(cos inner − cos outer))², between 0 and 1.
+// The falloff of a spot's cone: ((cos θ − cos outer)/(cos inner − cos outer))², in [0, 1].
 static inline real cone_left(global const glint_light_record *light, real3 to_light)
 {
     const real cosine = -dot3(to_light, join_vector_of(&light->axis));
@@ -40,7 +42,8 @@ static inline real cone_left(global const glint_light_record *light, real3 to_li
     return left * left;
 }
 
-// A light in the surface's plane, as far as rounding tells, is not above it.
+// Finds the light that arrives from one light. If the light lies in the surface's plane, within
+// rounding, it is not above the surface.
 static inline arrival arrive(global const glint_light_record *light, const surface *s)
 {
     arrival a;
@@ -71,7 +74,7 @@ static inline arrival arrive(global const glint_light_record *light, const surfa
     return a;
 }
 
-// Surfaces that send some of what lights them back.
+// Surfaces that reflect part of the light as matte paint.
 static inline mask is_matte(const surface *s)
 {
     mask matte = (R(1.0) - s->metallic) * (R(1.0) - s->transmission) > R(0.0);
@@ -101,7 +104,7 @@ static inline mask may_shine(const surface *s)
     return rough;
 }
 
-// Whether a light is in front of something that shows it.
+// True if a light is in front of a layer that shows it.
 static inline mask is_before(const surface *s, real3 direction)
 {
     const mask before = dot3(s->normal, direction) > R(0.0);
@@ -112,7 +115,8 @@ static inline mask is_before(const surface *s, real3 direction)
 #endif
 }
 
-// Adds what the rays in `lit` see of a light in their lobes; `left` of it comes.
+// Adds the light that the rays in `lit` see in their lobes. `left` is the share of the light that
+// arrives.
 static inline void shine(const path *ray, const arrival *a, real3 left, mask lit, surface *s)
 {
     const real3 light = scale(multiply(left, a->radiance), real_of(R(3.1415926535897932)));
@@ -135,10 +139,12 @@ static inline void shine(const path *ray, const arrival *a, real3 left, mask lit
 }
 #endif
 
-// What all lights send to what the rays in `met` met, at `places`. Adds the shadow rays to a counter.
+// Adds the light of all lights to the surfaces at `places` that the rays in `met` have met. Adds
+// the number of shadow rays to a counter.
 static inline void light_surface(const scene_buffers *scene, const path *ray, surface *s,
                                  lanes_int places, mask met, ulong *shadow_rays)
 {
+    // Find the surfaces that show lights.
     const real3 nothing = real3_of(real_of(0), real_of(0), real_of(0));
     const mask seen = met & (largest3(ray->weight) > R(0.0));
     const mask matte = seen & is_matte(s);
@@ -161,6 +167,7 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
         if (!any_lane(lit)) {
             continue;
         }
+        // Make the shadow rays.
         path to_light = *ray;
         start_off_surface(&to_light, s, s->offset);
         to_light.direction = a.direction;
@@ -174,6 +181,7 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
 #if GLINT_FACETS
         to_light.lobe.width = to_light.lobe.spread = real_of(0);
 #endif
+        // Add the light that arrives.
         const real3 left = light_left(scene, &to_light, light, a.distance, lit);
         s->direct = add(s->direct, select3(on_paint, multiply(left, a.irradiance), nothing));
 #if GLINT_ROUGH

@@ -1,13 +1,14 @@
-// The entry point: one work-item renders one tile of pixels, sample by sample: it finds what the
-// primary rays meet, all at once, and then follows every path to its end.
+// Renders tiles of pixels: the entry point of the kernels. One work-item renders one tile, sample
+// by sample. For each sample it finds the hits of all primary rays together. Then it follows every
+// path to its end.
 //
 // The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
 // GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_HALF_TEXELS, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS,
 // GLINT_MEDIA_CAPACITY, GLINT_TRAVERSAL_STACK and GLINT_TILES.
 #include "features.h"
 
-// What each feature needs and excludes: where that is not so, an array of the feature's name has a
-// negative size.
+// Checks needs and excludes of each feature. If a check fails, an array with the feature's name has
+// a negative size, and the compiler refuses it.
 #define CHECK(name, meaning, needs, excludes, unneeded)                                            \
     typedef char name##_lacks_what_it_needs[!GLINT_##name || (needs) ? 1 : -1];                    \
     typedef char name##_is_beside_what_it_excludes[!GLINT_##name || !(excludes) ? 1 : -1];
@@ -15,7 +16,7 @@ GLINT_FEATURES(CHECK)
 #undef CHECK
 
 #define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
-// Paths gather more than what the environment's look-ups bring.
+// Paths gather light besides the environment's look-ups.
 #define GATHERS                                                                                    \
     (!GLINT_HITS &&                                                                                \
      (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT ||          \
@@ -71,7 +72,7 @@ GLINT_FEATURES(CHECK)
 
 #define SAMPLES_PER_AXIS(frame) (GLINT_SUPERSAMPLING ? (frame)->samples_per_axis : 1)
 
-// Adds to a counter of 64 bits in two words: devices need not have atomics of 64 bits.
+// Adds to a counter of 64 bits in two words, because devices need not have 64-bit atomics.
 static inline void add_to_counter(global uint *counter, ulong amount)
 {
     uint low = (uint)amount, high = (uint)(amount >> 32);
@@ -82,7 +83,7 @@ static inline void add_to_counter(global uint *counter, ulong amount)
     }
 }
 
-// The weight that paths were cut short of, in the counters' unit.
+// The weight that truncation cut off paths, in the counters' unit.
 static inline ulong cut_units(const tally *tally, const glint_frame_record *frame, enum cut by)
 {
 #if HAS_ROUNDS
@@ -97,7 +98,7 @@ static inline ulong cut_units(const tally *tally, const glint_frame_record *fram
 }
 
 #if GLINT_TRUNCATION_SQUARES
-// Rounded pixel by pixel, so that the sum is the same whatever shares a tile.
+// Rounds pixel by pixel, so that the sum does not depend on which pixels share a tile.
 static inline ulong squared_truncation(const tally *tally, const glint_frame_record *frame)
 {
     const int k = SAMPLES_PER_AXIS(frame);
@@ -135,15 +136,16 @@ static inline void report(tally *tally, const glint_frame_record *frame, global 
     }
 }
 
-// What a tile's pixels have gathered so far without the environment, sample by sample: used with
-// GATHERS alone.
+// The light that a tile's pixels have gathered so far without the environment, sample by sample.
+// Only used with GATHERS.
 typedef struct gathered {
     real3 color[TILE_GROUPS];
     real alpha[TILE_GROUPS];
 } gathered;
 
 #if GLINT_HITS
-// Instead of colours: distance, barycentric weights, and the triangle's number as the alpha.
+// Writes hits instead of colours: distance, barycentric weights, and the triangle's number as
+// alpha.
 static inline void describe_hits(const scene_buffers *scene, const glint_frame_record *frame,
                                  const image_space *image, const tile *t, scalar *sums)
 {
@@ -179,7 +181,7 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
     add_sights(scene, &all, is_first, sums);
 }
 #else
-// Adds one sample of each pixel, given what the primary rays meet.
+// Adds one sample of each pixel, from the hits of the primary rays.
 static inline void add_sample(const scene_buffers *scene, const glint_frame_record *frame,
                               const image_space *image, const tile *t, const mask *inside,
                               gathered *sum, lookups *later, tally *tally)
@@ -215,7 +217,7 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
 }
 #endif
 
-// Adds what a group's pixels have gathered to what look-ups brought.
+// Adds the light that a group's pixels have gathered to the light from look-ups.
 static inline void add_gathered(const gathered *sum, int group, scalar *sums)
 {
     const real3 color = sum->color[group];
@@ -227,7 +229,8 @@ static inline void add_gathered(const gathered *sum, int group, scalar *sums)
     }
 }
 
-// Writes a group's pixels that lie inside the image: the sums of samples of which each has `share`.
+// Writes the pixels of a group that lie inside the image. They are the sums of samples, each with
+// the weight `share`.
 static inline void store_group(global scalar *pixels, const glint_frame_record *frame, int x0,
                                int y0, const scalar *sums, scalar share)
 {
@@ -256,8 +259,8 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
 #define ROUNDS(frame) (FACET_ROUNDS(frame) * (GLINT_DISPERSION ? (frame)->wavelengths : 1))
 
 #if HAS_ROUNDS
-// Takes a round's wavelength, one after the other for all facets; `inside`: which pixels need it.
-// False: none do.
+// Begins a round: sets its wavelength and marks the pixels that need the round in `inside`. All
+// facet rounds of one wavelength follow each other. False if no pixel needs the round.
 static inline bool begin_round(const glint_frame_record *frame, int round, const mask *in_image,
                                tally *tally, mask *inside)
 {
@@ -283,7 +286,7 @@ static inline bool begin_round(const glint_frame_record *frame, int round, const
     return any;
 }
 
-// Takes pixels that all rounds were added up of to the mean of the rounds.
+// Scales the sums over rounds to their mean, pixel by pixel.
 static inline void level_rounds(const tally *tally, const glint_frame_record *frame, scalar *sums,
                                 gathered *sum)
 {
@@ -307,11 +310,12 @@ static inline void level_rounds(const tally *tally, const glint_frame_record *fr
 }
 #endif
 
-// Adds up the samples of a tile's pixels: `sums` is what look-ups bring, `sum` the rest.
+// Adds up the samples of a tile's pixels: look-ups add to `sums`, all other light to `sum`.
 static inline void sample_tile(const scene_buffers *scene, const glint_frame_record *frame,
                                int column, int row, scalar *sums, gathered *sum, tally *tally)
 {
     const image_space image = make_image_space(frame);
+    // Clear the gathered light, and find the pixels inside the image.
 #if FOLLOWS_PATHS
     mask in_image[TILE_GROUPS];
     for (int g = 0; g < TILE_GROUPS; g++) {
@@ -337,7 +341,7 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 #if HAS_ROUNDS
         if (sample == 0 && !begin_round(frame, i / count, in_image, tally, inside)) {
             const int left = FACET_ROUNDS(frame) - i / count % FACET_ROUNDS(frame);
-            i += left * count - 1; // on to the next wavelength
+            i += left * count - 1; // skip to the next wavelength
             continue;
         }
 #endif
@@ -345,9 +349,10 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
         const int facets = FACET_ROUNDS(frame) * count;
         tally->facets = choose_facets(i % facets, facets);
 #endif
+        // Trace the primary rays through the sample's position in each pixel.
         const scalar right = ((scalar)(sample % k) + R(0.5)) / (scalar)k;
         const scalar down = ((scalar)(sample / k) + R(0.5)) / (scalar)k;
-        if (count > 1 ? true : i == 0) { // else the rays meet what they have met
+        if (count > 1 ? true : i == 0) { // else the hits stay the same
             begin_tile(&image, frame, scene->pixels, column, row, right, down, &t);
             if (GLINT_GEOMETRY) {
                 trace_tile(&image, &t, scene);
@@ -357,6 +362,7 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
         tally->layers->is_middle = i == k / 2 * (k + 1);
         note_first_surfaces(tally->layers, scene, frame, &image, &t);
 #endif
+        // Add the sample to the pixels.
 #if GLINT_HITS
         describe_hits(scene, frame, &image, &t, sums);
 #elif ONE_LOOKUP
@@ -395,7 +401,7 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     gathered sum;
     scalar sums[TILE_GROUPS * PIXEL_VALUES];
     sample_tile(scene, frame, column, row, sums, &sum, &tally);
-    // Before the pixels are stored: an atomic operation waits for all stores before it.
+    // Report before storing the pixels: an atomic operation waits for all earlier stores.
     report(&tally, frame, out->counters);
 #if GLINT_DIAGNOSTICS
     store_layers(&layers, frame, column, row, out->layers);
@@ -414,9 +420,9 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     }
 }
 
-// The first pixel of the tile that work-item (across, down) of the global range renders: tile
+// Finds the first pixel of the tile that work-item (across, down) of the global range renders: tile
 // `across` of band first_band + down. (An offset of the range itself would make PoCL compile the
-// kernel once more.)
+// kernel again.)
 static inline void find_tile(const glint_frame_record *frame, int across, int down, int *column,
                              int *row)
 {
@@ -425,7 +431,7 @@ static inline void find_tile(const glint_frame_record *frame, int across, int do
     *row = ((down + frame->first_band) * band + across % band) * PACKET_HEIGHT * TILE_ROWS;
 }
 
-// Renders one tile a work-item.
+// Renders one tile per work-item.
 kernel void render_tiles(GLINT_SCENE_ARGUMENTS(PARAMETER) GLINT_OUTPUT_ARGUMENTS(PARAMETER)
                              const glint_frame_record frame)
 {

@@ -1,20 +1,21 @@
-// Rough surfaces: microfacets of GGX, α = roughness². What they reflect of the environment is the
-// integral of D V F E n·l over the directions l in front of the surface. It is taken over cells of the
-// environment (layout.h): the integrand at a cell's centroid, times the cell's light. A ray takes
-// cells that err little, however its neighbours in the packet choose.
+// Computes the light that rough surfaces reflect. Their microfacets follow GGX, α = roughness². The
+// light is the integral of D V F E n·l over the directions l in front of the surface. It is summed
+// over cells of the environment (layout.h): the integrand at a cell's centroid, times the cell's
+// light. Each ray chooses cells with small errors, independently of its neighbours in the packet.
 #if GLINT_ROUGH
 
-// (v·h)² at least: how much narrower than in h a lobe is in l, across the plane of incidence.
+// The smallest (v·h)² that the code assumes. v·h is the factor by which a lobe is narrower in l
+// than in h, across the plane of incidence.
 #define LOBE_STEEPEST R(0.0225)
 
-// A rough surface, and how it is seen.
+// A rough surface, and the direction from which it is seen.
 typedef struct lobe_shape {
     real3 normal;
     real cosine; // n·v
     real roughness;
 #if GLINT_BRUSHED
-    real3 along;     // where it is rougher along a direction, α + (1 − α) anisotropy²
-    real anisotropy; // else 0
+    real3 along;     // direction of larger roughness; there α is α + (1 − α) anisotropy²
+    real anisotropy; // 0: no such direction
 #endif
 #if GLINT_SHEEN
     bool is_sheen; // fibres instead of microfacets
@@ -64,34 +65,36 @@ static inline lobe_shape shape_of_coat(const surface *s)
 }
 #endif
 
-// The arrangement at a surface, in axes of the environment: n is the third.
+// A lobe at a surface, in axes of the environment; n is the third axis.
 typedef struct lobe {
     real3 first, second, normal;
-    real sine;          // v along the first; of its angle to n, where that lies in their plane
+    // v along the first axis. If v lies in the plane of `first` and n, it is the sine of v's angle
+    // to n.
+    real sine;
     real cosine;        // of v's angle to n
-    real alpha;         // across, where it is less than along
-    real alpha_squared; // both, multiplied
+    real alpha;         // α; of a brushed surface the smaller α, across
+    real alpha_squared; // α², or the product of both α
 #if GLINT_BRUSHED
-    real beside;        // v along the second
+    real beside;        // v along the second axis
     real alpha_along;
-    real narrowed, widened; // α across over α along, and the other way round
+    real narrowed, widened; // α across over α along, and its inverse
 #endif
-    real widest;    // width at most, squared
+    real widest;    // largest width, squared
     real smith;     // √(α² + (1 − α²) cos²)
-    real largest;   // of cells, as GLINT_CELL_LARGEST
-    real tolerance; // of what they err
+    real largest;   // largest size of cells, as GLINT_CELL_LARGEST
+    real tolerance; // tolerated error of a cell
 #if GLINT_SHEEN
     bool is_sheen;
-    sheen sheen; // where it is
+    sheen sheen; // set if is_sheen
 #endif
 } lobe;
 
-// Both parts of Schlick's F = F0 (1 − m) + m with m = (1 − v·h)⁵.
+// Light of both parts of Schlick's F = F0 (1 − m) + m with m = (1 − v·h)⁵.
 typedef struct lobe_light {
     real3 base, edge; // ∫ D V (1 − m) E n·l dl, ∫ D V m E n·l dl
 } lobe_light;
 
-// The axes: `across` is v less its part along n, `squared` long.
+// Sets the axes. `across` is v without its part along n; `squared` is its squared length.
 static inline void lobe_axes(const lobe_shape *shape, real3 v, lobe *l)
 {
     const real3 normal = shape->normal;
@@ -135,7 +138,7 @@ static inline void lobe_widths(const lobe_shape *shape, real roughness, lobe *l)
 #endif
 }
 
-// √(α² + (1 − α²) cos²) of v, or that with both α.
+// √(α² + (1 − α²) cos²) of v; for brushed surfaces the same with both α.
 static inline real lobe_root(const lobe *l)
 {
 #if GLINT_BRUSHED
@@ -146,8 +149,8 @@ static inline real lobe_root(const lobe *l)
 #endif
 }
 
-// n and v are unit vectors, in axes of the environment; n·v is the cosine. A pixel sees the lobe's
-// light by `weight`.
+// Prepares a lobe. n and v are unit vectors in axes of the environment, and the cosine is n·v.
+// `weight` is the lobe's weight in the pixel.
 static inline lobe find_lobe(const cell_map *map, const lobe_shape *shape, real3 v, real roughness,
                              real weight)
 {
@@ -165,15 +168,15 @@ static inline lobe find_lobe(const cell_map *map, const lobe_shape *shape, real3
     return l;
 }
 
-// A direction u, and the half vector's length and place: u + v = (x, ., c) with W = |u + v|².
+// A direction u, and the half vector's length and position: u + v = (x, ., c) with W = |u + v|².
 typedef struct half_vector {
     real up;     // n·u
     real c;      // n·(u + v)
     real square; // |u + v|² − c²
     real whole;  // |u + v|²
 #if GLINT_BRUSHED
-    real bent;   // as `square`, with the first axis narrowed and the second widened
-    real curled; // twice so
+    real bent;   // like `square`, with the first axis narrowed and the second widened
+    real curled; // the same, narrowed and widened twice
     real tilted; // (α u)² along both axes
 #endif
 } half_vector;
@@ -204,9 +207,10 @@ static inline half_vector half_vector_of(const lobe *l, scalar8 cell)
     return half_vector_towards(l, real3_of(real_of(cell.s0), real_of(cell.s1), real_of(cell.s2)));
 }
 
-// What spreading a cell's light about its centroid changes, to second order: D is averaged, by half
-// the light's variance about the centroid, turned into h, times D's Laplacian, D (16 s² − 8 α²)/A² with
-// A = α² + s², s = sin θ_h. `scale` is 1/(A |u + v|²)², and `width` A |u + v|².
+// The factor by which the spread of a cell's light about its centroid changes the weight, to second
+// order. It averages D: half of the light's variance about the centroid, converted to h, times the
+// Laplacian of D. The Laplacian is D (16 s² − 8 α²)/A² with A = α² + s², s = sin θ_h. `scale` is
+// 1/(A |u + v|²)², and `width` is A |u + v|².
 static inline real spread_factor(const lobe *l, const half_vector *h, real width, scalar variance,
                                  real scale)
 {
@@ -234,16 +238,16 @@ static inline real width_of(const lobe *l, const half_vector *h)
 }
 
 #if GLINT_SHEEN
-// What `are_coarse` tells, of sheen. D bends by n² cot² θ_h + n, n = 1/α; what hides fibres bends by
-// about 6/(n·l)², which is measured: so sheen errs as other lobes do. Λ(l) is about 0.5/n·l − 0.5 at
-// least.
+// are_coarse for sheen. The curvature of D is n² cot² θ_h + n, n = 1/α. The curvature of the
+// shadowing term is about 6/(n·l)²: measured, so that sheen has about the same error as other
+// lobes. Λ(l) is at least about 0.5/n·l − 0.5.
 static inline mask are_coarse_in_sheen(const lobe *l, const half_vector *h, scalar8 cell,
                                        mask these)
 {
     const real n = l->sheen.power;
     const real inverse = R(1.0) / LARGER(h->whole, real_of(R(1e-6)));
     const real size = real_of(cell.s3 * cell.s3);
-    // The cell, squared, as h sees it, over 4.
+    // The squared size of the cell as seen by h, over 4.
     const real turned = R(0.0625) * size / LARGER(R(0.25) * h->whole, real_of(LOBE_STEEPEST));
     const real sine_squared = h->square * inverse;
     const real slope = h->c * h->c * inverse / LARGER(sine_squared, real_of(R(1e-3)));
@@ -259,10 +263,10 @@ static inline mask are_coarse_in_sheen(const lobe *l, const half_vector *h, scal
 }
 #endif
 
-// The rays among `these` for which a cell is too large, see GLINT_CELL_LARGEST: without a division,
-// and as if n·u were a quarter of the cell's size at least. Where the products are too small for
-// numbers the cell is too large. What it brings is reckoned from its place nearest to the lobe's middle:
-// a lamp in another part may bring more than what its centroid is made of.
+// The rays among `these` for which a cell is too large, see GLINT_CELL_LARGEST. The test needs no
+// division, and takes n·u as at least a quarter of the cell's size. If the products underflow, the
+// cell counts as too large. The cell's contribution is estimated at its point nearest to the lobe's
+// middle: a lamp away from the centroid may contribute more than the light at the centroid.
 static inline mask are_coarse(const lobe *l, const half_vector *h, real width, scalar8 cell,
                               mask these)
 {
@@ -271,6 +275,7 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
         return are_coarse_in_sheen(l, h, cell, these);
     }
 #endif
+    // Find the limit of the cell's size.
     const real steep = LARGER(R(0.25) * h->whole, real_of(LOBE_STEEPEST));
 #if GLINT_BRUSHED
     const real far = sqrt(h->bent), stretched = sqrt(l->widened);
@@ -283,9 +288,10 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
     const real above = LARGER(h->up, real_of(R(0.25) * cell.s3));
     const real shadowing =
         fused(above, l->smith, l->cosine * LARGER(above, l->alpha)); // √(a² + b²) ≈ max(a, b)
-    // Where the cell is nearest to the lobe's middle.
+    // The point of the cell that is nearest to the lobe's middle.
     const real left = LARGER(far - R(0.5) * cell.s3 * stretched, real_of(0));
     const real nearest = fused(l->alpha_squared * h->c, h->c, left * left);
+    // Compare size and contribution with their limits.
     const real root = h->whole * size;
     const real bright = (cell.s4 + cell.s5 + cell.s6) * R(0.15915494309189535);
     const real brought = l->alpha_squared * bright * above * root * root;
@@ -294,15 +300,15 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
                     (brought > l->tolerance * shadowing * allowed * allowed));
 }
 
-// ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl; along one direction, what these integrate.
+// ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl; for a single direction, their integrands.
 typedef struct lobe_parts {
     real base, edge;
 } lobe_parts;
 
 #if GLINT_SHEEN
-// How the sheen's weight W = D g, g = 1/(1 + Λ(v) + Λ(l)), is bent: its Laplacian over the directions
-// u, over W. With k = u·v, μ = n·u and t = cos θ_h = (μ + n·v)/√(2 + 2k): ∇μ·∇k is n·v − μk,
-// and the Laplacians of μ and k are −2μ and −2k.
+// The curvature of the sheen's weight W = D g, g = 1/(1 + Λ(v) + Λ(l)): its Laplacian over the
+// directions u, divided by W. With k = u·v, μ = n·u and t = cos θ_h = (μ + n·v)/√(2 + 2k), ∇μ·∇k is
+// n·v − μk, and the Laplacians of μ and k are −2μ and −2k.
 static inline real bend_of_sheen(const lobe *l, const half_vector *h, const sheen_cover *cover)
 {
     const real n = l->sheen.power, up = h->up;
@@ -311,7 +317,7 @@ static inline real bend_of_sheen(const lobe *l, const half_vector *h, const shee
     const real across = fused(-k, k, real_of(1)), level = fused(-up, up, real_of(1));
     const real common = fused(-up, k, l->cosine), lean = h->c * inverse;
     const real t = h->c * root;
-    // |∇t|², ∇t·∇μ and t's Laplacian.
+    // ∇t|², ∇t·∇μ and the Laplacian of t.
     const real steep =
         inverse * fused(lean * lean, across, fused(R(-2.0) * lean, common, level));
     const real along = root * fused(-lean, common, level);
@@ -328,7 +334,7 @@ static inline real bend_of_sheen(const lobe *l, const half_vector *h, const shee
     return bend + fused(level, bend_of_g, R(2.0) * slope_of_g * fused(slope, along, -up));
 }
 
-// As weigh_direction, of sheen: it has one part.
+// weigh_direction for sheen, which has one part only.
 static inline lobe_parts weigh_sheen_direction(const lobe *l, const half_vector *h, scalar variance,
                                                mask these)
 {
@@ -345,7 +351,8 @@ static inline lobe_parts weigh_sheen_direction(const lobe *l, const half_vector 
 }
 #endif
 
-// Along a direction, for the rays in `these`; light is spread about it by the variance.
+// Weighs light from a direction, for the rays in `these`. `variance` is the spread of the light
+// about it.
 static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, real width,
                                          scalar variance, mask these)
 {
@@ -381,18 +388,19 @@ static inline void add_cell(const lobe *l, const half_vector *h, real width, sca
     sum->edge = scale_add(light, parts.edge, sum->edge);
 }
 
-// Four cells that stand together, and the rays that take them or parts of them.
+// Four neighbouring cells, and the rays that take them or their parts.
 typedef struct cell_group {
     mask these;
     int level;
     uint first; // in the level
 } cell_group;
 
-// Groups that wait: three of each level and four of the last, as the fourth is next.
+// The number of waiting groups: three of each level, and four of the last, because the fourth is
+// next.
 #define GROUPS (3 * GLINT_CELLS_LEVELS + 1)
 
-// Adds what the rays take of a group's cells; a cell that is too large for some of them waits, as
-// the group of its parts.
+// Adds the cells of a group to the rays that take them. If a cell is too large for some rays, the
+// group of its parts waits for these rays.
 static inline int visit_group(const cell_map *map, const lobe *l, const cell_group *group,
                               cell_group *waiting, int count, lobe_light *sum)
 {
@@ -430,7 +438,7 @@ static inline int visit_group(const cell_map *map, const lobe *l, const cell_gro
     return count;
 }
 
-// What the lobes of the rays in `wanted` take of the environment.
+// The light that the lobes of the rays in `wanted` take from the environment.
 static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *l, mask wanted)
 {
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
@@ -449,8 +457,8 @@ static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *
 }
 
 #if GLINT_LIGHTS
-// Towards a light, which is a point: a lobe is not narrower than that of
-// ROUGHNESS_NARROW, or it would fall between pixels. v and `to_light` are unit vectors.
+// Weighs the light of a punctual light. The lobe is at least as wide as at ROUGHNESS_NARROW;
+// otherwise it would fall between pixels. v and `to_light` are unit vectors.
 static inline lobe_parts weigh_light(const lobe_shape *shape, real3 v, real3 to_light, mask these)
 {
     lobe l;
@@ -462,14 +470,14 @@ static inline lobe_parts weigh_light(const lobe_shape *shape, real3 v, real3 to_
 }
 #endif
 
-// The share of what a lobe takes; the rest is what a mirror shows. Below ROUGHNESS_NARROW a lobe would
-// be narrower than cells: that of ROUGHNESS_NARROW is mixed with the mirror's look-up. It differs from
-// that by about α^1.5.
+// The share of the lobe's light; the rest is a mirror's light. Below ROUGHNESS_NARROW a lobe would
+// be narrower than the cells. So the lobe of ROUGHNESS_NARROW is mixed with the mirror's look-up.
+// The mix differs from the true lobe by about α^1.5.
 static inline real share_of_lobe(const lobe_shape *shape)
 {
     real roughness = shape->roughness;
 #if GLINT_BRUSHED
-    // By how rough it is along.
+    // The roughness along the brush direction counts.
     const real alpha = roughness * roughness;
     const real squared = shape->anisotropy * shape->anisotropy;
     roughness = SELECT(shape->anisotropy > R(0.0), sqrt(fused(R(1.0) - alpha, squared, alpha)),
@@ -479,7 +487,7 @@ static inline real share_of_lobe(const lobe_shape *shape)
     return SMALLER(x * x * x, real_of(1)); // α is x²
 }
 
-// Both integrals, from a table.
+// Reads both integrals from a table.
 static inline lobe_parts find_albedo(global const float *table, real cosine, real roughness,
                                      mask wanted)
 {
@@ -507,8 +515,9 @@ static inline lobe_parts find_albedo(global const float *table, real cosine, rea
 }
 
 #if GLINT_BRUSHED
-// Of a surface that is rougher along a direction, by facets that are seen, spread evenly (see
-// facets.cl): the mean of what no other facet stops. `along` is v along that direction.
+// The albedo of a surface that is rougher along a direction. It is the mean over visible facets,
+// spread evenly (see facets.cl), of the share of light that no other facet blocks. `along` is v
+// along the direction of larger roughness.
 #define BRUSHED_FACETS 64
 static inline lobe_parts brushed_albedo(real cosine, real along, real roughness, real anisotropy)
 {
@@ -520,7 +529,7 @@ static inline lobe_parts brushed_albedo(real cosine, real along, real roughness,
     const real shrink = R(1.0) / root;
     const real vx = x * shrink, vy = y * shrink, vz = cosine * shrink;
     lobe_parts sum = {real_of(0), real_of(0)};
-    scalar c = R(1.0), s = R(0.0); // of the turn, by the golden section each time
+    scalar c = R(1.0), s = R(0.0); // of the facet's turn, which advances by the golden section
     for (int i = 0; i < BRUSHED_FACETS; i++) {
         const scalar down = ((scalar)i + R(0.5)) / (scalar)BRUSHED_FACETS;
         const real z = fused(real_of(-down), R(1.0) + vz, real_of(1));
@@ -535,6 +544,7 @@ static inline lobe_parts brushed_albedo(real cosine, real along, real roughness,
         const real root_of_l = sqrt(fused(lx, lx, fused(ly, ly, away * away)));
         const real open = away * (cosine + root) / fused(away, root, cosine * root_of_l);
         const real weight = SELECT(away > R(0.0), open, real_of(0));
+        // Sum Schlick's two parts, and turn on.
         const real m = LARGER(R(1.0) - toward, real_of(0)), m2 = m * m;
         const real edge = weight * (m2 * m2 * m);
         sum.edge += edge;

@@ -1,35 +1,36 @@
-// How a surface divides light (rules 3 to 6): what it adds itself, and the weights and directions
-// of the reflected and of the transmitted branch.
+// Divides light at a surface (rules 3 to 6). It finds the light that the surface adds itself, and
+// the weights and directions of the reflected and the transmitted branch.
 
 typedef struct scattering {
     real3 emitted; // radiance that the path gathers here: emission, paint, unlit colour
     real3 reflected, reflected_weight; // unit direction; factors of R, G, B
     lanes_int media_reflected;
-    // Of glass:
+    // For glass:
     real3 transmitted, transmitted_weight;
     lanes_int media_transmitted; // the stack of media beyond the surface
     mask total_reflection;
     real eta, bend; // of the transmitted ray, see leave_surface
 #if GLINT_ROUGH
     mask rough;                   // reflects a lobe
-    real3 lobe_base, lobe_edge;   // what of lobe_light's parts paths bring
-    real3 matte_base, matte_edge; // and what comes without one
-    real lobe_weight;             // how much of the lobe that is together
+    real3 lobe_base, lobe_edge;   // how much of lobe_light's two parts comes by paths
+    real3 matte_base, matte_edge; // and how much comes without a path
+    real lobe_weight;             // weight of the whole lobe, with and without paths
 #endif
 #if GLINT_SHEEN
-    real3 sheen; // what of the sheen's light comes
+    real3 sheen; // factor of the sheen's light
 #endif
 #if GLINT_CLEARCOAT
-    mask coat_apart;  // `transmitted` is what the clear coat reflects; else that is in `reflected`
-    real coat_weight; // of that
+    mask coat_apart;  // `transmitted` holds the coat's reflection; else `reflected` has it
+    real coat_weight; // weight of the coat's reflection
 #if GLINT_ROUGH
-    mask coat_rough; // the clear coat reflects a lobe,
-    real coat_gain;  // whose parts are this times F0, and this
+    mask coat_rough; // the clear coat reflects a lobe
+    real coat_gain;  // weight of its edge part; its base part weighs F0 times as much
 #endif
 #endif
 } scattering;
 
-// What a dielectric reflects at right angles, F0, of each colour. KHR_materials_specular colours it.
+// F0 of a dielectric per colour: its reflectance at right angles. KHR_materials_specular colours
+// it.
 static inline real3 specular_at_right_angles(const surface *s, real f0)
 {
 #if GLINT_SPECULAR
@@ -40,7 +41,7 @@ static inline real3 specular_at_right_angles(const surface *s, real f0)
 #endif
 }
 
-// What a metal reflects of each colour.
+// The reflectance of a metal per colour.
 static inline real3 reflect_from_metal(const surface *s)
 {
     const real3 bare = metal_reflectance(s->base_color, s->cosine);
@@ -54,12 +55,13 @@ static inline real3 reflect_from_metal(const surface *s)
 // The two sides of a dielectric surface, seen from the side of its normal.
 typedef struct sides {
     real eta;    // the outer medium's index of refraction over the inner one's
-    real outer;  // the outer one
-    real cosine; // of the angle to the normal that light has in it
+    real outer;  // the outer medium's index of refraction
+    real cosine; // of light's angle to the normal in the outer medium
 } sides;
 
-// What a dielectric reflects of each colour whose Fresnel term is `reflectance`. With
-// KHR_materials_specular that says how far it is between F0 and 1, and a share of it all is left.
+// The reflectance of a dielectric per colour; `reflectance` is its Fresnel term. With
+// KHR_materials_specular this term sets the position between the coloured F0 and 1, and `specular`
+// scales the result.
 static inline real3 specular_reflectance(const surface *s, real reflectance, const sides *at)
 {
     const real root = (R(1.0) - at->eta) / (R(1.0) + at->eta);
@@ -85,7 +87,7 @@ static inline real3 specular_reflectance(const surface *s, real reflectance, con
     return reflected;
 }
 
-// The same of a surface that is met from empty space.
+// specular_reflectance of a surface that light meets from empty space.
 static inline real3 specular_from_space(const surface *s)
 {
     const sides at = {R(1.0) / s->ior, real_of(1), s->cosine};
@@ -93,7 +95,7 @@ static inline real3 specular_from_space(const surface *s)
 }
 
 // Rule 4, glass: reflectance and transmitted direction. A thin wall is one interface from empty
-// space, whatever the side, and lets light pass straight on.
+// space on both sides, and light passes straight through it.
 static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 *transmitted,
                                      real *bend, mask *total_reflection)
 {
@@ -110,7 +112,7 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
     return reflectance;
 }
 
-// Rule 5: a back face met with an empty stack means that the path began inside that solid.
+// Rule 5: if a path meets a back face with an empty stack, it began inside that solid.
 static inline lanes_int media_met_in(const surface *s, mask solid, lanes_int media)
 {
 #if GLINT_OVERLAPS
@@ -140,7 +142,7 @@ static inline real cross_solid(const scene_buffers *scene, const surface *s, mas
     return n_i / n_t;
 }
 
-// Rule 4, glass: adds what a share of it reflects and transmits.
+// Rule 4, glass: adds the light that glass reflects and transmits, weighted by `share`.
 static inline void scatter_glass(const scene_buffers *scene, const surface *s, real3 v, real share,
                                  lanes_int *media, scattering *out, mask *media_lost)
 {
@@ -156,10 +158,11 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
         outer = SELECT(solid, outer_of_solid, outer);
         within = solid & !s->outside;
     }
+    // Find the reflectance and the transmitted direction, then the reflected light per colour.
     const real reflectance =
         glass_reflectance(s, v, eta, &out->transmitted, &out->bend, &out->total_reflection);
     const real3 all = real3_of(share, share, share);
-    // From within, light has the transmitted ray's angle outside.
+    // If light comes from within, its angle outside is the transmitted ray's.
     const sides at = {SELECT(within, R(1.0) / eta, eta), outer,
                       SELECT(within, fused(eta, s->cosine, -out->bend), s->cosine)};
     real3 reflected = scale(specular_reflectance(s, reflectance, &at), share);
@@ -177,7 +180,7 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
 }
 
 #if GLINT_ROUGH
-// Rule 11: which surfaces reflect lobes.
+// Rule 11: finds the surfaces that reflect lobes.
 static inline mask are_rough(const surface *s)
 {
     const lane_int smooth = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN | GLINT_MATERIAL_BLEND |
@@ -189,7 +192,7 @@ static inline mask are_rough(const surface *s)
     return rough & ((s->flags & smooth) == (lane_int)0);
 }
 
-// How much of what a coat reflects comes by a path.
+// The share of a coat's reflection that comes by a path.
 static inline real share_of_path(real roughness)
 {
     const scalar inverse = (scalar)(1 / (GLINT_COAT_MATTE - GLINT_COAT_SHARP));
@@ -197,20 +200,22 @@ static inline real share_of_path(real roughness)
     return SMALLER(LARGER(left, real_of(0)), real_of(1));
 }
 
-// What microfacets reflect to others, over what they reflect at once: with this times F0 more than
-// that a lobe has what is reflected more than once, too (Turquin, Practical multiple scattering
-// compensation for microfacet models, 2019). 0 where that is not asked for.
+// The light that microfacets reflect to other facets, relative to the light that they reflect at
+// once. A lobe that gains this times F0 also has the light of multiple scattering (Turquin,
+// Practical multiple scattering compensation for microfacet models, 2019). 0 if the frame asks for
+// no compensation.
 static inline real light_lost(const scene_buffers *scene, const lobe_parts *albedo)
 {
     return scene->cells.compensation *
            (R(1.0) / LARGER(albedo->base + albedo->edge, real_of(R(0.1))) - R(1.0));
 }
 
-// Rule 11: metal and the coat of paint, of which there is a share, as lobes. Sets what the light's
-// parts weigh, and returns what the coat leaves of the light.
+// Rule 11: metal and the coat of paint as lobes; `paint` is the share of paint. Sets the weights of
+// the light's parts. Returns the share of light that passes the coat.
 static inline real scatter_lobe(const scene_buffers *scene, const surface *s, real paint,
                                 scattering *out)
 {
+    // Find the albedo of the lobe.
     const real zero = real_of(0);
     lobe_parts albedo =
         find_albedo(scene->cells.values, s->cosine, s->roughness, out->rough);
@@ -223,6 +228,7 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
         albedo.edge = SELECT(brushed, found.edge, albedo.edge);
     }
 #endif
+    // Weigh the metal.
     const real lost = light_lost(scene, &albedo);
     const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
     real3 tint = GLINT_TINT ? s->base_color : one;
@@ -233,6 +239,7 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
     out->lobe_base = multiply(tint, metal);
     out->lobe_edge = GLINT_FRESNEL ? metal : out->lobe_base;
     out->matte_base = out->matte_edge = real3_of(zero, zero, zero);
+    // Add the coat of paint, divided into light by a path and light without a path.
     real coat = zero;
     if (GLINT_PAINT && GLINT_FRESNEL) {
         const real root = (s->ior - R(1.0)) / (s->ior + R(1.0));
@@ -254,6 +261,7 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
         out->matte_base = subtract(own, base);
         out->matte_edge = subtract(whole_edge, edge);
     }
+    // Find the weights of the whole lobe.
     const real3 weight =
         scale_add(out->lobe_base, albedo.base, scale(out->lobe_edge, albedo.edge));
     out->reflected_weight = select3(out->rough, weight, out->reflected_weight);
@@ -264,8 +272,8 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
 }
 #endif
 
-// Rule 6, paint: what a share of it sends back of the environment's irradiance (the map holds
-// E(n)/π) and, where it is smooth, reflects.
+// Rule 6, paint: adds the environment's irradiance that paint reflects, weighted by `share` (the
+// map holds E(n)/π). Smooth paint also reflects as a mirror.
 static inline void scatter_paint(const surface *s, real3 irradiance, real share, real kept,
                                  scattering *out)
 {
@@ -289,7 +297,7 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
     out->emitted = scale(sent, share * kept);
 }
 
-// Rule 6, the lecture's blend: takes the place of the other models.
+// Rule 6, the lecture's blend: replaces the results of the other models.
 static inline void scatter_blend(const surface *s, real3 irradiance, scattering *out)
 {
     const mask blended = HAS_FLAG(*s, GLINT_MATERIAL_BLEND);
@@ -302,7 +310,7 @@ static inline void scatter_blend(const surface *s, real3 irradiance, scattering 
 }
 
 #if GLINT_CLEARCOAT || GLINT_ALPHA || GLINT_SHEEN
-// Of all that a surface does so far a share is left.
+// Scales the result so far: only the share `left` remains.
 static inline void leave_share(real left, scattering *out)
 {
     out->emitted = scale(out->emitted, left);
@@ -322,7 +330,7 @@ static inline void leave_share(real left, scattering *out)
 #endif
 
 #if GLINT_SHEEN
-// Rule 17: sheen above metal and paint, which get what it leaves.
+// Rule 17: sheen above metal and paint. They get the light that sheen leaves.
 static inline void scatter_from_sheen(const scene_buffers *scene, const surface *s,
                                       scattering *out)
 {
@@ -356,7 +364,7 @@ static inline mask is_coat_rough(const surface *s)
 }
 #endif
 
-// How much of what meets a whole coat it reflects, and by a path.
+// The reflectance of a full clear coat: the whole, and the part that comes by a path.
 typedef struct coat_reflectance {
     real whole, by_path;
 } coat_reflectance;
@@ -378,14 +386,14 @@ static inline coat_reflectance reflect_from_coat(const scene_buffers *scene, con
     return f;
 }
 
-// Coats whose reflection goes one way with what is reflected below.
+// Finds coats whose reflection shares the direction of the reflection below.
 static inline mask are_coats_joined(const surface *s, const scattering *out)
 {
     return (s->clearcoat > R(0.0)) & !out->coat_apart;
 }
 
 #if COATS_APART
-// Coats that reflect another way than what is below, where no other branch goes on.
+// Finds coats that reflect in another direction than the layers below, if no other branch goes on.
 static inline mask are_coats_apart(const surface *s, const scattering *out, mask coated)
 {
     const real3 n = s->normal, c = s->clearcoat_normal;
@@ -401,8 +409,8 @@ static inline mask are_coats_apart(const surface *s, const scattering *out, mask
 }
 #endif
 
-// Rule 13: a clear coat above all that the surface does. Where it has no branch of its own, what is
-// reflected below goes its way.
+// Rule 13: a clear coat above the rest of the surface. If the coat has no branch of its own, the
+// reflection of the layers below takes the coat's direction.
 static inline void scatter_from_coat(const scene_buffers *scene, const surface *s, real3 v,
                                      lanes_int media, scattering *out)
 {
@@ -434,8 +442,8 @@ static inline void scatter_from_coat(const scene_buffers *scene, const surface *
 #endif
 
 #if GLINT_ALPHA
-// Rule 9: of a surface that is there in part only its share does what it does. The rest of the light
-// goes straight on, as it does through a thin wall.
+// Rule 9: a partly covering surface scatters only the share of its coverage. The rest of the light
+// goes straight on, as through a thin wall.
 static inline void scatter_covered(const surface *s, real3 v, lanes_int media, scattering *out)
 {
     const mask partly = s->coverage < R(1.0);
@@ -461,8 +469,8 @@ static inline void scatter_covered(const surface *s, real3 v, lanes_int media, s
 #endif
 
 #if GLINT_FACETS
-// Rough glass, rule 12: of what the facets reflect and transmit, what no other facet stops. A thin
-// wall transmits the mirror image of what it reflects.
+// Rule 12, rough glass: keeps only the light from facets that no other facet blocks. A thin wall
+// transmits the mirror image of its reflection.
 static inline void scatter_from_facets(const surface *s, real3 v, scattering *out)
 {
     const facet *f = &s->facet;
@@ -486,7 +494,7 @@ static inline void scatter_from_facets(const surface *s, real3 v, scattering *ou
 }
 #endif
 
-// What lights matte paint, over π: the environment, which occlusion darkens, and the file's lights.
+// The light on matte paint, over π: the environment, darkened by occlusion, and the file's lights.
 static inline real3 light_on_paint(const surface *s, real3 irradiance)
 {
 #if GLINT_TEXTURES
@@ -498,7 +506,8 @@ static inline real3 light_on_paint(const surface *s, real3 irradiance)
     return irradiance;
 }
 
-// `media` is the path's stack; a path that began inside the solid it meets has it put right.
+// Scatters light at the surface by all models. `media` is the path's stack; if the path began
+// inside the solid that it meets, the stack is corrected.
 static inline scattering scatter(const scene_buffers *scene, const surface *s, real3 v,
                                  lanes_int *media, real3 irradiance, mask *media_lost)
 {
@@ -511,10 +520,11 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
 #endif
     *media_lost = mask_none();
 
-    // Shares of the three models, metallic first: metal, then glass, the rest is paint.
+    // The shares of the three models, metallic first: metal, then glass. The rest is paint.
     const real dielectric = R(1.0) - s->metallic;
     const real glass = dielectric * s->transmission;
 
+    // Metal.
     real3 r = reflect_direction(v, s->normal, s->cosine);
     result.reflected = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
     if (GLINT_TINT) {
@@ -522,6 +532,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     } else if (GLINT_MIRROR) {
         result.reflected_weight = real3_of(s->metallic, s->metallic, s->metallic);
     }
+    // Glass.
     if (GLINT_GLASS) {
         scatter_glass(scene, s, v, glass, media, &result, media_lost);
     }
@@ -533,6 +544,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     result.bend = real_of(0);
 #endif
     result.media_reflected = *media;
+    // Paint and rough lobes.
     irradiance = light_on_paint(s, irradiance);
     real kept = real_of(1);
 #if GLINT_ROUGH
@@ -546,6 +558,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
                             multiply(add(result.lobe_edge, result.matte_edge), s->shine_edge));
     result.emitted = select3(result.rough, add(result.emitted, shine), result.emitted);
 #endif
+    // Facets of rough glass, sheen, then the models that replace or add to the others.
 #if GLINT_FACETS
     scatter_from_facets(s, v, &result);
 #endif
@@ -564,6 +577,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
         result.reflected_weight = select3(unlit, zero, result.reflected_weight);
         result.transmitted_weight = select3(unlit, zero, result.transmitted_weight);
     }
+    // Layers above all the others.
 #if GLINT_CLEARCOAT
     scatter_from_coat(scene, s, v, *media, &result);
 #endif

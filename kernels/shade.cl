@@ -1,4 +1,4 @@
-// What textures, colours at vertices and alpha make of a surface that a ray meets.
+// Applies textures, vertex colours and alpha to a surface that a ray meets.
 
 #if GLINT_TEXTURES
 
@@ -11,7 +11,8 @@ static inline real3 bump_of(const texture_color *c, float normal_scale)
 #endif
 
 #if GLINT_BRUSHED
-// What an anisotropy texture says: the direction, which the material's turns, and the strength.
+// Applies an anisotropy texture: its direction turns the material's direction, its strength scales
+// the material's.
 static inline void brush_by(const texture_color *c, mask here, surface *s)
 {
     const real x = fused(c->r, real_of(2), real_of(-1)), y = fused(c->g, real_of(2), real_of(-1));
@@ -26,7 +27,8 @@ static inline void brush_by(const texture_color *c, mask here, surface *s)
 }
 #endif
 
-// What a material's textures say of the rays in `here`: it multiplies what the material says.
+// Applies one of a material's textures to the rays in `here`. Most textures multiply the material's
+// value.
 static inline void take_texture(int slot, const texture_color *c, mask here,
                                 global const glint_material_record *m, surface *s)
 {
@@ -119,12 +121,13 @@ static inline void take_texture(int slot, const texture_color *c, mask here,
     }
 }
 
-// Looks up the textures of one material in slots of `*left` that are looked up alike, which leave
-// it. Slots that share a texture, as occlusion and metallic often do, share its look-up.
+// Looks up the textures in slots of `*left` that differ only in texels from the first, and removes
+// these slots. Slots with the same texture, often occlusion and metallic, share one look-up.
 static inline void take_alike(const scene_buffers *scene, const texture_spot *spots, mask here,
                               global const glint_material_record *m, uint *left, surface *s)
 {
     global const glint_texture_record *t = scene->textures + m->textures[lowest_bit(*left)];
+    // Collect the slots that are looked up in the same way.
     texture_group g;
     int place[GLINT_MATERIAL_TEXTURES];
     uint taken = 0;
@@ -140,6 +143,7 @@ static inline void take_alike(const scene_buffers *scene, const texture_spot *sp
         }
     }
     *left &= ~taken;
+    // Look up the textures, and apply each.
     const bool second = GLINT_SECOND_TEXCOORDS && (t->flags & GLINT_TEXTURE_SECOND);
     scalar4 found[GLINT_MATERIAL_TEXTURES][GLINT_WIDTH];
     look_up_textures(scene, &g, &spots[second], here, found);
@@ -162,7 +166,7 @@ static inline void take_textures(const scene_buffers *scene, const texture_spot 
     }
 }
 
-// What vertices and textures say of the surfaces that the rays in `met` meet.
+// Applies a material's textures to the surfaces that rays have met.
 static inline void texture_surface(const scene_buffers *scene, const path *ray, const closest *hit,
                                    const triangle *t, surface *s)
 {
@@ -174,6 +178,7 @@ static inline void texture_surface(const scene_buffers *scene, const path *ray, 
     s->clearcoat_bump = s->bump;
 #endif
 #endif
+    // Find the pixel's footprint on the triangle, and the texture coordinates.
     real width = fabs(width_after(&ray->cone, hit->t));
 #if GLINT_FACETS
     width = joined_width(width, width_after(&ray->lobe, hit->t));
@@ -186,6 +191,7 @@ static inline void texture_surface(const scene_buffers *scene, const path *ray, 
             load_corners(scene, hit->place, met, set * SECOND_TEXCOORDS_AT, 2);
         spots[set] = spot_on(&c, &seen, hit->b1, hit->b2);
     }
+    // Apply the textures, material by material.
     uint left = mask_bits(met);
     while (left != 0) {
         int material = 0;
@@ -202,7 +208,7 @@ static inline void texture_surface(const scene_buffers *scene, const path *ray, 
 #endif
 
 #if GLINT_COLORED_VERTICES
-// Colours at vertices multiply the base colour, and their alpha its alpha.
+// Multiplies the base colour and its alpha by the vertices' colours and alpha.
 static inline void color_surface(const scene_buffers *scene, const closest *hit, surface *s)
 {
     const mask met = hit->place >= (lane_int)0;
@@ -219,7 +225,7 @@ static inline void color_surface(const scene_buffers *scene, const closest *hit,
 #endif
 
 #if GLINT_ALPHA
-// How much of the surface is there, from its alpha.
+// Finds the coverage of the surface from its alpha.
 static inline void cover_surface(surface *s)
 {
     const real one = real_of(1), zero = real_of(0);
@@ -236,7 +242,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     const real3 *vertices = t->vertices;
     mask valid;
     s.geometric_normal = normalized(normal_of(vertices), &valid);
-    // A sliver whose edges are parallel in this precision has no normal: it faces the viewer.
+    // A sliver whose edges are parallel in this precision has no normal; it faces the viewer.
     s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
     if (HAS_PLACES) {
         place_on_triangle(t, ray, hit, &s);
@@ -257,6 +263,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
 #endif
 #endif
 #endif
+    // Apply vertex colours, textures and alpha.
 #if GLINT_COLORED_VERTICES
     color_surface(scene, hit, &s);
 #endif
@@ -266,6 +273,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
 #if GLINT_ALPHA
     cover_surface(&s);
 #endif
+    // Orient the normals. From within a solid no clear coat is visible.
     orient_normals(scene, t, ray, hit, &s);
 #if GLINT_CLEARCOAT
     const mask within = HAS_FLAG(s, GLINT_MATERIAL_SOLID) & !s.outside;

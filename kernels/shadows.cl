@@ -1,15 +1,15 @@
-// Shadow rays: what is left of the light on its way from a light to a surface. They run from the
-// surface to the light: a packet's as one frustum while they stay near each other, else each by
-// itself, where what is opaque ends a ray wherever it stands on the way. Light goes straight on
-// through the rest, without refraction: glass takes its Fresnel term and its colour, a solid what
-// it absorbs, and alpha lets pass what is not there. Of these the nearest are passed first, so that
-// the product has the same bits in every tree.
+// Traces shadow rays: finds the share of a light's light that reaches a surface. The rays run from
+// the surface to the light. The rays of a packet go as one frustum while they stay close to each
+// other. Otherwise each ray goes alone, with an early exit at any opaque surface. Other surfaces
+// let light pass straight, without refraction. Glass filters it by its Fresnel term and its colour,
+// a solid by absorption, and alpha lets the uncovered part pass. Rays pass these surfaces nearest
+// first, so the product has the same bits in every tree.
 #if GLINT_LIGHTS
 
-// More surfaces than these on the way leave nothing.
+// If more surfaces than these are on the way, no light is left.
 #define SHADOW_SURFACES 64
 
-// Whether light may pass the triangles of a cluster.
+// True if light may pass the triangles of a cluster.
 static inline bool lets_light_pass(const scene_buffers *scene, global const float *cluster)
 {
 #if TRANSMITS
@@ -22,8 +22,9 @@ static inline bool lets_light_pass(const scene_buffers *scene, global const floa
 #endif
 }
 
-// Whether triangle i of a leaf is met before *hit, in the ray's lane; then it takes its place. A
-// light in the plane of a triangle is on this side of it: hits near the light are looked at again.
+// If the ray meets triangle i of a leaf before *hit, in the ray's lane, the triangle becomes the
+// hit. A light in the plane of a triangle is on this side of it. So hits near the light are tested
+// again.
 static inline bool meet_before_light(const stream_ray *r, const leaf *leaf,
                                      const cluster_test *test, int i,
                                      global const glint_light_record *light, scalar light_at,
@@ -48,8 +49,8 @@ static inline bool meet_before_light(const stream_ray *r, const leaf *leaf,
     return true;
 }
 
-// Whether something opaque is on the way, `light_at` long. Else the nearest surface that lets light
-// pass becomes *hit, in the ray's lane.
+// True if an opaque surface is on the way, whose length is `light_at`. Otherwise the nearest
+// surface that lets light pass becomes *hit, in the ray's lane.
 static inline bool is_blocked(stream_ray *r, const scene_buffers *scene,
                               global const glint_light_record *light, scalar light_at, closest *hit)
 {
@@ -82,8 +83,8 @@ static inline bool is_blocked(stream_ray *r, const scene_buffers *scene,
 
 #if GLINT_WIDTH > 1
 
-// Finds the closest hits of rays that stay near each other, as one frustum. Returns the rays that
-// are left to be traced alone: those that spread, and those whose hit is near the light.
+// Finds the closest hits of rays that stay close to each other, as one frustum. Returns the rays
+// that must be traced alone: incoherent rays, and rays whose hit is near the light.
 static inline mask trace_alike(const scene_buffers *scene, const path *rays, const packet *p,
                                mask wanted, closest *hit)
 {
@@ -101,7 +102,7 @@ static inline mask trace_alike(const scene_buffers *scene, const path *rays, con
             continue;
         }
         update_farthest(&b, hit);
-        group_frusta several; // of which there are none
+        group_frusta several; // has no groups
         party one;
         one.bounds = b.bounds;
         one.farthest = b.farthest;
@@ -114,7 +115,8 @@ static inline mask trace_alike(const scene_buffers *scene, const path *rays, con
 
 #endif
 
-// The rays that are blocked; `distance` is the light's. What the others met lets light pass.
+// Returns the blocked rays. `distance` is the distance of the light. For the other rays, *hit is
+// the nearest surface that lets light pass.
 static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
                                   global const glint_light_record *light, real distance,
                                   mask wanted, closest *hit)
@@ -124,6 +126,7 @@ static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
     *hit = no_hit();
     const real light_at = SMALLER(distance, hit->t);
     hit->t = light_at;
+    // Trace coherent rays together.
     mask alone = wanted & is_sound(rays->origin, rays->direction);
 #if GLINT_WIDTH > 1
     alone = trace_alike(scene, rays, &p, alone, hit);
@@ -136,6 +139,7 @@ static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
             lets_light_pass(scene, scene->clusters + cluster * GLINT_CLUSTER_VALUES) ? 0 : 1;
     }
 #endif
+    // Trace the other rays alone.
     for (uint left = mask_bits(alone); left != 0; left &= left - 1) {
         stream_ray r;
         const int lane = lowest_bit(left);
@@ -148,7 +152,7 @@ static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
 
 #if TRANSMITS
 
-// What a surface lets pass of light that goes straight on.
+// The share of straight light that a surface lets pass.
 static inline real3 light_passing(const surface *s)
 {
     real3 passing = real3_of(real_of(0), real_of(0), real_of(0));
@@ -174,7 +178,7 @@ static inline real3 light_passing(const surface *s)
     return passing;
 }
 
-// Takes the rays in `met`, which have `left` so far, past what they met.
+// Moves the rays in `met` past their hits. `left` is the light that they have left.
 static inline void pass_surfaces(const scene_buffers *scene, path *rays, closest *hit, mask met,
                                  real3 *left)
 {
@@ -200,7 +204,7 @@ static inline void pass_surfaces(const scene_buffers *scene, path *rays, closest
 
 #endif
 
-// What is left of a light's on its way to the rays' origins.
+// The share of a light's light that is left at the rays' origins.
 static inline real3 light_left(const scene_buffers *scene, path *rays,
                                global const glint_light_record *light, real distance, mask wanted)
 {

@@ -1,24 +1,25 @@
-// Sheen (KHR_materials_sheen): fibres that stand on a surface, as of velvet. Their half vectors are
-// spread by D = (2 + 1/α) sin^(1/α) θ_h/2π with α = roughness², and what hides them is a fit
-// (Estevez and Kulla, Production Friendly Microfacet Sheen BRDF, 2017).
+// Computes sheen (KHR_materials_sheen): the light of fibres that stand on a surface, as on velvet.
+// The distribution of their half vectors is D = (2 + 1/α) sin^(1/α) θ_h/2π with α = roughness². The
+// shadowing term Λ, by which fibres hide each other, is a fit (Estevez and Kulla, Production
+// Friendly Microfacet Sheen BRDF, 2017).
 #if GLINT_SHEEN
 
-// Fibres of a roughness, and how they are seen.
+// Fibres of one roughness, seen from one direction.
 typedef struct sheen {
     real power;         // 1/α
-    real a, b, c, d, e; // of the fit
+    real a, b, c, d, e; // parameters of the fit
     real twice_middle;  // 2 L(½)
     real scale;         // (2 + 1/α)/(2π 4 n·v)
     real of_view;       // 1 + Λ(v)
 } sheen;
 
-// How much fibres hide of light, Λ, and how it changes with the cosine to the normal: its first and
-// second derivatives, over Λ.
+// The amount Λ by which fibres hide light. Then its first and second derivatives with respect to
+// the cosine to the normal, over Λ.
 typedef struct sheen_cover {
     real hidden, slope, bend;
 } sheen_cover;
 
-// L of the fit, for x in [0, ½], and its derivatives.
+// L of the fit and its derivatives, for x in [0, ½].
 static inline sheen_cover fit_of_sheen(const sheen *f, real x)
 {
     const real at = LARGER(x, real_of(R(1e-6))), inverse = R(1.0) / at;
@@ -30,7 +31,7 @@ static inline sheen_cover fit_of_sheen(const sheen *f, real x)
     return fit;
 }
 
-// At a cosine in [0, 1]: e^L(x), mirrored about ½. L is less than 24.
+// Λ at a cosine in [0, 1]: e^L(x), mirrored about ½. L is less than 24.
 static inline sheen_cover hidden_by_sheen(const sheen *f, real cosine)
 {
     const mask high = cosine >= R(0.5);
@@ -60,8 +61,8 @@ static inline sheen find_sheen(real roughness, real cosine)
     return f;
 }
 
-// D V n·l towards a direction whose half vector has this sine to the normal, squared; `hidden` is
-// Λ(l). In V = 1/(4 n·v n·l (1 + Λ(v) + Λ(l))) the cosine to l cancels.
+// D V n·l towards a direction l. `sine_squared` is the squared sine of the half vector to the
+// normal; `hidden` is Λ(l). The cosine n·l cancels in V = 1/(4 n·v n·l (1 + Λ(v) + Λ(l))).
 static inline real weigh_sheen(const sheen *f, real sine_squared, real hidden)
 {
     return f->scale * power_of(sine_squared, R(0.5) * f->power) / (f->of_view + hidden);

@@ -1,15 +1,16 @@
-// The scene on the device, and the nodes and leaves that wait in a traversal, the nearest on top.
+// Defines the scene on the device, and the stack of nodes and leaves that wait in a traversal, the
+// nearest on top.
 
-// What the lists of arguments.h become.
+// Expand the lists of arguments.h to parameters and to members.
 #define PARAMETER(type, name) type name,
 #define MEMBER(type, name) type name;
 
-// What rough surfaces see of the environment (layout.h, Lobes).
+// The environment as rough surfaces read it (layout.h, Lobes).
 typedef struct cell_map {
     global const float *values; // albedo, brightness and cells
     int last;                   // the finest level
-    float tolerance;            // as the frame record has it
-    float compensation;         // likewise
+    float tolerance;            // from the frame record
+    float compensation;         // from the frame record
 } cell_map;
 
 // The scene's buffers, as every part of the shading gets them.
@@ -25,14 +26,14 @@ typedef struct scene_buffers {
     global const glint_texture_record *textures;
     global const ushort *texels;
     global const glint_light_record *lights;
-    float anisotropy; // as the frame record has it
+    float anisotropy; // from the frame record
     cube_map environment, irradiance;
     cell_map cells;
-    global const float *vertices; // what was found at them, with VERTEX_COLOR and VERTEX_DIRECTION
+    global const float *vertices; // results at vertices, with VERTEX_COLOR and VERTEX_DIRECTION
     global const uint *pixels;    // with PIXEL_LIST: their numbers, see layout.h
 } scene_buffers;
 
-// The same, from the arguments of a kernel.
+// Makes scene_buffers from the arguments of a kernel.
 #define SCENE_OF_ARGUMENTS                                                                         \
     {nodes, clusters, normals, numbers, materials, media, solids, attributes, textures, texels,    \
      lights, frame.anisotropy,                                                                     \
@@ -54,15 +55,15 @@ static inline int child_of(node_pointer node, int child)
     return ((global const int *)(node + 6 * GLINT_BVH_WIDTH))[child];
 }
 
-// `entry` is the distance or depth at which the rays may enter; `box` is the place of the box among
-// all nodes' children.
+// A waiting node or leaf. `entry` is the distance or depth at which the rays may enter it. `box` is
+// the index of its box among the children of all nodes.
 typedef struct waiting {
     int child;
     scalar entry;
     int box;
 } waiting;
 
-// Asks for what the traversal will soon come to: a node, or a cluster and its normals.
+// Prefetches a child that the traversal will soon visit: a node, or a cluster and its normals.
 static inline void prefetch_child(const scene_buffers *scene, int child)
 {
     if (child >= 0) {
@@ -76,9 +77,9 @@ static inline void prefetch_child(const scene_buffers *scene, int child)
     }
 }
 
-// Puts a child of a node on the stack, in order of falling distance down to `base`, where the
-// node's own children begin. Equal distances keep the order of the children, so that the order is
-// always the same. Returns the new size.
+// Puts a child of a node on the stack. The entries from `base` on are the node's own children, in
+// order of falling distance. Equal distances keep the order of the children, so the order is always
+// the same. Returns the new size.
 static inline int push_waiting(const scene_buffers *scene, waiting *stack, int base, int size,
                                int node, int child, scalar entry)
 {

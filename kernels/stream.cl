@@ -1,25 +1,25 @@
-// Closest hits of the rays of a tile that have too little in common for a frustum: a stream of them
-// goes through the tree together, node by node, with a list of those that each child's box is met
-// by. A ray is tested against all boxes of a node at once, and against all triangles of a leaf: the
-// tests of one ray do not wait for another's, and a node or a leaf is fetched once for all.
+// Finds the closest hits of a tile's rays that are too incoherent for a frustum. A stream of these
+// rays goes through the tree together, node by node. Each child has a list of the rays that meet
+// its box. One step tests a ray against all boxes of a node, or all triangles of a leaf. So the
+// tests of one ray do not wait for another's, and a node or leaf is fetched once for all rays.
 
 #define STREAM_RAYS (TILE_GROUPS * GLINT_WIDTH)
-// Lists end with up to a block's lanes that mean nothing.
+// The lists end with up to a block's lanes of unused entries.
 #define STREAM_PADDING 16
-// Rays that are tested against a leaf before the first of them takes what it has met.
+// The number of rays that are tested against a leaf before the first of them takes its hit.
 #define STREAM_TESTS 8
-// So many do not visit a node's children in the order of their distance.
+// Up to this number of rays visit a node's children without sorting them by distance.
 #define FEW_RAYS 4
 
 typedef struct stream_ray {
     lone_ray ray;
     scalar inverse[3], widening[3]; // see boxes_at_ray
-    int near[3];                    // where a node's near sides stand
+    int near[3];                    // offsets of a node's near sides
     scalar farthest;
     int group, lane; // of the packets
 } stream_ray;
 
-// The rays that may meet a node or leaf: numbers in stream.list.
+// The rays that may meet a node or leaf, as numbers in stream.list.
 typedef struct stream_child {
     int child, first, count;
 } stream_child;
@@ -27,12 +27,12 @@ typedef struct stream_child {
 typedef struct stream {
     int count;
     stream_ray rays[STREAM_RAYS];
-    int list[STREAM_RAYS * GLINT_TRAVERSAL_STACK + STREAM_PADDING]; // of all that waits
-    // Of the node at hand: its rays, and the children that each of them may meet, as bits.
+    int list[STREAM_RAYS * GLINT_TRAVERSAL_STACK + STREAM_PADDING]; // lists of all waiting nodes
+    // Of the current node: its rays, and the children that each of them may meet, as bits.
     int here[STREAM_RAYS + STREAM_PADDING], met[STREAM_RAYS + STREAM_PADDING];
 } stream;
 
-// Takes a ray out of a packet, which is that of a group.
+// Takes a ray out of the packet of a group.
 static inline void take_stream_ray(const packet *p, int group, int lane, lanes_int from,
                                    stream_ray *r)
 {
@@ -55,8 +55,8 @@ static inline void join_stream(stream *s, const packet *p, int group, mask these
     }
 }
 
-// The boxes of a node that a ray may meet from `begin` on and before its farthest hit, as bits. As
-// rays_meet_box.
+// The boxes of a node that a ray may meet between `begin` and its farthest hit, as bits. The test
+// is rays_meet_box.
 static inline uint boxes_between(const stream_ray *r, node_pointer node, scalar begin)
 {
     boxes near = (boxes)begin, far = (boxes)r->farthest;
@@ -78,7 +78,8 @@ static inline uint boxes_at_ray(const stream_ray *r, node_pointer node)
     return boxes_between(r, node, R(0.0));
 }
 
-// The numbers of the rays at hand that may meet a child, into `list`; returns how many.
+// Writes the numbers of the current node's rays that may meet a child into `list`; returns their
+// count.
 static inline int list_rays(const stream *s, int count, int child, int *list)
 {
     int listed = 0;
@@ -92,8 +93,8 @@ static inline int list_rays(const stream *s, int count, int child, int *list)
     return listed;
 }
 
-// The children to visit, the last one first: in the order of falling distance along the axis or,
-// for few rays, which would not earn it back, as they stand.
+// Lists the children to visit; the last is visited first. The order is falling distance along the
+// axis. For few rays sorting does not pay off, so the children keep their order.
 static inline int order_children(node_pointer node, uint met, int rays, int along, scalar sign,
                                  int children[GLINT_BVH_WIDTH])
 {
@@ -136,7 +137,7 @@ static inline void stream_meets_leaf(stream *s, const stream_child *child,
     }
 }
 
-// Puts the children that some ray may meet on the stack, the nearest on top, in place of the node.
+// Replaces the node on the stack by the children that some ray may meet, the nearest on top.
 static inline int push_children_of_stream(stream *s, const stream_child *parent,
                                           const scene_buffers *scene, int along, scalar sign,
                                           stream_child *stack, int size)
@@ -162,7 +163,7 @@ static inline int push_children_of_stream(stream *s, const stream_child *parent,
     return size;
 }
 
-// The closest hits of the stream's rays, which run along one axis, upwards or downwards.
+// Finds the closest hits of the stream's rays, which run along one axis in the direction of `sign`.
 static inline void trace_stream(stream *s, const scene_buffers *scene, int along, scalar sign,
                                 closest *hits)
 {

@@ -1,15 +1,16 @@
-// Surfaces where rays meet them: place, normals and material. The rules are those of ARCHITECTURE.md,
-// "Light transport".
+// Describes surfaces where rays meet them: position, normals and material. The rules are those of
+// docs/light_transport.md.
 
 #if GLINT_FACETS
-// What stands in a surface's place where it is rough glass, see facets.cl.
+// A microfacet of rough glass, which replaces the surface; see facets.cl.
 typedef struct facet {
     mask there;
-    real3 normal;       // of the surface: shading normal with n·v ≥ 0; the facet's is the surface's
+    // The surface's own shading normal, with n·v ≥ 0. The facet's normal stands in surface.normal.
+    real3 normal;
     real cosine;        // n·v
     real alpha_squared; // α²
     real root;          // √(α² + (1 − α²) (n·v)²)
-    real width;         // what a direction's facets turn within, an angle
+    real width;         // angle within which the facets of one direction lie
 } facet;
 #endif
 
@@ -17,18 +18,18 @@ typedef struct facet {
 typedef struct surface {
     real3 position;         // on the triangle, stored coordinates
 #if LOCAL_RAYS
-    real3 position_low; // what that lacks
+    real3 position_low; // the low parts of the position
 #endif
 #if GLINT_LOCAL_ORIGINS
-    real size; // the largest magnitude of its corners' coordinates, from the anchor
+    real size; // largest magnitude of the corners' coordinates, from the anchor
 #endif
-    real offset;            // how far from it a ray must start, along the geometric normal
+    real offset; // distance off the surface at which rays must start, along the geometric normal
     real3 geometric_normal; // unit, towards the viewer
-    real3 lit_normal;       // unit shading normal, of which light is received
-    real3 normal;           // the same with n·v ≥ 0
+    real3 lit_normal;       // unit shading normal on the side that receives light
+    real3 normal;           // lit_normal, turned so that n·v ≥ 0
     real cosine;            // n·v
 #if HEEDS_CURVATURE
-    real curvature; // seen from the viewer's side: more than 0 where it is convex
+    real curvature; // seen from the viewer's side: above 0 if convex
 #endif
     mask outside; // the viewer is on the side from which the triangle winds left
     real3 base_color, emission;
@@ -37,62 +38,62 @@ typedef struct surface {
     real roughness;
 #endif
 #if GLINT_SPECULAR
-    real specular;        // of a dielectric's reflection
-    real3 specular_color; // of what it reflects at right angles
+    real specular;        // factor of a dielectric's reflection
+    real3 specular_color; // factor of its reflection at right angles
 #endif
 #if GLINT_CLEARCOAT
-    real clearcoat; // how much of a clear coat there is, which is not to be seen from within a solid
+    real clearcoat; // amount of clear coat; 0 from within a solid
     real clearcoat_roughness;
-    real3 clearcoat_normal; // as `normal`
-    real clearcoat_cosine;  // n·v of that
+    real3 clearcoat_normal; // unit, with n·v ≥ 0
+    real clearcoat_cosine;  // n·v of the coat's normal
 #endif
 #if GLINT_DIFFUSE_TRANSMISSION
-    real through;        // how much of what matte paint sends on comes from behind
-    real3 through_color; // and its colour
-    real3 behind;        // what lights it there: irradiance over π; set by light_from_behind
+    real through;        // share of matte paint's light that comes from behind
+    real3 through_color; // colour of the light from behind
+    real3 behind;        // irradiance over π from behind; set by light_from_behind
 #endif
 #if GLINT_SHEEN
     real3 sheen_color;
     real sheen_roughness;
 #endif
 #if GLINT_BRUSHED
-    real anisotropy; // 0 where there is no tangent, too
-    real brush_x, brush_y; // along tangent and bitangent, in which direction it is rougher
-    real3 along; // that direction, a unit vector at right angles to `normal`
+    real anisotropy; // 0 also if there is no tangent
+    real brush_x, brush_y; // direction of larger roughness, along tangent and bitangent
+    real3 along; // this direction as a unit vector at right angles to `normal`
     real along_cosine; // v·along
 #endif
 #if GLINT_IRIDESCENCE
-    real film; // how much of a thin film there is
+    real film; // amount of thin film
     real film_ior, film_thickness; // nm
 #endif
 #if GLINT_DISPERSION
     scalar ior_step; // of the path's wavelength; set by disperse
 #endif
 #if GLINT_FACETS
-    facet facet; // none is there until take_facet
+    facet facet; // absent until take_facet
 #endif
 #if GLINT_ALPHA
-    real coverage; // how much of the surface is there; its alpha until cover_surface
+    real coverage; // coverage of the surface; its alpha until cover_surface
     real alpha_cutoff;
 #endif
 #if GLINT_TEXTURES
-    real occlusion; // what is left of the irradiance
+    real occlusion; // remaining share of the irradiance
 #endif
 #if GLINT_NORMAL_MAPS
-    real3 bump; // the normal along tangent, bitangent and normal
+    real3 bump; // normal of the texture, along tangent, bitangent and normal
 #if GLINT_CLEARCOAT
-    real3 clearcoat_bump; // likewise
+    real3 clearcoat_bump; // normal of the coat's texture
 #endif
 #endif
 #if GLINT_LIGHTS
-    real3 direct; // irradiance over π that lights send; 0 until meet_surfaces
+    real3 direct; // irradiance over π from lights; 0 until meet_surfaces
 #if GLINT_ROUGH
-    real3 shine_base, shine_edge; // lobe_light's parts of the lights; likewise
+    real3 shine_base, shine_edge; // lobe_light's parts of the lights; 0 until meet_surfaces
 #if GLINT_CLEARCOAT
-    real3 clearcoat_shine; // what a whole coat shows of the lights; likewise
+    real3 clearcoat_shine; // light of a full coat from the lights; 0 until meet_surfaces
 #endif
 #if GLINT_SHEEN
-    real3 sheen_shine; // what white sheen does; likewise
+    real3 sheen_shine; // light of white sheen from the lights; 0 until meet_surfaces
 #endif
 #endif
 #endif
@@ -103,11 +104,11 @@ typedef struct surface {
 #endif
 } surface;
 
-// Hits have places: rays start there, or the environment is seen from there.
+// Hits need positions: rays start there, or see the environment from there.
 #define HAS_PLACES (GLINT_INTERREFLECTION || GLINT_PROXY || GLINT_LIGHTS)
 // Light may pass surfaces.
 #define TRANSMITS (GLINT_GLASS || GLINT_ALPHA)
-// Paths may go on from a clear coat beside those from what is below.
+// A clear coat may have its own branch beside the branch from the layers below.
 #define COATS_APART (GLINT_CLEARCOAT && GLINT_SPLIT)
 #if TRANSMITS || COATS_APART
 #define TWO_WAYS 1
@@ -121,13 +122,13 @@ typedef struct surface {
 #endif
 #define HAS_FLAG(surface, flag) (((surface).flags & (lane_int)(flag)) != (lane_int)0)
 
-// The geometric normal, as long as twice the triangle's area.
+// The geometric normal; its length is twice the triangle's area.
 static inline real3 normal_of(const real3 vertices[3])
 {
     return cross3(subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0]));
 }
 
-// A vertex without a usable normal is (0, 0, 0); then the geometric normal serves.
+// A vertex without a usable normal has (0, 0, 0). Then the geometric normal is used.
 static inline mask normals_given(const real3 normals[3])
 {
     return !(is_zero3(normals[0]) | is_zero3(normals[1]) | is_zero3(normals[2]));
@@ -147,8 +148,8 @@ static inline void set_position(surface *s, pair x, pair y, pair z)
     s->position_low = real3_of(x.low, y.low, z.low);
 }
 
-// How far primary rays run to a triangle that is large beside that way. measure_hits takes it from
-// the corners, which have no digits left for it; the plane has.
+// The distance of primary rays to a triangle that is large compared with it. measure_hits computes
+// it from the corners, which have no digits left for it. The plane has these digits.
 static inline void measure_nearby(const path *ray, const triangle *t, mask met, closest *hit)
 {
     real size = real_of(0), corners[9];
@@ -172,10 +173,11 @@ static inline void measure_nearby(const path *ray, const triangle *t, mask met, 
     hit->t = SELECT(nearby & sound, found, hit->t);
 }
 
-// On a triangle that is large beside the ray's way to it the place is told from the ray's origin,
-// which is nearer than the corners. It is then off the plane by roundings of that way alone; or,
-// where the plane was not looked at again, of corners up to LARGE_TRIANGLE times as far. What a ray
-// from there meets next to nothing away is no mistake: distance_nearby tells it as exactly.
+// On a triangle that is large compared with the ray's distance, the position is computed from the
+// ray's origin, which is nearer than the corners. Its error off the plane then comes only from this
+// distance. If the plane was not measured again, the error comes from corners up to LARGE_TRIANGLE
+// times as far. A ray from this position may hit a surface at a very short distance. Such a hit is
+// correct: distance_nearby measures it with the same precision.
 static inline void place_nearby(const path *ray, const closest *hit, surface *s)
 {
     const mask nearby = LARGE_TRIANGLE * hit->t < s->size;
@@ -194,10 +196,10 @@ static inline void place_nearby(const path *ray, const closest *hit, surface *s)
 }
 #endif
 
-// The position, and a bound of its distance to the triangle's plane: the interpolation makes about
-// 8 roundings of values no larger than the largest vertex, coordinate by coordinate (Pharr, Jakob,
-// Humphreys, Physically Based Rendering, 6.8). A ray that starts this far off the plane, on the
-// side that it leaves to, cannot meet the neighbours of its triangle because of rounding.
+// Sets the position, and a bound of its distance to the triangle's plane. The interpolation makes
+// about 8 roundings of values no larger than the largest vertex, coordinate by coordinate (Pharr,
+// Jakob, Humphreys, Physically Based Rendering, 6.8). A ray starts this far off the plane, on the
+// side that it leaves to. So rounding cannot make it hit the neighbours of its triangle.
 static inline void place_on_triangle(const triangle *t, const path *ray, const closest *hit,
                                      surface *s)
 {
@@ -223,7 +225,7 @@ static inline void place_on_triangle(const triangle *t, const path *ray, const c
 #endif
 }
 
-// Lets a ray start from a surface, so far off it along the geometric normal.
+// Starts a ray from a surface, at the distance `offset` along the geometric normal.
 static inline void start_off_surface(path *ray, const surface *s, real offset)
 {
 #if LOCAL_RAYS
@@ -235,7 +237,8 @@ static inline void start_off_surface(path *ray, const surface *s, real offset)
 }
 
 #if GLINT_NORMAL_MAPS
-// Along u and v of a texture, at right angles to the unit vector `n`: which hits have them.
+// Finds unit vectors along u and v of a texture, at right angles to the unit vector `n`. Returns
+// the hits that have them.
 static inline mask find_tangents(const scene_buffers *scene, const closest *hit, mask met, real3 n,
                                  real3 *tangent, real3 *bitangent)
 {
@@ -243,7 +246,7 @@ static inline mask find_tangents(const scene_buffers *scene, const closest *hit,
     const real3 sum = real3_of(value_of_corners(&c, 0, hit->b1, hit->b2),
                                value_of_corners(&c, 1, hit->b1, hit->b2),
                                value_of_corners(&c, 2, hit->b1, hit->b2));
-    // Corners that turn different ways have no bitangent between them.
+    // Corners whose tangents turn in different directions have no bitangent between them.
     const mask alike = (c.first[3] != R(0.0)) & (c.second_more[3] == R(0.0)) &
                        (c.third_more[3] == R(0.0));
     mask valid;
@@ -252,7 +255,7 @@ static inline mask find_tangents(const scene_buffers *scene, const closest *hit,
     return met & alike & valid;
 }
 
-// The normal that a texture bends: `n` is a unit vector. What is not there leaves it as it is.
+// The normal bent by a texture; `n` is a unit vector. Without a tangent or a bump it stays n.
 static inline real3 bent_normal(const scene_buffers *scene, const closest *hit, mask met, real3 n,
                                 real3 bump)
 {
@@ -267,7 +270,7 @@ static inline real3 bent_normal(const scene_buffers *scene, const closest *hit, 
 #endif
 
 #if GLINT_BRUSHED
-// The direction in which the surface is rougher; `own` is its normal as the file has it.
+// Finds the direction in which the surface is rougher; `own` is the normal as in the file.
 static inline void orient_brush(const scene_buffers *scene, const closest *hit, real3 own, real3 v,
                                 surface *s)
 {
@@ -282,7 +285,7 @@ static inline void orient_brush(const scene_buffers *scene, const closest *hit, 
 }
 #endif
 
-// Rule 1: the side is the geometric normal's alone; both normals are turned to the viewer.
+// Rule 1: only the geometric normal decides the side. Both normals are turned to the viewer.
 static inline void orient_normals(const scene_buffers *scene, const triangle *t, const path *ray,
                                   const closest *hit, surface *s)
 {
@@ -294,6 +297,7 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #if HEEDS_CURVATURE
     s->curvature = real_of(0);
 #endif
+    // Interpolate the shading normal, and turn it to the geometric normal's side.
 #if GLINT_SMOOTH_NORMALS
     const real3 *normals = t->normals;
     const mask given = normals_given(normals);
@@ -309,7 +313,7 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #else
     const mask turned_round = !s->outside;
 #endif
-    // Textures bend the normal as the file has it.
+    // Textures bend the normal as it is in the file.
     const real3 own = select3(turned_round, negate(s->lit_normal), s->lit_normal);
     const real3 bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
     s->lit_normal = select3(turned_round, negate(bent), bent);
@@ -320,6 +324,7 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
     s->clearcoat_normal = select3(up < R(0.0), negate(coat), coat);
     s->clearcoat_cosine = SMALLER(fabs(up), real_of(1));
 #endif
+    // Turn the shading normal to the viewer.
     real cosine = dot3(s->lit_normal, v);
     mask away = cosine < R(0.0);
     s->normal = select3(away, negate(s->lit_normal), s->lit_normal);
@@ -340,7 +345,7 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #endif
 }
 
-// Sets what the compiled features need of a material, for the rays in `yes`.
+// Sets the material's values that the compiled features need, for the rays in `yes`.
 static inline void set_material(surface *s, mask yes, global const glint_material_record *m)
 {
     s->base_color.x = SELECT(yes, real_of(m->base_color[0]), s->base_color.x);

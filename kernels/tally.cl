@@ -1,33 +1,33 @@
-// What a work-item counts of its tile's paths, and notes of its pixels.
+// Counts events on a work-item's paths, and records facts about its tile's pixels.
 
-// What cuts paths short.
+// The reasons why paths are cut short.
 enum cut { BY_DEPTH, BY_MIN_WEIGHT, BY_STACK, CUTS };
 
-// What one work-item counts, which is added to the counters at its end, and what it notes.
+// A work-item's counts, which are added to the counters at its end, and its records.
 typedef struct tally {
     ulong counts[GLINT_COUNTERS];
-    lanes_int deepest; // surfaces that a path has met
+    lanes_int deepest; // largest number of surfaces that a path has met
 #if GLINT_FACETS
     facet_choice facets;
-    bool faceted[TILE_PIXELS]; // their paths met rough glass
+    bool faceted[TILE_PIXELS]; // true if the pixel's paths met rough glass
 #endif
 #if GLINT_DISPERSION
     int wavelength;
-    bool dispersed[TILE_PIXELS]; // their paths met a solid that disperses light
+    bool dispersed[TILE_PIXELS]; // true if the pixel's paths met a dispersive solid
 #endif
 #if HAS_ROUNDS
-    scalar cut[CUTS][TILE_PIXELS]; // weight that they were cut short of
+    scalar cut[CUTS][TILE_PIXELS]; // weight that truncation cut off the pixel's paths
 #else
-    real cut[CUTS]; // weight that paths were cut short of
+    real cut[CUTS]; // weight that truncation cut off paths
 #endif
 #if GLINT_TRUNCATION_SQUARES
-    scalar truncated[TILE_PIXELS]; // weight that the pixels' paths were cut short of
+    scalar truncated[TILE_PIXELS]; // weight that truncation cut off, by pixel
 #endif
 #if GLINT_DIAGNOSTICS
     layers *layers; // of the tile's pixels
 #endif
 #if GLINT_TERMS
-    terms *terms; // likewise
+    terms *terms; // of the tile's pixels
 #endif
 } tally;
 
@@ -62,7 +62,8 @@ static inline tally no_tally(void)
     return t;
 }
 
-// The rays in `these` take the environment untraced for want of depth, weight or room.
+// Counts the rays in `these`: they take the environment untraced, for lack of depth, weight or
+// room.
 static inline void count_truncated(tally *tally, const pixels *pixels, mask these, real weight)
 {
 #if GLINT_TRUNCATION_SQUARES
@@ -73,7 +74,7 @@ static inline void count_truncated(tally *tally, const pixels *pixels, mask thes
 #endif
 }
 
-// The rays in `these` are cut short.
+// Counts the rays in `these` as cut short, for the given reason.
 static inline void count_cut(tally *tally, const pixels *pixels, mask these, real weight,
                              enum cut by)
 {
@@ -88,8 +89,8 @@ static inline void count_cut(tally *tally, const pixels *pixels, mask these, rea
 }
 
 #if HAS_ROUNDS
-// Notes of the pixels of the rays in `these` that they need more rounds. Those of the first
-// wavelength say so for all: then each adds as much.
+// Records that the pixels of the rays in `these` need more rounds. Only the first wavelength
+// decides, for all wavelengths, so that each adds the same number of rounds.
 static inline void note_pixels(const tally *tally, const pixels *pixels, mask these,
                                bool of_tile[TILE_PIXELS])
 {
@@ -103,7 +104,7 @@ static inline void note_pixels(const tally *tally, const pixels *pixels, mask th
     }
 }
 
-// The share that a round has of a pixel.
+// The weight of one round in a pixel.
 static inline scalar share_of_round(const tally *tally, const glint_frame_record *frame, int pixel)
 {
     int rounds = 1;

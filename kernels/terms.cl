@@ -1,15 +1,16 @@
-// What a pixel is the sum of, for lighting it anew without tracing (GLINT_TERMS in layout.h): the
-// directions that its paths leave along, and the normals of what the irradiance lights, with their
-// weights; and what does not depend on the environment.
+// Stores the terms of each pixel's sum, so that the host can relight the pixels without tracing
+// (GLINT_TERMS in layout.h). Terms are the directions in which paths leave the scene and the
+// normals of surfaces lit by the irradiance, with their weights. The part that does not depend on
+// the environment is stored beside them.
 #if GLINT_TERMS
 
 typedef struct terms {
     global float *stored;
     const glint_frame_record *frame;
     int column, row; // of the tile's first pixel
-    float share;     // of a sample
+    float share;     // weight of one sample
     int count[TILE_PIXELS];
-    float steady[3 * TILE_PIXELS]; // R, G, B: what does not depend on the environment
+    float steady[3 * TILE_PIXELS]; // R, G, B: the part that does not depend on the environment
     float dropped[TILE_PIXELS];
 } terms;
 
@@ -29,7 +30,7 @@ static inline void begin_terms(terms *t, global float *stored, const glint_frame
     }
 }
 
-// The values of one of the tile's pixels, which lies inside the image: the header, and the terms.
+// The values of a pixel of the tile that lies inside the image: the header, then the terms.
 static inline global float *terms_of_pixel(const terms *t, int pixel)
 {
     const int g = pixel / GLINT_WIDTH, lane = pixel % GLINT_WIDTH;
@@ -45,8 +46,9 @@ static inline float weight_of_term(global const float *term)
                 term[GLINT_TERM_WEIGHT + 2]);
 }
 
-// Where a pixel's next term goes: behind the others, or, where there is no room, in the place of
-// the lightest if that is lighter, as all are than NaN; NULL where it is not.
+// Finds the place of a pixel's next term. It follows the other terms. If there is no room, it
+// replaces the lightest term, provided that this is lighter; NaN is heavier than all. NULL if the
+// new term is dropped.
 static inline global float *place_of_term(terms *t, int pixel, float weight)
 {
     global float *first = terms_of_pixel(t, pixel) + GLINT_TERM_VALUES;
@@ -63,8 +65,8 @@ static inline global float *place_of_term(terms *t, int pixel, float weight)
     return weight <= least ? 0 : lightest;
 }
 
-// The rays in `wanted` bring what comes along their vectors, or what the surfaces with these
-// normals receive, times their weights.
+// Notes a term for each of the rays in `wanted`: the light along their vectors, or the irradiance
+// of surfaces with these normals, times their weights.
 static inline void note_terms(terms *t, const pixels *pixels, mask wanted, real3 vector, float kind,
                               real3 weight)
 {
@@ -99,7 +101,7 @@ static inline void note_constant(terms *t, const pixels *pixels, mask lit, real3
     }
 }
 
-// Completes those of the tile's pixels that lie inside the image.
+// Completes the tile's pixels that lie inside the image.
 static inline void store_terms(const terms *t)
 {
     for (int g = 0; g < TILE_GROUPS; g++) {

@@ -1,14 +1,14 @@
-// Textures: numbers that vertices hold, and look-ups of images by them (layout.h, "Textures").
+// Loads the corners' attributes, and looks up textures with them (layout.h, "Textures").
 //
-// A pixel sees an ellipse of a surface: the cone of its ray (cones.cl), cut by the triangle's
-// plane. Its longer axis decides the level; with GLINT_ANISOTROPY its shorter one does, and the mean
-// of several taps along the longer one is taken.
+// A pixel's footprint on a surface is an ellipse: the cone of its ray (cones.cl), cut by the
+// triangle's plane. The longer axis of the ellipse decides the level. With GLINT_ANISOTROPY the
+// shorter axis decides it, and the result is the mean of several taps along the longer axis.
 
-// How wide a tap may be, in shorter axes. Less takes more taps: at 1.4 five textures take a sixth
-// more time, and a floor's error is 7 to 30% less (bench/floor).
+// The largest width of a tap, in shorter axes. A smaller width takes more taps: at 1.4 five
+// textures take a sixth more time, and a floor's error is 7 to 30% less (bench/floor).
 #define TAP_WIDTH R(2.0)
 
-// What corners hold, in the order of host/scene/scene.h's glint_attributes.
+// Offsets of the corners' attributes, in the order of glint_attributes in host/scene/scene.h.
 #define SECOND_TEXCOORDS_AT 2
 #define COLORS_AT (2 * GLINT_TEXTURES + 2 * GLINT_SECOND_TEXCOORDS)
 #define TANGENTS_AT (COLORS_AT + 4 * GLINT_COLORED_VERTICES)
@@ -16,12 +16,12 @@
 
 #if CORNER_VALUES > 0
 
-// Some numbers of a triangle's first corner, and how much more the others hold.
+// Some attributes of a triangle's first corner, and the differences of the other corners to it.
 typedef struct corner_values {
     real first[4], second_more[4], third_more[4];
 } corner_values;
 
-// `count` numbers from the place `at` of each corner on, for the rays in `met`.
+// Loads `count` attributes from the offset `at` of each corner, for the rays in `met`.
 static inline corner_values load_corners(const scene_buffers *scene, lanes_int places, mask met,
                                          int at, int count)
 {
@@ -52,18 +52,17 @@ static inline real value_of_corners(const corner_values *c, int i, real b1, real
 
 #if GLINT_TEXTURES
 
-// Where a ray meets a texture, in texture coordinates, and how they change along the two axes of
-// the ellipse that its pixel sees.
+// The texture coordinates at a hit, and their changes along the two axes of the pixel's ellipse.
 typedef struct texture_spot {
     real u, v, u_along, v_along, u_across, v_across;
 } texture_spot;
 
-// The axes of an ellipse on a triangle, as parts of its two edges from the first corner.
+// The axes of an ellipse on a triangle, as multiples of the two edges from its first corner.
 typedef struct ellipse {
     real along[2], across[2];
 } ellipse;
 
-// A vector in the triangle's plane as parts of its edges.
+// Expresses a vector in the triangle's plane by multiples of its edges.
 static inline void in_edges(const real3 edges[2], real3 normal, real3 vector, real parts[2])
 {
     const real area = dot3(cross3(edges[0], edges[1]), normal);
@@ -71,8 +70,8 @@ static inline void in_edges(const real3 edges[2], real3 normal, real3 vector, re
     parts[1] = dot3(cross3(edges[0], vector), normal) / area;
 }
 
-// `width` is that of the cone where it meets the triangle; `normal` is the geometric one, a unit
-// vector.
+// The ellipse of a cone on a triangle. `width` is the cone's width at the triangle. `normal` is the
+// geometric normal, a unit vector.
 static inline ellipse ellipse_on(const real3 vertices[3], real3 normal, real3 direction, real width)
 {
     const real3 edges[2] = {subtract(vertices[1], vertices[0]), subtract(vertices[2], vertices[0])};
@@ -99,7 +98,7 @@ static inline texture_spot spot_on(const corner_values *c, const ellipse *e, rea
     return s;
 }
 
-// The spot as KHR_texture_transform moves it.
+// Applies KHR_texture_transform to the spot.
 static inline texture_spot moved_spot(global const glint_texture_record *t, const texture_spot *s)
 {
     const scalar uu = t->transform[0], uv = t->transform[1], vu = t->transform[3];
@@ -114,7 +113,7 @@ static inline texture_spot moved_spot(global const glint_texture_record *t, cons
     return m;
 }
 
-// What a pixel sees of a texture, along the ellipse's longer axis.
+// A pixel's footprint on a texture, along the ellipse's longer axis.
 typedef struct footprint {
     real width; // of a tap, in texels, 1 or more: it decides the level
 #if GLINT_ANISOTROPY
@@ -123,8 +122,8 @@ typedef struct footprint {
 #endif
 } footprint;
 
-// The spot's two axes are conjugate ones of the ellipse, in texels (x, y) and (z, w). Those that it
-// is longest and shortest along follow from the matrix of their products.
+// Finds the footprint. The spot's two axes are conjugate diameters of the ellipse, in texels (x, y)
+// and (z, w). The longest and shortest axes follow from the matrix of their products.
 static inline footprint footprint_of(const scene_buffers *scene,
                                      global const glint_texture_record *t, const texture_spot *s)
 {
@@ -145,7 +144,8 @@ static inline footprint footprint_of(const scene_buffers *scene,
 #endif
     f.width = SELECT(f.width > R(1.0), f.width, real_of(1)); // NaN becomes 1
 #if GLINT_ANISOTROPY
-    // The longer axis has the direction of either column of the matrix less its smaller eigenvalue.
+    // The longer axis has the direction of either column of the matrix minus its smaller
+    // eigenvalue.
     const real column = fabs(half_difference) + root;
     const mask upright = half_difference < R(0.0);
     const real u = SELECT(upright, uv, column), v = SELECT(upright, column, uv);
@@ -159,7 +159,7 @@ static inline footprint footprint_of(const scene_buffers *scene,
     return f;
 }
 
-// As choose_level: between powers of two log2 is taken to be linear.
+// choose_level for a texture: between powers of two, log2 is approximated as linear.
 static inline level_choice choose_texture_level(global const glint_texture_record *t, real width)
 {
     const real most = real_of((scalar)(1 << (t->levels - 1)));
@@ -175,7 +175,7 @@ static inline level_choice choose_texture_level(global const glint_texture_recor
     return choice;
 }
 
-// A coordinate in [0, 1].
+// Wraps a coordinate into [0, 1].
 static inline real wrapped(real x, bool clamps, bool mirrors)
 {
     x = SELECT(fabs(x) < R(1e9), x, real_of(0)); // NaN becomes 0
@@ -190,8 +190,8 @@ static inline real wrapped(real x, bool clamps, bool mirrors)
     return x - floor(x);
 }
 
-// The first of two texels of a row or column beside each other, and how far the point lies towards
-// the second.
+// The first of two neighbouring texels of a row or column, and the position between them: 0 at the
+// first, 1 at the second.
 typedef struct neighbours {
     lanes_int first;
     real share;
@@ -213,7 +213,7 @@ static inline neighbours neighbours_at(real x, lanes_int size, bool repeats, mas
     return n;
 }
 
-// Four texels of a level: the upper left one, and where the point lies between them.
+// Four texels of a level: the upper left one, and the point's position between them.
 typedef struct texel_square {
     lanes_int first, pitch; // in texels
     real across, down;
@@ -237,7 +237,7 @@ static inline texel_square square_at(global const glint_texture_record *t, real 
     return square;
 }
 
-// A lane's square, in numbers.
+// One lane of a texel_square, with offsets in values.
 typedef struct lane_square {
     size_t first, pitch;
     scalar across, down;
@@ -253,8 +253,8 @@ static inline lane_square square_of_lane(const texel_square *s, int lane)
     return of;
 }
 
-// The mean of four texels, in texels' units, as fetch_from_cube has it. `texels` are those of the
-// level.
+// Interpolates four texels, in texels' units and in the same order as fetch_from_cube. `texels` are
+// the texels of the level.
 static inline scalar4 mean_of_square(global const ushort *texels, const lane_square *s)
 {
     const scalar8 upper = TO_SCALAR8(vload8(0, texels + s->first));
@@ -263,19 +263,19 @@ static inline scalar4 mean_of_square(global const ushort *texels, const lane_squ
     return fused((scalar4)s->across, sides.hi - sides.lo, sides.lo);
 }
 
-// Textures of a material that are looked up alike: they share all but the texels.
+// Textures of a material that differ only in their texels.
 typedef struct texture_group {
     int count, textures[GLINT_MATERIAL_TEXTURES];
 } texture_group;
 
-// A point of a texture, and what counts there.
+// A point of a texture, and how it is read there.
 typedef struct tap {
     level_choice choice;
     mask nearest;
     real u, v, weight;
 } tap;
 
-// `sums` hold R, G, B, A of each ray, for each texture of the group.
+// Adds a tap. `sums` holds R, G, B, A of each ray, for each texture of the group.
 static inline void add_tap(const scene_buffers *scene, const texture_group *g, const tap *p,
                            mask wanted, scalar4 sums[][GLINT_WIDTH])
 {
@@ -303,8 +303,9 @@ static inline void add_tap(const scene_buffers *scene, const texture_group *g, c
     }
 }
 
-// Pairs of taps about the middle. The outermost pair counts in part, and below a length of 2 the
-// one pair moves together, so that nothing jumps where a tap more is taken.
+// Adds pairs of taps about the middle. The outermost pair counts in part. Below a length of 2, the
+// two taps of the only pair move together. So the result does not jump when the number of taps
+// changes.
 static inline void add_taps(const scene_buffers *scene, const texture_group *g,
                             const texture_spot *spot, const footprint *f, tap *p, mask wanted,
                             scalar4 sums[][GLINT_WIDTH])
@@ -355,7 +356,7 @@ static inline void look_up_textures(const scene_buffers *scene, const texture_gr
     add_taps(scene, g, &spot, &seen, &p, wanted, sums);
 }
 
-// What rays see of a texture: R, G, B, A.
+// The colour of a texture that rays see: R, G, B, A.
 typedef struct texture_color {
     real r, g, b, a;
 } texture_color;

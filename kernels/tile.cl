@@ -1,12 +1,12 @@
-// A tile of pixels and the space in which its primary rays are traced.
+// Defines a tile of pixels, and the space in which its primary rays are traced.
 //
-// All primary rays come from one eye (or run alike), and their directions are affine in the pixel,
-// so that the scene can be looked at in image coordinates, (x, y, h) with x/h and y/h the place on
-// the image plane in pixels from its middle and z the depth (glint_frame_record). There a
-// triangle's edge is an affine function of the pixel, and so is the key that orders surfaces by
-// depth.
+// All primary rays come from one eye, or are parallel, and their directions are affine in the
+// pixel. So the scene can be traced in image coordinates (x, y, h). x/h and y/h are the position on
+// the image plane, in pixels from its middle, and z is the depth (glint_frame_record). In these
+// coordinates a triangle's edge is an affine function of the pixel. So is the key that orders
+// surfaces by depth.
 //
-// A tile is TILE_COLUMNS × TILE_ROWS groups of pixels, each as many as a packet has lanes.
+// A tile has TILE_COLUMNS × TILE_ROWS groups. A group has as many pixels as a packet has lanes.
 #define TILE_COLUMNS GLINT_TILE_SIDE(GLINT_TILES)
 #define TILE_ROWS GLINT_TILE_SIDE(GLINT_TILES)
 #define TILE_GROUPS (TILE_COLUMNS * TILE_ROWS)
@@ -14,34 +14,34 @@
 
 // The primary rays of a frame in image coordinates.
 typedef struct image_space {
-    scalar origin[3];                      // where the middle ray starts, stored coordinates
+    scalar origin[3];                      // start of the middle ray, stored coordinates
 #if LOCAL_RAYS
-    scalar origin_low[3]; // what that lacks
+    scalar origin_low[3]; // the low parts of the origin
 #endif
-    scalar rows[3][3];                     // x, y and z of a point relative to it
+    scalar rows[3][3];                     // give x, y and z of a point relative to the origin
     scalar offset, slope;                  // h = offset + slope z
     scalar key_one, key_depth, key_normal; // see image_key
-    scalar key_limit;                      // of the depth 0, where the rays start
-    scalar slack;                          // what rounding may move a box's corner by
-    scalar near_offset, far_offset; // what to add to z·corner for a depth, see tile_meets_boxes
-    scalar end; // deeper than the scene goes; children that are not there lie beyond
+    scalar key_limit;                      // key of the depth 0, where the rays start
+    scalar slack;                          // bound of the rounding error of a box's corner
+    scalar near_offset, far_offset; // to add to z·corner for a depth, see tile_meets_boxes
+    scalar end; // deeper than the whole scene; missing children lie beyond
 } image_space;
 
-// What a tile's rays have met so far, and what its traversal needs.
+// The nearest hits of a tile's rays so far, and the data for its traversal.
 typedef struct tile {
-    // Places on the image plane: of the pixels of each column and row of groups, of the groups'
-    // centres and of the tile's; the largest magnitudes in the tile.
+    // Positions on the image plane: of the pixels of each column and row of groups, of the groups'
+    // centres and of the tile's centre. Then the largest magnitudes in the tile.
     real x[TILE_COLUMNS], y[TILE_ROWS];
     block center_x, center_y;
     scalar middle_x, middle_y;
     scalar largest_x, largest_y;
-    scalar step;                           // from a pixel to its neighbour; no PIXEL_LIST
-    scalar half_x, half_y;                 // with PIXEL_LIST: of what the tile's pixels take up
-    scalar planes[4][3], plane_offsets[4]; // inside is ≥ 0
+    scalar step;                           // between neighbouring pixels; not with PIXEL_LIST
+    scalar half_x, half_y;                 // half extents of the tile's pixels, with PIXEL_LIST
+    scalar planes[4][3], plane_offsets[4]; // ≥ 0 inside
     real key[TILE_GROUPS];                 // of the nearest hit; see image_key
-    lanes_int place[TILE_GROUPS];          // of the triangle hit, −1: none
-    block farthest;                        // the least key of each group
-    scalar least;                          // and of the tile
+    lanes_int place[TILE_GROUPS];          // of the triangle hit; −1: none
+    block farthest;                        // the least key in each group
+    scalar least;                          // the least key in the tile
     scalar z_far;                          // no hit of the tile lies deeper
 } tile;
 
@@ -75,9 +75,9 @@ static inline image_space make_image_space(const glint_frame_record *frame)
     return s;
 }
 
-// The key of a depth, larger for nearer: 1/h for an eye near the scene, else −z/h. Both are affine
-// in the pixel on any plane; the second keeps its digits where the eye is far away or infinitely
-// so.
+// The key of a depth; nearer points have larger keys. It is 1/h for an eye near the scene, else
+// −z/h. On every plane both are affine in the pixel. The second keeps its digits if the eye is far
+// away or infinitely far.
 static inline block image_key(const image_space *s, block z, block inverse_h)
 {
     return (s->key_one - s->key_depth * z) * inverse_h;
@@ -85,9 +85,10 @@ static inline block image_key(const image_space *s, block z, block inverse_h)
 
 // ---- The tile and the tree ---------------------------------------------------------------------
 
-// The four planes through the tile's outermost rays, a little apart from them: x − X h ≥ 0 for the
-// left one, as a function of the place in stored coordinates. What is added to its offset is more
-// than rounding can take, here and where a corner (within ±SCENE_REACH) is put in.
+// Makes one of the four planes through the tile's outermost rays, slightly outside of them. The
+// left plane is x − X h ≥ 0, as a function of the position in stored coordinates. The amount added
+// to its offset exceeds all rounding errors, here and in the tests of corners (within
+// ±SCENE_REACH).
 static inline void bound_tile(const image_space *s, tile *t, int plane, int row, scalar at,
                               scalar sign)
 {
@@ -102,7 +103,7 @@ static inline void bound_tile(const image_space *s, tile *t, int plane, int row,
     t->plane_offsets[plane] = sign * offset - (n[0] * o[0] + n[1] * o[1] + n[2] * o[2]) + slack;
 }
 
-// How far the outermost pixels of a group and of the tile lie from its middle.
+// Distance of the outermost pixels of a group, and of the tile, from its middle.
 #if GLINT_PIXEL_LIST
 #define GROUP_HALF_X(t) ((t)->half_x)
 #define GROUP_HALF_Y(t) ((t)->half_y)
@@ -115,7 +116,7 @@ static inline void bound_tile(const image_space *s, tile *t, int plane, int row,
 #define TILE_HALF_Y(t) (R(0.5) * (scalar)(PACKET_HEIGHT * TILE_ROWS - 1) * (t)->step)
 #endif
 
-// Columns and rows of a group's pixels, counted among those that are rendered.
+// Columns and rows of a group's pixels, counted among the rendered pixels.
 static inline lanes_int group_columns(int tile_column, int group)
 {
     return lane_numbers() % (lane_int)PACKET_WIDTH +
@@ -135,19 +136,19 @@ static inline mask group_in_image(const glint_frame_record *frame, int tile_colu
     return across & down;
 }
 
-// A pixel's number, row by row: more than 2^31 of them are no mistake.
+// A pixel's number, row by row. Images may have more than 2^31 pixels.
 static inline size_t pixel_number(const glint_frame_record *frame, int column, int row)
 {
     return (size_t)row * (size_t)frame->width + (size_t)column;
 }
 
-// Where its values begin in the frame.
+// The index of the pixel's first value in the frame.
 static inline size_t pixel_place(const glint_frame_record *frame, int column, int row)
 {
     return 4 * pixel_number(frame, column, row);
 }
 
-// Columns and rows of the image, of those that are rendered.
+// Converts columns and rows of rendered pixels to columns and rows of the image.
 static inline lanes_int image_column(const glint_frame_record *frame, lanes_int columns)
 {
     return columns * (lane_int)frame->step + (lane_int)frame->first_pixel;
@@ -157,9 +158,9 @@ static inline lanes_int image_row(const glint_frame_record *frame, lanes_int row
     return rows * (lane_int)frame->step + (lane_int)frame->first_pixel;
 }
 
-// The places on the image plane of samples that lie (right, down) from the upper left corner of
-// their pixels. All but the last operation is exact: the same for every size of tiles, and for
-// every choice of pixels that are rendered of the image (see glint_frame_record).
+// The positions on the image plane of samples that lie (right, down) from the upper left corner of
+// their pixels. All operations but the last are exact. So the results are the same for every size
+// of tiles and for every choice of rendered pixels (see glint_frame_record).
 static inline real place_x(const glint_frame_record *frame, lanes_int columns, scalar right)
 {
     return to_real(columns) - R(0.5) * (scalar)frame->image_width + right;
@@ -169,8 +170,8 @@ static inline real place_y(const glint_frame_record *frame, lanes_int rows, scal
     return R(0.5) * (scalar)frame->image_height - to_real(rows) - down;
 }
 
-// Nothing is met yet. Pixels outside the image hide everything, even what has no depth: nothing is
-// visited for them, and they meet nothing, which is what counting rests on.
+// Sets all pixels to "no hit yet". Pixels outside the image hide everything, even surfaces without
+// a depth. So the traversal visits nothing for them, and they hit nothing; counting relies on it.
 static inline void clear_tile(const image_space *s, const glint_frame_record *frame, int column,
                               int row, tile *t)
 {
@@ -191,7 +192,7 @@ static inline void clear_tile(const image_space *s, const glint_frame_record *fr
     t->z_far = s->end;
 }
 
-// Where the tile's samples lie, and the bounds of them: low x, high x, low y and high y.
+// Sets the positions of the tile's samples, and their bounds: low x, high x, low y and high y.
 #if GLINT_PIXEL_LIST
 static inline void place_tile(const glint_frame_record *frame, global const uint *listed, int column,
                               int row, scalar right, scalar down, tile *t, scalar bounds[4])
@@ -200,7 +201,7 @@ static inline void place_tile(const glint_frame_record *frame, global const uint
     for (int i = 0; i < GLINT_WIDTH; i++) {
         const int c = column + i % PACKET_WIDTH, r = row + i / PACKET_WIDTH;
         const bool is_there = c < frame->width && r < frame->height;
-        // Where there is none: at the tile's first one.
+        // Unused entries repeat the tile's first pixel.
         const uint number = listed[pixel_number(frame, is_there ? c : column, is_there ? r : row)];
         LANE_INT(x, i) = (int)(number % (uint)frame->image_width);
         LANE_INT(y, i) = (int)(number / (uint)frame->image_width);
@@ -241,7 +242,7 @@ static inline void place_tile(const glint_frame_record *frame, global const uint
 }
 #endif
 
-// `column` and `row` name the tile's first pixel.
+// Prepares a tile for tracing; `column` and `row` name its first pixel.
 static inline void begin_tile(const image_space *s, const glint_frame_record *frame,
                               global const uint *listed, int column, int row, scalar right,
                               scalar down, tile *t)

@@ -1,11 +1,11 @@
-// Closest hits of the primary rays through a tile of pixels: one traversal for all of them, in
-// image coordinates (tile.cl).
+// Finds the closest hits of a tile's primary rays with one traversal for the whole tile, in image
+// coordinates (tile.cl).
 //
-// Which pixels a triangle covers is decided as Woop, Benthin and Wald do (intersect.cl): the
-// vertices are sheared by the pixel, and the signs of rounded products are never wrong. The affine
-// functions tell the same for nearly every pixel at a fraction of the cost; where one of them is
-// closer to 0 than both ways' rounding errors together, the slow way decides. So every tile size
-// and width finds the same hits.
+// Triangles cover pixels by the watertight test of Woop, Benthin and Wald (intersect.cl). It shears
+// the vertices by the pixel, and the signs of rounded products are never wrong. For nearly every
+// pixel the affine edge functions give the same answer at a fraction of the cost. If one of them is
+// closer to 0 than the rounding errors of both ways together, the slow way decides. So every tile
+// size and width finds the same hits.
 
 // The functions of the 16 triangles of a cluster, each affine in the pixel: [x, y, 1].
 typedef struct image_triangles {
@@ -13,9 +13,9 @@ typedef struct image_triangles {
     block uncertain;   // edges closer to 0 than this may have the wrong sign
     block key[3];
     block key_largest; // at the vertices
-    block_mask groups; // those that the triangle's bounds reach, as bits
+    block_mask groups; // groups within the triangle's bounds, as bits
     block reach[3];    // how far the edges may rise from a group's centre
-    block key_reach;   // and the key
+    block key_reach;   // how far the key may rise from a group's centre
 } image_triangles;
 
 // n·p for the corner p of each box that lies farthest along n.
@@ -30,8 +30,8 @@ static inline boxes farthest_along(const scalar n[3], node_pointer node)
     return side;
 }
 
-// Bit c is set if the tile's rays may meet box c of the node before what all of them have hit;
-// `near` is the least depth at which they may.
+// Sets bit c if the tile's rays may meet box c of the node before the hits of all of them. `near`
+// is the box's least depth.
 static inline uint tile_meets_boxes(const image_space *s, const tile *t, node_pointer node,
                                     boxes *near)
 {
@@ -48,7 +48,7 @@ static inline uint tile_meets_boxes(const image_space *s, const tile *t, node_po
 
 // ---- Triangles ---------------------------------------------------------------------------------
 
-// The origin along axis k as a cluster's vertices are told.
+// The origin along axis k, relative to the anchor of a cluster's vertices.
 static inline scalar image_origin(const image_space *s, global const float *cluster, int k)
 {
     scalar origin = FROM_ANCHOR(cluster, k, s->origin[k]);
@@ -74,8 +74,8 @@ static inline void to_image(const image_space *s, global const float *cluster, b
     v[3] = fused(block_of(s->slope), v[2], block_of(s->offset));
 }
 
-// The function of the edge from a to b: 2 (a × b)·(X, Y, 1), as (a + b) × (b − a). Changing the
-// ends changes nothing but the sign, so that both triangles at an edge agree about its pixels.
+// The function of the edge from a to b: 2 (a × b)·(X, Y, 1), as (a + b) × (b − a). Swapping the
+// ends changes only the sign. So both triangles at an edge agree about its pixels.
 static inline void edge_function(const block a[4], const block b[4], block edge[3])
 {
     block sx = a[0] + b[0], sy = a[1] + b[1], sh = a[3] + b[3];
@@ -85,9 +85,10 @@ static inline void edge_function(const block a[4], const block b[4], block edge[
     edge[2] = fused(sx, dy, -(sy * dx));
 }
 
-// The key's function on the triangles' planes, from the plane n·(x, y, z) = D with x = X h, y = Y
-// h: (A (n_x X + n_y Y) + B n_z − C D)/(slope D + offset n_z), see image_key. `side` is the
-// denominator: twice the volume that the triangle spans with the eye, above 0 if it winds left.
+// The key as an affine function of the pixel on each triangle's plane. From the plane n·(x, y, z) =
+// D with x = X h, y = Y h it is (A (n_x X + n_y Y) + B n_z − C D)/(slope D + offset n_z), see
+// image_key. `side` is the denominator: twice the volume of the triangle and the eye, positive if
+// the triangle winds left.
 static inline void key_function(const image_space *s, block corners[3][4], block key[3],
                                 block *side)
 {
@@ -108,7 +109,7 @@ static inline void key_function(const image_space *s, block corners[3][4], block
     key[2] = (s->key_one * nz - s->key_depth * d) * inverse;
 }
 
-// How large the triangles' edges and places are in the tile: what rounding errors grow with.
+// A bound of the rounding errors: they grow with the triangles' edges and positions in the tile.
 static inline block rounding_bound(const tile *t, block corners[3][4], block *largest_h)
 {
     block place_x = 0, place_y = 0, edge_x = 0, edge_y = 0;
@@ -130,9 +131,10 @@ static inline block rounding_bound(const tile *t, block corners[3][4], block *la
     return (place_x * edge_y + place_y * edge_x) * (R(32.0) * EPSILON);
 }
 
-// The groups that the bounds of triangles reach, as bits. A triangle that a pixel sees has corners,
-// as they are stored, on both sides of it or on it (covers_exactly): beyond their quotients'
-// rounding nothing is lost. One with a corner that is not in front of the eye may reach all.
+// The groups that the bounds of triangles reach, as bits. If a pixel sees a triangle, the
+// triangle's stored corners lie on both sides of the pixel or on it (covers_exactly). So bounds
+// widened by the rounding of the quotients lose nothing. A triangle with a corner not in front of
+// the eye may reach all groups.
 static inline block_mask groups_in_bounds(const tile *t, const block places[2], block in_front,
                                           const uchar16 corners[3])
 {
@@ -165,13 +167,15 @@ static inline block_mask groups_in_bounds(const tile *t, const block places[2], 
     return SELECT(in_front > R(0.0), groups, (block_mask)((1 << TILE_GROUPS) - 1));
 }
 
-// The functions of a cluster's triangles, and which of them may be seen in the tile.
+// Computes the functions of a cluster's triangles. Returns the triangles that the tile may see, as
+// bits.
 static inline uint make_image_triangles(const image_space *s, const tile *t,
                                         global const float *cluster, const block vertices[4],
                                         image_triangles *out)
 {
     global const uchar *indices = (global const uchar *)(cluster + GLINT_CLUSTER_CORNERS);
     const uchar16 lanes[3] = {vload16(0, indices), vload16(1, indices), vload16(2, indices)};
+    // Gather the corners of the triangles, and the largest key of each.
     block corners[3][4];
     block_mask in_front = vertices[3] > R(0.0);
     block inverse = R(1.0) / SELECT(in_front, vertices[3], block_of(1));
@@ -186,6 +190,7 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
         block key = permute_block(keys, lanes[k]);
         out->key_largest = LARGER(key, out->key_largest);
     }
+    // Cull triangles whose bounds reach no group, or that lie behind all hits.
     if (TILE_GROUPS > 1) {
         const block places[2] = {vertices[0] * inverse, vertices[1] * inverse};
         block least_h = SMALLEST3(corners[0][3], corners[1][3], corners[2][3]);
@@ -197,10 +202,11 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
     block side, largest_h;
     key_function(s, corners, out->key, &side);
     block bound = rounding_bound(t, corners, &largest_h);
-    // A triangle seen (nearly) edge-on may wind either way: nothing is certain about it.
+    // A triangle seen (nearly) edge-on may wind either way: none of its signs is certain.
     block_mask edge_on = !(fabs(side) > R(2.0) * largest_h * bound);
     out->uncertain = SELECT(edge_on, block_of(HUGE), bound);
 
+    // Cull triangles that lie outside the tile beyond one of their edges.
     block_mask seen = block_of(count_of_cluster(cluster)) > BLOCK_LANES;
 #pragma unroll
     for (int k = 0; k < 3; k++) {
@@ -219,6 +225,7 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
         out->reach[k] = fused(ax, block_of(GROUP_HALF_X(t)),
                               fused(ay, block_of(GROUP_HALF_Y(t)), out->uncertain));
     }
+    // Cull triangles whose key is below the keys of all hits.
     block ax = fabs(out->key[0]), ay = fabs(out->key[1]);
     block error =
         (fused(ax, block_of(t->largest_x), fused(ay, block_of(t->largest_y), fabs(out->key[2])))) *
@@ -227,14 +234,15 @@ static inline uint make_image_triangles(const image_space *s, const tile *t,
                          fused(out->key[1], block_of(t->middle_y), out->key[2]));
     block highest =
         fused(ax, block_of(TILE_HALF_X(t)), fused(ay, block_of(TILE_HALF_Y(t)), middle + error));
-    // A key that is NaN, of a triangle seen exactly edge-on, hides nothing: no comparison drops it.
+    // A triangle seen exactly edge-on has the key NaN. It culls nothing: no comparison drops it.
     seen &= !(highest < t->least) & !(out->key_largest < t->least);
     out->key_reach =
         fused(ax, block_of(GROUP_HALF_X(t)), fused(ay, block_of(GROUP_HALF_Y(t)), error));
     return TILE_GROUPS > 1 ? block_bits(seen & (out->groups != 0)) : block_bits(seen);
 }
 
-// The groups of the tile that a triangle may cover, and where it may be nearer than what is there.
+// The groups of the tile that a triangle may cover, and in which it may be nearer than the hits so
+// far.
 static inline uint groups_of(const tile *t, const image_triangles *triangles, int i)
 {
 #define OF(values) block_of(((const scalar *)&(values))[i])
@@ -255,12 +263,12 @@ static inline uint groups_of(const tile *t, const image_triangles *triangles, in
 
 // ---- Pixels ------------------------------------------------------------------------------------
 
-// A triangle's corners [corner][x, y, z, h], each the same for all pixels or one for each.
+// A triangle's corners [corner][x, y, z, h], either the same for all pixels or one per pixel.
 typedef struct image_corners {
     real at[3][4];
 } image_corners;
 
-// The corners as the pixels at (x, y) see them: x and y of each, relative to the ray.
+// The corners as seen by the pixels at (x, y): x and y of each, relative to the ray.
 static inline void corners_about_ray(const image_corners *c, real x, real y, real across[3],
                                      real up[3])
 {
@@ -271,8 +279,8 @@ static inline void corners_about_ray(const image_corners *c, real x, real y, rea
     }
 }
 
-// The signs say whether the ray passes through the triangle; divided by their sum the weights are
-// the barycentric ones. Not fused: see intersect.cl.
+// The signs of the weights say if the ray passes through the triangle. Divided by their sum they
+// are the barycentric weights. Not fused: see intersect.cl.
 static inline void weigh_corners(const real x[3], const real y[3], real weights[3])
 {
     weights[0] = x[1] * y[2] - y[1] * x[2];
@@ -280,7 +288,7 @@ static inline void weigh_corners(const real x[3], const real y[3], real weights[
     weights[2] = x[0] * y[1] - y[0] * x[1];
 }
 
-// The weights of the corners of triangles that are seen.
+// The weights of the corners of visible triangles.
 static inline void image_weights(const image_corners *c, real x, real y, mask seen, real weights[3])
 {
     real across[3], up[3];
@@ -289,7 +297,7 @@ static inline void image_weights(const image_corners *c, real x, real y, mask se
     refine_weights(across, up, seen, weights);
 }
 
-// The slow way, for pixels where an edge's function is too close to 0.
+// The slow, exact test for pixels where an edge's function is too close to 0.
 static inline mask covers_exactly(const block vertices[4], global const float *cluster, int i,
                                   real x, real y)
 {
@@ -327,7 +335,7 @@ static inline bool meet_group(const image_space *s, tile *t, const image_triangl
     real e2 = fused(OF(edges[2][0]), x, fused(OF(edges[2][1]), y, OF(edges[2][2])));
     real key =
         fused(OF(triangles->key[0]), x, fused(OF(triangles->key[1]), y, OF(triangles->key[2])));
-    // Never nearer than the nearest corner, whatever rounding says: that is what culling rests on.
+    // Never nearer than the nearest corner, in spite of rounding: culling relies on it.
     key = SMALLER(key, OF(triangles->key_largest));
     real least = SMALLER(e0, e1);
     least = SMALLER(least, e2);
@@ -337,11 +345,12 @@ static inline bool meet_group(const image_space *s, tile *t, const image_triangl
         return false;
     }
     if (((const scalar *)&triangles->key_largest)[i] > s->key_limit) {
-        seen &= key <= s->key_limit; // what lies behind the start is not seen
+        seen &= key <= s->key_limit; // surfaces behind the start are not visible
     }
     if (any_lane(seen & (least <= uncertain))) {
         seen &= (least > uncertain) | covers_exactly(vertices, cluster, i, x, y);
     }
+    // Keep the nearer hit, or on a tie the lower number.
     int place = cluster_index * GLINT_CLUSTER_LANES + i;
     mask tied = seen & (key == t->key[g]);
     if (any_lane(tied)) {
@@ -353,7 +362,7 @@ static inline bool meet_group(const image_space *s, tile *t, const image_triangl
 #undef OF
 }
 
-// The depth beyond which nothing is seen in the tile, from the least key.
+// Updates the depth beyond which the tile sees nothing, from the least key.
 static inline void update_depth(const image_space *s, tile *t, uint changed)
 {
     while (changed != 0) {
@@ -369,7 +378,7 @@ static inline void update_depth(const image_space *s, tile *t, uint changed)
     }
 }
 
-// In so many groups a triangle is tested at once.
+// A triangle in at most this many groups is tested without further culling.
 #define FEW_GROUPS 2
 
 static inline void meet_cluster(const image_space *s, tile *t, const scene_buffers *scene,
@@ -430,7 +439,7 @@ static inline void trace_tile(const image_space *s, tile *t, const scene_buffers
     }
 }
 
-// The corners in image coordinates.
+// The corners of a triangle in image coordinates.
 static inline image_corners corners_in_image(const image_space *s, const triangle *t)
 {
     const real3 *vertices = t->vertices;
@@ -457,8 +466,8 @@ static inline image_corners corners_in_image(const image_space *s, const triangl
     return c;
 }
 
-// Distances and barycentric weights of what the pixels at (x, y) see, the corners of which are
-// given. `length` is that of their directions before they were made unit vectors.
+// Distances and barycentric weights of the hits on triangles `t`, for pixels at (x, y). `length` is
+// the length of the rays' directions before normalisation.
 static inline void measure_hits(const image_space *s, const triangle *t, real x, real y,
                                 real length, mask met, closest *hit)
 {

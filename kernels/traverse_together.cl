@@ -1,22 +1,23 @@
-// Closest hits of the rays of a tile, group by group, in the wide tree. Groups whose rays run about
-// the same way and stay close to each other go through the tree together, as one frustum around
-// theirs, with one stack; otherwise each goes alone. A node's boxes are tested all at once against
-// the frustum, and at a leaf each group has its turn (bundle.cl). Where a group's own rays spread
-// apart they join a stream instead (stream.cl). The same hits in any company, bit for bit.
+// Finds the closest hits of a tile's rays, group by group, in the wide tree. Coherent groups, whose
+// rays stay close to each other, go through the tree together: as one frustum around their frusta,
+// with one stack. Other groups go alone. A node's boxes are all tested at once against the frustum.
+// At a leaf each group is tested in turn (bundle.cl). If the rays of a group spread apart, they
+// join a stream instead (stream.cl). The hits are the same in all cases, bit for bit.
 
-// Groups of rays that are followed at the same time.
+// The number of groups of rays that are followed at the same time.
 #define PATH_GROUPS (GLINT_INTERREFLECTION || GLINT_SPLIT ? TILE_GROUPS : 1)
-// The place of one of them; a constant where there is only one, so that compilers see that it is.
+// The index of group i. With a single group it is a constant, so that compilers can use it.
 #define SLOT(i) (PATH_GROUPS == 1 ? 0 : (i))
 
-// The frusta of a tile's groups: one lane of each block for each group, for a group that takes no
-// part an empty one.
+// The frusta of a tile's groups. Each block has one lane per group. Groups that do not take part
+// have an empty frustum.
 typedef struct group_frusta {
     block slope[2][2], offset[2][2]; // see frustum
     block begin, farthest;
 } group_frusta;
 
-// Rays that have a direction and a place in the scene, whatever optics made of them: not NaN.
+// Rays with a valid direction, and an origin in the scene. NaN, which optics may produce, gives
+// false.
 static inline mask is_sound(real3 origin, real3 direction)
 {
     real place = fabs(origin.x) + fabs(origin.y) + fabs(origin.z);
@@ -71,15 +72,16 @@ static inline void set_frustum(group_frusta *f, int group, const frustum *one)
     }
 }
 
-// The frustum around all groups', into *all. True if it is not much larger than these together
-// where the first ray starts, half-way, and where the scene ends: then the groups have much in
-// common.
+// Sets *all to the frustum around the frusta of all groups. Compares its cross-section with the sum
+// of the groups' cross-sections, halfway between the start and the scene's end. True if it is not
+// much larger: then the groups are coherent.
 static inline bool enclose_frusta(const group_frusta *f, int along, scalar sign, frustum *all)
 {
     all->along = along;
     all->sign = sign;
     all->begin = smallest_of_16(f->begin);
     all->wide = false;
+    // Enclose the planes of all groups, for both axes across.
     const scalar distance = LARGER(SCENE_REACH - all->begin, R(0.0625));
     block taking_part = SELECT(f->farthest > R(0.0), block_of(1), block_of(0));
     block areas = taking_part;
@@ -108,7 +110,8 @@ static inline bool enclose_frusta(const group_frusta *f, int along, scalar sign,
     return area < COMPACT * sum_of_16(SELECT(taking_part > R(0.0), areas, block_of(0)));
 }
 
-// The groups whose frusta reach into a box, one of all nodes' children, before their farthest hits.
+// The groups whose frusta reach into a box before their farthest hits. `box` counts the children of
+// all nodes.
 static inline uint groups_at_box(const group_frusta *f, const frustum *all,
                                  const scene_buffers *scene, int box)
 {
@@ -130,7 +133,7 @@ static inline uint groups_at_box(const group_frusta *f, const frustum *all,
     return block_bits(met);
 }
 
-// A traversal of some groups together: `groups` as bits.
+// A traversal of some groups together; `groups` are bits.
 typedef struct party {
     frustum bounds;
     scalar farthest;
@@ -196,7 +199,7 @@ static inline void trace_party(party *p, group_frusta *f, bundle *bundles,
     }
 }
 
-// Which way the first of the rays left runs: the axis, and the sign of the direction along it.
+// Finds the direction of the first of the remaining rays: the axis, and its sign along the axis.
 static inline void choose_axis(const packet *packets, const mask *left, int *along, scalar *sign)
 {
     int group = 0;
@@ -210,17 +213,17 @@ static inline void choose_axis(const packet *packets, const mask *left, int *alo
 }
 
 #if GLINT_GEOMETRY && GLINT_INTERREFLECTION
-// What is left of the rays of a tile's groups to trace.
+// The rays of a tile's groups that are not traced yet.
 typedef struct crowd {
     packet packets[PATH_GROUPS];
     bundle bundles[PATH_GROUPS];
     mask left[PATH_GROUPS];
-    stream apart; // of the rays of wide groups
+    stream apart; // the rays of wide groups
 } crowd;
 
-// Takes the rays that run along the axis, upwards or downwards, out of those that are left: groups
-// whose frusta are narrow, as bits, are returned and have these set; the rays of the others join
-// the stream.
+// Takes the rays that run along the axis, in the direction of `sign`, out of the remaining rays.
+// Returns the groups with narrow frusta, as bits, and sets their frusta. The rays of the other
+// groups join the stream.
 static inline uint divide_crowd(crowd *c, const path *rays, int along, scalar sign,
                                 group_frusta *frusta)
 {
@@ -248,7 +251,7 @@ static inline uint divide_crowd(crowd *c, const path *rays, int along, scalar si
 }
 #endif
 
-// The closest hits of the rays that are active and not to be looked up.
+// Finds the closest hits of the active rays that are not looked up.
 static inline void trace_groups(const scene_buffers *scene, const path *rays, const mask *active,
                                 closest *hits)
 {
@@ -256,6 +259,7 @@ static inline void trace_groups(const scene_buffers *scene, const path *rays, co
         hits[SLOT(g)] = no_hit();
     }
 #if GLINT_GEOMETRY && GLINT_INTERREFLECTION
+    // Gather the rays to trace.
     crowd c;
     for (int g = 0; g < PATH_GROUPS; g++) {
         const path *ray = &rays[g];
@@ -265,6 +269,7 @@ static inline void trace_groups(const scene_buffers *scene, const path *rays, co
             c.packets[g] = packet_of_paths(ray);
         }
     }
+    // Trace the rays of one axis and direction at a time: first the stream, then the narrow groups.
     while (any_active(c.left)) {
         int along;
         scalar sign;

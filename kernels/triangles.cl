@@ -1,10 +1,10 @@
-// The triangles that rays hit, out of their clusters.
+// Loads the triangles that rays hit from their clusters.
 
 // The corners of the triangles hit, and their normals; zeros for rays that hit nothing.
 typedef struct triangle {
     real3 vertices[3];
 #if GLINT_LOCAL_ORIGINS
-    real3 anchor; // from which they are told
+    real3 anchor; // origin of the vertices' coordinates
 #endif
 #if GLINT_SMOOTH_NORMALS
     real3 normals[3];
@@ -17,12 +17,12 @@ typedef struct triangle {
 #endif
 } triangle;
 
-// Which of a cluster's 16 values rays take, of its triangles or its vertices. Neighbouring rays
-// tend to hit the same triangles, so what was hit is fetched once: where an instruction permutes
-// vectors a cluster at a time, of which each ray takes its own value, else a triangle at a time,
-// whose values all its rays take.
+// Chooses which of a cluster's 16 values each ray takes, for its triangles or its vertices.
+// Neighbouring rays tend to hit the same triangles, so shared data is fetched once. If the target
+// has an instruction that permutes vectors, the code fetches a whole cluster and each ray takes its
+// value. Otherwise it fetches one triangle at a time, whose values all its rays take.
 #if HAS_MASK_REGISTERS && GLINT_WIDTH == 16
-#define FETCHED_BITS 4 // of a place: what they tell apart is fetched at once
+#define FETCHED_BITS 4 // low bits of a place; one fetch serves all their values
 typedef lanes_int choice;
 static inline choice choice_of(lanes_int places, int first) { return places; }
 static inline real value_at(global const float *values, choice which)

@@ -1,10 +1,10 @@
-// Shading once per vertex and view instead of once per pixel (--shading vertex-color and
-// vertex-direction): before a frame's tiles are rendered, `shade_vertices` finds for every vertex
-// what a ray from the eye to it would find there, by the same optics. Pixels interpolate
-// (corners.cl). As vertices are few and far between, surfaces see nothing but the environment.
+// Shades once per vertex and view instead of once per pixel (--shading vertex-color and
+// vertex-direction). `shade_vertices` runs before the tiles of a frame. For every vertex it finds
+// the light on a ray from the eye to the vertex, with the same optics. Pixels interpolate the
+// results (corners.cl). Vertices are few and far between, so surfaces see only the environment.
 #if SHADES_VERTICES
 
-// A packet of a cluster's 16 vertices, from `first` on: three values of x[16], y[16], z[16].
+// Loads a packet of a cluster's 16 vertices, from `first` on; `values` are x[16], y[16], z[16].
 static inline real load_vertices(global const float *values, int first)
 {
     real loaded;
@@ -21,7 +21,7 @@ static inline real3 load_vertices3(global const float *values, int first)
                     load_vertices(values + 2 * GLINT_CLUSTER_LANES, first));
 }
 
-// Stores vector `which` of the vertices.
+// Stores vector number `which` of the vertices.
 static inline void store_vertices(global float *values, int which, int first, real3 vector)
 {
     global float *x = values + 3 * which * GLINT_CLUSTER_LANES + first;
@@ -32,10 +32,10 @@ static inline void store_vertices(global float *values, int which, int first, re
     }
 }
 
-// The rays from the eye to the vertices, as primary rays are, and how far they run before they are
-// there. In image coordinates (glint_frame_record) the way from the eye is h times the direction of
-// the primary ray through (x/h, y/h): no division is needed, and what lies behind the eye is seen
-// from it as well, as pixels interpolate towards it.
+// Makes the rays from the eye to the vertices, like primary rays, and their distances. In image
+// coordinates (glint_frame_record), the vector from the eye to the vertex is h times the direction
+// of the primary ray through (x/h, y/h). So no division is needed. Vertices behind the eye also get
+// a ray, because pixels interpolate towards them.
 static inline path rays_to_vertices(const glint_frame_record *frame, real3 vertices, real *distance)
 {
     const real3 p = subtract(vertices, join_vector(&frame->origin));
@@ -49,7 +49,7 @@ static inline path rays_to_vertices(const glint_frame_record *frame, real3 verti
     mask valid, always;
     path ray;
     ray.direction = normalized(d, &valid);
-    ray.direction = select3(valid, ray.direction, // of a vertex at the eye the middle ray's
+    ray.direction = select3(valid, ray.direction, // a vertex at the eye gets the middle ray
                             normalized(join_vector(&frame->direction), &always));
     ray.media = int_of(0);
     const real one = real_of(1);
@@ -63,9 +63,9 @@ static inline path rays_to_vertices(const glint_frame_record *frame, real3 verti
     return ray;
 }
 
-// Which of a cluster's vertices, as bits, belong to a triangle that is seen from the side from
-// which it winds left. What such a triangle shows is the outside, also where a corner's normal
-// points away from the eye already; a corner of none is seen from inside.
+// The vertices of a cluster, as bits, that belong to a triangle seen from its outside (from which
+// it winds left). Such a triangle shows its outside, even if the normal of a corner already points
+// away from the eye. All other vertices are seen from inside.
 static inline uint seen_from_outside(const glint_frame_record *frame, global const float *vertices)
 {
     global const uchar *corners = (global const uchar *)(vertices + GLINT_CLUSTER_CORNERS);
@@ -87,7 +87,7 @@ static inline uint seen_from_outside(const glint_frame_record *frame, global con
     return seen;
 }
 
-// A hit at the vertices, whose lanes in the cluster begin with `first`.
+// A hit at the vertices of a cluster, from lane `first` on.
 static inline surface surface_at_vertices(const scene_buffers *scene, real3 normals, int material,
                                           real3 v, uint from_outside, int first)
 {
@@ -96,14 +96,15 @@ static inline surface surface_at_vertices(const scene_buffers *scene, real3 norm
     s.outside = ((int_of((lane_int)from_outside) >> (lane_numbers() + (lane_int)first)) &
                  (lane_int)1) != (lane_int)0;
     s.normal = select3(away, negate(normals), normals);
-    s.normal = select3(is_zero3(normals), v, s.normal); // of a triangle without area
+    s.normal = select3(is_zero3(normals), v, s.normal); // a triangle without area has no normal
     s.geometric_normal = s.lit_normal = s.normal;
     s.cosine = SMALLER(fabs(dot3(s.normal, v)), real_of(1));
     set_material(&s, mask_all(), scene->materials + (GLINT_MANY_MATERIALS ? material : 0));
     return s;
 }
 
-// What the surfaces add by themselves, and what they send back of an irradiance of 1 beside it.
+// Finds the light that the surfaces add themselves. *lit is the light that they reflect of an
+// irradiance of 1.
 static inline scattering scatter_at_vertices(const scene_buffers *scene, const surface *s,
                                              path *ray, real3 *lit)
 {
@@ -118,7 +119,7 @@ static inline scattering scatter_at_vertices(const scene_buffers *scene, const s
     return out;
 }
 
-// The radiance of the environment along d, by its weight.
+// The radiance of the environment along d, multiplied by the weight.
 static inline real3 weighted_radiance(const scene_buffers *scene, const glint_frame_record *frame,
                                       real3 d, real3 weight)
 {
@@ -127,12 +128,13 @@ static inline real3 weighted_radiance(const scene_buffers *scene, const glint_fr
     return multiply(weight, light);
 }
 
-// Shades a packet of a cluster's vertices: `first` is the first one's lane.
+// Shades a packet of a cluster's vertices, from lane `first` on.
 static inline void shade_packet(const scene_buffers *scene, const glint_frame_record *frame,
                                 size_t cluster, int first, global float *values)
 {
     global const float *vertices = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
     const int material = material_of_cluster(vertices);
+    // Make the rays and the surfaces at the vertices.
     real distance;
     path ray = rays_to_vertices(frame, load_vertices3(vertices, first), &distance);
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
@@ -142,10 +144,11 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
     n = select3(valid, n, zero);
     const surface s = surface_at_vertices(scene, n, material, negate(ray.direction),
                                           seen_from_outside(frame, vertices), first);
-    // What lights paint comes from the side that is seen, wherever the normal points by then.
+    // Light reaches paint on the visible side, even if the normal points away from the viewer.
     const real3 lit_side = select3(s.outside, n, negate(n));
     real3 lit;
     const scattering out = scatter_at_vertices(scene, &s, &ray, &lit);
+    // Apply absorption between the eye and the vertex.
 #if GLINT_ABSORPTION
     const real3 left = absorbed_weight(scene, &ray, distance);
 #else
@@ -155,6 +158,7 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
     lit = multiply(left, lit);
     const real3 reflected_weight = multiply(left, out.reflected_weight);
     const real3 transmitted_weight = multiply(left, out.transmitted_weight);
+    // Store the colour, or its parts and directions.
 #if GLINT_VERTEX_COLOR
     real3 color = add(emitted, weighted_radiance(scene, frame, out.reflected, reflected_weight));
     if (GLINT_GLASS) {
@@ -179,7 +183,7 @@ static inline void shade_packet(const scene_buffers *scene, const glint_frame_re
 #endif
 }
 
-// Shades the vertices of one cluster a work-item, of `count` clusters.
+// Shades the vertices of one cluster per work-item, for `count` clusters.
 kernel void shade_vertices(GLINT_SCENE_ARGUMENTS(PARAMETER) const int count,
                            const glint_frame_record frame)
 {

@@ -1,8 +1,8 @@
-// Scenes of several objects: reflections of reflections, and the material model term by term.
+// Builds scenes of several objects: interreflections, and the material model term by term.
 #include "scenes.h"
 #include "shapes.h"
 
-// A mirror among four painted balls; the red one carries the lecture's blend of paint and mirror.
+// A mirror among four painted balls. The red ball has the lecture's blend of paint and mirror.
 void build_lecture_example_2(model *scene)
 {
     model_add_perspective(scene, "front", 34, (glint_vec3){0, 0.9, 7}, (glint_vec3){0, 0.1, 0});
@@ -31,7 +31,7 @@ void build_lecture_example_2(model *scene)
     }
 }
 
-// Two mirrors of reflectance 0.9 face each other across 2 m, two balls between them.
+// Two mirrors of reflectance 0.9 that face each other at 2 m, with two balls between them.
 void build_facing_mirrors(model *scene)
 {
     model_add_perspective(scene, "between", 55, (glint_vec3){0.85, 0.3, 0.95},
@@ -52,8 +52,8 @@ void build_facing_mirrors(model *scene)
                      (glint_vec3){-0.4, 0.36, -0.5});
 }
 
-// Rendered with axes.hdr: the ball shows +Z, behind the camera, in its middle, mirrored left to
-// right; around it −Z stands as the camera sees it.
+// Render it with axes.hdr. The middle of the ball shows +Z, behind the camera, mirrored left to
+// right. The background shows −Z as the camera sees it.
 void build_axes(model *scene)
 {
     model_add_perspective(scene, "ahead", 70, (glint_vec3){0, 0, 4}, (glint_vec3){0, 0, 0});
@@ -63,7 +63,7 @@ void build_axes(model *scene)
                      (glint_vec3){0, 0, 0});
 }
 
-// The bottom row of the materials: the terms that are no mixtures.
+// The bottom row of the materials: terms that are no mixtures.
 static void add_special_materials(model *scene, glint_vec3 first, double pitch)
 {
     material special[5] = {
@@ -88,7 +88,8 @@ static void add_special_materials(model *scene, glint_vec3 first, double pitch)
     }
 }
 
-// Rows of five: metallic 0 to 1, transmission 0 to 1 of a solid, and special_materials.
+// Rows of five: metallic from 0 to 1, transmission of a solid from 0 to 1, and the special
+// materials.
 void build_materials(model *scene)
 {
     static const char *const metallic[5] = {"metallic 0", "metallic 0.25", "metallic 0.5",
@@ -116,7 +117,7 @@ void build_materials(model *scene)
     add_special_materials(scene, (glint_vec3){-2 * pitch, -pitch, 0}, pitch);
 }
 
-// The same three objects through a perspective and an orthographic camera, chosen by name.
+// The same three objects through a perspective and an orthographic camera, selected by name.
 void build_orthographic(model *scene)
 {
     glint_vec3 eye = {2.2, 1.8, 4};
@@ -138,9 +139,9 @@ void build_orthographic(model *scene)
                      (glint_vec3){-1.1, 0.2, -0.2});
 }
 
-// An open surface of water, seen from above and from below: light crosses one interface, and from
-// below all of the world above lies within Snell's window, around which the surface reflects all. A
-// ball floats in it, two lie in the depth.
+// An open surface of water, seen from above and from below, so that light crosses one interface.
+// From below, the whole world above lies within Snell's window; around it all light is reflected. A
+// ball floats in the water, two lie in the depth.
 void build_water(model *scene)
 {
     model_add_perspective(scene, "above", 40, (glint_vec3){0, 2.2, 4.5}, (glint_vec3){0, -0.2, 0});

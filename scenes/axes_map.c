@@ -1,8 +1,10 @@
-// The labelled axis environment as a lat-long map.
+// Draws the labelled axis environment as a lat-long map.
 //
 // The map follows OpenEXR's ImfEnvmap.h: +Y up, +Z in the middle, +X a quarter in from the left
-// edge: u = ½ − atan2(x, z)/2π, v = ½ − asin(y)/π, pixel centres at (i + ½)/N. Its colours' largest
-// component is in [½, 1): one exponent in the whole RGBE file, which its run-length coding likes.
+// edge. u = ½ − atan2(x, z)/2π, v = ½ − asin(y)/π, pixel centres at (i + ½)/N. The largest
+// component
+// of each colour is in [½, 1): the whole RGBE file has one exponent, so run-length coding works
+// well.
 #include "scenes.h"
 
 #include "environment/axes.h"

@@ -1,4 +1,4 @@
-// A figure whose joints bend it while a morph target makes it bulge.
+// Builds a figure with a skin, bent by its joints, and a morph target that makes it bulge.
 #include "scenes.h"
 #include "shapes.h"
 
@@ -8,7 +8,7 @@
 #define RADIUS 0.17
 #define SEGMENT 0.5 // metres from joint to joint
 
-// A tube up along +Y with round ends, its first joint at the origin.
+// A tube up along +Y with round ends. The first joint is at the origin.
 static void shape_worm(mesh *m)
 {
     static const double foot[2] = {0, 0}, head[2] = {0, FLESH_JOINTS * SEGMENT - RADIUS};
@@ -22,7 +22,7 @@ static void shape_worm(mesh *m)
     shape_revolve(m, &outline, 32);
 }
 
-// Weights change evenly from the middle of one segment to the middle of the next.
+// Joint weights at a height. They change evenly between the middles of neighbouring segments.
 static void weigh(double height, double weights[FLESH_JOINTS])
 {
     const double last = FLESH_JOINTS - 1;
@@ -32,14 +32,14 @@ static void weigh(double height, double weights[FLESH_JOINTS])
     weights[below] = 1 - weights[below + 1];
 }
 
-// The bulge: the radius grows by a bell curve about one height.
+// The morph target: the radius grows by a bell curve around one height.
 static void bulge(glint_vec3 p, glint_vec3 normal, glint_vec3 deltas[2])
 {
     const double middle = 1.1, width = 0.22, height = 0.16;
     const double from = (p.y - middle) / width;
     const double growth = height * exp(-from * from);
     const glint_vec3 out = glint_vec3_normalize((glint_vec3){p.x, 0, p.z});
-    const double slope = -2 * from / width * growth; // of the radius over the height
+    const double slope = -2 * from / width * growth; // slope of the radius over the height
     const glint_vec3 tilted =
         glint_vec3_normalize((glint_vec3){normal.x, normal.y - slope, normal.z});
     const glint_vec3 exact[2] = {glint_vec3_scale(out, growth),
@@ -68,7 +68,8 @@ static void grow_flesh(mesh *m, flesh *f)
     }
 }
 
-// Joints in a chain. All but the foot bend to one side and to the other, the upper ones later.
+// Adds a chain of joints. All joints except the foot bend to one side and to the other, the upper
+// joints later.
 static void add_joints(model *scene, flesh *f, glint_vec3 foot)
 {
     static const char *const names[FLESH_JOINTS] = {"foot", "hip", "chest", "head"};
@@ -91,8 +92,8 @@ static void add_joints(model *scene, flesh *f, glint_vec3 foot)
     }
 }
 
-// A chrome worm on a mirror floor, between three painted balls: it sways and swallows. Its own node
-// stands elsewhere, which glTF ignores.
+// A chrome worm on a mirror floor, between three painted balls: it sways and swallows. The worm's
+// own node stands elsewhere; glTF ignores it because of the skin.
 void build_worm(model *scene)
 {
     static const double swallows[] = {0, 1, 0, 0};

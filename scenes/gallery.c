@@ -1,13 +1,14 @@
-// The gallery: mirrors, glass and paint as a product photograph, on a disc of polished dark metal.
+// Builds the gallery: mirrors, glass and paint as a product photograph, on a disc of polished dark
+// metal.
 //
-// Solids of glass keep GAP metres off the floor, so that no two surfaces coincide; the rest stands
-// just as high, which keeps float and double from disagreeing about which is nearer.
+// Solid glass stands GAP metres above the floor, so that no two surfaces coincide. All other
+// objects keep the same gap, so that float and double agree about the nearer surface.
 #include "scenes.h"
 #include "shapes.h"
 
 #define GAP 1e-3
 
-// The floor's rim is rounded, so that the disc ends in a highlight before the horizon.
+// The floor: a disc with a rounded rim, so that it ends in a highlight before the horizon.
 static void add_floor(model *scene)
 {
     const double radius = 3.4;
@@ -31,7 +32,7 @@ static void add_chrome_sphere(model *scene)
     model_rest(scene, sphere, GAP);
 }
 
-// Shares the geometry of the sphere before it: the order of the calls in build_gallery matters.
+// Shares the geometry of the sphere added before, so the order of calls in build_gallery matters.
 static void add_balls(model *scene)
 {
     material clear = material_glass("clear glass", 1.5);
@@ -65,8 +66,9 @@ static void add_gold_knot(model *scene)
     model_rest(scene, knot, GAP);
 }
 
-// One closed surface: underneath the foot, up the stem and the bowl's outside, over the rim and
-// down the inside. Every crossing of a path is a front or back face of the same solid.
+// The goblet is one closed surface: underneath the foot, up the stem and the outside of the bowl,
+// over the rim and down the inside. Every crossing of a path is a front or back face of the same
+// solid.
 static void add_goblet(model *scene)
 {
     static const struct {
@@ -135,7 +137,7 @@ static void add_glass_block(model *scene)
 static void add_matte_cone(model *scene)
 {
     profile p = {0};
-    const double tip = 0.03; // the apex is a ball cap that the flank meets smoothly
+    const double tip = 0.03; // the apex is a ball cap, smooth with the flank
     const double flank = 70; // degrees from the floor
     double cap[2] = {0, 0.6};
     double c = cos(flank * GLINT_PI / 180);

@@ -1,5 +1,5 @@
 // glint_scenes OUTDIR: writes every scene of this folder, and the axis environment, into OUTDIR.
-// Nothing is random and nothing depends on the time or the locale: the same bytes each run.
+// Each run gives the same bytes: nothing is random or depends on the time or the locale.
 #include "image/image_io.h"
 #include "scenes.h"
 #include "write_gltf.h"

@@ -1,9 +1,9 @@
-// Punctual lights: a point, a spot and a sun on paint, their shadows, and both in a mirror and
-// through glass.
+// Builds a scene of punctual lights: a point, a spot and a sun on paint, with their shadows, seen
+// directly, in a mirror and through glass.
 #include "scenes.h"
 #include "shapes.h"
 
-// A lamp swings above the floor, to and fro.
+// Moves a lamp above the floor, to and fro.
 static void swing(model *scene, const node *lamp)
 {
     static const double places[3][3] = {{-1.1, 2.1, 0.9}, {1.3, 2.1, 0.9}, {-1.1, 2.1, 0.9}};

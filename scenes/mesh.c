@@ -1,4 +1,4 @@
-// Triangle meshes for the scenes. See mesh.h.
+// Builds triangle meshes for the scenes. See mesh.h.
 #include "mesh.h"
 #include "rotation.h"
 
@@ -17,9 +17,9 @@ void mesh_free(mesh *m)
 
 double mesh_snap(double x)
 {
-    // volatile: GCC 12's vectoriser takes double → float → double for nothing where it handles two
-    // at a time (-O2 and up). The bounds in the file would then not be those of its vertices.
-    // Never −0: the floor of ½ and what is near it is +0.
+    // volatile: at -O2 and above, GCC 12's vectoriser drops double → float → double when it handles
+    // two values at a time. The bounds in the file would then differ from the bounds of its
+    // vertices. The result is never −0: floor(x + ½) gives +0 near 0.
     volatile float rounded = (float)(floor(x * GRID + 0.5) / GRID);
     return (double)rounded;
 }
@@ -29,10 +29,11 @@ static glint_vec3 snap(glint_vec3 v)
     return (glint_vec3){mesh_snap(v.x), mesh_snap(v.y), mesh_snap(v.z)};
 }
 
-// The array with room for one more element; NULL (and `failed`) when memory is short.
+// Returns the array with room for one more element. Without memory returns NULL and sets `failed`.
 static void *grow(mesh *m, void *array, size_t count, size_t size)
 {
-    // Capacity is the power of two from 256 on that holds `count`: full when count reaches one.
+    // The capacity is the smallest power of two ≥ 256 that holds `count`, so the array is full when
+    // count reaches it.
     bool full = count == 0 || (count >= 256 && (count & (count - 1)) == 0);
     if (!full || m->failed) {
         return m->failed ? NULL : array;
@@ -104,7 +105,7 @@ static int compare_values(const vertex_key *a, const vertex_key *b)
     return 0;
 }
 
-// Equal vertices stay in the order of their indices: qsort alone promises none.
+// Equal vertices keep the order of their indices: qsort is not stable.
 static int compare_keys(const void *a, const void *b)
 {
     const vertex_key *p = a;
@@ -113,8 +114,8 @@ static int compare_keys(const void *a, const void *b)
     return order != 0 ? order : (p->index > q->index) - (p->index < q->index);
 }
 
-// For each vertex the first one that equals it, by position alone or by position and normal.
-// NULL when memory is short; to be freed.
+// Finds for each vertex the first equal vertex, by position or by position and normal. The caller
+// frees the result. NULL when memory is short.
 static uint32_t *find_first_equals(const mesh *m, bool with_normals)
 {
     vertex_key *keys = calloc(m->vertex_count + 1, sizeof *keys);
@@ -152,7 +153,7 @@ void mesh_weld(mesh *m)
             m->normals[kept] = m->normals[i];
             place[i] = (uint32_t)kept++;
         } else {
-            place[i] = place[place[i]]; // an earlier vertex, whose place is known by now
+            place[i] = place[place[i]]; // an earlier vertex, so its place is known
         }
     }
     m->vertex_count = kept;

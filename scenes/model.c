@@ -1,4 +1,4 @@
-// A scene before it is written. See model.h.
+// Holds a scene before it is written. See model.h.
 #include "model.h"
 
 #include <stdlib.h>
@@ -18,7 +18,8 @@ void model_free(model *scene)
     *scene = (model){0};
 }
 
-// The index of a new element; the last one again, and `overflow`, when there is no room.
+// Returns the index of a new element. If there is no room, sets `overflow` and returns the last
+// index.
 static int next_index(model *scene, int *count)
 {
     if (*count == MODEL_CAPACITY) {

@@ -1,11 +1,11 @@
-// A scene that moves, in each way that glTF knows.
+// Builds moving scenes, with every kind of animation in glTF.
 #include "scenes.h"
 #include "shapes.h"
 
 #define SECONDS 2.0
 
-// A whole turn about an axis at a steady rate: quarter turns, as two keys half a turn apart would
-// leave the direction open.
+// Turns a node once about an axis at a steady rate. The keys are quarter turns: between keys half a
+// turn apart the direction would be undefined.
 static void spin(model *scene, const node *object, glint_vec3 axis)
 {
     motion *turns = model_add_motion(scene, object, "rotation", "LINEAR");
@@ -16,10 +16,10 @@ static void spin(model *scene, const node *object, glint_vec3 axis)
     }
 }
 
-// Up and down twice, at rest where it turns.
+// Moves a node up and down twice, at rest at each end.
 static void lift(model *scene, const node *object, double height)
 {
-    const double seconds = SECONDS / 4; // from a key to the next: up, down, up, down
+    const double seconds = SECONDS / 4; // from key to key: up, down, up, down
     motion *flight = model_add_motion(scene, object, "translation", "CUBICSPLINE");
     for (int key = 0; key <= 4; key++) {
         double place[3] = {object->translation[0], object->translation[1], object->translation[2]};
@@ -28,7 +28,7 @@ static void lift(model *scene, const node *object, double height)
     }
 }
 
-// Grows from nothing and shrinks again.
+// Scales a node from nothing and back.
 static void breathe(model *scene, const node *object)
 {
     static const double sizes[] = {0, 1, 1, 0.4, 0};
@@ -39,7 +39,7 @@ static void breathe(model *scene, const node *object)
     }
 }
 
-// From place to place without a way between.
+// Jumps from place to place, without motion between.
 static void tick(model *scene, const node *object)
 {
     motion *steps = model_add_motion(scene, object, "translation", "STEP");
@@ -59,9 +59,8 @@ static void dolly(model *scene, const node *eye, double nearer)
     motion_add_key(way, SECONDS, place);
 }
 
-// A glass block that turns on a mirror floor, a silver ball that goes up and down, a gold one that
-// grows and shrinks, a dark one that ticks round like a second hand, and a camera that comes
-// nearer.
+// A clockwork on a mirror floor. A glass block turns, a silver ball goes up and down, a gold ball
+// grows and shrinks, a dark ball ticks round like a second hand, and a camera comes nearer.
 void build_clockwork(model *scene)
 {
     scene->clip = "clockwork";
@@ -96,7 +95,7 @@ void build_clockwork(model *scene)
     tick(scene, hand);
 }
 
-// What stands around the drop's way: columns of paint, a glossy one among them, and two balls.
+// Adds the surroundings of the drop: columns of paint, one of them glossy, and two balls.
 static void add_surroundings(model *scene)
 {
     static const struct {
@@ -120,8 +119,9 @@ static void add_surroundings(model *scene)
     }
 }
 
-// A chrome drop that hovers past columns, turning and tilting: what is around it changes with every
-// frame, and it is seen in it. For 24 frames: as an environment map has it, against the truth.
+// A chrome drop that hovers past columns, turning and tilting. It reflects its surroundings, which
+// change with each of the 24 frames. bench/shot compares it under an environment map with the true
+// reflections.
 void build_shot(model *scene)
 {
     const double seconds = 1;

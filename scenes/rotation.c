@@ -1,4 +1,4 @@
-// Rotations as glTF writes them. See rotation.h.
+// Computes rotations in glTF's form. See rotation.h.
 #include "rotation.h"
 
 void rotation_about(glint_vec3 axis, double degrees, double rotation[4])

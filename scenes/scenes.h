@@ -1,4 +1,5 @@
-// The scenes, each a builder that fills an empty model. What they are for: README.md beside this.
+// Declares the scenes, each a builder that fills an empty model. README.md beside this file
+// explains them.
 #ifndef GLINT_SCENES_SCENES_H
 #define GLINT_SCENES_SCENES_H
 
@@ -7,7 +8,7 @@
 
 void build_gallery(model *scene);
 
-// One solid each (solids.c).
+// Scenes of single solids (solids.c).
 void build_mirror_sphere(model *scene);
 void build_glass_sphere(model *scene);
 void build_glass_slab(model *scene);

@@ -1,11 +1,11 @@
-// Spheres, boxes, prisms and sheets. See shapes.h.
+// Builds spheres, boxes, prisms and sheets. See shapes.h.
 #include "shapes.h"
 
 static const glint_vec3 no_normal = {0, 0, 0};
 
 // ---- Sphere ------------------------------------------------------------------------------------
 
-// The icosahedron's corners: the poles, and two rings of five at latitude ±atan(½).
+// Corners of the icosahedron: the poles, and two rings of five at latitude ±atan(½).
 static glint_vec3 icosahedron_corner(int index)
 {
     if (index == 0 || index == 11) {
@@ -32,8 +32,8 @@ static void icosahedron_face(int face, int corners[3])
     }
 }
 
-// The point at steps a, b, c of the way to the corners. On an edge one of them is 0 and the sum of
-// the other two is the same from both faces, bit for bit, so that welding closes the sphere.
+// Adds the point at steps a, b, c towards the corners. On an edge one step is 0, and both faces sum
+// the other two to the same bits. So welding closes the sphere.
 static uint32_t add_sphere_point(mesh *m, double radius, const int corners[3], const int steps[3])
 {
     glint_vec3 sum = {0, 0, 0};
@@ -88,8 +88,8 @@ void shape_box(mesh *m, glint_vec3 centre, glint_vec3 half)
     }
 }
 
-// The quad, turned round where its corners run clockwise seen from outside; the solid is convex
-// around the origin, so outside is away from there.
+// Adds a quad, and flips it if its corners run clockwise seen from outside. The solid is convex and
+// holds the origin, so outside is the side away from the origin.
 static void add_outward(mesh *m, const uint32_t *corners, int count)
 {
     glint_vec3 a = m->positions[corners[0]];
@@ -104,7 +104,7 @@ static void add_outward(mesh *m, const uint32_t *corners, int count)
 void shape_chamfered_box(mesh *m, glint_vec3 half, double chamfer)
 {
     m->flat = true;
-    // At each of the 8 corners three vertices: vertex `axis` lies on the face across that axis.
+    // Three vertices at each of the 8 corners: vertex `axis` lies on the face across this axis.
     uint32_t at[8][3];
     for (int corner = 0; corner < 8; corner++) {
         for (int axis = 0; axis < 3; axis++) {

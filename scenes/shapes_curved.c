@@ -1,4 +1,4 @@
-// Surfaces of revolution, the knot and the brilliant. See shapes.h.
+// Builds surfaces of revolution, the trefoil knot and the brilliant. See shapes.h.
 #include "shapes.h"
 
 // ---- Revolution --------------------------------------------------------------------------------
@@ -54,8 +54,8 @@ void profile_arc(profile *p, const double centre[2], double radius, const double
 
 void shape_revolve(mesh *m, const profile *p, int sides)
 {
-    // Every ring has `sides` vertices, the ones on the axis too: welding joins the axis' (whose
-    // normals agree there), and the quads that end on the axis lose the triangle without area.
+    // Every ring has `sides` vertices, also on the axis. Welding joins the vertices on the axis,
+    // whose normals agree there. Quads that end on the axis lose the triangle without area.
     uint32_t first = (uint32_t)m->vertex_count;
     for (int i = 0; i < p->count; i++) {
         struct profile_point point = p->points[i];
@@ -84,7 +84,7 @@ void shape_revolve(mesh *m, const profile *p, int sides)
 
 // ---- Trefoil knot ------------------------------------------------------------------------------
 
-// The middle line at parameter t, the torus' normal there, and the direction of the way.
+// The middle line at parameter t, the normal of the torus there, and the tangent of the line.
 static void knot_frame(const knot_shape *shape, double t, glint_vec3 frame[3])
 {
     // A quarter turn puts the first lobe up: azimuth 2t + 90°.
@@ -128,7 +128,7 @@ void shape_knot(mesh *m, const knot_shape *shape)
 
 // ---- Brilliant ---------------------------------------------------------------------------------
 
-// Azimuths count in sixteenths of a turn: even ones are the main facets', odd ones between them.
+// Azimuths count in sixteenths of a turn: even numbers for main facets, odd numbers between them.
 static uint32_t add_on_cone(mesh *m, double radius, double height, int sixteenth)
 {
     double azimuth = GLINT_PI / 8 * (sixteenth % 16);
@@ -143,8 +143,9 @@ void shape_brilliant(mesh *m, const brilliant_shape *shape)
     double girdle = shape->girdle_height * radius;
     double crown = tan(shape->crown * GLINT_PI / 180);
     double pavilion = tan(shape->pavilion * GLINT_PI / 180);
-    // A main facet touches the girdle's circle at its own azimuth, and its height falls with the
-    // distance along that azimuth; half way to the next one that is the radius times cos 22.5°.
+    // A main facet touches the circle of the girdle at its own azimuth. Its height falls with the
+    // distance along this azimuth. Half way to the next facet this distance is the radius times cos
+    // 22.5°.
     double between = cos(GLINT_PI / 8);
     double table = shape->table * radius;
     double star = table * between + shape->star * (radius - table * between);

@@ -1,5 +1,4 @@
-// Scenes of one solid, or of solids one in another: what refraction and absorption do by
-// themselves.
+// Builds scenes of one solid, or of nested solids, which show refraction and absorption alone.
 #include "scenes.h"
 #include "shapes.h"
 
@@ -50,8 +49,8 @@ void build_prism(model *scene)
     rotation_about((glint_vec3){0, 1, 0}, 55, prism->rotation);
 }
 
-// Glass around water around air: each sphere is a solid of its own, entered from the one around it,
-// so that the water's surface is the inner surface of the glass.
+// Air within water within glass. Each sphere is a solid, entered from the solid around it, so the
+// surface of the water is also the inner surface of the glass.
 void build_nested_glass(model *scene)
 {
     model_add_perspective(scene, "front", 30, (glint_vec3){0, 0.8, 5}, (glint_vec3){0, 0, 0});
@@ -71,7 +70,7 @@ void build_nested_glass(model *scene)
         ->scale = 0.25;
 }
 
-// Thin walls refract nothing: what stands behind the panes stays where it is.
+// Thin walls do not refract: objects behind the panes do not shift.
 void build_thin_wall(model *scene)
 {
     model_add_perspective(scene, "oblique", 32, (glint_vec3){1.3, 0.7, 4.6}, (glint_vec3){0, 0, 0});
@@ -101,8 +100,8 @@ void build_thin_wall(model *scene)
     rotation_compose(turn, upright, pane->rotation);
 }
 
-// A block of coloured glass on a chequer of tiles. The tiles are boxes with a joint between them,
-// so that no two faces coincide.
+// A block of coloured glass on chequered tiles. The tiles are boxes with a joint between them, so
+// that no two faces coincide.
 void build_absorption_box(model *scene)
 {
     model_add_perspective(scene, "oblique", 32, (glint_vec3){1.7, 2.4, 4.3},
@@ -135,12 +134,12 @@ void build_absorption_box(model *scene)
     rotation_about((glint_vec3){0, 1, 0}, 20, block->rotation);
 }
 
-// The inside of the bowl: what the wine shares with its glass, vertex by vertex.
+// The inside of the bowl. The wine shares it with the glass, vertex by vertex.
 static const double bowl[2] = {0, 0.75};
 #define BOWL_RADIUS 0.27
 #define BOWL_STEP 5   // degrees
 #define BOWL_RIM 55   // degrees above the middle
-#define WINE_LEVEL 10 // likewise
+#define WINE_LEVEL 10 // degrees above the middle
 
 static void add_goblet(model *scene)
 {
@@ -161,8 +160,8 @@ static void add_goblet(model *scene)
     model_add_object(scene, "goblet", model_add_material(scene, &glass), (glint_vec3){0, 0, 0});
 }
 
-// A goblet on a table with wine in it, and ice in the wine: the glass stands on the table, the wine
-// touches the glass all around, and the ice is partly in the wine and partly above it.
+// A goblet on a table, with wine in it and ice in the wine. The glass stands on the table, the wine
+// touches the glass all around, and the ice is partly above the wine.
 void build_wine(model *scene)
 {
     model_add_perspective(scene, "front", 26, (glint_vec3){0.4, 1.25, 2.6},

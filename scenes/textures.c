@@ -1,4 +1,4 @@
-// What textures, colours at vertices and alpha do, a thing for each.
+// Builds a scene with one object for each use of textures, vertex colours and alpha.
 #include "scenes.h"
 #include "shapes.h"
 
@@ -20,18 +20,18 @@ static void draw_checker(double u, double v, double *value)
     set(value, is_light ? 0.82 : 0.22, is_light ? 0.8 : 0.25, is_light ? 0.76 : 0.3);
 }
 
-// A round dimple: the normals of a height −0.3·(1 − r²/R²)², with R = 0.9 of half the picture.
+// Normals of a round dimple: height −0.3·(1 − r²/R²)², with R = 0.9 of half the picture.
 static void draw_dimple(double u, double v, double *value)
 {
     const double x = 2 * u - 1, down = 2 * v - 1;
     const double inside = 1 - (x * x + down * down) / 0.81;
     const double slope = inside > 0 ? 4 * 0.3 / 0.81 * inside : 0;
-    // Green is up in the picture, and v is down.
+    // Green points up in the picture, while v runs down.
     const glint_vec3 n = glint_vec3_normalize((glint_vec3){-slope * x, slope * down, 1});
     set(value, 0.5 + 0.5 * n.x, 0.5 + 0.5 * n.y, 0.5 + 0.5 * n.z);
 }
 
-// Metal in one half of a slanted stripe's period. Blue is metallic, green roughness.
+// Slanted stripes: metal in one half of each period. Blue is metallic, green roughness.
 static void draw_stripes(double u, double v, double *value)
 {
     set(value, 0, 1, fmod(u + v, 1) < 0.5);
@@ -44,8 +44,8 @@ static void draw_window(double u, double v, double *value)
     set(value, is_lit ? 1 : 0.15, is_lit ? 0.72 : 0.06, is_lit ? 0.34 : 0.02);
 }
 
-// A leaf on its stem, with veins and a hole that something ate. It is green outside as well, so
-// that its edge does not turn dark.
+// A leaf on its stem, with veins and an eaten hole. Its transparent texels are green as well, so
+// that the edge does not turn dark.
 static void draw_leaf(double u, double v, double *value)
 {
     const double x = fabs(2 * u - 1), along = (1 - v - 0.16) / 0.8;
@@ -56,7 +56,7 @@ static void draw_leaf(double u, double v, double *value)
     value[3] = fmin(fmax(0.5 + 16 * fmin(fmax(blade, along < 0.5 ? 0.05 : 0) - x, 2 * hole), 0), 1);
 }
 
-// Leaded glass: coloured lozenges that let through half, in opaque lead.
+// Leaded glass: coloured lozenges of alpha ½ in opaque lead.
 static void draw_leaded(double u, double v, double *value)
 {
     static const double colors[3][3] = {{0.85, 0.2, 0.15}, {0.15, 0.45, 0.85}, {0.95, 0.75, 0.2}};
@@ -70,8 +70,8 @@ static void draw_leaded(double u, double v, double *value)
 
 // ---- Shapes ------------------------------------------------------------------------------------
 
-// A sphere of radius 0.6 in meridians and parallels, its texture once around it. The vertices of
-// the first meridian are there twice: u is 0 and 1.
+// A sphere of radius 0.6 in meridians and parallels, with its texture once around it. The first
+// meridian has its vertices twice, with u = 0 and u = 1.
 static void add_globe(model *scene)
 {
     enum { COLUMNS = 64, ROWS = 32 };
@@ -95,7 +95,7 @@ static void add_globe(model *scene)
     }
 }
 
-// A sheet that shows its texture once, upright for one who looks down from +z.
+// A sheet that shows its texture once, upright if seen from +z.
 static void add_sheet(model *scene, const char *name, double half_x, double half_z)
 {
     mesh *m = model_add_geometry(scene, name);
@@ -174,7 +174,8 @@ static void add_sheets(model *scene)
              -18);
 }
 
-// A box whose colours are its corners' places: black, red, green, blue, and their sums.
+// A box whose vertex colours are the places of its corners: black, red, green, blue, and their
+// sums.
 static void add_color_box(model *scene)
 {
     mesh *m = model_add_geometry(scene, "color box");

@@ -1,8 +1,8 @@
 // Writes a scene as glTF 2.0. See write_gltf.h.
 //
-// The binary file holds, for each geometry, its positions, its normals unless it is flat, its
-// indices (16 bits wide where they suffice, padded to four bytes), its flesh and its coat. A glTF
-// mesh is a geometry in a material, so nodes that share a shape share its bytes.
+// The binary file holds for each geometry: positions, normals if it is not flat, indices (16 bits
+// if they suffice, padded to four bytes), flesh and coat. A glTF mesh is a pair of geometry and
+// material, so nodes with the same shape share its bytes.
 #include "write_gltf.h"
 #include "write_material.h"
 #include "write_png.h"
@@ -27,21 +27,21 @@ typedef struct gltf_writer {
     FILE *binary;
     size_t offset; // bytes written so far
     json_t *views, *accessors, *meshes, *channels, *samplers;
-    // The accessors of each geometry; −1: none.
+    // Accessors of each geometry; −1: none.
     int position[MODEL_CAPACITY], normal[MODEL_CAPACITY], index[MODEL_CAPACITY];
-    // Those of what deforms it; −1: none.
+    // Accessors of its flesh; −1: none.
     struct {
         int bulge, normal_bulge, joints, weights, inverse_bind, skin;
     } flesh[MODEL_CAPACITY];
     int skin_count;
-    // Those of its coat; −1: none.
+    // Accessors of its coat; −1: none.
     struct {
         int texcoords, colors;
     } coat[MODEL_CAPACITY];
-    int mesh_of[MODEL_CAPACITY][MODEL_CAPACITY]; // [geometry][material]: mesh, −1: not yet
+    int mesh_of[MODEL_CAPACITY][MODEL_CAPACITY]; // [geometry][material]: mesh; −1: not yet written
 } gltf_writer;
 
-// Nine digits give a float back bit for bit: an accessor's bounds have to equal what they bound.
+// Nine digits keep every bit of a float, so that an accessor's bounds equal the data.
 static json_t *vector(glint_vec3 v)
 {
     json_t *array = json_array();
@@ -78,8 +78,8 @@ static void put_vectors(gltf_writer *w, const glint_vec3 *vectors, size_t count)
     }
 }
 
-// Describes the bytes from `start` to here as one accessor; its index. `target` 0: for no buffer
-// of a graphics card.
+// Describes the bytes from `start` to the end as one accessor and returns its index. `target` 0:
+// not a buffer for a graphics card.
 static int add_accessor(gltf_writer *w, size_t start, json_t *accessor, int target)
 {
     json_t *view = json_object();
@@ -140,7 +140,7 @@ static int write_indices(gltf_writer *w, const mesh *m)
         w, start,
         accessor(narrow ? COMPONENT_UINT16 : COMPONENT_UINT32, 3 * m->triangle_count, "SCALAR"),
         TARGET_INDICES);
-    put_bytes(w, 0, (int)(w->offset % 4)); // indices are of even length: 0 or 2 bytes more
+    put_bytes(w, 0, (int)(w->offset % 4)); // pad to four bytes; indices have an even length
     return added;
 }
 
@@ -151,10 +151,10 @@ static void put_values(gltf_writer *w, const double *values, size_t count)
     }
 }
 
-// Components by their number.
+// Accessor types by the number of components.
 static const char *const types[] = {NULL, "SCALAR", "VEC2", "VEC3", "VEC4"};
 
-// A vertex's own numbers: `components` of each.
+// Writes an attribute with `components` numbers a vertex.
 static int write_attribute(gltf_writer *w, const double *values, size_t count, int components)
 {
     size_t start = w->offset;
@@ -163,7 +163,7 @@ static int write_attribute(gltf_writer *w, const double *values, size_t count, i
                         TARGET_VERTICES);
 }
 
-// A joint without weight is written as 0.
+// Writes the joint indices; 0 for joints without weight.
 static int write_joints(gltf_writer *w, const flesh *f, size_t count)
 {
     size_t start = w->offset;
@@ -175,7 +175,7 @@ static int write_joints(gltf_writer *w, const flesh *f, size_t count)
     return add_accessor(w, start, accessor(COMPONENT_UINT8, count, "VEC4"), TARGET_VERTICES);
 }
 
-// Column by column. Joints at rest only stand elsewhere.
+// Writes the inverse bind matrices, column by column. At rest a joint is only translated.
 static int write_inverse_bind(gltf_writer *w, const flesh *f)
 {
     size_t start = w->offset;
@@ -367,7 +367,7 @@ static json_t *skins_to_json(const gltf_writer *w)
     return skins;
 }
 
-// znear and zfar have to be there for validity; they do not clip.
+// glTF requires znear and zfar. They do not clip here.
 static json_t *camera_to_json(const camera *c)
 {
     if (c->orthographic) {
@@ -438,6 +438,7 @@ static json_t *scene_to_json(gltf_writer *w)
     }
     json_t *file = json_pack("{s:o}", "asset", asset());
     add_lights(scene, file, used);
+    // List the used extensions.
     json_t *extensions = json_array();
     const char *name;
     json_t *value;

@@ -1,4 +1,4 @@
-// Materials and textures as glTF has them. See write_material.h.
+// Writes materials and textures in glTF's form. See write_material.h.
 #include "write_material.h"
 
 #include <math.h>
@@ -50,8 +50,8 @@ static void set_texture(const texture_list *list, json_t *object, const char *ke
     json_object_set_new(object, key, info);
 }
 
-// A texture for each picture. Sampler 0 is for the sharp ones; the others take what glTF defaults
-// to.
+// Adds a texture for each picture. Sharp pictures use sampler 0; the others use glTF's default
+// sampler.
 void gltf_add_textures(const model *scene, json_t *file)
 {
     enum { NEAREST = 9728, LINEAR_MIPMAP_LINEAR = 9987 };
@@ -119,7 +119,7 @@ static json_t *material_extensions(const material *m, json_t *used)
     return all;
 }
 
-// A member is written only where it says something: empty objects are dropped.
+// Sets a member, or drops it if the object is empty.
 static void set_unless_empty(json_t *object, const char *key, json_t *value)
 {
     if (json_object_size(value) > 0) {

@@ -51,7 +51,7 @@ static void write_chunk(FILE *file, const char *type, const unsigned char *data,
     fwrite(checksum, 1, 4, file);
 }
 
-// Rows of texels, each after a byte that says "not filtered".
+// Writes rows of texels, each after a byte for "no filter".
 static void draw_rows(const picture *p, unsigned char *bytes)
 {
     for (int row = 0; row < p->size; row++) {
@@ -60,8 +60,8 @@ static void draw_rows(const picture *p, unsigned char *bytes)
             double value[4] = {0};
             p->draw((column + 0.5) / p->size, (row + 0.5) / p->size, value);
             for (int k = 0; k < p->channels; k++) {
-                // On the grid first: a value half way between two bytes then rounds the same
-                // everywhere.
+                // Round to the grid of mesh_snap first: then a value half way between two bytes
+                // rounds the same everywhere.
                 *bytes++ = (unsigned char)floor(255 * mesh_snap(value[k]) + 0.5);
             }
         }
@@ -72,8 +72,8 @@ static void write_chunks(const picture *p, size_t size, FILE *file)
 {
     static unsigned char data[ZLIB_HEADER + BLOCK_HEADER + BLOCK_CAPACITY + CHECKSUM];
     const unsigned char low = (unsigned char)(size & 0xff), high = (unsigned char)(size >> 8);
-    // zlib: deflate, no dictionary. Block: the last one, stored, with its length and the length's
-    // complement.
+    // zlib header: deflate, no dictionary. Block header: last block, stored, its length and the
+    // complement of the length.
     const unsigned char start[ZLIB_HEADER + BLOCK_HEADER] = {
         0x78, 0x01, 1, low, high, (unsigned char)(low ^ 0xff), (unsigned char)(high ^ 0xff)};
     unsigned char *rows = data + sizeof start;

@@ -4,8 +4,8 @@
 
 #include "model.h"
 
-// Stored, not compressed: a library's compressed bytes would differ between its versions. A picture
-// fits one block of 65535 bytes (GLINT_MISMATCH). Other errors: GLINT_OUTPUT_FAILED.
+// Writes a PNG without compression: compressed bytes would differ between versions of a library.
+// Errors: GLINT_MISMATCH if the picture exceeds one block of 65535 bytes; GLINT_OUTPUT_FAILED.
 glint_status write_png(const picture *p, const char *path, glint_error *error);
 
 #endif

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs glint, renders with it, and takes the decoder and the codec away. install_checks.sh BUILD
+# Tests an installation: installs glint, renders, then removes the decoder and the codec.
+# install_checks.sh BUILD
 set -eu
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
@@ -9,7 +10,7 @@ render() {
         --progress none
 }
 cd "$(dirname "$0")/.."
-# ./glint builds the program's target alone.
+# ./glint builds only the target of the program.
 [ ! -f "$1/build.ninja" ] ||
     [ "$(ninja -C "$1" -t inputs glint | grep -cE '^(libglint_codec\.so|glint-decoder)$')" = 2 ]
 "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr >/dev/null
@@ -17,8 +18,8 @@ render
 [ -s "$prefix/x.png" ]
 rm "$prefix/x.png"
 
-# Without the decoder glint reads no images, and says so.
-# refused STATUS FILE: the last command line's message names the file that is missing.
+# Without the decoder glint must fail to read images, and say so.
+# refused STATUS FILE: the message of the last command line names the missing file.
 refused() {
     [ "$status" = "$1" ]
     [ "$(wc -l <<<"$message")" = 1 ]
@@ -32,7 +33,7 @@ status=0
 message=$("$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr 2>&1) || status=$?
 refused 3 glint-decoder
 
-# Without the codec it writes none.
+# Without the codec glint cannot write images.
 rm -f "$prefix"/lib*/glint/libglint_codec.so "$prefix"/lib*/*/glint/libglint_codec.so
 "$prefix/bin/glint" info scenes/mirror_sphere.gltf >/dev/null
 status=0

@@ -1,10 +1,10 @@
-// The device against the oracle: every scene of scenes/, at depth 1, 2 and 8.
+// Tests the device against the oracle: every scene of scenes/, at depth 1, 2 and 8.
 //
-// Where single precision may decide otherwise than double (a ray within rounding of an edge, of the
-// critical angle, of the least weight), the oracle says so by its margins; such a pixel may flip,
-// and flips are rare: at most 0.2% of pixels at depth 1, 1% at depth 8 may differ by more than
-// 0.001. All other pixels must agree. So may pixels near a place where a texture jumps from texel
-// to texel or alpha decides.
+// Single precision may decide otherwise than double, for a ray within rounding of an edge, of the
+// critical angle or of the least weight. The oracle's margins report such decisions. These pixels
+// may flip, but rarely: at most 0.2% of pixels at depth 1 and 1% at depth 8 may differ by more than
+// 0.001. The same holds near places where a texture jumps between texels or alpha decides. All
+// other pixels must agree.
 #include "environment/irradiance.h"
 #include "support/bridge.h"
 #include "support/render.h"
@@ -22,20 +22,21 @@
 
 #define TOLERANCE 1e-3
 
-// A path's error grows at each surface by the curvature it meets; 1e-4 is about 10³ rounding
-// errors, what a few bounces on spheres make of one.
+// The error of a path grows at each surface with its curvature. 1e-4 is about 10³ rounding errors,
+// the effect of a few bounces on spheres on one rounding error.
 #define FLOAT_MARGIN 1e-4
 
 typedef struct agreement_bounds {
-    int edge;                 // of the environment's cube
-    double margin, tolerance; // see near_a_decision; of a radiance between 0 and 1
-    bool stored;              // the oracle takes what the device gets: the map of the irradiance,
-                              // and the textures' levels; else it computes both itself
+    int edge;                 // edge of the environment's cube
+    double margin, tolerance; // see near_a_decision; for a radiance between 0 and 1
+    // True: the oracle uses the device's irradiance map and texture levels. False: it computes
+    // both.
+    bool stored;
 } agreement_bounds;
 
 typedef struct agreement {
     size_t pixels, different, unexplained, nonfinite;
-    double largest, squares; // difference among pixels that keep the margins; sum of all squares
+    double largest, squares; // difference of pixels within the margins; sum of all squares
 } agreement;
 
 static bool near_a_decision(const oracle_report *report, double margin)
@@ -44,8 +45,9 @@ static bool near_a_decision(const oracle_report *report, double margin)
            report->jump < margin;
 }
 
-// A look-up this near to a tie between two faces of the cube, in components of its direction, may
-// fall on either; their interpolations of 0.5 + 0.5 d differ by 2 (2/N)²/8 · 0.5 at most.
+// Within this distance of a tie between two faces of the cube, a look-up may use either face.
+// Distances are in components of the direction. The interpolations of 0.5 + 0.5 d differ by at most
+// 2 (2/N)²/8 · 0.5.
 #define TIE 1e-9
 #define TIE_JUMP(edge) (0.5 / ((double)(edge) * (edge)))
 
@@ -91,6 +93,7 @@ static agreement render_and_compare(const char *name, const glint_settings *sett
     test_render(&scene, &environment, NULL, settings, &frame);
     bridge *b = bridge_create(&scene, &environment);
     glint_cube irradiance = {0};
+    // Use the stored irradiance map, or the textures of the file.
     if (bounds->stored) {
         assert_int_equal(
             glint_irradiance_map(&environment.radiance, GLINT_IRRADIANCE_EDGE, &irradiance, NULL),
@@ -131,8 +134,8 @@ static glint_settings small_frame(int depth)
     settings.width = 64;
     settings.height = 48;
     settings.depth = depth;
-    settings.texels = GLINT_TEXELS_FLOAT;        // the oracle's
-    settings.roughness = GLINT_ROUGHNESS_SMOOTH; // test_rough.c has the others
+    settings.texels = GLINT_TEXELS_FLOAT;        // the oracle's texels
+    settings.roughness = GLINT_ROUGHNESS_SMOOTH; // test_rough.c tests rough surfaces
     return settings;
 }
 
@@ -171,11 +174,11 @@ static void without_fresnel_the_device_agrees_with_the_oracle(void **state)
     check_depth(3, GLINT_FRESNEL_NONE, 0.01);
 }
 
-// Double precision leaves rounding alone, once the oracle takes the stored irradiance map and
-// texels too: 10⁻⁹ for every pixel of every scene that no decision is near, and the jump between
-// two faces of the cube where a look-up ties between them. A decision is near where the oracle's
-// margin is 10⁻⁹, millions of rounding errors, as eight curved surfaces may make of one; six pixels
-// of a frame may be such.
+// Double precision leaves only rounding, if the oracle also uses the stored irradiance map and
+// texels. All pixels without a near decision agree to 10⁻⁹. Where a look-up ties between two faces
+// of the cube, the jump between the faces is added. A decision is near if the oracle's margin is
+// below 10⁻⁹. This is millions of rounding errors, the effect of eight curved surfaces on one. Six
+// pixels of a frame may be near a decision.
 static void in_double_precision_only_rounding_is_left(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Keyframes against closed forms; animated scenes against files in which the nodes stand as they
-// should at that time; animations that are refused.
+// Tests keyframes against closed forms, and animated scenes against files with the nodes in their
+// places at that time. Also tests animations that glint must refuse.
 #include "scene/animation.h"
 #include "scene/scene.h"
 #include "support/gltf_text.h"
@@ -49,8 +49,8 @@ static void linear_and_step_hold_at_the_ends(void **state)
     }
 }
 
-// Keys lie at the floats next to the frames' times, a third of them above: a step at frame n comes
-// at frame n, and not before.
+// Keys lie on the floats next to the times of frames; a third of them lie above. A step at frame n
+// must come at frame n, not before.
 static void steps_come_at_their_frames(void **state)
 {
     (void)state;
@@ -73,7 +73,8 @@ static void steps_come_at_their_frames(void **state)
     }
 }
 
-// Hermite's spline is the one cubic with given ends and slopes: it gives any cubic back.
+// Hermite's spline is the only cubic with the given ends and slopes, so it must reproduce any
+// cubic.
 static void splines_give_cubics_back(void **state)
 {
     (void)state;
@@ -108,8 +109,8 @@ static void quaternion_about(const double axis[3], double angle, double q[4])
     q[3] = cos(angle / 2);
 }
 
-// A turn at a steady rate is a turn by the share of its angle, also where keys are not unit, of
-// opposite sign, next to nothing apart, or half a turn.
+// A rotation at a steady rate must turn by the share of its angle. This holds for keys that are not
+// unit, have opposite signs, nearly coincide, or are half a turn apart.
 static void rotations_take_the_shorter_way_at_a_steady_rate(void **state)
 {
     (void)state;
@@ -144,7 +145,7 @@ static void splines_of_rotations_are_unit(void **state)
 {
     (void)state;
     const double times[] = {0, 2};
-    // Through opposite quaternions: half-way the spline passes through 0, where there is no turn.
+    // Opposite quaternions: half-way the spline passes through 0, where no rotation exists.
     const double values[] = {0, 0, 0, 0, 0, 0, 0, 1,  0, 0, 0, 0,
                              0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0};
     const glint_curve curve = {GLINT_INTERPOLATION_CUBIC, true, 4, 2, times, values};
@@ -176,7 +177,7 @@ static void what_never_changes_does_not_move(void **state)
 
 // ---- Scenes ------------------------------------------------------------------------------------
 
-// The tetrahedron, and behind it the keys of a clip of two seconds.
+// The tetrahedron, followed by the keys of a clip of two seconds.
 typedef struct moving_data {
     tetrahedron shape;
     float times[3];
@@ -217,7 +218,7 @@ static moving_data make_data(void)
     "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"                     \
     "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}" ACCESSORS         \
     ",\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE "}]}]"
-// A parent that moves and turns, its child that grows, a mesh that stays, a camera on the parent.
+// A parent that moves and turns, a child that grows, a static mesh, and a camera on the parent.
 #define NODES                                                                                      \
     ",\"nodes\":[{\"children\":[1,3],\"name\":\"arm\"%s},{\"mesh\":0,\"translation\":[1,0,0]%s},"  \
     "{\"mesh\":0,\"translation\":[0,0,-3]},{\"camera\":0,\"translation\":[0,0,9]}],"               \
@@ -255,7 +256,7 @@ static glint_scene_source *open_text(const char *folder, char *text, const char 
     return source;
 }
 
-// The same scene at rest, with the nodes where `arm` and `child` put them.
+// The same scene at rest, with the nodes at the places `arm` and `child`.
 static glint_scene baked(const char *folder, const char *arm, const char *child)
 {
     const moving_data data = make_data();
@@ -301,7 +302,7 @@ static void a_moving_scene_is_the_one_in_which_nodes_stand_so(void **state)
         glint_scene scene, expected = baked(*state, stands[i].arm, stands[i].child);
         assert_int_equal(glint_scene_at(source, stands[i].time, &scene, NULL, NULL), GLINT_OK);
         assert_true(scene.moves && !expected.moves);
-        // Turns of float keys differ from those of the text by their rounding.
+        // Rotations from float keys differ from those in the text by rounding.
         assert_int_equal(scene.triangle_count, expected.triangle_count);
         assert_int_equal(scene.triangle_count, stands[i].time >= 2 ? 4 : 8);
         for (size_t k = 0; k < 9 * scene.triangle_count; k++) {
@@ -324,7 +325,7 @@ static void at_its_keys_the_scene_is_the_same_bit_for_bit(void **state)
 {
     glint_scene_source *source = open_text(*state, moving_text(CLIP, 6), NULL, GLINT_OK, NULL);
     glint_scene scene, expected = baked(*state, "", "");
-    for (int again = 0; again < 2; again++) { // what comes between leaves no trace
+    for (int again = 0; again < 2; again++) { // other times between must leave no trace
         assert_int_equal(glint_scene_at(source, 0, &scene, NULL, NULL), GLINT_OK);
         assert_same_scene(&scene, &expected);
         glint_scene_free(&scene);
@@ -336,7 +337,7 @@ static void at_its_keys_the_scene_is_the_same_bit_for_bit(void **state)
         baked(*state, ",\"translation\":[4,2,0],\"rotation\":[0,1,0,0]", ",\"scale\":[0,0,0]");
     assert_int_equal(glint_scene_at(source, 2, &scene, NULL, NULL), GLINT_OK);
     assert_same_scene(&scene, &expected);
-    // Cameras alone.
+    // Only the cameras.
     assert_int_equal(glint_scene_cameras_at(source, 0, &scene, NULL), GLINT_OK);
     assert_true(scene.cameras[0].eye.z == 9 && scene.cameras[0].eye.x == 0);
     glint_scene_free(&scene);
@@ -354,7 +355,7 @@ static void short_integers_are_turns_too(void **state)
     assert_int_equal(glint_scene_at(source, 0.7, &b, NULL, NULL), GLINT_OK);
     glint_scene_close(source);
     for (size_t k = 0; k < 9 * a.triangle_count; k++) {
-        assert_true(fabsf(a.positions[k] - b.positions[k]) < 1e-4f); // of 2⁻¹⁵ each
+        assert_true(fabsf(a.positions[k] - b.positions[k]) < 1e-4f); // shorts are rounded to 2⁻¹⁵
     }
     glint_scene_free(&a);
     glint_scene_free(&b);
@@ -386,7 +387,7 @@ static void clips_are_chosen_by_name_and_index(void **state)
     }
 }
 
-// A camera that is made up for a moving scene sees all that it will do, and stands still.
+// The default camera of a moving scene sees the whole motion, and stands still.
 static void bounds_are_those_of_the_whole_clip(void **state)
 {
     glint_scene_source *source = open_text(*state, moving_text(CLIP, 6), NULL, GLINT_OK, NULL);
@@ -394,15 +395,15 @@ static void bounds_are_those_of_the_whole_clip(void **state)
     assert_int_equal(glint_scene_at(source, 0, &scene, NULL, NULL), GLINT_OK);
     glint_vec3 low, high;
     glint_scene_shown_bounds(&scene, &low, &high);
-    for (int step = 0; step <= 60; step++) { // which are not the times that were looked at
+    for (int step = 0; step <= 60; step++) { // these times differ from the sampled times
         glint_scene then;
         assert_int_equal(glint_scene_at(source, step / 30.0, &then, NULL, NULL), GLINT_OK);
         glint_vec3 same_low, same_high;
         glint_scene_shown_bounds(&then, &same_low, &same_high);
         assert_memory_equal(&low, &same_low, sizeof low);
         assert_memory_equal(&high, &same_high, sizeof high);
-        // Between two looks 1/32 s apart a point leaves the line between both by at most a/8/32²:
-        // it is 3.5 m from the axis at most, turns by 1.6/s and grows by 2 m/s, so that a is under
+        // Between two samples 1/32 s apart a point leaves the straight line by at most a/8/32². The
+        // point is at most 3.5 m from the axis, turns by 1.6/s and grows by 2 m/s. So a is under
         // 3.5 · 1.6² + 2 · 2 · 1.6 = 15.4 m/s².
         const double near = 15.4 / 8 / 1024;
         assert_true(then.low.x >= low.x - near && then.high.x <= high.x + near);
@@ -410,12 +411,12 @@ static void bounds_are_those_of_the_whole_clip(void **state)
         assert_true(then.low.z >= low.z - near && then.high.z <= high.z + near);
         glint_scene_free(&then);
     }
-    assert_true(high.x < 4 + 1 + 2 + 1e-6 && low.x > -4); // and not much more
+    assert_true(high.x < 4 + 1 + 2 + 1e-6 && low.x > -4); // and little more
     glint_scene_free(&scene);
     glint_scene_close(source);
 }
 
-// The linker sends the program's calls here (tests/CMakeLists.txt).
+// The linker redirects the program's calls to this function (tests/CMakeLists.txt).
 bool __real_glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera);
 bool __wrap_glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera);
 static int cameras_placed;
@@ -426,8 +427,8 @@ bool __wrap_glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *c
     return __real_glint_camera_from_matrix(to_world, camera);
 }
 
-// A walk of the scene places its camera: to open a file whose clip has many keys takes no walk a
-// key, or large scenes would open slowly.
+// A walk of the scene places its camera. Opening a file must not take a walk for each key of a
+// clip, because large scenes would then open slowly.
 static void opening_does_not_walk_the_scene_at_each_key(void **state)
 {
     cameras_placed = 0;

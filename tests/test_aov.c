@@ -1,5 +1,5 @@
-// Layers: against the oracle and against the frame's own counters, alike at every width
-// and size of tiles, and without a trace in the picture.
+// Tests layers against the oracle and against the frame's own counters. Layers must be the same at
+// every width and size of tiles, and must not change the picture.
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -26,7 +26,7 @@ static size_t pixel_count(const glint_settings *settings)
     return (size_t)settings->width * (size_t)settings->height;
 }
 
-// A layer's first channel, of a frame that has all; its others stand behind it.
+// First channel of a layer, in a frame with all layers. The other channels follow it.
 static const float *layer(const test_frame *frame, glint_aov aov)
 {
     assert_int_equal(frame->layers.count, glint_layers_channels(GLINT_AOV_ALL));
@@ -45,11 +45,11 @@ static void assert_same_layers(const test_frame *a, const test_frame *b, size_t 
 
 // ---- Against the oracle -------------------------------------------------------------------------
 
-// As in test_agreement.c: within this of a decision single precision may decide otherwise.
+// As in test_agreement.c: within this margin single precision may decide otherwise.
 #define FLOAT_MARGIN 1e-4
 
-// Of layers of the first surface, in single precision. Weights of a triangle are right to some
-// roundings of its extent in the picture, and normals follow them.
+// Errors of the first surface's layers in single precision. The weights of a triangle are right to
+// a few roundings of its extent in the picture. Normals inherit this error.
 #define Z_ERROR 2e-6 // relative
 #define NORMAL_ERROR 2e-5
 
@@ -59,7 +59,7 @@ typedef struct comparison {
     const oracle_view *view;
     const test_frame *frame;
     size_t different, unexplained;
-    double z_error, normal_error; // the largest where triangles agree
+    double z_error, normal_error; // largest errors where the triangles agree
 } comparison;
 
 static double dot(const double a[3], const double b[3])
@@ -75,7 +75,7 @@ static void turn_to(const double direction[3], double n[3])
     }
 }
 
-// A unit vector; false of what has no direction.
+// Tests for a unit vector. False for a zero vector.
 static bool unit(double n[3])
 {
     const double length = sqrt(dot(n, n));
@@ -85,7 +85,7 @@ static bool unit(double n[3])
     return length > 0;
 }
 
-// The normal that rule 1 of "Light transport" asks for.
+// The normal of rule 1 of "Light transport".
 static void shading_normal(const oracle_triangle *t, const oracle_hit *hit, const oracle_ray *ray,
                            double n[3])
 {
@@ -113,7 +113,7 @@ static void shading_normal(const oracle_triangle *t, const oracle_hit *hit, cons
     turn_to(viewer, n);
 }
 
-// The first surface as the oracle sees it, against the layers of pixel `at`.
+// Compares the oracle's first surface with the layers of pixel `at`.
 static bool surfaces_agree(comparison *c, size_t at, const oracle_ray *ray, const oracle_hit *hit)
 {
     const oracle_scene *scene = bridge_scene(c->bridge);
@@ -143,7 +143,7 @@ static bool surfaces_agree(comparison *c, size_t at, const oracle_ray *ray, cons
     return agree;
 }
 
-// What the file calls the triangle's node and material.
+// Compares the names of the triangle's node and material with the file.
 static bool names_agree(const comparison *c, size_t at, int triangle)
 {
     int object = -1, material = -1;
@@ -160,8 +160,8 @@ static bool names_agree(const comparison *c, size_t at, int triangle)
            layer(c->frame, GLINT_AOV_MATERIAL)[at] == (float)material;
 }
 
-// Whether a pixel's layers are what the oracle says. Weights err as the paths do, by some hundreds
-// of roundings.
+// Compares a pixel's layers with the oracle. Weights err like the paths, by some hundreds of
+// roundings.
 static bool layers_agree(comparison *c, const int pixel[2], const oracle_report *report)
 {
     const size_t at = (size_t)pixel[1] * (size_t)c->view->width + (size_t)pixel[0];
@@ -231,7 +231,8 @@ static void layers_agree_with_the_oracle(void **state)
 
 // ---- Faces --------------------------------------------------------------------------------------
 
-// Faces first, first + 1 and first + 2 are red, green and blue, the others black.
+// Makes an environment with faces first, first + 1 and first + 2 in red, green and blue. The other
+// faces are black.
 static void face_environment(int first, glint_environment *environment)
 {
     const int edge = 64;
@@ -246,7 +247,7 @@ static void face_environment(int first, glint_environment *environment)
     glint_cube_fill_border(&environment->radiance);
 }
 
-// The share of a pixel's light that each face sends.
+// Finds the face that sends the most light to a pixel, and its lead over the second face.
 static int brightest_face(const double first[4], const double last[4], double *lead)
 {
     const double shares[] = {first[0], first[1], first[2], last[0], last[1], last[2]};
@@ -260,9 +261,9 @@ static int brightest_face(const double first[4], const double last[4], double *l
     return best;
 }
 
-// Of two look-ups of together no more weight than 1 the heavier one's face sends most of the light,
-// where one does: at a seam another has as large a part in it, and the lighter look-up, of ½ at
-// most, may add to that.
+// Checks the face layer. The weights of two look-ups add up to at most 1. Where the face of the
+// heavier look-up leads, it must be the layer's face. At a seam another face has as large a part in
+// the look-up. The lighter look-up, of at most ½, may add to that part.
 static void check_faces(const char *name, const glint_settings *settings, bool seen[6])
 {
     glint_scene scene = {0};
@@ -314,7 +315,7 @@ static void the_face_is_that_of_the_heaviest_look_up(void **state)
 
 // ---- Against the frame itself -------------------------------------------------------------------
 
-// Sums of up to a few hundred rounded weights a pixel.
+// Sums of up to a few hundred rounded weights for each pixel.
 static void layers_add_up_to_what_the_frame_reports(void **state)
 {
     (void)state;
@@ -343,7 +344,7 @@ static void layers_add_up_to_what_the_frame_reports(void **state)
     }
 }
 
-// Paths that split, paths that gather, and the short way of mirrors.
+// Covers paths that split, paths that gather, and the short way of mirrors.
 static void every_width_and_tile_write_the_same_layers_and_leave_the_picture_alone(void **state)
 {
     (void)state;
@@ -377,13 +378,13 @@ static void every_width_and_tile_write_the_same_layers_and_leave_the_picture_alo
     }
 }
 
-// With everything compiled mirrors at depth 1 take the general way. Only look-ups within rounding
-// of a seam may fall on another face, and weights are rounded otherwise.
+// With everything compiled, mirrors at depth 1 take the general way. Weights are rounded
+// differently there, and look-ups within rounding of a seam may fall on another face.
 static void the_short_way_of_mirrors_writes_the_same_layers(void **state)
 {
     (void)state;
     glint_settings settings = frame_of_layers(1);
-    settings.env_rotate = 30; // else the sphere's diagonals are seams, where rounding decides
+    settings.env_rotate = 30; // otherwise the sphere's diagonals are seams, where rounding decides
     test_frame mirrors, paths;
     test_render_named("mirror_sphere", &settings, &mirrors);
     settings.all_features = true;
@@ -393,7 +394,7 @@ static void the_short_way_of_mirrors_writes_the_same_layers(void **state)
         const glint_channel *a = &mirrors.layers.channels[i], *b = &paths.layers.channels[i];
         const bool is_face = strcmp(a->name, "face.index") == 0;
         for (size_t p = 0; p < pixel_count(&settings); p++) {
-            const bool differ = a->values[p] != b->values[p]; // not of two that are infinite
+            const bool differ = a->values[p] != b->values[p]; // skip two infinite values
             other_faces += is_face && differ;
             assert_true(is_face || !differ || fabs((double)(a->values[p] - b->values[p])) <= 1e-6);
         }
@@ -403,7 +404,7 @@ static void the_short_way_of_mirrors_writes_the_same_layers(void **state)
     test_frame_free(&paths);
 }
 
-// Of 3 × 3 samples the middle one goes through the pixel's centre, as a single one does.
+// The middle one of 3 × 3 samples goes through the pixel's centre, like a single sample.
 static void what_a_pixel_shows_is_its_middle_samples(void **state)
 {
     (void)state;
@@ -424,7 +425,7 @@ static void what_a_pixel_shows_is_its_middle_samples(void **state)
     test_frame_free(&nine);
 }
 
-// Cones blur what look-ups find over seams, and leave the paths and where they look up alone.
+// Cones blur the look-ups over seams. They change neither the paths nor the places of the look-ups.
 static void layers_do_not_depend_on_the_filter(void **state)
 {
     (void)state;
@@ -439,7 +440,7 @@ static void layers_do_not_depend_on_the_filter(void **state)
     test_frame_free(&cones);
 }
 
-// A frame without geometry shows the background alone.
+// A frame without geometry shows only the background.
 static void an_empty_scene_has_faces_and_nothing_else(void **state)
 {
     (void)state;
@@ -474,7 +475,8 @@ static void scale(glint_vec3 *v, double by)
     *v = glint_vec3_scale(*v, by);
 }
 
-// Z is in metres, whatever the scene's unit. Of a power of two as scale all else keeps its bits.
+// Z is in metres, whatever the scene's unit. If the scale is a power of two, all other layers keep
+// their bits.
 static void distances_grow_with_the_scene_and_nothing_else_does(void **state)
 {
     (void)state;
@@ -508,7 +510,7 @@ static void distances_grow_with_the_scene_and_nothing_else_does(void **state)
     glint_environment_free(&environment);
 }
 
-// ---- What is asked for --------------------------------------------------------------------------
+// ---- Requests -----------------------------------------------------------------------------------
 
 static void only_layers_that_are_asked_for_are_made(void **state)
 {

@@ -1,4 +1,4 @@
-// Properties of the lowest floor: errors, warnings, allocation, vectors.
+// Tests the base library: errors, warnings, allocation, vectors.
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/plain_text.h"
@@ -128,7 +128,8 @@ static void normalize_keeps_clear_of_overflow_and_says_when_it_cannot(void **sta
 static void normals_stay_perpendicular_and_outside_under_any_matrix(void **state)
 {
     (void)state;
-    // Scale by (2, −3, 0.5) and shear: mirrored, so the winding of a triangle is to be swapped.
+    // Scale by (2, −3, 0.5) and shear. The matrix mirrors, so the winding of a triangle must be
+    // swapped.
     const glint_mat4 m = {{{2, 1, 0, 7}, {0, -3, 0.25, 8}, {0, 0, 0.5, 9}, {0, 0, 0, 1}}};
     assert_true(glint_mat4_determinant3(&m) == -3);
     glint_vec3 a = {1, 2, 3}, b = {-1, 0.5, 2}, n = glint_vec3_cross(a, b);
@@ -138,7 +139,7 @@ static void normals_stay_perpendicular_and_outside_under_any_matrix(void **state
     glint_vec3 tn = glint_mat4_normal(&m, n);
     assert_true(fabs(glint_vec3_dot(tn, ta)) < 1e-12);
     assert_true(fabs(glint_vec3_dot(tn, tb)) < 1e-12);
-    // The outside of the triangle with its winding swapped.
+    // The outer side of the triangle with swapped winding.
     assert_true(glint_vec3_dot(tn, glint_vec3_cross(tb, ta)) > 0);
 }
 
@@ -156,10 +157,11 @@ static void text_becomes_plain(void **state)
          "?1m ? ? \u00a0"},
         // NOLINTNEXTLINE(misc-misleading-bidirectional): that is what it tests
         {"\u202etxt.exe\u2066 \u200f \u2028 \u061c", "?txt.exe? ? ? ?"},
-        {"\xc2", "?"},                                      // cut short
-        {"\xe2\x80", "??"},                                 // likewise
-        {"\xc0\x9b \xe0\x80\x9b", "?? ???"},                // ESC in more bytes than it needs
-        {"\xed\xa0\x80 \xf4\x90\x80\x80 \xff", "? ???? ?"}, // a surrogate; beyond the last one
+        {"\xc2", "?"},                       // cut short
+        {"\xe2\x80", "??"},                  // truncated
+        {"\xc0\x9b \xe0\x80\x9b", "?? ???"}, // ESC in more bytes than it needs
+        // A surrogate, and a code beyond the last valid code.
+        {"\xed\xa0\x80 \xf4\x90\x80\x80 \xff", "? ???? ?"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char text[64];

@@ -1,4 +1,4 @@
-// Properties of the comparison with an earlier run, on crafted reports.
+// Tests the comparison with an earlier run, on crafted reports.
 #include "report/bench/baseline.h"
 
 #include "render/settings_table.h"
@@ -15,8 +15,7 @@
 
 #include <cmocka.h>
 
-// One scene of a report, as far as a comparison reads it: the median, and quartiles 4% to either
-// side.
+// The compared part of a scene in a report: the median, and quartiles 4% to either side.
 typedef struct crafted {
     const char *name, *device, *environment;
     double median;
@@ -38,7 +37,7 @@ static void format_scene(const crafted *scene, char *text, size_t capacity)
              scene->median, 0.96 * scene->median, 1.04 * scene->median);
 }
 
-// This run's entry: with all settings, where a file may be older.
+// An entry of this run, with all settings. An older file may lack some.
 static json_t *scene_of(const crafted *scene)
 {
     char text[1024];
@@ -97,7 +96,7 @@ static void past_the_margin_it_is_slower_or_faster(void **state)
     assert_int_equal(verdict_at(8.5), GLINT_VERDICT_FASTER);
 }
 
-// Quartiles of 4% about the medians overlap up to a ratio of 1.04/0.96 = 1.083.
+// Quartiles at 4% from the medians overlap up to a ratio of 1.04/0.96 = 1.083.
 static void a_shift_within_the_noise_is_none_whatever_the_margin(void **state)
 {
     (void)state;
@@ -221,7 +220,7 @@ static void malformed_files_are_refused_by_name(void **state)
     assert_non_null(strstr(error.message, "missing.json"));
 }
 
-// A file of one scene, read.
+// Writes a file of one scene and reads it.
 static json_t *written_and_read(const char *scene)
 {
     char text[1200];
@@ -259,7 +258,8 @@ static glint_status compare_with(const json_t *baseline, const json_t *settings)
     return status;
 }
 
-// Whatever the setting: a file from before it was made with what is its default now.
+// A file from before a setting existed was made with its present default. This holds for every
+// setting.
 static void a_report_from_before_a_setting_has_its_default(void **state)
 {
     (void)state;

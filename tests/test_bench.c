@@ -1,4 +1,4 @@
-// Properties of a measurement. There is one, as it must begin before a driver is loaded.
+// Tests a measurement. It is a single test, because it must begin before a driver is loaded.
 #include "report/bench/bench.h"
 #include "scene/built_in.h"
 
@@ -45,7 +45,7 @@ static void a_measurement_is_consistent(void **state)
 
     assert_true(shown >= 5);
     assert_true(result.compile.cold > 0 && result.compile.warm > 0);
-    assert_int_equal(result.plan.build_tag, 0); // what is measured is the program as it is
+    assert_int_equal(result.plan.build_tag, 0); // measures the program as it is
     assert_int_equal(result.report.rays.primary, 61 * 43);
     assert_true(result.report.rays.reflected > 0);
     assert_int_equal(result.bytes.frame, 61 * 43 * 4 * sizeof(float));
@@ -60,7 +60,7 @@ static void a_measurement_is_consistent(void **state)
     if (result.device.has_double) {
         assert_int_equal(check->outcome, GLINT_CHECK_PASSED);
         assert_int_equal(check->error.compared, 61 * 43);
-        // Float is no double, and a mirror does not multiply its error by much.
+        // Float differs from double, but a mirror multiplies the error only a little.
         assert_true(check->error.relative_rmse > 0 && check->judged.relative_rmse < 1e-3);
         assert_true(check->ill_conditioned < 0.05);
     }

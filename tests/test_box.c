@@ -1,4 +1,4 @@
-// The builder's boxes.
+// Tests the boxes of the tree builder.
 #include "accel/box.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-// The builder's results rest on it, whichever instruction it is compiled to.
+// The builder's results depend on this rule, whichever instruction it compiles to.
 static void the_larger_of_two_lanes_is_the_second_unless_the_first_is_larger(void **state)
 {
     (void)state;

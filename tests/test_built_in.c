@@ -1,5 +1,4 @@
-// Properties of the built-in scenes: what a scene that is loaded has been checked for, they must
-// have by themselves.
+// Tests the built-in scenes. They must have the properties that the loader checks in files.
 #include "scene/built_in.h"
 #include "scene/topology.h"
 
@@ -57,9 +56,9 @@ static glint_vec3 vector_at(const float *values)
     return (glint_vec3){(double)values[0], (double)values[1], (double)values[2]};
 }
 
-// The formula's gradient against the triangles that were made of it. Their edges are 0.02 long
-// (0.04 in "mixed") and the curvature is below 12, so that normals turn by less than half a radian
-// over one.
+// Compares the gradient of the formula with the triangles made from it. The edges are 0.02 long
+// (0.04 in "mixed") and the curvature is below 12, so normals turn by less than half a radian over
+// an edge.
 static void normals_are_unit_and_those_of_the_surface(void **state)
 {
     (void)state;

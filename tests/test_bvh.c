@@ -1,4 +1,4 @@
-// Properties of the wide tree: every triangle is in one cluster, inside every box above it.
+// Tests the wide tree: every triangle must be in one cluster, inside every box above it.
 #include "accel/bvh.h"
 #include "kernels/layout.h"
 #include "support/tree_checks.h"
@@ -53,7 +53,7 @@ static void smooth_meshes_share_vertices_and_fill_the_clusters(void **state)
     }
 }
 
-// The boxes are wider than what the cost is computed from by a few roundings.
+// The boxes are a few roundings wider than the boxes in the computed cost.
 static void the_cost_is_that_of_the_boxes(void **state)
 {
     (void)state;
@@ -114,7 +114,7 @@ static void triangles_of_every_magnitude_keep_the_tree_shallow(void **state)
     test_soup_free(&s);
 }
 
-// Nothing tells them apart, and 16 of them share their three vertices: the clusters are full.
+// The triangles are identical, and 16 of them share three vertices: the clusters are full.
 static void coincident_triangles_are_divided_by_number(void **state)
 {
     (void)state;
@@ -127,7 +127,7 @@ static void coincident_triangles_are_divided_by_number(void **state)
     assert_true(bvh.report.fill > 0.9);
     assert_true(bvh.report.depth < 8);
     glint_bvh_free(&bvh);
-    // Of several materials, they are told apart by those.
+    // Triangles of several materials divide by material.
     for (size_t i = 0; i < s.count; i++) {
         s.material_of[i] = (uint32_t)(i % 3);
     }
@@ -159,7 +159,8 @@ static void triangles_without_area_are_left_out_and_needles_are_not(void **state
     for (size_t i = 0; i < COUNT; i++) {
         float *p = s.positions + 9 * i;
         for (int k = 0; k < 3; k++) {
-            // A needle; an edge there and back; a point; three points of an edge; an ulp beside it.
+            // A needle; an edge there and back; a point; three points on an edge; a point an ulp
+            // beside it.
             const float a = p[k], b = ldexpf(floorf(ldexpf(p[3 + k], 20)), -20);
             switch (i % 5) {
             case 0:
@@ -200,7 +201,7 @@ static void triangles_that_all_have_no_area_give_a_root_that_no_ray_meets(void *
     test_soup_free(&s);
 }
 
-// Large triangles whose centres lie in the middle of small ones must not hide them from the bins.
+// Bins must still separate small triangles if large triangles have their centres among them.
 static void a_detail_inside_large_triangles_is_divided(void **state)
 {
     (void)state;
@@ -252,7 +253,7 @@ static void assert_same_tree(const glint_bvh *a, const glint_bvh *b)
 static void any_number_of_threads_gives_the_same_tree(void **state)
 {
     (void)state;
-    // Bundled, not bundled, of every magnitude, and all alike.
+    // Triangles in order, shuffled, of every magnitude, and identical triangles.
     test_soup soups[] = {test_soup_sheet(200), test_soup_sheet(200), test_soup_random(50000, 60),
                          test_soup_sheet(150)};
     test_soup_shuffle(&soups[1]);
@@ -288,7 +289,7 @@ static void more_triangles_than_a_place_can_name_are_refused(void **state)
     (void)state;
     glint_bvh bvh;
     glint_error error = {0};
-    // Refused before anything is read.
+    // The builder must refuse this before it reads anything.
     glint_bvh_inputs in = {.triangle_count = (size_t)GLINT_TRIANGLES_MAX + 1, .width = 16};
     assert_int_equal(glint_bvh_build(&in, &bvh, &error), GLINT_BAD_INPUT);
     assert_non_null(strstr(error.message, "134217728 triangles"));

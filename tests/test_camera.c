@@ -1,4 +1,4 @@
-// Properties of cameras: their axes, the default one, and how they are chosen.
+// Tests cameras: their axes, the default camera, and selection by name.
 #include "scene/camera.h"
 #include "scene/scene.h"
 
@@ -77,7 +77,7 @@ static void singular_matrices_make_no_camera(void **state)
     assert_false(glint_camera_from_matrix(&zero, &camera));
     glint_mat4 flat = glint_mat4_identity;
     flat.m[1][1] = 0;
-    flat.m[2][1] = 3; // up along forward
+    flat.m[2][1] = 3; // up and forward are parallel
     assert_false(glint_camera_from_matrix(&flat, &camera));
     glint_mat4 broken = glint_mat4_identity;
     broken.m[0][3] = NAN;
@@ -87,8 +87,8 @@ static void singular_matrices_make_no_camera(void **state)
     assert_false(glint_camera_from_matrix(&broken, &camera));
 }
 
-// The tangent of the angle between the axis and the silhouette of the bounding sphere is inside the
-// field in every direction.
+// The angle between the axis and the silhouette of the bounding sphere must be inside the field of
+// view in every direction. The test compares tangents.
 static void the_default_camera_holds_the_bounding_sphere(void **state)
 {
     (void)state;
@@ -211,7 +211,7 @@ static void a_camera_looks_at_its_target(void **state)
     assert_vector(camera.eye, 1, 2, 3);
     assert_vector(camera.back, -0.6, 0, 0.8);
     assert_vector(camera.up, 0, 1, 0);
-    // Up need not be at right angles to the view.
+    // Up may be at any angle to the view.
     assert_true(glint_camera_look(eye, target, (glint_vec3){3, 5, -4}, &camera));
     assert_vector(camera.up, 0, 1, 0);
     assert_true(camera.yfov == 1);
@@ -238,7 +238,7 @@ static void a_raised_camera_keeps_compass_and_distance(void **state)
     const glint_vec3 centre = {1, 2, 3};
     const double compass[2] = {0.6, 0.8};
     for (int degrees = -90; degrees <= 90; degrees += 15) {
-        // It looks elsewhere at first, and is rolled.
+        // Rolled, and looking elsewhere at first.
         glint_camera camera = {.yfov = 1};
         assert_true(glint_camera_look((glint_vec3){1 + 3 * compass[0], 6, 3 + 3 * compass[1]},
                                       (glint_vec3){9, 9, 9}, (glint_vec3){1, 1, 0}, &camera));
@@ -252,7 +252,8 @@ static void a_raised_camera_keeps_compass_and_distance(void **state)
     }
 }
 
-// Straight above or below the centre, the picture's upper half says where the camera came from.
+// Straight above or below the centre, the camera's up direction tells from which side it
+// came.
 static void a_camera_on_the_axis_is_raised_by_its_picture(void **state)
 {
     (void)state;
@@ -273,7 +274,7 @@ static void quarter_turns_are_exact(void **state)
     const glint_camera camera = {
         .yfov = 1, .eye = {0.1, 0.2, 0.7}, .right = {1, 0, 0}, .up = {0, 1, 0}, .back = {0, 0, 1}};
     const glint_vec3 centre = {0, 0, 0};
-    // Counter-clockwise from above: what stood before the scene comes to stand to its right.
+    // Counter-clockwise from above: an object before the scene moves to its right.
     static const double eyes[4][3] = {
         {0.1, 0.2, 0.7}, {0.7, 0.2, -0.1}, {-0.1, 0.2, -0.7}, {-0.7, 0.2, 0.1}};
     for (int quarter = 0; quarter < 4; quarter++) {

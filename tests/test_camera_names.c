@@ -1,4 +1,4 @@
-// Names of the files of --camera all.
+// Tests the file names of --camera all.
 #include "cli/render/camera_names.h"
 
 #include <setjmp.h>
@@ -13,7 +13,7 @@
 
 #define MOST 8
 
-// `own` and `wanted` end with a NULL; NONE stands for a camera without a name.
+// `own` and `wanted` end with NULL. NONE is a camera without a name.
 #define NONE ""
 
 static void assert_names(const char *const own[], const char *const wanted[])
@@ -45,7 +45,7 @@ static void cameras_keep_their_names_where_files_can(void **state)
                  LIST("front", "Top_2.b-c", "Vordere_Kamera", "Küche"));
     assert_names(LIST("../../etc/x", "a\\b:c*?\"<>|", "f####", "%04d"),
                  LIST(".._.._etc_x", "a_b_c______", "f____", "_04d"));
-    // U+202E turns the direction of text; the last name is no UTF-8.
+    // U+202E reverses the direction of text; the last name is invalid UTF-8.
     const char turned[] = {'a', (char)0xe2, (char)0x80, (char)0xae, 'b', '\0'};
     assert_names(LIST("a\nb\x1b[31m", "\xc2\x9b_m", turned, "\xff\xfe"),
                  LIST("a_b__31m", "__m", "a_b", "__"));
@@ -63,7 +63,7 @@ static void names_are_never_the_same(void **state)
     assert_names(LIST("a", "b", "a"), LIST("0", "b", "2"));
     assert_names(LIST("Top", "top", "tops"), LIST("0", "1", "tops"));
     assert_names(LIST("a/b", "a_b"), LIST("0", "1"));
-    // Each index is another's name.
+    // Each index is the name of another camera.
     assert_names(LIST("2", "x", "x", "0"), LIST("0", "1", "2", "3"));
 }
 

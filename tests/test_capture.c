@@ -1,4 +1,4 @@
-// Captures, environments that change, and pictures behind frames.
+// Tests captures, changing environments, and pictures behind frames.
 #include "render/capture.h"
 
 #include "scene/subset.h"
@@ -24,9 +24,9 @@ static glint_renderer *make(const glint_scene *scene, const glint_environment *e
     return renderer;
 }
 
-// The rays of a view's pixels go through the texels' centres: where nothing else is, each texel
-// is captured as it is, but for the rounding of the look-up's place, which is 2⁻²³ of a face's edge
-// a few times, between texels that differ by 2 at most.
+// The rays of a view's pixels go through the centres of texels. In an empty scene the capture
+// equals each texel, except for rounding of the look-up's place. The rounding is a few times 2⁻²³
+// of a face's edge, between texels that differ by at most 2.
 static void an_empty_scene_is_its_environment(void **state)
 {
     (void)state;
@@ -59,7 +59,7 @@ static void an_empty_scene_is_its_environment(void **state)
     glint_scene_free(&scene);
 }
 
-// The view of a face is what a frame through a camera that stands there shows.
+// The view of a face equals the frame of a camera at that place.
 static void a_face_is_a_frame(void **state)
 {
     (void)state;
@@ -78,6 +78,7 @@ static void a_face_is_a_frame(void **state)
     assert_int_equal(
         glint_capture(&(glint_capture_request){renderer, at, NULL, &report}, &cube, &error),
         GLINT_OK);
+    // Render each face through a camera with a field of view of 90 degrees.
     for (int face = 0; face < 6; face++) {
         const glint_vec3 ahead = glint_cube_direction(face, 0, 0);
         const glint_vec3 right = glint_vec3_subtract(glint_cube_direction(face, 1, 0), ahead);
@@ -149,8 +150,9 @@ static void a_capture_can_be_stopped_and_is_square(void **state)
     glint_scene_free(&scene);
 }
 
-// Of other sizes, and too bright for half texels, so that the kernels change: the frames are those
-// of renderers of their own. The red sphere's paint needs each one's irradiance, too.
+// The environments have other sizes and are too bright for half texels, so the kernels change. The
+// frames must equal the frames of new renderers. The paint of the red sphere also needs the
+// irradiance of each environment.
 static void environments_take_each_others_place(void **state)
 {
     (void)state;
@@ -167,6 +169,7 @@ static void environments_take_each_others_place(void **state)
     const glint_settings settings = test_small_frame(3);
     glint_renderer *renderer = make(&scene, &environments[2], &settings);
     const glint_camera *camera = &scene.cameras[0];
+    // Compare the shared renderer with a new renderer for each environment.
     for (int i = 0; i < 3; i++) {
         glint_renderer *own = make(&scene, &environments[i], &settings);
         glint_image wanted = {0}, found = {0};
@@ -192,7 +195,7 @@ static void environments_take_each_others_place(void **state)
     glint_scene_free(&scene);
 }
 
-// What the device cannot take is refused, and the next one is taken all the same.
+// The renderer refuses an environment that the device cannot hold, and still takes the next one.
 static void a_refused_environment_is_followed_by_another(void **state)
 {
     (void)state;

@@ -1,7 +1,8 @@
-// Charts and resampling: every pair of layouts faces the same way, look-ups and means are as exact
-// as their pixels allow, and turns, mirrors and rims are right. The oracle is colour that encodes
-// direction, drawn by the layouts' own definitions: the tables of OpenGL and OpenEXR, the
-// reflection of a viewer's rays in a ball, worked out ray by ray.
+// Tests charts and resampling. Every pair of layouts must face the same way, look-ups and means
+// must be as exact as their pixels allow, and turns, mirrors and rims must be right.
+//
+// The oracle is colour that encodes direction, drawn by the layouts' own definitions: the tables of
+// OpenGL and OpenEXR, and the reflection in a ball, computed ray by ray.
 #include "environment/chart.h"
 #include "environment/layouts.h"
 #include "environment/sampler.h"
@@ -17,7 +18,7 @@
 
 #include <cmocka.h>
 
-enum { EDGE = 48 }; // of a face; the other maps have as many pixels to a quarter turn, or more
+enum { EDGE = 48 }; // edge of a face; other maps have at least as many pixels for a quarter turn
 
 // ---- The oracle ---------------------------------------------------------------------------------
 
@@ -25,7 +26,7 @@ typedef struct variant {
     const char *name;
     glint_layout layout;
     bool on_edges;
-    double distance; // of a ball's viewer
+    double distance; // distance of a ball's viewer
 } variant;
 
 static const variant variants[] = {
@@ -44,13 +45,13 @@ static const variant variants[] = {
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
-// How the six named faces are laid out, a letter each: + and − of x, y, z as "XxYyZz".
+// The places of the six named faces, a letter for each: + and − of x, y, z are "XxYyZz".
 static const char *picture_of(glint_layout layout)
 {
     switch (layout) {
     case GLINT_LAYOUT_HCROSS:
         return " Y  /xZXz/ y  ";
-    case GLINT_LAYOUT_VCROSS: // the last one upside down
+    case GLINT_LAYOUT_VCROSS: // the last face is upside down
         return " Y /xZX/ y / z ";
     case GLINT_LAYOUT_HSTRIP:
         return "XxYyZz";
@@ -81,7 +82,7 @@ static bool named_direction(const variant *v, const glint_chart_place *place, gl
     return true;
 }
 
-// r = 2(n·v)n − v where the ray through (x, y) of the disc first meets the ball.
+// Computes r = 2(n·v)n − v where the ray through (x, y) of the disc first meets the ball.
 static bool ball_direction(double distance, double x, double y, glint_vec3 *d)
 {
     if (x * x + y * y > 1) {
@@ -91,8 +92,8 @@ static bool ball_direction(double distance, double x, double y, glint_vec3 *d)
     if (isinf(distance)) {
         n = (glint_vec3){x, y, sqrt(1 - x * x - y * y)};
     } else {
-        // In long double: k is the small difference of two distances.
-        const long double far = distance, tangent = 1 / sqrtl(far * far - 1); // of the rim's angle
+        // Long double, because k is the small difference of two distances. `tangent` is of the rim.
+        const long double far = distance, tangent = 1 / sqrtl(far * far - 1);
         const long double right = x * tangent, up = y * tangent;
         const long double length = sqrtl(1 + right * right + up * up);
         const long double sine = far * sqrtl(right * right + up * up) / length;
@@ -166,7 +167,7 @@ static glint_image draw(const variant *v, const glint_chart *chart)
     return image;
 }
 
-// Where a direction is in a disc, in radii.
+// The place of a direction in a disc, in radii from the centre.
 static double radii(const glint_chart *chart, glint_vec3 d)
 {
     double place[2];
@@ -174,11 +175,12 @@ static double radii(const glint_chart *chart, glint_vec3 d)
     return hypot(place[0] - chart->center[0], place[1] - chart->center[1]) / chart->radius;
 }
 
-// How far a look-up in a drawn picture may be from the direction's colour: bilinear interpolation
-// errs by an eighth of the second derivative along each axis. Of a ball's (2x q, 2y q, 1 − 2p²), q
-// = √(1 − p²), that is at most 6p/q + 2p³/q³ and, in the middle, 4; a near viewer's ball has half
-// as much again. Of x sin(πp)/p and cos(πp) it is π² and a little. Where the pixels around lie
-// outside the disc there is no bound but that of colours.
+// Bounds the difference between a look-up in a drawn picture and the colour of the direction.
+// Bilinear interpolation errs by an eighth of the second derivative along each axis. For a ball,
+// (2x q, 2y q, 1 − 2p²) with q = √(1 − p²), the second derivative is at most 6p/q + 2p³/q³, and 4
+// in the middle. A near viewer's ball has half as much again. For an angular map, x sin(πp)/p and
+// cos(πp), it is slightly above π². Where surrounding pixels lie outside the disc, only the range
+// of colours bounds the difference.
 static double source_bound(const variant *v, const glint_chart *chart, glint_vec3 d)
 {
     const double r = chart->radius;
@@ -188,7 +190,7 @@ static double source_bound(const variant *v, const glint_chart *chart, glint_vec
     if (v->layout != GLINT_LAYOUT_BALL && v->layout != GLINT_LAYOUT_ANGULAR) {
         return v->on_edges ? 0.65 / ((EDGE - 1.0) * (EDGE - 1.0)) : seam_bound(EDGE);
     }
-    const double p = radii(chart, d) + 1.5 / r; // of the farthest of the four pixels
+    const double p = radii(chart, d) + 1.5 / r; // radius of the farthest of the four pixels
     if (p >= 1) {
         return 1;
     }
@@ -205,7 +207,7 @@ static double angle_between(glint_vec3 a, glint_vec3 b)
     return atan2(glint_vec3_length(glint_vec3_cross(a, b)), glint_vec3_dot(a, b));
 }
 
-// A pixel's mean is taken over its square in the picture, of as many directions as it takes.
+// Averages many directions over a pixel's square in the picture.
 static void mean_color(const variant *v, const glint_chart *chart, int i, int j, double mean[3])
 {
     enum { SIDE = 8 };
@@ -230,10 +232,10 @@ static void mean_color(const variant *v, const glint_chart *chart, int i, int j,
     }
 }
 
-// How far means over different grids of a pixel may lie apart: midpoint rules err by h²/24 times
-// the second derivative, which is ½ along an arc, for h one and a half of the source's pixels;
-// twice for two axes and twice as near a rim arcs of a grid are of different lengths. On the rim
-// itself some of a grid's points lie outside.
+// Bounds the difference between means over different grids of a pixel. Midpoint rules err by h²/24
+// times the second derivative, which is ½ along an arc; h is one and a half pixels of the source.
+// The factor 4 has two parts: two for the two axes, and two because arcs of a grid have different
+// lengths near a rim. On the rim some points of a grid lie outside, so there is no bound.
 static double grid_bound(const variant *v, const glint_chart *chart, int i, int j)
 {
     const double h = 1.5 * GLINT_PI / 2 / EDGE;
@@ -274,7 +276,7 @@ static void compare(const variant *from, const variant *to)
             }
         }
     }
-    if (looked_at < 0.55 * all) { // the rest is what a ball shows at its rim, or hides
+    if (looked_at < 0.55 * all) { // a ball shows the rest at its rim, or hides it
         fail_msg("%s to %s: %d of %d pixels are looked at", from->name, to->name, looked_at, all);
     }
     glint_sampler_free(&sampler);
@@ -294,7 +296,7 @@ static void every_pair_of_layouts_faces_the_same_way(void **state)
 
 // ---- Exactness ----------------------------------------------------------------------------------
 
-// A picture that is converted to its own layout and size is not changed, whatever is in it.
+// Conversion to the same layout and size must not change a picture, whatever its content.
 static void a_layout_to_itself_is_the_same_picture(void **state)
 {
     (void)state;
@@ -308,7 +310,8 @@ static void a_layout_to_itself_is_the_same_picture(void **state)
         assert_int_equal(glint_sampler_of_image(&image, &chart, &sampler, NULL), GLINT_OK);
         assert_int_equal(glint_resample(&sampler, &glint_turn_none, &chart, &found, NULL),
                          GLINT_OK);
-        // On a lat-long map's edges the first and the last column are one place, a pole's row too.
+        // At the edges of a lat-long map the first and last column are one place, and so is the row
+        // of a pole.
         double worst = 0;
         for (int p = 0; p < chart.width * chart.height; p++) {
             const int i = p % chart.width, j = p / chart.width;
@@ -316,7 +319,8 @@ static void a_layout_to_itself_is_the_same_picture(void **state)
                 variants[k].on_edges &&
                 (i % EDGE == 0 || i % EDGE == EDGE - 1 || j % EDGE == 0 || j % EDGE == EDGE - 1 ||
                  i == chart.width - 1 || j == chart.height - 1);
-            // Half of a pixel on a disc's rim is outside; a ball's is many degrees wide there.
+            // Half of a pixel on the rim of a disc is outside. On a ball such a pixel is many
+            // degrees wide.
             const double rim = variants[k].layout == GLINT_LAYOUT_BALL      ? 8
                                : variants[k].layout == GLINT_LAYOUT_ANGULAR ? 1
                                                                             : -1e9;
@@ -336,8 +340,8 @@ static void a_layout_to_itself_is_the_same_picture(void **state)
     }
 }
 
-// Means: a fine chequered pattern becomes grey where a pixel covers many of its squares, and what
-// is constant stays so, to the last bits.
+// Tests means: a fine chequered pattern becomes grey where a pixel covers many squares, and a
+// constant picture stays constant, up to the last bits.
 static void shrinking_takes_means(void **state)
 {
     (void)state;
@@ -358,7 +362,7 @@ static void shrinking_takes_means(void **state)
         assert_int_equal(glint_resample(&sampler, &glint_turn_none, &target, &found, NULL),
                          GLINT_OK);
         for (int p = 0; p < 8 * 4; p++) {
-            assert_float_equal(found.pixels[3 * p], 0.5f, 0.06f); // 24² squares a pixel, or more
+            assert_float_equal(found.pixels[3 * p], 0.5f, 0.06f); // at least 24² squares a pixel
             assert_float_equal(found.pixels[3 * p + 1], 0.7f, 1e-6f);
             assert_true(found.pixels[3 * p + 2] == 0);
         }
@@ -368,8 +372,7 @@ static void shrinking_takes_means(void **state)
     }
 }
 
-// One bright pixel of a map that is made very small: its light is neither lost nor more than it
-// was.
+// One bright pixel of a map that shrinks a lot: the total light must stay the same.
 static void a_sun_keeps_its_light(void **state)
 {
     (void)state;
@@ -393,8 +396,8 @@ static void a_sun_keeps_its_light(void **state)
 
 // ---- Discs --------------------------------------------------------------------------------------
 
-// The lecture's map, (s, t) = (x, y)/√(x² + y² + (z + 1)²), in long double; the form that is used
-// keeps its digits where the root cancels, next to −Z.
+// The lecture's map, (s, t) = (x, y)/√(x² + y² + (z + 1)²), in long double. The form in glint keeps
+// its digits near −Z, where the root cancels.
 static void the_ball_is_the_lectures_disk(void **state)
 {
     (void)state;
@@ -425,7 +428,7 @@ static void the_ball_is_the_lectures_disk(void **state)
     assert_true(isfinite(place[0] + place[1]));
 }
 
-// From a direction to its place and back, for viewers as near as a hundredth of a radius.
+// Maps a direction to its place and back, for viewers from a hundredth of a radius on.
 static void discs_are_inverted(void **state)
 {
     (void)state;
@@ -447,7 +450,7 @@ static void discs_are_inverted(void **state)
             glint_vec3 there, oracle;
             assert_true(glint_chart_direction(&chart, &within, &there));
             assert_true(oracle_direction(&v, &chart, &within, &oracle));
-            // At the rim the angle goes with the root of the place.
+            // At the rim the angle goes with the square root of the distance to the rim.
             const double rim = sqrt(fmax(1 - radii(&chart, d), 1e-16));
             assert_true(angle_between(d, there) <= 1e-13 / rim + 1e-12);
             assert_true(angle_between(d, oracle) <= 1e-13 / rim + 1e-12);
@@ -468,7 +471,7 @@ static void turns_and_mirrors_are_what_they_say(void **state)
     const struct {
         double degrees;
         const char *flip;
-        glint_vec3 of_x, of_y, of_z; // where what was at +X, +Y and +Z is now
+        glint_vec3 of_x, of_y, of_z; // the new places of +X, +Y and +Z
     } cases[] = {
         {0, "x", {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
         {0, "y", {1, 0, 0}, {0, -1, 0}, {0, 0, 1}},

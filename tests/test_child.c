@@ -1,4 +1,4 @@
-// Properties of work in a process of its own.
+// Tests work in a child process.
 #include "base/child.h"
 #include "support/scratch.h"
 
@@ -132,7 +132,7 @@ static void a_stop_ends_a_child_that_heeds_nothing(void **state)
     }
 }
 
-// Cleans up, which is to remove the file, once it is abandoned.
+// Removes the file once the child is abandoned.
 static glint_status wait_and_clean_up(void *context, char **text, glint_error *error)
 {
     (void)text;

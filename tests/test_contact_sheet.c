@@ -1,4 +1,4 @@
-// Contact sheets: where pictures come to lie, and what a pixel of the sheet is the mean of.
+// Tests contact sheets: the places of pictures, and the mean in each pixel of the sheet.
 #include "report/compare/bitmap_font.h"
 #include "report/compare/contact_sheet.h"
 
@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-enum { GAP = 8, LABEL = 20 }; // contact_sheet.c's
+enum { GAP = 8, LABEL = 20 }; // constants of contact_sheet.c
 
 static glint_contact_sheet make_sheet(int count, int columns, int width, int height)
 {
@@ -40,7 +40,8 @@ static void pixels_are_means_of_what_they_cover(void **state)
 {
     (void)state;
     glint_contact_sheet sheet = make_sheet(1, 0, 3, 2);
-    // 7 × 5 to 3 × 2: borders fall within pixels. Of a plane every mean is its value in the middle.
+    // 7 × 5 to 3 × 2: borders fall within pixels. The mean of a linear ramp is its value in the
+    // middle.
     glint_image image = picture(7, 5, 3);
     for (int y = 0; y < 5; y++) {
         for (int x = 0; x < 7; x++) {
@@ -54,14 +55,14 @@ static void pixels_are_means_of_what_they_cover(void **state)
     for (int y = 0; y < 2; y++) {
         for (int x = 0; x < 3; x++) {
             const float *p = at(&sheet, 0, x, y);
-            // Within a pixel the picture is constant, so that means of parts of it are off by up to
-            // a quarter of a step on each side.
+            // The picture is constant within a pixel, so means over parts of a pixel err by up to a
+            // quarter of a step on each side.
             assert_true(fabsf(p[0] - 0.1F * ((float)x + 0.5F) * 7 / 3) < 0.1F / 8);
             assert_true(fabsf(p[1] - 0.2F * ((float)y + 0.5F) * 5 / 2) < 0.2F / 8);
             assert_true(fabsf(p[2] - 1) < 1e-6F);
         }
     }
-    // Where pixels go in evenly the mean is exact.
+    // If pixels divide evenly, the mean is exact.
     glint_image fine = picture(6, 4, 3);
     for (int y = 0; y < 4; y++) {
         for (int x = 0; x < 6; x++) {
@@ -149,7 +150,7 @@ static void labels_are_numbers_or_names(void **state)
         glint_contact_label(labels[i][0], label, sizeof label);
         assert_string_equal(label, labels[i][1]);
     }
-    // Every letter of a name is seen.
+    // Every letter of a name must be visible.
     for (int letter = 'A'; letter <= 'z'; letter++) {
         bool is_drawn = isalpha(letter) == 0;
         for (int i = 0; i < GLINT_FONT_WIDTH * GLINT_FONT_HEIGHT; i++) {

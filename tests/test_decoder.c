@@ -1,5 +1,5 @@
-// The decoder of images: hostile files cost it, and not glint; it keeps to its limits, and is ready
-// for the next file.
+// Tests the image decoder: hostile files harm the decoder process but not glint. The decoder keeps
+// to its limits, and is ready for the next file.
 #include "image/decoder.h"
 
 #include "image/image_io.h"
@@ -65,7 +65,7 @@ static void hostile_files_are_refused_in_one_line(void **state)
         const glint_image_source source = source_of(path);
         glint_decode_limits limits = glint_decoder_limits(source.size);
         if (strcmp(hostile->said, "to decode") == 0) {
-            limits.cpu_seconds = 1; // these never end: one second shows it
+            limits.cpu_seconds = 1; // these files never end; one second is enough
         }
         glint_stored stored;
         glint_error error = {0};
@@ -118,7 +118,7 @@ static void limits_grow_with_the_file(void **state)
     const glint_decode_limits small = glint_decoder_limits(1),
                               huge = glint_decoder_limits(UINT64_MAX);
     const glint_decode_limits large = glint_decoder_limits(1024 * MIB);
-    // Small files: what a file costs, and the picture in glint, stay under two gibibytes.
+    // For small files, the decoder and glint's picture together must stay under two gibibytes.
     assert_true(small.memory_bytes + small.picture_bytes <= 2048 * MIB);
     assert_true(small.picture_bytes >= UINT64_C(8192) * 4096 * 4 * sizeof(float));
     assert_in_range(small.cpu_seconds, 5, 15);
@@ -127,7 +127,7 @@ static void limits_grow_with_the_file(void **state)
     assert_true(huge.picture_bytes > large.picture_bytes && huge.seconds > huge.cpu_seconds);
 }
 
-// Its memory is its own: this process stays small, whatever a file makes of its decoder.
+// The decoder has its own memory: this process stays small, whatever the file does to the decoder.
 static void the_caller_stays_small(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void the_caller_stays_small(void **state)
     getrusage(RUSAGE_SELF, &before);
     for (size_t i = 0; i < hostile_image_count; i++) {
         if (strcmp(hostile_images[i].said, "to decode") == 0) {
-            continue; // these take their time
+            continue; // skip slow files
         }
         image_bytes file = hostile_images[i].make();
         scratch_write(hostile_images[i].name, file.bytes, (long)file.length);

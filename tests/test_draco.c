@@ -1,5 +1,5 @@
-// Primitives packed by Draco: what comes out is what went in, what is damaged is named, and nothing
-// that Draco does reaches glint's process.
+// Tests primitives packed by Draco. Packing and unpacking keeps the data, errors name the damaged
+// part, and no Draco fault reaches glint's process.
 #include "scene/scene.h"
 
 #include "support/draco_mesh.h"
@@ -69,7 +69,7 @@ static unsigned char *pack(const sheet *made, bool edgebreaker, int bits, size_t
 #define REQUIRED "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],"
 #define NODES ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE
 
-// The members of the file but its buffer.
+// The members of the file, except its buffer.
 static char *rest_of(size_t size, const char *primitives)
 {
     char *rest = malloc(8192);
@@ -104,7 +104,7 @@ static glint_scene load_plain(const char *folder, const sheet *made)
                      "\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2}]}]" NODES);
 }
 
-// ---- What comes out -----------------------------------------------------------------------------
+// ---- Unpacked data ------------------------------------------------------------------------------
 
 static void sequential_packing_keeps_every_bit(void **state)
 {
@@ -117,7 +117,7 @@ static void sequential_packing_keeps_every_bit(void **state)
     glint_scene_free(&plain);
 }
 
-// A triangle with its normals, beginning with its least corner.
+// A triangle with its normals, rotated to begin with its least corner.
 typedef struct flat {
     float values[18];
 } flat;
@@ -166,7 +166,7 @@ static void quantised_positions_err_by_half_a_step(void **state)
     for (int bits = 6; bits <= 16; bits += 5) {
         glint_scene plain = load_plain(*state, &made),
                     scene = load_packed(*state, &made, false, bits);
-        // The longest side of the box has 2^bits − 1 steps. Floats round beside that.
+        // The longest side of the box has 2^bits − 1 steps. Floats add their rounding.
         const double side = (SIDE - 1) / 3.0, step = side / (pow(2, bits) - 1);
         double largest = 0;
         for (size_t i = 0; i < (size_t)TRIANGLES * 9; i++) {
@@ -182,7 +182,7 @@ static void quantised_positions_err_by_half_a_step(void **state)
     }
 }
 
-// Two primitives of one view, of which one leaves attributes out and is a strip by name; a GLB.
+// Two primitives share one view, in a GLB. One leaves attributes out and calls itself a strip.
 static void primitives_can_share_a_view(void **state)
 {
     const sheet made = make_sheet();
@@ -207,7 +207,7 @@ static void primitives_can_share_a_view(void **state)
     free(bytes);
 }
 
-// Draco lists the triangles of a strip, too. 365 corners make 363 triangles at most.
+// Draco also stores the triangles of a strip as a list. 365 corners make at most 363 triangles.
 static void strips_are_lists_once_decoded(void **state)
 {
     const sheet made = make_sheet();
@@ -226,7 +226,7 @@ static void strips_are_lists_once_decoded(void **state)
     free(bytes);
 }
 
-// ---- What is refused ----------------------------------------------------------------------------
+// ---- Refusals -----------------------------------------------------------------------------------
 
 static void a_lie_is_refused(const char *folder, const unsigned char *bytes, size_t size,
                              const char *rest, const char *said)
@@ -243,7 +243,7 @@ static void a_lie_is_refused(const char *folder, const unsigned char *bytes, siz
     free(text);
 }
 
-// In the good text `from` becomes `to`.
+// Replaces `from` by `to` in the good text.
 static void every_lie_is_named(void **state)
 {
     static const struct {

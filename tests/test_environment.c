@@ -1,5 +1,5 @@
-// Environment files: which way every layout faces, file names, bad shapes and bad values, the
-// studio, and files made elsewhere. The oracle is colour that encodes direction
+// Tests environment files: the direction of every layout, file names, bad shapes and bad values,
+// the studio, and files from elsewhere. The oracle is colour that encodes direction
 // (support/direction_maps.h) and the table of OpenGL's specification (section "Cube Map Texture
 // Selection").
 #include "environment/environment.h"
@@ -75,7 +75,7 @@ static void latlong_files_face_the_right_way(void **state)
     }
 }
 
-// OpenEXR's 1 × 6 strip, texels on the edges with the attribute, at (i + ½)/N without.
+// OpenEXR's 1 × 6 strip: with the attribute texels lie on the edges, without it at (i + ½)/N.
 static void openexr_cube_files_face_the_right_way(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void write_face(const char *name, int face, int width, int height)
         int column = p % width, row = p / width;
         glint_vec3 r = opengl_direction(face, (column + 0.5) / width, (row + 0.5) / height);
         double rgb[3];
-        // World (x, y, z) looks up (x, y, −z).
+        // World direction (x, y, z) looks up (x, y, −z).
         color_of((glint_vec3){r.x, r.y, -r.z}, rgb);
         for (int c = 0; c < 3; c++) {
             image.pixels[3 * p + c] = (float)rgb[c];
@@ -127,7 +127,7 @@ static void write_face(const char *name, int face, int width, int height)
     glint_image_free(&image);
 }
 
-// Six faces "before + name + .exr".
+// Writes six faces, named before + name + ".exr".
 static void write_faces(const char *before, const char *const names[6], int edge)
 {
     for (int face = 0; face < 6; face++) {
@@ -146,8 +146,8 @@ static void assert_faces_load(const char *path)
     assert_int_equal(environment.layout, GLINT_LAYOUT_FACES);
     assert_int_equal(environment.radiance.edge, 16);
     assert_true(worst_error(&environment.radiance) <= seam_bound(16));
-    // The first face ahead of the default camera, which looks along −Z, is posz, unmirrored: its
-    // right half is towards +X.
+    // The default camera looks along −Z. The first face ahead of it is posz, unmirrored: the right
+    // half of the face is towards +X.
     double ahead[3], to_the_right[3];
     glint_cube_sample(&environment.radiance, (glint_vec3){0.0, 0.0, -1.0}, ahead);
     glint_cube_sample(&environment.radiance, (glint_vec3){0.5, 0.0, -1.0}, to_the_right);
@@ -274,7 +274,7 @@ static void layout_names_are_known_both_ways(void **state)
     assert_null(glint_layout_name(GLINT_LAYOUT_UNKNOWN));
 }
 
-// Grey in the middle of a map of grey pixels, so that all that is read there is known.
+// Puts bad values among grey pixels, so that every look-up has a known result.
 static void values_that_are_no_radiance_are_mended_and_counted(void **state)
 {
     (void)state;
@@ -302,7 +302,7 @@ static void values_that_are_no_radiance_are_mended_and_counted(void **state)
         largest = fmax(largest, (double)value);
     }
     assert_true(largest > 1e29 && largest <= 1e30 * 1.000001);
-    // Away from the footprints nothing changed.
+    // Far from the footprints nothing changed.
     double rgb[3];
     glint_cube_sample(&environment.radiance, (glint_vec3){0.0, 0.1, 1.0}, rgb);
     assert_true(rgb[0] == 0.5 && rgb[1] == 0.5 && rgb[2] == 0.5);
@@ -358,7 +358,7 @@ static void studio_is_bright_and_dark_and_smooth(void **state)
         steepest = fmax(steepest, fabs((double)texel[5] - (double)texel[1]));
     }
     assert_true(darkest < 0.06 && brightest > 8.0 && brightest <= 20.0);
-    // Soft edges: no step from texel to texel takes a tenth of the brightest light.
+    // Soft edges: no step between texels exceeds a tenth of the brightest light.
     assert_true(steepest < 2.0);
     glint_environment_free(&studio);
 }
@@ -375,13 +375,13 @@ static bool is_there(const char *path)
 }
 
 typedef struct difference {
-    double relative; // RMS difference relative to the mean
-    double mirrored; // the same with one of them mirrored left to right, as a control
+    double relative; // RMS difference, relative to the mean
+    double mirrored; // as a control: the same, with one map mirrored left to right
     double greatest;
 } difference;
 
-// Two environments over random directions. Values above 1 count as 1, as the place of a sun within
-// its texel would decide otherwise.
+// Compares two environments over random directions. Values above 1 count as 1, otherwise the place
+// of a sun within its texel would dominate.
 static difference compare(const char *one, const char *other)
 {
     glint_environment a = load(one, GLINT_LAYOUT_UNKNOWN, NULL);
@@ -412,8 +412,8 @@ static difference compare(const char *one, const char *other)
     return found;
 }
 
-// The same labels as a cube and as a lat-long map. Thin lines differ by how each was drawn; a map
-// that faces the wrong way differs several times as much.
+// The same labels as a cube and as a lat-long map. The drawing of thin lines differs a little; a
+// map in the wrong direction differs several times as much.
 static void openexrs_labelled_pair_is_the_same(void **state)
 {
     (void)state;
@@ -450,13 +450,13 @@ static void openexrs_nan_and_infinity_are_counted(void **state)
     glint_environment environment = load(path, GLINT_LAYOUT_LATLONG, &warnings);
     print_message("mended texels: %zu\n", environment.mended_texels);
     assert_true(environment.mended_texels > 0);
-    assert_int_equal(warnings.count, 2); // its shape is odd as well
+    assert_int_equal(warnings.count, 2); // the other warning is about the shape
     glint_warnings_free(&warnings);
     glint_environment_free(&environment);
 }
 
-// The faces of a picture fit together: along the cube's edges the step from face to face is no
-// greater than the steps within faces. A face turned or exchanged breaks that.
+// The faces of a photograph fit together: steps across the cube's edges are no larger than steps
+// within faces. A rotated or swapped face breaks this.
 static void photographed_faces_fit_together(void **state)
 {
     (void)state;

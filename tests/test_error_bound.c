@@ -1,5 +1,5 @@
-// Bounds on the error of frames: what is chosen keeps them, over all of the frame's pixels and
-// against a reference that is rendered here, whatever the frames before were.
+// Tests error bounds of frames: the chosen settings keep the bound over all pixels of the frame,
+// against a reference rendered here, whatever frames came before.
 #include "bound/error_bound.h"
 #include "image/metrics.h"
 #include "support/render.h"
@@ -24,7 +24,7 @@ static void open_stage(const char *scene, int width, int height, stage *s)
     glint_settings settings = glint_settings_default;
     settings.width = width;
     settings.height = height;
-    settings.truncation_squares = true; // the same kernels for all
+    settings.truncation_squares = true; // use the same kernels for all
     *s = (stage){0};
     test_stage_open(scene, &settings, &s->at);
 }
@@ -65,7 +65,8 @@ static double error_of(stage *s, const glint_image *image)
     return metrics.relative_rmse;
 }
 
-// Where the grid is the frame what is said of it is so.
+// Renders within bounds and compares with the reference. If the grid is the whole frame, the
+// predicted error must match.
 static void check_bounds(const char *scene, int width, int height, bool grid_is_frame)
 {
     static const double bounds[] = {0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6};
@@ -81,7 +82,7 @@ static void check_bounds(const char *scene, int width, int height, bool grid_is_
                      choice.rung.options, choice.error, error);
         }
         assert_int_equal(choice.grid_is_frame, grid_is_frame);
-        // The grid's reference ends a little earlier than the frame's where the bound is large.
+        // With a large bound, the grid's reference stops a little earlier than the frame's.
         assert_true(!grid_is_frame || fabs(error - choice.grid_error) <= 0.05 * bounds[i]);
         assert_true(choice.frames >= 1 && choice.grids >= 1 && choice.choosing_rays > 0);
         glint_image_free(&image);
@@ -101,8 +102,7 @@ static void bounds_are_kept(void **state)
     check_bounds("water", 480, 270, false);
 }
 
-// Where the environment is the same everywhere, what is lost is what shines and has a colour
-// itself.
+// In a uniform environment truncation loses light only where surfaces emit light or have a colour.
 static void contrast_may_be_the_scenes_own(void **state)
 {
     (void)state;
@@ -128,8 +128,8 @@ static void contrast_may_be_the_scenes_own(void **state)
     glint_environment_free(&even);
 }
 
-// In the gallery single precision is off by 0.07 or so, in a few pixels that a grid may miss: here
-// it does, and single precision is not taken.
+// In the gallery single precision errs by about 0.07, in a few pixels that a grid may miss. Here
+// the grid misses them, and the choice must not be single precision.
 static void what_a_grid_cannot_see_is_reckoned_with(void **state)
 {
     (void)state;
@@ -152,8 +152,8 @@ static void what_a_grid_cannot_see_is_reckoned_with(void **state)
     close_stage(&s);
 }
 
-// No more than a few of a grid's pixels can be without one of them being seen: where even that many
-// keep the bound, single precision is taken, and taken to have them.
+// A grid that sees no flipped pixel can miss only a few. If the bound allows these few, the choice
+// is single precision, and its predicted error includes them.
 static void what_a_grid_may_miss_can_be_afforded(void **state)
 {
     (void)state;
@@ -168,8 +168,8 @@ static void what_a_grid_may_miss_can_be_afforded(void **state)
     close_stage(&s);
 }
 
-// Rays that a mirror sends to another one may pass its edge on the wrong side, in a pixel that a
-// grid misses. A mirror alone has no such rays.
+// Rays between mirrors may pass an edge on the wrong side, in a pixel that a grid misses. A single
+// mirror has no such rays.
 static void mirrors_that_show_mirrors_have_edges(void **state)
 {
     (void)state;
@@ -188,8 +188,8 @@ static void mirrors_that_show_mirrors_have_edges(void **state)
     }
 }
 
-// A ball of glass that a few pixels see, between those of the grid or hardly among them: what they
-// are cut short of is known once the frame is there, which is then rendered once more.
+// A distant glass ball covers a few pixels, mostly between the pixels of the grid. Only the
+// finished frame shows its truncation error. The frame is then rendered once more.
 static void what_lies_between_is_seen_of_the_frame(void **state)
 {
     (void)state;
@@ -212,8 +212,8 @@ static void what_lies_between_is_seen_of_the_frame(void **state)
     close_stage(&s);
 }
 
-// Light that is nowhere, or no number somewhere: the frame is the reference then, and no pixel of
-// it is compared that cannot be.
+// Without light, or with non-finite light, the frame is the reference. Pixels that cannot be
+// compared are skipped.
 static void odd_light_gets_the_reference(void **state)
 {
     (void)state;
@@ -241,7 +241,7 @@ static void odd_light_gets_the_reference(void **state)
     glint_environment_free(&light);
 }
 
-// Thin pictures, and one of which a grid's step is a part.
+// Thin pictures, and a picture smaller than a grid's step.
 static void frames_may_have_any_shape(void **state)
 {
     (void)state;
@@ -258,7 +258,8 @@ static void frames_may_have_any_shape(void **state)
     }
 }
 
-// The layers are the frame's, by what was chosen for it, and the pixels what they are without.
+// The layers belong to the frame, with its chosen settings. The pixels are the same as without
+// layers.
 static void layers_are_those_of_the_frame(void **state)
 {
     (void)state;
@@ -285,7 +286,7 @@ static void layers_are_those_of_the_frame(void **state)
         }
         glint_metrics off;
         assert_int_equal(glint_metrics_find(&image, &with_layers, NULL, &off, NULL), GLINT_OK);
-        assert_true(off.relative_rmse < 1e-4); // another kernel where depth 1 is proved
+        assert_true(off.relative_rmse < 1e-4); // layers use another kernel where depth 1 is proved
         glint_layers_free(&layers);
         test_frame_free(&own);
         glint_image_free(&image);
@@ -294,7 +295,7 @@ static void layers_are_those_of_the_frame(void **state)
     }
 }
 
-// Whatever was rendered before: parts of a sequence come out alike on all machines.
+// Earlier frames must not change the result: parts of a sequence are the same on all machines.
 static void check_independence(const char *scene, double bound, double coarse)
 {
     stage a, b;
@@ -323,7 +324,7 @@ static void each_frame_is_judged_by_itself(void **state)
 {
     (void)state;
     check_independence("materials", 0.01, 0.3);
-    check_independence("facing_mirrors", 1, 5); // by depth 4, after a frame by depth 1
+    check_independence("facing_mirrors", 1, 5); // at depth 4, after a frame at depth 1
 }
 
 static void looser_bounds_cost_no_more(void **state)
@@ -373,7 +374,7 @@ static void it_can_be_stopped_while_it_chooses(void **state)
     close_stage(&s);
 }
 
-// What an environment's contrast is: of the studio by another sum, over its texels.
+// The contrast of an environment. For the studio, the test sums over the texels itself.
 static void the_contrast_is_the_environments(void **state)
 {
     (void)state;

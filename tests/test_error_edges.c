@@ -1,6 +1,6 @@
-// What a frame of glass may err by where single precision shows the other side of an edge, as found
-// with a sparse grid: against what frames differ by, in double precision, whose cameras are as far
-// apart as single precision is taken to be off.
+// Tests the error estimate for flipped edges in glass. A sparse grid estimates the error of a frame
+// where single precision shows the other side of an edge. The test compares it with the difference
+// of frames in double precision, with cameras rotated by the error of single precision.
 #include "bound/error_grid.h"
 #include "support/render.h"
 
@@ -25,7 +25,7 @@ static glint_vec3 turned(glint_vec3 axis, glint_vec3 towards, double angle)
                           glint_vec3_scale(towards, sin(angle)));
 }
 
-// Turned by these small angles to the right and up.
+// Rotates the camera to the right and up by these small angles.
 static glint_camera look_beside(const glint_camera *camera, double right, double up)
 {
     glint_camera c = *camera;
@@ -48,7 +48,7 @@ static double square_difference(const glint_image *a, size_t of_a, const glint_i
     return sum;
 }
 
-// Whether a pixel differs from one of its four neighbours by more than this.
+// Tells if a pixel differs from one of its four neighbours by more than this.
 static bool is_beside_jump(const glint_image *image, size_t pixel, double square)
 {
     const size_t width = (size_t)image->width, x = pixel % width, y = pixel / width;
@@ -59,8 +59,8 @@ static bool is_beside_jump(const glint_image *image, size_t pixel, double square
             square_difference(image, pixel, image, pixel + width) > square);
 }
 
-// Relative RMSE of `a`; and where what stands beside jumps of more than `mend` times the mean is
-// b's.
+// Relative RMSE of `a`. `mended` takes the pixels of b beside jumps of more than `mend` times the
+// mean.
 typedef struct difference {
     double all, mended;
 } difference;
@@ -81,12 +81,12 @@ static difference find_difference(const glint_image *a, const glint_image *b, do
 }
 
 typedef struct tally {
-    int frames, beyond;         // so far apart
-    int far_frames, far_beyond; // FAR times as far
-    int mended, mended_beyond;  // so far apart, mended
+    int frames, beyond;         // rotated by OFF
+    int far_frames, far_beyond; // rotated by FAR times OFF
+    int mended, mended_beyond;  // rotated by OFF, mended
 } tally;
 
-// With what is to be mended so that no more than MENDED times as much is left.
+// Estimates the error, with enough mending to leave at most MENDED times the error.
 static glint_edge_errors find_edges(test_stage *s, const glint_camera *camera)
 {
     glint_error_grid grid = {.renderer = s->renderer, .camera = camera};
@@ -165,7 +165,7 @@ static void count_scene(const char *scene, int samples_per_axis, tally *t)
     test_stage_close(&s);
 }
 
-// The bounds have a confidence of some 95%. And they are not kept by being far too large.
+// The bounds have a confidence of about 95%. They must not be met by being far too large.
 static void check_tally(const tally *t)
 {
     if (t->beyond > 0.05 * t->frames || t->far_beyond < 0.2 * t->far_frames) {
@@ -190,7 +190,7 @@ static void frames_err_by_no_more(void **state)
     check_tally(&t);
 }
 
-// Through parallel rays, single precision is off by a part of what the picture shows.
+// With parallel rays, single precision errs by a share of the picture's extent.
 static void parallel_rays_have_edges_too(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void parallel_rays_have_edges_too(void **state)
     test_stage s;
     test_stage_open("prism", &settings, &s);
     const double near = find_edges(&s, &s.camera).at_most;
-    // The same view, near the middle, from so far away that rays are parallel.
+    // The same view, near the middle, from so far away that the rays are parallel.
     glint_camera camera = s.camera;
     const glint_vec3 middle = glint_vec3_scale(glint_vec3_add(s.scene.low, s.scene.high), 0.5);
     camera.orthographic = true;

@@ -1,4 +1,4 @@
-// Bounds on error figures: which verdict they come to, and what is said.
+// Tests bounds on error figures: the verdict and the message.
 #include "report/compare/figures.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-// Ten pixels of which one differs visibly; every other figure is 0.25.
+// Ten pixels, one with a visible difference. Every other figure is 0.25.
 static glint_metrics make_metrics(void)
 {
     return (glint_metrics){.compared = 10,

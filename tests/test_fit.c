@@ -1,4 +1,4 @@
-// Cameras that are moved until a scene fills their frame: every vertex is projected here.
+// Tests cameras that move until a scene fills the frame. The test projects every vertex itself.
 #include "scene/fit.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static double random_within(double low, double high)
     return low + (high - low) * (double)(seed >> 8) / 0x1p24;
 }
 
-// A cloud of vertices, longer along x, whose stored coordinates have an origin and a unit.
+// A cloud of vertices, longer along x. The stored coordinates have an origin and a unit.
 static glint_scene make_cloud(float positions[3 * POINTS])
 {
     glint_scene scene = {
@@ -57,7 +57,7 @@ static glint_vec3 vertex(const glint_scene *scene, int i)
                         scene->origin.z + (double)p[2] * scene->unit};
 }
 
-// Where a picture shows points: −1 to 1 within the frame, upwards and to the right.
+// Places of points in the picture: −1 to 1 within the frame, upwards and to the right.
 typedef struct shown {
     double left, right, low, high, nearest;
 } shown;
@@ -95,7 +95,8 @@ static void assert_near(double value, double wanted, double tolerance)
     }
 }
 
-// All is within, and two opposite edges are touched. The eye is rounded to doubles of 1e3.
+// All points are within the frame and touch two opposite edges. The eye is rounded to doubles of
+// 1e3.
 static void assert_fills(const shown *all)
 {
     const double rounding = 1e-9;
@@ -204,7 +205,7 @@ static void what_moves_is_fitted_by_the_corners_of_its_box(void **state)
     }
 }
 
-// In 720 positions no vertex leaves the frame, and one comes as near to an edge as they can tell.
+// In 720 positions no vertex leaves the frame, and one vertex nearly touches an edge.
 static void what_turns_fits_in_every_position(void **state)
 {
     (void)state;
@@ -234,7 +235,7 @@ static void what_turns_fits_in_every_position(void **state)
 static void a_spike_does_not_touch_the_eye(void **state)
 {
     (void)state;
-    // Narrower than the angle of view, and straight towards the camera.
+    // Narrower than the field of view, and along the axis of view.
     float positions[] = {0, 0, 1, -0.1f, 0, -1, 0.1f, 0, -1};
     glint_scene scene = {.unit = 1, .positions = positions, .triangle_count = 1};
     glint_scene_find_bounds(&scene);
@@ -247,8 +248,8 @@ static void a_spike_does_not_touch_the_eye(void **state)
     assert_near(camera.eye.x, 0, 1e-9);
 }
 
-// Seen along (1, 1, 1) the middle of this triangle's box lies behind its corners, so that at wide
-// angles no edge is touched: the nearest corner alone says how near the camera may come.
+// Seen along (1, 1, 1), the middle of this triangle's box lies behind its corners. At wide angles
+// no edge is touched then: only the nearest corner limits the camera's distance.
 static void wide_angles_move_the_camera_as_well(void **state)
 {
     (void)state;
@@ -269,7 +270,7 @@ static void wide_angles_move_the_camera_as_well(void **state)
         }
         const double most = fmax(fmax(-all.left, all.right), fmax(-all.low, all.high));
         assert_true(all.nearest > 0 && most <= 1 + 1e-9);
-        assert_true(camera.eye.x < 2); // it was moved
+        assert_true(camera.eye.x < 2); // the camera moved
     }
 }
 

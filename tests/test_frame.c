@@ -1,5 +1,6 @@
-// Properties of a rendered frame that hold whatever the scene: the same bits at every packet width
-// and with every feature compiled, exact environments, alpha, samples, counters, interruption.
+// Tests properties of rendered frames that hold for every scene: the same bits at every packet
+// width and with every feature compiled, exact environments, alpha, samples, counters,
+// interruption.
 #include "device/opencl.h"
 #include "render/settings_table.h"
 #include "support/bridge.h"
@@ -15,12 +16,12 @@
 
 #include <cmocka.h>
 
-// Single precision has half texels here, double has float ones; one scene is seen through cones.
+// Uses half texels in single precision and float texels in double. One scene uses cones.
 static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
 {
     (void)state;
     static const char *const names[] = {"materials", "nested_glass", "absorption_box", "lights"};
-    // Widths and tiles; the last two are for the scene that has everything.
+    // Widths and tiles. The last two are for the scene with all features.
     static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}, {1, 16}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         for (int precision = 0; precision < (i == 0 ? 2 : 1); precision++) {
@@ -45,8 +46,8 @@ static void packets_of_1_8_and_16_rays_give_the_same_bits(void **state)
     }
 }
 
-// Texels of 0 to 1 err by at most 2⁻¹² as halfs, and so does what is interpolated between them; a
-// pixel's weights add up to at most 1. Paths do not depend on texels.
+// Texels in [0, 1] err by at most 2⁻¹² as halfs, and so does their interpolation. A pixel's weights
+// add up to at most 1. Paths do not depend on texels.
 static void half_texels_change_a_frame_by_their_rounding_alone(void **state)
 {
     (void)state;
@@ -72,7 +73,7 @@ static void half_texels_change_a_frame_by_their_rounding_alone(void **state)
     }
 }
 
-// Light and dark texels at random.
+// Random light and dark texels.
 static void noise_environment(int edge, glint_environment *environment)
 {
     *environment = (glint_environment){.layout = GLINT_LAYOUT_CUBE};
@@ -96,7 +97,7 @@ static double rmse_between(const test_frame *a, const test_frame *b)
     return sqrt(sum / (4 * 61 * 43));
 }
 
-// Fails unless one cone a pixel is closer to the mean of 64 look-ups than one look-up is, by this
+// Asserts that one cone a pixel is closer to the mean of 64 look-ups than one look-up is, by this
 // factor, for a mirror and for glass.
 static void assert_cones_are_closer(const glint_environment *environment, double factor)
 {
@@ -123,9 +124,9 @@ static void assert_cones_are_closer(const glint_environment *environment, double
     }
 }
 
-// Of texels much finer than pixels one look-up is off by half of the range at random. A cone is the
-// mean of some: with levels half a level finer than itself of two at least, across each of two
-// ways, so of four, which halve the error.
+// If texels are much finer than pixels, one look-up errs at random by half of the range. A cone
+// averages several texels. Its levels are half a level finer than the cone, so it averages at least
+// two texels along each axis. The mean of four halves the error.
 static void cones_see_what_many_samples_see(void **state)
 {
     (void)state;
@@ -135,8 +136,8 @@ static void cones_see_what_many_samples_see(void **state)
     glint_environment_free(&noise);
 }
 
-// Light from half of all directions: a cone that is too wide spreads the border between them, and
-// would be farther from many samples than one look-up is.
+// Light from half of all directions. A cone that is too wide blurs the border, and is then farther
+// from many samples than one look-up.
 static void cones_are_no_wider_than_what_is_seen(void **state)
 {
     (void)state;
@@ -155,7 +156,7 @@ static void cones_are_no_wider_than_what_is_seen(void **state)
     glint_environment_free(&half);
 }
 
-// Where a pixel sees less than a texel there is nothing to average.
+// If a pixel sees less than a texel, there is nothing to average.
 static void cones_change_nothing_where_texels_are_wide(void **state)
 {
     (void)state;
@@ -194,11 +195,11 @@ static void features_that_a_scene_does_not_need_change_nothing(void **state)
     }
 }
 
-// The environment that the oracle sees, turned; and the device's.
+// Compares the device's rotation of the environment with the oracle's.
 static void the_environment_turns_counter_clockwise_seen_from_above(void **state)
 {
     (void)state;
-    glint_scene scene = {0}; // nothing but the environment
+    glint_scene scene = {0}; // only the environment
     glint_environment environment;
     bridge_direction_environment(32, &environment);
     bridge *b = bridge_create(&scene, &environment);
@@ -220,7 +221,8 @@ static void the_environment_turns_counter_clockwise_seen_from_above(void **state
             assert_true(fabs(frame.exact[4 * i + k] - rgba[k]) < 2e-6);
         }
     }
-    // The default camera looks along −Z; turned by 90°, what was at +X is now there, at the centre.
+    // The default camera looks along −Z. After a rotation by 90° it sees the former +X at the
+    // centre.
     const float *centre = glint_image_pixel(&frame.image, settings.width / 2, settings.height / 2);
     assert_true(fabsf(centre[0] - 1) < 0.01f && fabsf(centre[2] - 0.5f) < 0.05f);
     test_frame_free(&frame);
@@ -270,7 +272,7 @@ static void a_transparent_background_is_left_out_and_surfaces_stay_whole(void **
     for (size_t i = 0; i < 61 * 43; i++) {
         const float *a = opaque.image.pixels + 4 * i, *b = transparent.image.pixels + 4 * i;
         assert_true(a[3] == 1);
-        if (b[3] == 1) { // glass too is whole: its colour holds what is seen through it
+        if (b[3] == 1) { // glass is opaque, too: its colour includes the background
             assert_memory_equal(a, b, 4 * sizeof *a);
             covered++;
         } else {
@@ -289,7 +291,7 @@ static void a_colour_behind_the_scene_fills_what_is_left_open(void **state)
     static const char *const texts[] = {"0.25,0,3e2", "0,0,0"};
     const glint_setting *background = glint_setting_at(offsetof(glint_settings, transparent));
     glint_settings settings = test_small_frame(0);
-    settings.samples_per_axis = 2; // so that edges are open in part
+    settings.samples_per_axis = 2; // so that edges have partial alpha
     settings.transparent = true;
     test_frame open_frame, filled;
     test_render_named("glass_sphere", &settings, &open_frame);
@@ -311,7 +313,7 @@ static void a_colour_behind_the_scene_fills_what_is_left_open(void **state)
         test_frame_free(&filled);
     }
     test_frame_free(&open_frame);
-    assert_true(settings.backdrop[3] == 1); // black is a colour, too
+    assert_true(settings.backdrop[3] == 1); // black is a backdrop, too
     static const char *const wrong[] = {"-1,0,0", "1,2", "1,2,3,4", "nan,0,0", "1, 2,3"};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         assert_int_equal(glint_option_parse(&background->option, wrong[k], &settings, NULL),
@@ -465,9 +467,9 @@ static void a_kernel_that_does_not_compile_is_reported_with_its_file(void **stat
     glint_environment_free(&environment);
 }
 
-// bridge_direction_environment is of bands 0 and 1 alone, which harmonics hold whole: what is left
-// are its texels, as even squares (h²/24 of second derivatives under 4, h = 2/32), the map's
-// interpolation, of the same order, and rounding.
+// bridge_direction_environment has only bands 0 and 1, which harmonics represent exactly. The rest
+// is the error of texels taken as even squares (h²/24 of second derivatives under 4, h = 2/32), the
+// similar interpolation error of the map, and rounding.
 static void harmonics_light_paint_as_the_map_does(void **state)
 {
     (void)state;
@@ -490,7 +492,7 @@ static void harmonics_light_paint_as_the_map_does(void **state)
         test_frame_free(&by_harmonics);
     }
     test_frame_free(&exact);
-    // Nothing is painted: nothing is compiled.
+    // The scene has no paint, so no harmonics are compiled.
     test_render_named("mirror_sphere", &settings, &by_harmonics);
     assert_false(by_harmonics.plan.features[GLINT_FEATURE_IRRADIANCE_HARMONICS].compiled);
     test_frame_free(&by_harmonics);

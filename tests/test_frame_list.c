@@ -1,4 +1,4 @@
-// Lists of frames, their parts and the names of their files.
+// Tests lists of frames, their parts and their file names.
 #include "base/random.h"
 #include "render/frame_list.h"
 #include "render/frame_name.h"
@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-// The frames of one part of a list, as text "1 2 3".
+// Lists the frames of one part of a list, as text "1 2 3".
 static void walk(const char *list_text, glint_shard shard, char *out, size_t capacity)
 {
     glint_frame_list list;
@@ -98,7 +98,7 @@ static void mistakes_are_named(void **state)
     }
 }
 
-// Against a table that is marked frame by frame.
+// Compares with a table marked frame by frame.
 enum { LOW = -40, FRAMES = 120, RANGES = 6 };
 
 typedef struct random_list {

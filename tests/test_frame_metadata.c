@@ -1,4 +1,4 @@
-// The matrices of a frame's file, against the definition of the camera.
+// Tests the matrices in a frame's file against the definition of the camera.
 #include "report/frame/frame_metadata.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static glint_camera random_camera(bool orthographic)
     };
 }
 
-// The point at `depth` in front of the camera, seen at (u, v) of the image: (0, 0) is its upper
+// The point at `depth` in front of the camera, seen at (u, v) of the image. (0, 0) is the upper
 // left corner.
 static glint_vec3 point_seen_at(const glint_camera *camera, double aspect, double u, double v,
                                 double depth)

@@ -1,5 +1,5 @@
-// Bad input: every file gets one line that names the object and the cause, and nothing crashes,
-// hangs or asks for wild memory.
+// Tests bad input: glint must answer every bad file with one line that names the object and the
+// cause. Nothing may crash, hang or ask for too much memory.
 #include "scene/scene.h"
 
 #include "support/gltf_text.h"
@@ -17,8 +17,8 @@
 #include <cmocka.h>
 #include <dirent.h>
 
-// What is wrong and what must be said of it. `rest` stands in for the members of the top level
-// beside the tetrahedron's data.
+// A bad file and the expected message. `rest` holds the members of the top level beside the
+// tetrahedron's data.
 typedef struct bad_case {
     const char *rest, *said;
 } bad_case;
@@ -228,7 +228,7 @@ static void data_that_lies_is_named(void **state)
     assert_refused(write_bytes(folder, "bad.gltf", text, strlen(text)),
                    "meshes[0].primitives[0].attributes.POSITION: vertex 2 is (0, nan, 0)");
     free(text);
-    // Sparse indices 0, 2, 1 where they must ascend; and 0, 0, 0.
+    // The sparse indices are 0, 2, 1 and 0, 0, 0, but must ascend.
     const char *sparse =
         VIEW "\"accessors\":[{\"count\":%d," VEC3 ",\"sparse\":{\"count\":3,"
              "\"indices\":{\"bufferView\":0,\"byteOffset\":%d,\"componentType\":5123},"
@@ -345,7 +345,7 @@ static void broken_glb_chunks_are_named_by_their_byte(void **state)
         {16, 'j', "byte 16: GLB: the first chunk is not the JSON chunk"},
         {20, 'x', "byte 20: not JSON"},
         {bin + 3, 0x80, bin_said},
-        {bin, 96, "byte "}, // the rest is then no chunk
+        {bin, 96, "byte "}, // the rest is no chunk then
         {bin + 4, 'X', "buffers[0].uri: missing (only a .glb with a BIN chunk"},
     };
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
@@ -358,7 +358,7 @@ static void broken_glb_chunks_are_named_by_their_byte(void **state)
     free(glb);
 }
 
-// Deep, wide, or with 2^40 paths: in linear time.
+// Deep graphs, wide graphs and graphs with 2^40 paths must take linear time.
 static void hostile_graphs_take_no_time(void **state)
 {
     enum { depth = 50000 };
@@ -389,7 +389,7 @@ static void hostile_graphs_take_no_time(void **state)
     free(text);
 }
 
-// A few kilobytes that ask for 2^40 triangles: four levels of primitives, nodes and instances.
+// A few kilobytes with 2^40 triangles, by four levels of primitives, nodes and instances.
 static void small_files_cannot_ask_for_the_world(void **state)
 {
     char text[16384];
@@ -420,7 +420,7 @@ static void a_long_name_does_not_push_the_cause_out(void **state)
     free(whole);
 }
 
-// glint reads no images yet: one that is missing keeps nobody from the geometry.
+// A missing image must not hide the geometry.
 static void a_missing_image_refuses_nothing(void **state)
 {
     glint_scene scene =
@@ -432,7 +432,7 @@ static void a_missing_image_refuses_nothing(void **state)
     glint_scene_free(&scene);
 }
 
-// Loads whatever it is; anything but a crash, a hang or silence will do.
+// Loads a file. Any answer is right, except a crash, a hang or silence.
 static void load_anything(const char *path)
 {
     glint_scene scene;
@@ -453,7 +453,7 @@ static uint32_t random_next(uint32_t *state)
     return *state >> 8;
 }
 
-// Cuts the file everywhere, then changes a few bytes at a time.
+// Truncates the file at every place, then changes a few bytes at a time.
 static void load_damaged(const char *folder, const void *bytes, size_t size)
 {
     static const char likely[] = "0123456789-]}[{,\"";
@@ -492,7 +492,7 @@ static void damaged_files_are_refused_or_loaded(void **state)
 static void the_folder_of_bad_files_gets_a_line_each(void **state)
 {
     (void)state;
-    // What is odd in these is allowed.
+    // These files are odd but valid.
     static const char *good[] = {"00_valid.gltf", "glb_zero_bin.glb", "node_chain_50k.gltf",
                                  "node_scale_zero.gltf"};
     const char *path = GLINT_SOURCE_DIR "/../shared/assets/bad";

@@ -1,4 +1,5 @@
-// Bad materials: every file gets one line that names the object and the cause.
+// Tests bad materials: glint must answer every file with one line that names the object and the
+// cause.
 #include "scene/scene.h"
 
 #include "support/gltf_text.h"

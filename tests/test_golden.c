@@ -1,13 +1,13 @@
-// Golden images: every scene of scenes/ at 96 × 54 in the built-in studio, against the pictures in
-// tests/golden. They guard against changes that nobody meant; whether a picture is right is the
-// oracle's to judge (test_agreement.c).
+// Tests golden images: every scene of scenes/ at 96 × 54 in the built-in studio, against the images
+// in tests/golden. Goldens detect unintended changes. test_agreement.c tests correctness.
 //
-// A missing golden fails. They are only made by `test_golden --update` (the target update_golden);
-// look at them before committing them.
+// A missing golden fails. Only `test_golden --update` (the target update_golden) makes goldens.
+// Look
+// at them before you commit them.
 //
-// Processors with a fused multiply-add (AVX2, AVX-512) give the same bits. Those without (SSE)
-// round otherwise and choose other surfaces at a few edges: no golden holds there, and
-// tests/targets says by how much their frames differ.
+// Processors with a fused multiply-add (AVX2, AVX-512) give the same bits. Processors without it
+// (SSE) round otherwise and select other surfaces at a few edges. There no golden holds, and
+// tests/targets bounds the differences.
 #include "image/image_io.h"
 #include "support/render.h"
 
@@ -22,8 +22,8 @@
 
 #include <cmocka.h>
 
-// Goldens are stored as half, which rounds a value by 2⁻¹¹ of it at most, and by 2⁻²⁵ where the
-// half is subnormal. Nothing else may differ.
+// Goldens are stored as half. This rounds a value by at most 2⁻¹¹ of it, and by 2⁻²⁵ if the half is
+// subnormal. There may be no other difference.
 #define RELATIVE_TOLERANCE 0x1p-11f
 #define ABSOLUTE_TOLERANCE 0x1p-25f
 
@@ -35,7 +35,7 @@ typedef struct scene_list {
     size_t count;
 } scene_list;
 
-// Every scene of scenes/, so that a new one cannot be forgotten.
+// Lists every scene of scenes/, so that no new scene is forgotten.
 static void list_scenes(scene_list *list)
 {
     glob_t found;
@@ -79,7 +79,7 @@ static bool differs(const float *golden, const float *now)
     return false;
 }
 
-// The number of pixels that differ from the golden; all of them if there is none.
+// Counts the pixels that differ from the golden. Without a golden all pixels count.
 static size_t count_differences(const char *name)
 {
     char path[4096];

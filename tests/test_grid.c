@@ -1,5 +1,5 @@
-// A grid of an image's pixels, or a list of them: each is the image's own, bit by bit, whatever is
-// rendered beside it.
+// Tests grids and lists of an image's pixels: each pixel must equal the pixel of the whole image
+// bit for bit, whatever else is rendered.
 #include "render/pixel_list.h"
 #include "support/render.h"
 
@@ -36,8 +36,8 @@ static void assert_same_pixel(const glint_image *a, size_t of_a, const glint_ima
     assert_memory_equal(a->pixels + 4 * of_a, b->pixels + 4 * of_b, 4 * sizeof *a->pixels);
 }
 
-// Of no order: the corners, and what comes of multiplying by a number that shares no divisor with
-// theirs, some of it twice. Its rows fill no tile.
+// The list has no order: first the corners, then multiples of a number that shares no divisor with
+// the pixel count, some of them repeated. Its rows do not fill whole tiles.
 static void check_list(const glint_scene *scene, const glint_environment *environment,
                        const glint_settings *whole_settings, const glint_image *whole)
 {
@@ -72,6 +72,7 @@ static void check_case(const grid_case *c, int depth)
     settings.precision = c->precision;
     settings.filter = c->filter;
     settings.depth = depth;
+    // Render the whole image, then the grid.
     test_frame whole, grid;
     test_render(&scene, test_studio(), NULL, &settings, &whole);
     settings.grid_step = c->step;
@@ -82,10 +83,11 @@ static void check_case(const grid_case *c, int depth)
     assert_int_equal(grid.image.height, size[1]);
     assert_int_equal(grid.report.rays.primary,
                      size[0] * size[1] * c->samples_per_axis * c->samples_per_axis);
-    // The last one of a row and of a column is within the image, and one more would not be.
+    // The last pixel of a row and of a column is within the image; the next would be outside.
     assert_in_range((size[0] - 1) * c->step + c->step / 2, 0, c->width - 1);
     assert_true(size[0] * c->step + c->step / 2 >= c->width);
     assert_true(size[1] * c->step + c->step / 2 >= c->height);
+    // Compare each pixel of the grid with its pixel of the image.
     for (int y = 0; y < size[1]; y++) {
         for (int x = 0; x < size[0]; x++) {
             const size_t row = (size_t)y * (size_t)c->step + (size_t)(c->step / 2);
@@ -126,7 +128,7 @@ static void a_step_beyond_the_image_is_refused(void **state)
     }
 }
 
-// Numbers past 2³¹, of the largest image that may be asked for: those of the grid of 4 × 4 pixels.
+// The last pixels of the largest image, with numbers above 2³¹, against a grid of 4 × 4 pixels.
 static void a_list_reaches_every_pixel_of_the_largest_image(void **state)
 {
     (void)state;

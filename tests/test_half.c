@@ -1,5 +1,5 @@
-// Properties of half: every half is read exactly, and every float becomes the nearest half, by a
-// judge that counts in units of the last place with the C library's rint.
+// Tests half floats: reading is exact, and every float becomes the nearest half. The reference
+// counts units in the last place with the C library's rint.
 #include "base/half.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-// The value of a half by its definition: sign, 5 bits of exponent, 10 of fraction.
+// The value of a half by its definition: sign, 5 bits of exponent, 10 bits of fraction.
 static double value_of(unsigned half)
 {
     int exponent = (int)(half >> 10 & 31);
@@ -21,7 +21,7 @@ static double value_of(unsigned half)
     return half >> 15 ? -value : value;
 }
 
-// The half nearest to a finite value, as a number: rint goes to even on a tie.
+// The half nearest to a finite value; rint rounds ties to even.
 static double nearest_half(double value)
 {
     int exponent;
@@ -56,12 +56,12 @@ static void every_half_is_read_exactly_and_written_back(void **state)
     }
 }
 
-// Half way between two neighbours, and one float to each side of that.
+// The middle between two neighbours, and the floats next to it.
 static void ties_go_to_the_even_one(void **state)
 {
     (void)state;
     for (unsigned half = 0; half < 0x7c00; half++) {
-        // The neighbour of the largest half would be 2¹⁶.
+        // The neighbour above the largest half would be 2¹⁶.
         double above = half == 0x7bff ? 65536 : value_of(half + 1);
         float tie = (float)((value_of(half) + above) / 2); // exact: 12 bits
         for (int sign = 0; sign < 2; sign++) {
@@ -82,7 +82,7 @@ static void floats_of_all_sizes_become_the_nearest_half(void **state)
     for (int i = 0; i < 2000000; i++) {
         random = random * 6364136223846793005u + 1442695040888963407u;
         uint32_t bits = (uint32_t)(random >> 32);
-        // One in two between 2⁻²⁷ and 2¹⁷, where halfs are; the others anywhere.
+        // Half of the values lie between 2⁻²⁷ and 2¹⁷, the range of half; the others anywhere.
         if (i % 2 == 0) {
             bits = (bits & 0x807fffffu) | ((100u + (bits >> 23 & 0xffu) % 44u) << 23);
         }

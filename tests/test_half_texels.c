@@ -1,4 +1,4 @@
-// Properties of half texels: what is measured is what the rounding does, and what is written is the
+// Tests half texels: the measured errors are the errors of rounding, and the stored texels are the
 // rounded map.
 #include "base/half.h"
 #include "environment/half_texels.h"
@@ -44,7 +44,7 @@ static void what_half_can_hold_has_no_error(void **state)
     assert_true(nothing.relative_rmse == 0 && nothing.visible_rmse == 0 && nothing.largest == 0);
 }
 
-// 1 + 2⁻¹¹ is a tie and becomes 1; 3 × 2⁻²⁶ becomes 2⁻²⁴, a third more.
+// 1 + 2⁻¹¹ is a tie and becomes 1. 3 × 2⁻²⁶ becomes 2⁻²⁴, a third more.
 static void a_uniform_map_errs_by_its_own_rounding(void **state)
 {
     (void)state;
@@ -59,8 +59,8 @@ static void a_uniform_map_errs_by_its_own_rounding(void **state)
     }
 }
 
-// One texel of 2048.9 in a map of 1s, edge 3: the middle of a face has the solid angle
-// 4 asin(1/10) of 4π, and the texel errs by 0.9 of itself.
+// One texel of 2048.9 in a map of 1s, edge 3. The middle of a face has the solid angle 4 asin(1/10)
+// of 4π, and its texel errs by 0.9.
 static void a_light_counts_by_its_solid_angle(void **state)
 {
     (void)state;
@@ -73,7 +73,7 @@ static void a_light_counts_by_its_solid_angle(void **state)
     double mean = 1 + share * (light - 1);
     glint_half_rounding rounding = measure_and_free(&cube);
     double relative = sqrt(share) * error / mean, visible = sqrt(share) * error / light;
-    // Solid angles are taken from texels' centres: at edge 3 that is 8% more.
+    // glint computes solid angles from the centres of texels. At edge 3 this is 8% too much.
     assert_true(fabs(rounding.relative_rmse / relative - 1) < 0.05);
     assert_true(fabs(rounding.visible_rmse / visible - 1) < 0.05);
     assert_true(rounding.largest == 2048.9f);
@@ -86,7 +86,7 @@ static void the_border_too_must_fit(void **state)
     glint_cube_texel(&cube, 4, -1, 3)[1] = -70000.0f;
     glint_half_rounding rounding = measure_and_free(&cube);
     assert_true(rounding.largest == 70000.0f);
-    assert_true(rounding.relative_rmse == 0); // it is no place of its own on the sphere
+    assert_true(rounding.relative_rmse == 0); // the border covers no solid angle of its own
     cube = uniform_cube(8, 1);
     glint_cube_texel(&cube, 2, 8, 8)[2] = NAN;
     glint_cube_texel(&cube, 5, 0, 0)[0] = INFINITY;

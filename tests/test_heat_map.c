@@ -1,4 +1,4 @@
-// Properties of heat maps: what has which colour, and where the scale stands.
+// Tests heat maps: the colours, and the place of the scale.
 #include "image/color.h"
 #include "image/image_io.h"
 #include "report/compare/heat_map.h"
@@ -15,7 +15,7 @@
 
 enum { WIDTH = 8, HEIGHT = 4, PIXELS = WIDTH * HEIGHT };
 
-// Every component 1, so that a difference is relative and absolute at once.
+// Every component is 1, so that absolute and relative differences are equal.
 static glint_image make_image(int width, int height, int channels)
 {
     glint_image image = {0};
@@ -70,14 +70,14 @@ static void colors_grow_lighter_and_stay_within_what_can_be_shown(void **state)
             least_step = fmin(least_step, step);
             largest_step = fmax(largest_step, step);
         } else {
-            assert_true(step > 15); // equal and hardly different are easy to tell apart
+            assert_true(step > 15); // no difference and a tiny difference look clearly different
         }
         last += step;
     }
     assert_true(largest_step < 3 * least_step);
 }
 
-// As in an 8-bit file: by hue, as green is at least half of the larger of red and blue.
+// Converts to hue as in an 8-bit file. Green is at least half of the larger of red and blue.
 static void the_color_of_what_is_not_finite_is_none_of_the_scale(void **state)
 {
     (void)state;
@@ -115,7 +115,7 @@ static void a_pixel_has_the_color_of_its_largest_difference(void **state)
     glint_image_pixel(&image, 3, 0)[1] = 100;
     glint_image_pixel(&image, 4, 0)[0] = NAN;
     glint_image_pixel(&image, 5, 0)[0] = -INFINITY;
-    glint_image_pixel(&image, 6, 0)[3] = 0.5F; // alpha is not looked at
+    glint_image_pixel(&image, 6, 0)[3] = 0.5F; // heat maps ignore alpha
     glint_image map = paint(&image, &reference, GLINT_HEAT_RELATIVE);
     const double differences[] = {0.25, 0x1p-10, 99};
     for (int i = 0; i < 3; i++) {
@@ -135,7 +135,7 @@ static void a_pixel_has_the_color_of_its_largest_difference(void **state)
     glint_image_free(&reference);
 }
 
-// The codes are Green's formula, worked out by hand; a file of 8 bits must hold them.
+// The codes follow from Green's formula by hand. A file of 8 bits must contain them.
 static void a_png_holds_the_colors_as_designed(void **state)
 {
     (void)state;
@@ -161,8 +161,8 @@ static void a_png_holds_the_colors_as_designed(void **state)
     glint_image_free(&reference);
 }
 
-// Of 100 everywhere, 1 is a hundredth: the colour of 10⁻² both ways, as the absolute scale then
-// ends at 100.
+// The reference is 100 everywhere, so a difference of 1 is a hundredth. Both scales then give the
+// colour of 10⁻², because the absolute scale ends at 100.
 static void the_absolute_scale_ends_at_the_references_mean(void **state)
 {
     (void)state;
@@ -196,12 +196,12 @@ static void the_scale_fits_below_any_picture(void **state)
         assert_true(at.width >= width && at.strip_y == height && at.height > height);
         assert_true(at.width == width || width < 312);
         assert_true(at.unit >= 1 && at.unit * 640 <= (width > 640 ? width : 640));
-        // From left to right: the box of equal pixels, the bar, the box of what is not finite.
+        // From left to right: the box of equal pixels, the bar, the box of non-finite pixels.
         assert_true(at.equal_x > 0 && at.equal_x + at.bar_height < at.bar_x);
         assert_true(at.bar_x + at.bar_width < at.not_finite_x);
         assert_true(at.not_finite_x + at.bar_height < at.width);
         assert_true(at.bar_y > height && at.bar_y + at.bar_height < at.height);
-        // A label of five signs under each decade.
+        // A label of five characters under each decade.
         assert_true(at.bar_width >= GLINT_HEAT_DECADES * 5 * 6 * at.unit);
     }
 }
@@ -223,7 +223,7 @@ static void the_scale_shows_the_colors_that_the_map_uses(void **state)
     assert_true(has_color(&map, at.equal_x + at.bar_height / 2, middle, glint_heat_equal));
     assert_true(
         has_color(&map, at.not_finite_x + at.bar_height / 2, middle, glint_heat_not_finite));
-    // The marker's tip stands on the bar at the worst value, and a tick under every decade.
+    // The tip of the marker is on the bar at the worst value, and a tick is under every decade.
     const int worst = at.bar_x + (int)lround(glint_heat_place(0.5, 0) * at.bar_width);
     const float *background = glint_image_pixel(&map, 0, at.strip_y);
     assert_false(has_color(&map, worst, at.bar_y - 1, background));

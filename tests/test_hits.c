@@ -1,4 +1,4 @@
-// What primary rays meet (GLINT_OUTPUT_HITS): against the oracle, and at every width.
+// Tests the hits of primary rays (GLINT_OUTPUT_HITS) against the oracle, at every width.
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -31,8 +31,8 @@ typedef struct hit_tally {
     size_t pixels, hits, other_triangle, unexplained;
 } hit_tally;
 
-// A pixel whose ray passes within rounding of an edge, or meets two surfaces at one distance, may
-// show either.
+// A pixel may show either surface if its ray passes within rounding of an edge, or meets two
+// surfaces at one distance.
 static void compare_pixel(const bridge *b, const oracle_view *view, const int pixel[2],
                           const double found[4], hit_tally *tally)
 {
@@ -43,7 +43,7 @@ static void compare_pixel(const bridge *b, const oracle_view *view, const int pi
     tally->hits += wanted.triangle >= 0;
     if ((int)found[3] == wanted.triangle) {
         if (wanted.triangle >= 0) {
-            // Barycentric weights of a sliver are as uncertain as it is thin.
+            // Barycentric weights of a sliver are as uncertain as the sliver is thin.
             tally->unexplained += fabs(found[1] - wanted.barycentric[1]) > 2e-3;
             tally->unexplained += fabs(found[2] - wanted.barycentric[2]) > 2e-3;
         }
@@ -70,7 +70,7 @@ static void primary_rays_meet_what_the_oracle_says(void **state)
         bridge *b = bridge_create(&scene, &environment);
         glint_camera camera;
         assert_int_equal(glint_scene_camera(&scene, NULL, &camera, NULL), GLINT_OK);
-        settings.depth = 1; // of the oracle
+        settings.depth = 1; // the oracle's depth
         oracle_view view = bridge_view(&camera, &settings);
         hit_tally tally = {0};
         for (int y = 0; y < settings.height; y++) {
@@ -96,7 +96,7 @@ static void primary_rays_meet_what_the_oracle_says(void **state)
 static void every_width_and_tile_find_the_same_hits(void **state)
 {
     (void)state;
-    // A kernel is compiled for each scene, width and tile: a few scenes must do.
+    // Each scene, width and tile compiles a kernel, so the test takes a few scenes only.
     static const char *const few[] = {"orthographic", "facing_mirrors", "gallery"};
     for (size_t i = 0; i < sizeof few / sizeof *few; i++) {
         glint_scene scene = {0};

@@ -1,6 +1,6 @@
-// Image files: what is read is what the formats' specifications say is there, what is written can
-// be read again to within the format's own rounding, and bad files get one clear answer. The oracle
-// is files put together byte by byte (support/image_bytes.c) and the formulas of IEC 61966-2-1.
+// Tests image files. Reading must follow the formats' specifications, written files must read back
+// within the rounding of the format, and bad files must get one clear answer. The oracle is files
+// built byte by byte (support/image_bytes.c) and the formulas of IEC 61966-2-1.
 #include "image/color.h"
 #include "image/image_io.h"
 #include "support/image_bytes.h"
@@ -31,14 +31,14 @@ static void srgb_codes_survive_decoding_and_encoding(void **state)
     for (int code = 0; code < 256; code++) {
         float linear = glint_srgb_to_linear((float)code / 255.0f);
         assert_int_equal(glint_linear_to_srgb8(linear), code);
-        // Decoding rounds to float, 2⁻²⁴ of the value; encoding has a slope of at most 12.92 and
+        // Decoding rounds to float, 2⁻²⁴ of the value. Encoding has a slope of at most 12.92 and
         // rounds once more.
         assert_true(fabs((double)glint_linear_to_srgb(linear) - code / 255.0) < 2e-7);
     }
 }
 
-// Every float from 2⁻¹⁴ to 1 in steps of 37 units in the last place, against the formula in double;
-// at a threshold itself the rounding of the formula decides, hence the 1e-9.
+// Floats from 2⁻¹⁴ to 1 in steps of 37 units in the last place, against the formula in double. At a
+// threshold the rounding of the formula decides, hence the 1e-9.
 static void eight_bit_codes_are_the_rounded_curve(void **state)
 {
     (void)state;
@@ -67,7 +67,7 @@ static void values_outside_the_range_are_clamped(void **state)
     assert_true(glint_linear_to_srgb(INFINITY) == 1.0f);
 }
 
-// ---- Reading what was put together by hand ------------------------------------------------------
+// ---- Reading handmade files ---------------------------------------------------------------------
 
 static glint_image read_image(const char *name, glint_image_facts *facts)
 {
@@ -104,7 +104,7 @@ static void radiance_pixels_are_mantissas_times_a_power(void **state)
     assert_int_equal(image.channels, 3);
     for (int p = 0; p < 6; p++) {
         for (int c = 0; c < 3; c++) {
-            // Ward 1991: (m + ½)·2^(e − 136), or m·2^(e − 136) as most programs have it.
+            // Ward 1991: (m + ½)·2^(e − 136), or m·2^(e − 136) as in most programs.
             double low = rgbe[4 * p + c] * ldexp(1.0, rgbe[4 * p + 3] - 136);
             double high = (rgbe[4 * p + c] + 0.5) * ldexp(1.0, rgbe[4 * p + 3] - 136);
             double value = (double)image.pixels[3 * p + c];
@@ -154,7 +154,8 @@ static void whole_numbers_are_linearised_and_floats_are_not(void **state)
 static void alpha_is_premultiplied_after_linearising(void **state)
 {
     (void)state;
-    // Beside: the colour is the code's. Premultiplied before the curve: the colour is code / alpha.
+    // Straight alpha: the colour is the code. Premultiplied before the curve: the colour is code /
+    // alpha.
     const uint16_t codes[] = {200, 100, 50, 128, 60, 30, 20, 64, 9, 8, 7, 0, 255, 128, 0, 255};
     for (int extra = 1; extra <= 2; extra++) {
         glint_image image = read_tiff(&(tiff_recipe){4, 1, 4, 8, extra, 1, codes}, NULL);
@@ -165,7 +166,7 @@ static void alpha_is_premultiplied_after_linearising(void **state)
             for (int c = 0; c < 3 && alpha > 0.0; c++) {
                 double code = codes[4 * p + c] / 255.0;
                 double wanted = alpha * decode(extra == 2 ? code : code / alpha);
-                // The power multiplies relative roundings by 2.4.
+                // The power multiplies relative rounding errors by 2.4.
                 assert_true(fabs((double)image.pixels[4 * p + c] - wanted) <= 1e-6 * wanted);
             }
         }
@@ -187,11 +188,11 @@ static void grey_and_grey_with_alpha_keep_their_channels(void **state)
     glint_image_free(&image);
 }
 
-// TIFF 6.0, tag 274: what the 0th row and the 0th column of the stored picture show.
+// TIFF 6.0, tag 274: the sides that the 0th row and the 0th column of the file show.
 static void orientation_is_applied(void **state)
 {
     (void)state;
-    // The upright picture is 3 × 2, pixel (x, y) holding the code 40·(3 y + x) + 20.
+    // The upright picture is 3 × 2. Pixel (x, y) has the code 40·(3 y + x) + 20.
     static const char rows[9] = "-ttbblrrl", columns[9] = "-lrrlttbb";
     for (int orientation = 1; orientation <= 8; orientation++) {
         bool turned = orientation >= 5;
@@ -277,7 +278,7 @@ static void exr_without_colour_is_refused_with_its_channels_named(void **state)
     refuse(scratch_path("a.exr"), "depth.Z");
 }
 
-// The display window is the picture: cropped pixels are framed with zero, those outside cut off.
+// The display window is the picture. Pixels outside it are cut off; missing pixels are zero.
 static void exr_pixels_stand_in_the_display_window(void **state)
 {
     (void)state;
@@ -371,7 +372,7 @@ static void a_small_file_that_claims_to_be_huge_is_refused(void **state)
     refuse(scratch_path("huge.hdr"), "40000 × 40000");
 }
 
-// Noise, so that no encoding makes it short, and every part of the file matters.
+// Writes noise, which no encoding makes short, so every part of the file matters.
 static void write_noise(const char *name, int channels)
 {
     glint_image image;
@@ -406,7 +407,7 @@ static void truncated_files_are_refused(void **state)
     }
 }
 
-// Any answer will do, as long as there is one: no crash, no hang, nothing outside the picture.
+// Any answer is right, if there is one: no crash, no hang, no access outside the picture.
 static void damaged_files_are_survived(void **state)
 {
     (void)state;
@@ -421,7 +422,7 @@ static void damaged_files_are_survived(void **state)
             size_t places[4];
             for (int i = 0; i < 4; i++) {
                 seed = seed * 1664525u + 1013904223u;
-                // Headers matter most.
+                // Damage the header most often.
                 places[i] = (seed >> 8) % (i < 3 && length > 400 ? 400 : length);
                 kept[i] = bytes[places[i]];
                 bytes[places[i]] = (unsigned char)(seed >> 24);

@@ -1,6 +1,6 @@
-// Writing image files: what is written can be read again to within the format's own rounding, says
-// what OpenEXR's file layout wants, and is refused before any work where it cannot be. The reader
-// is judged by itself in test_image.c.
+// Tests writing image files. Written files must read back within the rounding of the format, and
+// must follow OpenEXR's file layout. Impossible requests must fail before any work. test_image.c
+// tests the reader separately.
 #include "image/image_io.h"
 #include "support/scratch.h"
 
@@ -30,7 +30,7 @@ static glint_image read_image(const char *name, glint_image_facts *facts)
     return image;
 }
 
-// Noise, so that no encoding makes it short, and every part of the file matters.
+// Writes noise, which no encoding makes short, so every part of the file matters.
 static void write_noise(const char *name, int channels)
 {
     glint_image image;
@@ -66,8 +66,8 @@ static glint_image make_ramp(int channels)
     return image;
 }
 
-// How far apart linear values may be that a format holds: relative to the largest of a pixel, and
-// in sRGB codes of the colour beside alpha.
+// Allowed error of linear values in a format: relative to the largest value of a pixel, and in sRGB
+// codes of the straight colour.
 typedef struct tolerance {
     const char *name;
     int channels_back[5]; // by the number of channels written
@@ -87,7 +87,7 @@ static void compare_pixel(const float *wrote, const float *read, int channels,
     for (int c = 0; c < colors; c++) {
         double error = fabs((double)wrote[c] - (double)read[c]);
         if (allowed->codes > 0.0) {
-            // Eight bits of alpha too: dividing by what was rounded is not what is asked here.
+            // Alpha has eight bits, too. The division must not use the rounded alpha.
             double before = curve((double)wrote[c] / alpha), after = curve((double)read[c] / alpha);
             error = 255.0 * fabs(before - after) - (has_alpha ? 0.5 / alpha : 0.0);
             assert_true(error <= allowed->codes);
@@ -100,8 +100,8 @@ static void compare_pixel(const float *wrote, const float *read, int channels,
 static void what_is_written_is_read_again(void **state)
 {
     (void)state;
-    // Half: 11 bits, rounded: 2⁻¹¹. RGBE: 8 bits, cut off or rounded, of a mantissa of at least ½:
-    // 2⁻⁷. Eight bits: half a code, and what float makes of it.
+    // Half has 11 bits, rounded: 2⁻¹¹. RGBE has 8 bits, truncated or rounded, of a mantissa of at
+    // least ½: 2⁻⁷. Eight bits give half a code, plus the rounding of float.
     static const tolerance formats[] = {
         {"a.exr", {0, 1, 2, 3, 4}, 1.0 / 2048, 0.0}, {"a.hdr", {0, 3, 3, 3, 3}, 1.0 / 128, 0.0},
         {"a.png", {0, 1, 2, 3, 4}, 0.0, 0.5001},     {"a.tif", {0, 1, 2, 3, 4}, 0.0, 0.5001},
@@ -150,7 +150,7 @@ static void float_exr_is_exact_and_every_compression_reads_back(void **state)
     glint_image_free(&wrote);
 }
 
-// Two layers for a ramp: values that half has not, and others.
+// Makes two layers for a ramp: values that half cannot hold, and others.
 static void make_layers(float values[2][64 * 16], glint_channel channels[2])
 {
     static const char *const names[] = {"triangle.index", "depth.surfaces"};
@@ -162,8 +162,8 @@ static void make_layers(float values[2][64 * 16], glint_channel channels[2])
     }
 }
 
-// An EXR without compression ends with its rows, each of two whole numbers and its channels in the
-// order of their names' bytes, one after the other.
+// Finds a row of an EXR without compression. The file ends with its rows. Each row holds two
+// integers, then its channels by their names' byte order.
 static const unsigned char *find_exr_row(const unsigned char *bytes, size_t length, int row,
                                          size_t row_bytes)
 {
@@ -184,7 +184,7 @@ static void further_channels_are_floats_behind_a_picture_of_half(void **state)
     unsigned char *bytes = scratch_read("a.exr", &length);
     assert_non_null(bytes);
     for (int row = 0; row < 16; row++) {
-        // A, B, G and R of half, then depth and triangle.
+        // A, B, G and R as half, then depth and triangle.
         const unsigned char *begin = find_exr_row(bytes, length, row, 64 * (4 * 2 + 2 * 4));
         assert_memory_equal(begin + 64 * 8, values[1] + 64 * row, 64 * 4);
         assert_memory_equal(begin + 64 * 12, values[0] + 64 * row, 64 * 4);
@@ -196,7 +196,7 @@ static void further_channels_are_floats_behind_a_picture_of_half(void **state)
 static void a_reader_of_the_picture_does_not_see_further_channels(void **state)
 {
     (void)state;
-    // Not DWA, whose loss depends on what else there is.
+    // DWA is left out: its loss depends on the other channels.
     static const char *const compressions[] = {"rle", "zip", "piz", "pxr24", "b44"};
     static float values[2][64 * 16];
     glint_channel channels[2];
@@ -243,8 +243,8 @@ static void jpeg_is_close_and_over_black(void **state)
                                      curve((double)read.pixels[3 * p + c])));
         }
     }
-    // At quality 95 the largest quantisation step is 12 of 255 for the finest luma detail, and a
-    // smooth ramp has none: a handful of codes.
+    // At quality 95 the largest quantisation step is 12 of 255, for the finest luma detail. A
+    // smooth ramp has no such detail: a handful of codes.
     assert_true(worst * 255.0 < 6.0);
     glint_image_free(&wrote);
     glint_image_free(&read);
@@ -253,7 +253,7 @@ static void jpeg_is_close_and_over_black(void **state)
 static void jpeg_orientation_is_applied(void **state)
 {
     (void)state;
-    // APP1 with one EXIF entry: orientation 6, the stored top row is on the right.
+    // APP1 with one EXIF entry: orientation 6, the top row of the file is on the right.
     static const unsigned char exif[] = {0xff, 0xe1, 0, 34, 'E', 'x', 'i', 'f', 0, 0,  'M', 'M',
                                          0,    42,   0, 0,  0,   8,   0,   1,   1, 18, 0,   3,
                                          0,    0,    0, 1,  0,   6,   0,   0,   0, 0,  0,   0};
@@ -262,7 +262,7 @@ static void jpeg_orientation_is_applied(void **state)
     size_t length;
     unsigned char *bytes = scratch_read("a.jpg", &length);
     assert_non_null(bytes);
-    // After the start of image; the file's own EXIF, which follows, comes too late.
+    // Insert it after the start of image; the file's own EXIF follows and comes too late.
     unsigned char *longer = malloc(length + sizeof exif);
     assert_non_null(longer);
     memcpy(longer, bytes, 2);
@@ -284,7 +284,7 @@ static void jpeg_orientation_is_applied(void **state)
     glint_image_free(&turned);
 }
 
-// Half has 65504 as its largest: larger values must not become infinite, and NaN must stay visible.
+// The largest half is 65504. Larger values must not become infinite, and NaN must stay visible.
 static void values_that_half_cannot_hold_are_clamped(void **state)
 {
     (void)state;
@@ -304,7 +304,7 @@ static void values_that_half_cannot_hold_are_clamped(void **state)
         assert_true(fabs((double)read.pixels[i] - wanted) <= fabs(wanted) / 2048 + 6e-8);
     }
     glint_image_free(&read);
-    // RGBE keeps one exponent for three: a pixel with 1e30 has no room for small ones.
+    // RGBE has one exponent for three values: a pixel with 1e30 has no room for small values.
     assert_int_equal(glint_image_write(scratch_path("a.hdr"), &image, NULL, NULL), GLINT_OK);
     read = read_image("a.hdr", NULL);
     for (int i = 0; i < 24; i++) {
@@ -331,7 +331,7 @@ static void exposure_is_stops_and_leaves_exr_alone(void **state)
     glint_image_free(&exr);
 }
 
-// Threads share one decoder, and OpenImageIO's encoders.
+// Threads share one decoder and OpenImageIO's encoders.
 static void *read_and_write(void *argument)
 {
     const char *name = argument;
@@ -382,7 +382,7 @@ static const unsigned char *find_attribute(const unsigned char *bytes, size_t le
     return NULL;
 }
 
-// A regression: numbers once stood there with empty values.
+// A regression test: numbers once had empty values.
 static void png_metadata_is_text_with_its_values(void **state)
 {
     (void)state;
@@ -422,6 +422,7 @@ static void exr_metadata_has_openexrs_types(void **state)
     size_t length;
     unsigned char *bytes = scratch_read("a.exr", &length);
     assert_non_null(bytes);
+    // Check the attributes in the file.
     for (int k = 0; k < 2; k++) {
         const unsigned char *matrix = find_attribute(bytes, length, metadata[k].name, "m44f");
         assert_non_null(matrix);
@@ -440,7 +441,7 @@ static void exr_metadata_has_openexrs_types(void **state)
     assert_non_null(envmap);
     assert_int_equal(envmap[0], 0);
     free(bytes);
-    // The others take what they can.
+    // The other formats write the values that they support.
     assert_int_equal(glint_image_write(scratch_path("a.png"), &image, &options, NULL), GLINT_OK);
     assert_int_equal(glint_image_write(scratch_path("a.tif"), &image, &options, NULL), GLINT_OK);
     assert_int_equal(glint_image_write(scratch_path("a.jpg"), &image, &options, NULL), GLINT_OK);

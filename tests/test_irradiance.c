@@ -1,4 +1,4 @@
-// Irradiance against closed forms and against sums over finely divided texels.
+// Tests irradiance against closed forms and against sums over finely divided texels.
 #include "environment/irradiance.h"
 
 #include "environment/harmonics.h"
@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
-// What irradiance.c promises for the blocks on the horizon over a uniform environment of radiance
-// 1, its blocks being at most 2/128 wide, and float's rounding of the result.
+// Error bound that irradiance.c documents for blocks on the horizon, in a uniform environment of
+// radiance 1 with blocks at most 2/128 wide; and the rounding of the result to float.
 #define BLOCK (2.0 / 128)
 #define HORIZON 4e-6
 #define ROUNDING 1.2e-7
@@ -66,9 +66,9 @@ static void uniform(glint_vec3 d, double rgb[3])
     rgb[2] = 7.0;
 }
 
-// A furnace: every texel and the border, for edges that are powers of two and not, below, at and
-// above the number of blocks. Horizons cross blocks anywhere, and n·ω is taken to spread as far as
-// it does over an even block: what single blocks are off by cancels but for a fiftieth.
+// Tests a furnace: every texel and the border, for edges that are powers of two or not, below, at
+// and above the number of blocks. Horizons cross blocks anywhere. irradiance.c assumes that n·ω
+// spreads as far as over an even block. The errors of single blocks cancel except for a fiftieth.
 static void uniform_radiance_gives_itself(void **state)
 {
     (void)state;
@@ -98,8 +98,8 @@ static void linear(glint_vec3 d, double rgb[3])
     rgb[2] = 1.0 + d.z;
 }
 
-// ∫ (1 + d·a) max(0, n·d) dω = π + (2π/3) a·n: the first band of Ramamoorthi and Hanrahan 2001.
-// A texel's middle stands for its mean up to (2/N)²/24 · |Laplacian| ≤ 1.4 · 4/(24 N²).
+// ∫ (1 + d·a) max(0, n·d) dω = π + (2π/3) a·n: the first band of Ramamoorthi and Hanrahan 2001. The
+// middle of a texel differs from its mean by up to (2/N)²/24 · abs(Laplacian) ≤ 1.4 · 4/(24 N²).
 static void linear_radiance_gives_two_thirds(void **state)
 {
     (void)state;
@@ -140,7 +140,8 @@ static void clamped_cosine_gives_its_autocorrelation(void **state)
         double angle = acos(fmax(-1.0, fmin(1.0, cosine)));
         double wanted = 2.0 / 3.0 * (sin(angle) + (GLINT_PI - angle) * cosine) / GLINT_PI;
         double found = (double)glint_cube_texel(&map, k / 256, k % 16, k / 16 % 16)[0];
-        // The kink along the great circle costs a texel's width times its slope there, squared.
+        // The kink along the great circle adds the square of a texel's width, times the slope
+        // there.
         assert_true(fabs(found - wanted) <= HORIZON + 1.0 / (256.0 * 256.0) + ROUNDING);
     }
     glint_cube_free(&map);
@@ -159,8 +160,8 @@ static double solid_angle(double s0, double s1, double t0, double t1)
     return sum;
 }
 
-// ∫ ω dω over the quadrilateral of a texel: half the sum, over its sides, of the side's arc times
-// the unit normal of the arc's plane (Lambert, Photometria, 1760).
+// ∫ ω dω over the quadrilateral of a texel. It is half the sum over the sides of the side's arc
+// times the unit normal of the arc's plane (Lambert, Photometria, 1760).
 static glint_vec3 first_moment(int edge, int face, int i, int j)
 {
     static const int at[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
@@ -177,8 +178,9 @@ static glint_vec3 first_moment(int edge, int face, int i, int j)
     return glint_vec3_scale(sum, inwards ? 1 : -1);
 }
 
-// One bright texel, as the sun is: n · its first moment; on the horizon to within an eighth of a
-// block's width of what it brings at most. Texels are smaller than blocks, as large, and larger.
+// One bright texel, like the sun, gives n · its first moment. On the horizon the error is at most
+// an eighth of a block's width, relative to the texel's largest contribution. Texels are smaller
+// than blocks, equal, and larger.
 static void one_bright_texel_gives_its_first_moment(void **state)
 {
     (void)state;
@@ -222,7 +224,7 @@ static void noise(glint_vec3 d, double rgb[3])
     }
 }
 
-// The sum over all texels, each divided into k × k parts with their exact solid angles.
+// Sums over all texels, each divided into k × k parts with their exact solid angles.
 static void brute_force(const glint_cube *radiance, glint_vec3 n, int k, double rgb[3])
 {
     int edge = radiance->edge, fine = edge * k;
@@ -257,8 +259,8 @@ static void noise_agrees_with_brute_force(void **state)
             brute_force(&radiance, n, parts, wanted);
             for (int c = 0; c < 3; c++) {
                 double found = (double)glint_cube_texel(&map, p / 9, p % 3, p / 3 % 3)[c];
-                // Blocks on the horizon hold anything between 0 and 10: each errs by up to 10
-                // h³/16, at random, and 500 of them by √500 times that. The sum itself errs by
+                // Blocks on the horizon hold values between 0 and 10. Each errs at random by up to
+                // 10 h³/16, and 500 of them by √500 times this. The brute-force sum errs by
                 // (2/600)²/8 of the radiance along the horizon.
                 double random = 10.0 * BLOCK * BLOCK * BLOCK / 16 * sqrt(500.0) / GLINT_PI;
                 assert_true(fabs(found - wanted[c]) <= random + 1e-5);
@@ -269,7 +271,8 @@ static void noise_agrees_with_brute_force(void **state)
     }
 }
 
-// Bilinear look-up in the map meets no visible edge: both faces' borders are the true values there.
+// A bilinear look-up in the map must be continuous across edges, because both borders hold true
+// values.
 static void look_up_is_smooth_across_the_cubes_edges(void **state)
 {
     (void)state;
@@ -294,7 +297,7 @@ static void look_up_is_smooth_across_the_cubes_edges(void **state)
 
 // ---- Harmonics ----------------------------------------------------------------------------------
 
-// E(n)/π by the polynomial, as layout.h has it.
+// E(n)/π by the polynomial of layout.h.
 static double by_harmonics(const float coefficients[GLINT_HARMONICS][4], glint_vec3 n, int channel)
 {
     const double terms[GLINT_HARMONICS] = {1,
@@ -313,7 +316,7 @@ static double by_harmonics(const float coefficients[GLINT_HARMONICS][4], glint_v
     return sum;
 }
 
-// Three radiances of bands 0 to 2, one with all of each; times 1, 2/3 and 1/4 they are E/π.
+// Three radiances of bands 0 to 2, one with all bands. E/π has the bands times 1, 2/3 and 1/4.
 static void three_bands(glint_vec3 d, double rgb[3])
 {
     rgb[0] = 3 + 0.5 * d.x - 0.25 * d.y + d.z;
@@ -329,7 +332,7 @@ static void three_bands_received(glint_vec3 n, double rgb[3])
              2.0 / 3 * 0.1 * n.x;
 }
 
-// What band 3 holds is not received at all: a radiance of that band beside another changes nothing.
+// Irradiance ignores band 3: a radiance of this band beside another changes nothing.
 static void band_three(glint_vec3 d, double rgb[3])
 {
     rgb[0] = 2 + d.x * d.y * d.z;
@@ -337,14 +340,14 @@ static void band_three(glint_vec3 d, double rgb[3])
     rgb[2] = 2 + d.y * (3 * d.x * d.x - d.y * d.y);
 }
 
-// The texels hold the radiance at their middles, and are taken as even: h²/24 of its second
-// derivatives, under 8 for these, with h = 2/edge.
+// The texels hold the radiance at their centres, and the integral takes each as constant. This errs
+// by h²/24 of the second derivatives, which are under 8 here, with h = 2/edge.
 static void harmonics_of_low_bands_are_exact(void **state)
 {
     (void)state;
     float coefficients[GLINT_HARMONICS][4];
     for (int i = 0; i < 4; i++) {
-        const int edge = i < 2 ? 96 : 256; // four points a texel, and one
+        const int edge = i < 2 ? 96 : 256; // four points a texel, and one point
         const double bound = 4.0 / edge / edge / 24 * 8 * (edge == 96 ? 1 : 2) + 8 * ROUNDING;
         glint_cube cube = make_cube(edge, i % 2 == 0 ? three_bands : band_three);
         assert_int_equal(glint_irradiance_harmonics(&cube, coefficients, NULL), GLINT_OK);
@@ -364,8 +367,8 @@ static void harmonics_of_low_bands_are_exact(void **state)
     }
 }
 
-// The worst there is, one bright texel: its irradiance is a clamped cosine, whose ∫cos² over the
-// half sphere is 2π/3; of that the bands 0 to 2 hold π/4·(1 + 4/3 + 5/16).
+// One bright texel is the worst case. Its irradiance is a clamped cosine, whose ∫cos² over the half
+// sphere is 2π/3. The bands 0 to 2 hold π/4·(1 + 4/3 + 5/16) of it.
 static void harmonics_of_a_point_leave_out_what_they_must(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
-// Properties of single kernel functions that the self-test does not look at, run on the device at
-// every width and precision, judged by closed forms. u is the largest relative rounding error, 2⁻²⁴
-// or 2⁻⁵³.
+// Tests single kernel functions that the self-test does not cover, on the device at every width and
+// precision, against closed forms. u is the largest relative rounding error, 2⁻²⁴ or 2⁻⁵³.
 #include "base/half.h"
 #include "device/buffer.h"
 #include "environment/half_texels.h"
@@ -75,7 +74,7 @@ static cl_mem texels_of(const glint_cube *cube, bool as_half)
     return buffer;
 }
 
-// Runs one kernel of probe.cl over p->in; `cube` may be NULL.
+// Runs a kernel of probe.cl over p->in; `cube` may be NULL.
 static void run(probe *p, const char *name, const glint_cube *cube)
 {
     static float narrow[ELEMENTS][4];
@@ -85,6 +84,7 @@ static void run(probe *p, const char *name, const glint_cube *cube)
             p->in[i][k] = p->is_double ? p->in[i][k] : (double)narrow[i][k];
         }
     }
+    // Create the buffers and the kernel.
     size_t bytes = p->is_double ? sizeof p->in : sizeof narrow;
     cl_mem in = buffer_of(p->is_double ? (void *)p->in : narrow, bytes),
            out = buffer_of(NULL, bytes);
@@ -99,6 +99,7 @@ static void run(probe *p, const char *name, const glint_cube *cube)
     cl_command_queue queue = test_device()->queue;
     assert_int_equal(clEnqueueNDRangeKernel(queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
                      CL_SUCCESS);
+    // Read the results back as double.
     void *result = p->is_double ? (void *)p->out : narrow;
     assert_int_equal(clEnqueueReadBuffer(queue, out, CL_TRUE, 0, bytes, result, 0, NULL, NULL),
                      CL_SUCCESS);
@@ -178,8 +179,8 @@ static void the_exponential_is_within_four_rounding_errors(void **state)
     at_every_width_and_precision(check_exponential);
 }
 
-// A beam of this width and spread, bent by `turn` for each unit of its width, comes to a point at
-// the distance f: |f| is right to the rounding of both parts of the new spread.
+// Checks the focal distance f of a beam of this width and spread, bent by `turn` for each unit of
+// its width. |f| is right to the rounding of both parts of the new spread.
 static void check_focus(const probe *p, double f, double width, double scaled, double turn)
 {
     const double spread = scaled + turn * width;
@@ -188,8 +189,8 @@ static void check_focus(const probe *p, double f, double width, double scaled, d
                 64 * p->u * parts / fabs(spread) * fabs(width / spread));
 }
 
-// The mirror equation and the lens-maker's: a concave mirror turns rays by 2/R for each unit of
-// height, a surface by (1 − η)/R. Parallel beams, and such as come to a point by themselves.
+// Checks the mirror equation and the lensmaker's equation. A concave mirror turns rays by 2/R for
+// each unit of height, a surface by (1 − η)/R. Beams are parallel or converge by themselves.
 static void check_cones(probe *p)
 {
     for (size_t i = 0; i < ELEMENTS; i++) {
@@ -202,7 +203,7 @@ static void check_cones(probe *p)
     for (size_t i = 0; i < ELEMENTS; i++) {
         const double radius = p->in[i][0], eta = p->in[i][2], spread = p->in[i][3];
         const double width = p->in[i][1] + 3 * spread;
-        // Normals are unit vectors to a rounding, their differences a third or more.
+        // Normals are unit vectors to a rounding. Their differences are a third or more.
         assert_true(fabs(p->out[i][0] * radius - 1) <= 32 * p->u);
         check_focus(p, p->out[i][1], width, spread, -2 / radius);
         check_focus(p, p->out[i][2], width, eta * spread, (eta - 1) / radius);
@@ -230,8 +231,8 @@ static void check_levels(probe *p)
     run(p, "probe_levels", NULL);
     for (size_t i = 0; i < ELEMENTS; i++) {
         const double level = p->out[i][0], blend = p->out[i][1];
-        // In texels of the first level, 64 to 2 units at the distance 1 / component; half a level
-        // finer than the cone.
+        // The cone's width in texels of the first level, with 64 texels to 2 units at the distance
+        // 1 / component; the level is half a level finer than the cone.
         const double texels = fabs(p->in[i][0]) * 32 / p->in[i][1] * sqrt(0.5);
         const double wanted = texels > 1 ? fmin(texels, 64) : 1; // NaN: 1
         assert_true(level >= 0 && level <= 6 && level == floor(level));
@@ -253,7 +254,7 @@ static double random_share(void)
     return (double)(random >> 11) * 0x1p-53;
 }
 
-// A cube of values that half can hold, so that texels of both kinds give the same.
+// A cube of values that half can hold, so that both kinds of texels give the same results.
 static void random_cube(int edge, glint_cube *cube)
 {
     assert_int_equal(glint_cube_create(edge, cube, NULL), GLINT_OK);
@@ -262,7 +263,7 @@ static void random_cube(int edge, glint_cube *cube)
     }
 }
 
-// What a packet of one ray finds, every other must find, with texels of either kind.
+// Every packet must give the result of a packet of one ray, with both kinds of texels.
 static void check_interpolation(probe *p)
 {
     enum { EDGE = 13 };
@@ -289,8 +290,8 @@ static void check_interpolation(probe *p)
         double rgb[3];
         glint_cube_sample(&cube, (glint_vec3){d[0], d[1], d[2]}, rgb);
         for (size_t k = 0; k < 3; k++) {
-            // The place is found to within 4 rounding errors of EDGE texels, where values change
-            // by up to 1 a texel each way; then 4 more in the interpolation.
+            // The place is right to 4 rounding errors of EDGE texels, and values change by up to 1
+            // a texel along each axis. The interpolation adds 4 roundings.
             assert_true(fabs(p->out[i][k] - rgb[k]) <= (2 * 4 * EDGE + 4) * p->u);
         }
     }

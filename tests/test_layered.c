@@ -1,5 +1,5 @@
-// What lies above and within surfaces by glTF's extensions, against the oracle: specular, clear
-// coats, dispersion, thin films, anisotropy, sheen, diffuse transmission.
+// Tests glTF's extensions for layered surfaces against the oracle: specular, clear coats,
+// dispersion, thin films, anisotropy, sheen, diffuse transmission.
 #include "support/bridge.h"
 #include "support/judged.h"
 #include "support/render.h"
@@ -15,12 +15,12 @@ static void add_specular(const void *kind, glint_material *m)
 {
     (void)kind;
     m->specular = 0.6F;
-    m->specular_color[0] = 40; // more than all
+    m->specular_color[0] = 40; // above the limit
     m->specular_color[1] = 0.5F;
 }
 
-// KHR_materials_specular: on smooth and rough paint, beside metal, on glass, and where lights
-// shine. The oracle's quadrature is plain, and lobes have their own error (test_rough.c).
+// KHR_materials_specular: on smooth and rough paint, beside metal, on glass, and under lights. The
+// oracle's quadrature is plain; the lobes have their own error (test_rough.c).
 static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **state)
 {
     (void)state;
@@ -55,7 +55,7 @@ static void specular_weighs_and_colours_what_paint_and_glass_reflect(void **stat
     glint_environment_free(&environment);
 }
 
-// The base colour's texture, where there is one, serves for these as well.
+// These slots use the base colour's texture, if there is one.
 static void borrow_textures(glint_material *m, const glint_texture_slot *slots, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -80,19 +80,19 @@ static void add_coat(const void *kind, glint_material *m)
     m->textures[GLINT_TEXTURE_CLEARCOAT_NORMAL] = m->textures[GLINT_TEXTURE_NORMAL];
 }
 
-// Clear coats above metal, paint, glass and what is there in part, with lights.
+// Clear coats on metal, paint, glass and partly transparent surfaces, with lights.
 static void clear_coats_are_what_the_oracle_sees(void **state)
 {
     (void)state;
     static const coated kinds[] = {
         {"mirror_sphere", 0, 1, 0.7F, 0, 1, 0, 1e-6},  // one branch
         {"mirror_sphere", 0, 0, 1, 0, 1, 0, 1e-6},     // of smooth paint, too
-        {"mirror_sphere", 1, 0, 1, 0, 1, 0, 0.001},    // matte paint has none
-        {"mirror_sphere", 0.4F, 1, 1, 0, 1, 0, 0.004}, // two
+        {"mirror_sphere", 1, 0, 1, 0, 1, 0, 0.001},    // matte paint has no branch
+        {"mirror_sphere", 0.4F, 1, 1, 0, 1, 0, 0.004}, // two branches
         {"mirror_sphere", 0.4F, 0.5F, 1, 0.2F, 1, 0, 0.004},
         {"mirror_sphere", 0, 1, 1, 0.4F, 1, 0, 0.004},
-        {"mirror_sphere", 0, 1, 1, 0.8F, 1, 0, 0.004},  // whose lobe takes no path
-        {"mirror_sphere", 1, 0, 1, 0.05F, 1, 0, 0.004}, // of which a mirror shows a share
+        {"mirror_sphere", 0, 1, 1, 0.8F, 1, 0, 0.004},  // the lobe of the coat takes no path
+        {"mirror_sphere", 1, 0, 1, 0.05F, 1, 0, 0.004}, // a mirror shows a share of the coat
         {"facing_mirrors", 0.3F, 1, 1, 0, 1, 0, 0.004},
         {"lights", 0.4F, -1, 1, 0.3F, 1, 0, 0.004},
         {"textures", 0.4F, -1, 1, 0.5F, 1, 0, 0.004},
@@ -137,8 +137,8 @@ static void add_dispersion(const void *kind, glint_material *m)
     m->dispersion = ((const dispersed *)kind)->dispersion;
 }
 
-// KHR_materials_dispersion: glass of one solid, of nested ones, that absorbs; beside thin walls and
-// metal, which have none; rough; with few wavelengths and with many, and more samples than one.
+// KHR_materials_dispersion: single, nested, absorbing and rough glass. Thin walls and metal beside
+// it have no dispersion. Tests few and many wavelengths, and more than one sample.
 static void solids_disperse_light_as_the_oracle_does(void **state)
 {
     (void)state;
@@ -205,9 +205,9 @@ static void add_film(const void *kind, glint_material *m)
     }
 }
 
-// KHR_materials_iridescence: on smooth metal, paint and glass, which is met from both sides, on
-// thin walls, on rough surfaces. The device sums up what goes to and fro 8 times, and of rough
-// surfaces it takes the film's reflectance at the angle of view.
+// KHR_materials_iridescence: on smooth metal and paint, on glass from both sides, on thin walls, on
+// rough surfaces. The device sums 8 interreflections in the film. On rough surfaces it uses the
+// film's reflectance at the angle of view.
 static void films_colour_what_the_oracle_sees(void **state)
 {
     (void)state;
@@ -265,8 +265,8 @@ static void add_brush(const void *kind, glint_material *m)
     borrow_textures(m, (const glint_texture_slot[]){GLINT_TEXTURE_ANISOTROPY}, 1);
 }
 
-// KHR_materials_anisotropy, by a file whose surfaces have tangents; and one without, which shows
-// none.
+// KHR_materials_anisotropy, with a file whose surfaces have tangents. A file without tangents must
+// show no anisotropy.
 static void brushed_surfaces_are_what_the_oracle_sees(void **state)
 {
     (void)state;
@@ -318,15 +318,15 @@ static void add_sheen(const void *kind, glint_material *m)
         2);
 }
 
-// KHR_materials_sheen: on matte and smooth paint, on metal, below a coat, under lights; glass has
-// none.
+// KHR_materials_sheen: on matte and smooth paint, on metal, below a coat, under lights. Glass has
+// no sheen.
 static void sheen_is_what_the_oracle_sees(void **state)
 {
     (void)state;
     static const velvet kinds[] = {
         {"mirror_sphere", 1, 0, 1, 1, 0, 0.001},       {"mirror_sphere", 1, 0, 1, 0.5F, 0, 0.001},
         {"mirror_sphere", 1, 0, 1, 0.3F, 0, 0.001},    {"mirror_sphere", 1, 0, 1, 0.15F, 0, 0.001},
-        {"mirror_sphere", 1, 0, 1, 0, 0, 0.002}, // as NARROW
+        {"mirror_sphere", 1, 0, 1, 0, 0, 0.002}, // same result as for NARROW
         {"mirror_sphere", 0, 0, 0.4F, 0.4F, 0, 0.001}, {"mirror_sphere", 0, 1, 1, 0.6F, 0, 0.001},
         {"mirror_sphere", 1, 0, 1, 0.4F, 1, 0.001},    {"lights", 0.4F, -1, 0.7F, 0.3F, 0, 0.001},
         {"gallery", 0, -1, 1, 0.5F, 0, 0.001},         {"textures", 1, 0, 1, 0.7F, 0, 0.001},
@@ -369,8 +369,8 @@ static void make_translucent(const void *kind, glint_material *m)
                     2);
 }
 
-// KHR_materials_diffuse_transmission: paint that the environment and lights light from behind, also
-// smooth, rough and below a coat.
+// KHR_materials_diffuse_transmission: the environment and lights light paint from behind. The paint
+// is matte, smooth, rough or below a coat.
 static void paint_is_lit_from_behind_as_the_oracle_says(void **state)
 {
     (void)state;

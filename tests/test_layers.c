@@ -1,5 +1,5 @@
-// Layers: what they are called, whose numbers they show, and what they leave alone. What their
-// values are is judged in test_aov.c.
+// Tests layers: their names, the owners of their numbers, and the independence of other results.
+// test_aov.c tests their values.
 #include "render/owners.h"
 #include "render/settings_table.h"
 #include "report/frame/manifest.h"
@@ -18,7 +18,7 @@
 
 // ---- Names -------------------------------------------------------------------------------------
 
-// The old name is a layer of its own, with its old channel, which nobody gets unasked.
+// The old name is a separate layer with its old channel. Only an explicit request gives it.
 static void depth_is_an_old_name_of_surfaces(void **state)
 {
     (void)state;
@@ -62,7 +62,7 @@ static void triangles_find_their_owners(void **state)
     const glint_scene scene = {
         .materials = materials, .material_count = 2, .instances = instances, .instance_count = 3};
     glint_owners owners = {0};
-    assert_int_equal(glint_owner_of(&owners, 0).node, -1); // of nothing
+    assert_int_equal(glint_owner_of(&owners, 0).node, -1); // no triangle
     assert_int_equal(glint_owners_set(&owners, &scene, NULL), GLINT_OK);
     static const struct {
         int triangle, node, material;
@@ -74,7 +74,7 @@ static void triangles_find_their_owners(void **state)
     glint_owners_free(&owners);
 }
 
-// Numbers are the file's, names may be missing, double, or no UTF-8.
+// Manifests use the file's numbers. Names may be missing, duplicate, or invalid UTF-8.
 static void manifests_name_what_is_there(void **state)
 {
     (void)state;
@@ -98,9 +98,9 @@ static void manifests_name_what_is_there(void **state)
     free(text);
 }
 
-// ---- What they leave alone ---------------------------------------------------------------------
+// ---- Unchanged results -------------------------------------------------------------------------
 
-// Where a depth is proved, layers that need no longer paths leave the short way, too.
+// Where a depth is proved, layers without longer paths use the short way, too.
 static void layers_of_surfaces_keep_the_bits_of_what_is_proved(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Cube and lat-long maps in memory: which way they face, seams, poles, and what resampling keeps.
-// The oracle is colour that encodes direction (support/direction_maps.h).
+// Tests cube and lat-long maps in memory: direction, seams, poles, and resampling. The oracle is
+// colour that encodes direction (support/direction_maps.h).
 #include "environment/environment.h"
 #include "environment/latlong.h"
 #include "support/direction_maps.h"
@@ -60,7 +60,7 @@ static void look_up_at_texel_centres_is_exact(void **state)
         glint_vec3 d = glint_cube_direction(face, s, t);
         glint_cube_sample(&cube, (glint_vec3){7.0 * d.x, 7.0 * d.y, 7.0 * d.z}, rgb);
         for (int c = 0; c < 3; c++) {
-            // The place is computed to some units in the last place of a double.
+            // The place is right to some units in the last place of a double.
             assert_true(fabs(rgb[c] - (double)glint_cube_texel(&cube, face, i, j)[c]) < 1e-13);
         }
     }
@@ -78,8 +78,8 @@ static void fill_with_noise(glint_cube *cube)
     glint_cube_fill_border(cube);
 }
 
-// On an edge both faces interpolate through one value, whatever the texels: half of a face's
-// outermost texel and its border, seen from either side. At a corner it is the mean of the three
+// On an edge, both faces must interpolate to the same value, whatever the texels: half of a face's
+// outermost texel and half of its border, from either side. At a corner it is the mean of the three
 // texels there.
 static void both_faces_of_an_edge_go_through_the_same_values(void **state)
 {
@@ -111,7 +111,7 @@ static void both_faces_of_an_edge_go_through_the_same_values(void **state)
     }
 }
 
-// Borders may be negative beside bright texels; what is looked up is not.
+// Borders may be negative beside bright texels, but look-ups must not be.
 static void no_look_up_leaves_the_range_of_the_texels(void **state)
 {
     (void)state;
@@ -133,8 +133,8 @@ static void no_look_up_leaves_the_range_of_the_texels(void **state)
     glint_cube_free(&cube);
 }
 
-// Noise is the hardest for a seam: a step of 10⁻⁹ across an edge or a corner changes the value by
-// no more than 10⁻⁹ times the steepest slope, N/2 a texel of contrast 2, and float rounding at
+// Noise is the hardest test of a seam. A step of 10⁻⁹ across an edge or a corner may change the
+// value by 10⁻⁹ times the steepest slope (N/2 a texel of contrast 2), plus float rounding at
 // corners.
 static void look_up_is_continuous_across_edges_and_corners(void **state)
 {
@@ -172,7 +172,7 @@ static void colour_linear_in_direction_is_kept(void **state)
         glint_cube cube = direction_cube(edge);
         double worst = worst_error(&cube);
         assert_true(worst <= seam_bound(edge) + 1e-7);
-        // Off the edges it is interpolation alone.
+        // Off the edges only interpolation matters.
         double inner = 0.0;
         for (int k = 0; k < 20000; k++) {
             double s = next_random() * (1.0 - 1.0 / edge), t = next_random() * (1.0 - 1.0 / edge);
@@ -191,7 +191,7 @@ static void ties_and_odd_directions_have_an_answer(void **state)
     for (int k = 0; k < 9 * 9 * 9; k++) {
         glint_vec3 d = {odd[k % 9], odd[k / 9 % 9], odd[k / 81]};
         double rgb[3];
-        glint_cube_sample(&cube, d, rgb); // under the sanitizers: reads nothing outside
+        glint_cube_sample(&cube, d, rgb); // the sanitizers check for reads outside
     }
     glint_cube_free(&cube);
     assert_int_equal(glint_cube_create(0, &cube, NULL), GLINT_BAD_INPUT);
@@ -227,7 +227,7 @@ static void latlong_look_up_wraps_and_crosses_the_poles(void **state)
             }
         }
         assert_true(worst <= latlong_bound(height, on_edges));
-        // Both sides of the seam, and all longitudes at a pole.
+        // Both sides of the seam must agree, and all longitudes at a pole.
         double left[3], right[3], pole[3], turned[3];
         glint_latlong_sample(&image, on_edges, (glint_vec3){1e-300, 0.3, -1.0}, left);
         glint_latlong_sample(&image, on_edges, (glint_vec3){-1e-300, 0.3, -1.0}, right);
@@ -253,7 +253,7 @@ static void latlong_becomes_a_cube_that_agrees_with_it(void **state)
         int edge = glint_latlong_edge(height);
         assert_true(edge >= 256 && edge >= height);
         assert_int_equal(glint_cube_from_latlong(&image, on_edges, edge, &cube, NULL), GLINT_OK);
-        // The mean of taps over a texel differs from the middle by another interpolation's error.
+        // The mean over a texel differs from its middle by another interpolation error.
         double bound =
             latlong_bound(height, on_edges) + seam_bound(edge) + 0.65 / ((double)edge * edge);
         assert_true(worst_error(&cube) <= bound);
@@ -271,7 +271,8 @@ static void latlong_edge_is_kept_between_its_limits(void **state)
     assert_int_equal(glint_latlong_edge(20000), 2048);
 }
 
-// A fine pattern in a small cube: each texel must be near the mean of what it covers, not a sample.
+// A fine pattern in a small cube: each texel must be near the mean of its area, not a single
+// sample.
 static void texels_that_cover_many_pixels_are_means(void **state)
 {
     (void)state;

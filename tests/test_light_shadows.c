@@ -1,5 +1,5 @@
-// Shadows of punctual lights: what glass, alpha and solids let pass, in closed form, and places
-// where rounding would tell.
+// Tests the shadows of punctual lights: transmission through glass, alpha and solids, in closed
+// form, and cases where rounding matters.
 #include "support/lit_floor.h"
 
 #include <math.h>
@@ -11,17 +11,17 @@
 
 #include <cmocka.h>
 
-// ---- What is on the way -------------------------------------------------------------------------
+// ---- Obstacles ----------------------------------------------------------------------------------
 
 typedef struct curtain {
     glint_material material;
-    double thickness; // 0: a sheet
-    double left[3];   // but for what is reflected and absorbed
-    bool reflects;    // by Fresnel's term, at each interface
-    double beside;    // what is not there lets pass
+    double thickness; // 0: a thin sheet
+    double left[3];   // transmission without reflection and absorption
+    bool reflects;    // with Fresnel's term at each interface
+    double beside;    // transmission of the transparent part
 } curtain;
 
-// 1 − F for light from empty space onto n = 1.5.
+// Transmittance 1 − F, for light from empty space onto n = 1.5.
 static double passing(double cosine)
 {
     const double t = sqrt(1 - (1 - cosine * cosine) / 2.25);
@@ -54,7 +54,7 @@ static void hang(lit_floor *s, const curtain *c)
     }
 }
 
-// How far a way from p to the light passes inside of a square at height y: below 0 outside.
+// Distance inside a square at height y where the ray from p to the light passes; below 0: outside.
 static double inside_at(const glint_punctual_light *light, const double p[3], double y)
 {
     const double share = (y - p[1]) / (light->position.y - p[1]);
@@ -63,7 +63,8 @@ static double inside_at(const glint_punctual_light *light, const double p[3], do
     return CURTAIN_HALF - fmax(fabs(x), fabs(z));
 }
 
-// Judges the pixels whose way meets top and bottom, or neither and no side. Counts the first.
+// Checks pixels whose ray meets both top and bottom, or neither of them and no side. Counts the
+// former.
 static int expect_shadows(const lit_floor *s, const glint_settings *settings,
                           const test_frame *frame, const curtain *c)
 {
@@ -72,7 +73,7 @@ static int expect_shadows(const lit_floor *s, const glint_settings *settings,
         double p[3];
         lit_floor_point(s, settings, i, &flat_floor, p);
         if (fmax(fabs(p[0]), fabs(p[2])) < CURTAIN_HALF + 0.01) {
-            continue; // the curtain is seen
+            continue; // the pixel shows the curtain
         }
         const glint_punctual_light *light = &s->lights[0];
         double least = INFINITY, most = -INFINITY;
@@ -117,7 +118,7 @@ static const curtain curtains[] = {
     {.material = CURTAIN(TINT, .transmission = 1, .alpha = 1),
      .left = {0.5, 0.75, 1},
      .reflects = true},
-    // Glass has a share of what metal leaves.
+    // Glass has the share that metal leaves.
     {.material = CURTAIN(TINT, .transmission = 0.5f, .metallic = 0.5f, .alpha = 1),
      .left = {0.125, 0.1875, 0.25},
      .reflects = true},
@@ -163,7 +164,7 @@ static void what_is_on_the_way_takes_its_share(void **state)
 
 // ---- Where rounding would tell ------------------------------------------------------------------
 
-// A lamp that lies on a ceiling lights the floor, and nothing of the ceiling.
+// A lamp on a ceiling lights the floor, but not the ceiling.
 static void check_lamp_on_a_ceiling(const glint_settings *settings)
 {
     const sheet ceiling = {.half = 0.8, .y = 0.7, .parts = 5, .faces_down = true};
@@ -188,7 +189,7 @@ static void a_lamp_on_a_ceiling_lights_the_floor_alone(void **state)
     lit_floor_in_both(check_lamp_on_a_ceiling);
 }
 
-// Close above a slanted plane of many triangles rays to a lamp graze lit_fully of them.
+// Close above a slanted plane of many triangles, rays to a lamp graze all triangles.
 static void check_grazing(const glint_settings *settings)
 {
     const sheet slanted = {.half = 0.9, .y = LIT_FLOOR_Y, .slope = 0.1, .parts = 16};
@@ -200,7 +201,7 @@ static void check_grazing(const glint_settings *settings)
         lit_floor_add_light(&s, &floor_lamp);
         s.lights[0].position = (glint_vec3){0, LIT_FLOOR_Y + heights[i], 0.03125};
         lit_floor_render(&s, settings, &frame);
-        // Vertices are floats, in whose rounding the plane is not flat_floor.
+        // Vertices are rounded to floats, so the plane deviates from flat_floor.
         const double bumps = 0x1p-22 / lit_floor_rounding(settings);
         lit_floor_expect_everywhere(&(lit_frame){&s, settings, &frame, &slanted}, lit_fully,
                                     LIT_FLOOR_SLACK + 64 * bumps / heights[i]);

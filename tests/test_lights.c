@@ -1,5 +1,5 @@
-// Punctual lights against closed forms: what they send to a floor, within their cones and range,
-// and where they are left out.
+// Tests punctual lights against closed forms: the light on a floor, cones and range, and cases
+// without lights.
 #include "support/lit_floor.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-// ---- What lights send ---------------------------------------------------------------------------
+// ---- Light on the floor -------------------------------------------------------------------------
 
 static void check_points(const glint_settings *settings)
 {
@@ -56,7 +56,7 @@ static void check_spots(const glint_settings *settings)
                                                         .inner_angle = cones[i][0],
                                                         .outer_angle = cones[i][1]});
         lit_floor_render(&s, settings, &frame);
-        // The cone multiplies an error of the angle's cosine by up to 1000, and squares.
+        // The cone multiplies the error of the cosine by up to 1000; the square counts, too.
         const double scale = 1 / fmax(0.001, cos(cones[i][0]) - cos(cones[i][1]));
         lit_floor_expect_everywhere(&(lit_frame){&s, settings, &frame, &flat_floor}, lit_fully,
                                     LIT_FLOOR_SLACK + 16 * scale);
@@ -95,7 +95,7 @@ static void suns_shine_everywhere_alike(void **state)
     lit_floor_in_both(check_suns);
 }
 
-// Rule 1: a surface is lit on the side that is seen.
+// Rule 1: light counts only on the visible side.
 static void check_sides(const glint_settings *settings)
 {
     for (int from_below = 0; from_below < 2; from_below++) {
@@ -123,7 +123,7 @@ static void a_surface_is_lit_on_the_side_that_is_seen(void **state)
     lit_floor_in_both(check_sides);
 }
 
-// A scene of another size, with lights brighter by the square, gives the same bits.
+// A scene of another size, with lights scaled by the square, gives the same bits.
 static void sizes_change_nothing(void **state)
 {
     (void)state;

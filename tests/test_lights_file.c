@@ -1,4 +1,4 @@
-// Punctual lights in files: what is read, where nodes put them, how they move, and what is refused.
+// Tests punctual lights in files: parsing, places by nodes, animation, and refusals.
 #include "scene/scene.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
@@ -64,7 +64,7 @@ static void lights_are_read_with_their_defaults(void **state)
     glint_scene_free(&scene);
 }
 
-// A parent turns, scales and mirrors; instances of a node's mesh do not multiply its light.
+// A parent rotates, scales and mirrors. Instances of a node's mesh do not multiply its light.
 static void nodes_place_lights_and_scale_none(void **state)
 {
     glint_scene scene =
@@ -80,7 +80,7 @@ static void nodes_place_lights_and_scale_none(void **state)
                                              "\"EXT_mesh_gpu_instancing\":{\"attributes\":{"
                                              "\"TRANSLATION\":0}}}}]");
     assert_true(scene.instance_count == 4 && scene.light_count == 1);
-    // The quarter turn takes +z to +x and +x to −z; the scale makes (1, 1, 1) to (2, 3, −4).
+    // The quarter turn maps +z to +x and +x to −z. The scale maps (1, 1, 1) to (2, 3, −4).
     assert_vector(scene.lights[0].position, -4, 10, -2);
     assert_vector(scene.lights[0].direction, 1, 0, 0);
     assert_true(scene.lights[0].color[0] == 5 && scene.lights[0].range == 2);
@@ -100,7 +100,7 @@ static void lights_that_shine_nowhere_are_left_out(void **state)
     glint_scene scene;
     glint_warnings warnings = {0};
     assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
-    assert_int_equal(scene.light_count, 1); // a point shines all around
+    assert_int_equal(scene.light_count, 1); // a point light shines all around
     assert_int_equal(scene.lights[0].kind, GLINT_PUNCTUAL_POINT);
     assert_true(any_warning_has(&warnings, "nodes[1]: the light shines nowhere"));
     assert_true(any_warning_has(&warnings, "nodes[1] and 1 more: lights have no size"));
@@ -151,14 +151,14 @@ static void lights_move_with_their_nodes(void **state)
         assert_int_equal(glint_scene_at(source, at[i][0], &scene, NULL, NULL), GLINT_OK);
         assert_int_equal(scene.light_count, 1);
         assert_vector(scene.lights[0].position, at[i][1], 1, 0);
-        assert_false(scene.moves); // triangles stand
+        assert_false(scene.moves); // the triangles do not move
         glint_scene_free(&scene);
     }
     glint_scene_close(source);
     free(text);
 }
 
-// ---- What is refused ----------------------------------------------------------------------------
+// ---- Refusals -----------------------------------------------------------------------------------
 
 typedef struct bad_case {
     const char *rest, *said;

@@ -1,4 +1,4 @@
-// What lobes are made of: cells, the table of albedos, and the oracle's own quadrature.
+// Tests the parts of lobes: cells, the table of albedos, and the oracle's own quadrature.
 #include "environment/cells.h"
 #include "environment/lobe_albedo.h"
 #include "kernels/layout.h"
@@ -20,7 +20,7 @@ static vector white(const void *context, vector direction)
     return (vector){{1, 1, 1}};
 }
 
-// What lobes take of a white environment.
+// Albedo of a lobe in a white environment.
 static lobe_integrals white_lobe(double roughness, double cosine, int strata)
 {
     const surface s = {.normal = {{0, 0, 1}},
@@ -30,7 +30,7 @@ static lobe_integrals white_lobe(double roughness, double cosine, int strata)
     return oracle_lobe(&s, strata, white, NULL);
 }
 
-// With α = 1 D is 1/π and V is 0.5/(n·l + n·v), so a + b = ∫ μ/(μ + ν) dμ = 1 − ν ln((1 + ν)/ν).
+// At α = 1, D is 1/π and V is 0.5/(n·l + n·v), so a + b = ∫ μ/(μ + ν) dμ = 1 − ν ln((1 + ν)/ν).
 static void the_oracle_knows_the_roughest_lobe(void **state)
 {
     (void)state;
@@ -42,7 +42,7 @@ static void the_oracle_knows_the_roughest_lobe(void **state)
     }
 }
 
-// Narrow lobes reflect all: nothing is masked, and D's integral is 1.
+// Narrow lobes reflect all light: there is no masking, and the integral of D is 1.
 static void the_oracle_knows_narrow_lobes(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void make_cube(int edge, const float light[3], glint_cube *cube)
 static void cells_hold_all_of_the_light(void **state)
 {
     (void)state;
-    // As large, larger, and that do not divide; smaller, so that a coarser level's cells are
+    // Equal, larger, and not divisible; then smaller, so that the cells of a coarser level are
     // texels.
     static const int edges[] = {32, 128, 24, 45, 7, 16, 8};
     const float light[3] = {1, 0.5F, 0.25F};
@@ -154,7 +154,7 @@ static void cells_hold_all_of_the_light(void **state)
     }
 }
 
-// One bright texel: the cells that it is in, and no others, look at it, on all levels.
+// One bright texel: only the cells that contain it may see its light, on all levels.
 static void cells_look_where_the_light_is(void **state)
 {
     (void)state;
@@ -189,7 +189,7 @@ static void cells_look_where_the_light_is(void **state)
     }
 }
 
-// A cell's parts stand together, and are what it is made of.
+// The parts of a cell are contiguous and add up to the cell.
 static void parts_make_the_whole(void **state)
 {
     (void)state;

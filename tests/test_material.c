@@ -1,4 +1,4 @@
-// Which lobes a material has, by its factors.
+// Tests which lobes a material has, by its factors.
 #include "scene/material.h"
 
 #include <math.h>
@@ -121,7 +121,7 @@ static void materials_have_the_lobes_that_their_factors_ask_for(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const glint_lobes lobes = glint_material_lobes(&cases[i].material);
-        if (memcmp(&lobes, &cases[i].lobes, sizeof lobes) != 0) { // flags alone, no gaps
+        if (memcmp(&lobes, &cases[i].lobes, sizeof lobes) != 0) { // only flags, no padding
             fail_msg("%s", cases[i].name);
         }
     }

@@ -1,4 +1,4 @@
-// Overrides of materials (--material) and variants of materials (--variant).
+// Tests overrides of materials (--material) and variants of materials (--variant).
 #include "scene/material_override.h"
 
 #include "support/gltf_text.h"
@@ -17,7 +17,7 @@ static const glint_option option = {.kind = GLINT_OPTION_CUSTOM, .name = "materi
 
 #define FILE_MATERIAL GLINT_MATERIAL_CLEAR, .mirror = (-1)
 
-// As a file might hold them.
+// Materials as in a file.
 static void file_materials(glint_material materials[4])
 {
     static char body[] = "body", gem[] = "gem", three[] = "3";
@@ -55,7 +55,7 @@ static void assert_color(const float color[3], double r, double g, double b)
     assert_true(color[0] == (float)r && color[1] == (float)g && color[2] == (float)b);
 }
 
-// ---- What is made ------------------------------------------------------------------------------
+// ---- Results of overrides ----------------------------------------------------------------------
 
 static void a_preset_replaces_the_material_whole(void **state)
 {
@@ -68,7 +68,7 @@ static void a_preset_replaces_the_material_whole(void **state)
     assert_color(m[1].base_color, 1, 1, 1);
     assert_string_equal(m[1].name, "gem");
     assert_int_equal(m[1].index, 1);
-    assert_true(m[0].roughness == 1 && m[0].transmission == 0); // the others stay
+    assert_true(m[0].roughness == 1 && m[0].transmission == 0); // the others are unchanged
 }
 
 static void each_preset_is_what_it_is_called(void **state)
@@ -77,7 +77,7 @@ static void each_preset_is_what_it_is_called(void **state)
     static const struct {
         const char *text;
         glint_lobes lobes;
-        float ior, red; // of the material that is (0.5, 0.25, 1)
+        float ior, red; // of the material with the colour (0.5, 0.25, 1)
     } presets[] = {
         {"body=mirror", {.metal = true}, 1.5F, 1},
         {"body=metal", {.metal = true, .tint = true}, 1.5F, 0.5F},
@@ -99,7 +99,7 @@ static void each_preset_is_what_it_is_called(void **state)
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i > 0 ? ", " : "",
                  presets[i].text + strlen("body="));
     }
-    assert_string_equal(all, GLINT_MATERIAL_PRESETS); // what the help says
+    assert_string_equal(all, GLINT_MATERIAL_PRESETS); // the list in the help text
 }
 
 static void values_alone_change_what_the_file_says(void **state)
@@ -160,13 +160,13 @@ static void an_index_is_a_name_where_no_name_is_it(void **state)
 {
     (void)state;
     glint_material m[4];
-    OVERRIDE(m, "3=glass"); // the material of that name, which has the index 2
+    OVERRIDE(m, "3=glass"); // the material "3", which has index 2
     assert_true(m[2].transmission == 1 && m[3].transmission == 0);
     OVERRIDE(m, "1=glass");
     assert_true(m[1].transmission == 1 && m[0].transmission == 0);
 }
 
-// ---- What is refused ---------------------------------------------------------------------------
+// ---- Refusals ----------------------------------------------------------------------------------
 
 static void what_makes_no_sense_is_refused(void **state)
 {
@@ -222,7 +222,7 @@ static void what_changes_nothing_is_refused(void **state)
         const char *text, *said;
     } bad[] = {
         {"gem=ior=2.42", "ior changes nothing there (glass and glossy paint have it)"},
-        {"body=ior=2", "ior changes nothing there"}, // it is rough
+        {"body=ior=2", "ior changes nothing there"}, // the surface is rough
         {"gem=mirror,transmission=1", "transmission changes nothing there (glass and paint"},
         {"gem=paint,thickness=1", "thickness changes nothing there (glass has it)"},
         {"gem=thin-glass,attenuation-color=1,0,0",
@@ -249,7 +249,7 @@ static void what_changes_nothing_is_refused(void **state)
         }
     }
     glint_material m[4];
-    OVERRIDE(m, "*=ior=2", "body=roughness=0"); // something heeds it once both are applied
+    OVERRIDE(m, "*=ior=2", "body=roughness=0"); // both overrides together have an effect
 }
 
 static void there_is_room_for_so_many(void **state)
@@ -268,8 +268,8 @@ static void there_is_room_for_so_many(void **state)
 
 // ---- Files -------------------------------------------------------------------------------------
 
-// Two tetrahedra of the materials red and green, which are variants of each other, and a third one
-// without a material.
+// Two tetrahedra with the materials red and green, which swap in variants, and a third without a
+// material.
 #define MAPPING(material, variant) "{\"material\":" material ",\"variants\":[" variant "]}"
 #define MAPPINGS(text) "\"extensions\":{\"KHR_materials_variants\":{\"mappings\":[" text "]}}"
 #define VARIANTS(text) ",\"extensions\":{\"KHR_materials_variants\":{\"variants\":[" text "]}}"
@@ -379,8 +379,8 @@ static void an_unknown_variant_is_refused_with_those_there_are(void **state)
     assert_non_null(strstr(error.message, "\"0\" (the file has none)"));
 }
 
-// Names are looked for among all materials of the file: at another time, or in another variant,
-// triangles may use others.
+// Names may refer to all materials of the file. Triangles may use other materials at another time,
+// or in another variant.
 static void overrides_know_materials_that_nothing_uses(void **state)
 {
     glint_material_overrides overrides = {0};
@@ -400,13 +400,13 @@ static void overrides_know_materials_that_nothing_uses(void **state)
     assert_color(green->base_color, 1, 1, 1);
     assert_true(plain->ior == 2.417F);
     assert_true(any_warning_has(&warnings, "--material unused=glass: no triangle has this"));
-    // Nothing is said any more of what was replaced.
+    // No warning may mention the replaced material.
     assert_false(any_warning_has(&warnings, "the default material"));
     glint_warnings_free(&warnings);
     glint_scene_free(&scene);
 }
 
-// However long the command line's list lives.
+// The source keeps its own copy of the command line's list.
 static void every_scene_of_a_source_is_overridden(void **state)
 {
     glint_material_overrides overrides = {0};

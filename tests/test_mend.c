@@ -1,5 +1,5 @@
-// Mended frames: beside jumps their pixels are those of double precision, elsewhere those of
-// single, bit by bit.
+// Tests mended frames: beside jumps pixels must equal double precision, elsewhere single precision,
+// bit for bit.
 #include "render/layers.h"
 #include "support/render.h"
 
@@ -23,7 +23,7 @@ static double mean_of(const glint_image *image)
     return sum * 4 / 3 / (double)count;
 }
 
-// How far two pixels are apart, root mean square over R, G and B; 0 for one outside the image.
+// The difference of two pixels, root mean square over R, G and B; 0 for a pixel outside the image.
 static double jump(const glint_image *image, int x, int y, int to_x, int to_y)
 {
     if (to_x < 0 || to_y < 0 || to_x >= image->width || to_y >= image->height) {
@@ -97,7 +97,7 @@ static void check_scene(const char *name, int width, int height, int samples_per
     check_mended(&images[1], &images[0], &images[2], mend, reports[1].mended_pixels);
     assert_int_equal(test_count_different(&images[1], &images[3]), 0);
     assert_int_equal(test_count_different(&images[0], &images[4]), 0);
-    // What was rendered again was counted, and no more of it than fills rows of the list.
+    // The report counts the rays of mended pixels, rounded up to full rows of the list.
     const uint64_t k = (uint64_t)samples_per_axis * (uint64_t)samples_per_axis;
     const uint64_t again = (reports[1].rays.primary - reports[0].rays.primary) / k;
     assert_in_range(again, reports[1].mended_pixels, reports[1].mended_pixels + 63);
@@ -118,7 +118,8 @@ static void pixels_beside_jumps_are_those_of_double_precision(void **state)
     check_scene("orthographic", 131, 97, 1, 1);
 }
 
-// Made to be mended, and again after other settings; a mend beyond all jumps is none.
+// A renderer may be created with mending, and again change its settings. A threshold beyond all
+// jumps mends nothing.
 static void renderers_may_be_made_with_it(void **state)
 {
     (void)state;
@@ -200,7 +201,7 @@ static void it_can_be_stopped(void **state)
         GLINT_INTERRUPTED);
     assert_int_equal(ends, 2);
     assert_null(image.pixels);
-    // And goes on as if nothing had been.
+    // The renderer continues as if nothing had happened.
     assert_int_equal(glint_renderer_frame(
                          &(glint_frame_request){s.renderer, &s.camera, NULL, &image, NULL}, NULL),
                      GLINT_OK);

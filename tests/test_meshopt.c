@@ -1,4 +1,4 @@
-// Views packed by meshoptimizer: what comes out is what went in, and what is damaged is named.
+// Tests views packed by meshoptimizer: unpacking keeps the data, and errors name the damaged part.
 #include "scene/scene.h"
 
 #include "support/gltf_text.h"
@@ -46,19 +46,19 @@ static sheet make_sheet(void)
 
 // ---- Files --------------------------------------------------------------------------------------
 
-// Bytes that become a buffer, and the views that unpack them.
+// A buffer of packed bytes, and the views that unpack it.
 typedef struct pack {
     unsigned char bytes[1 << 16];
     size_t length;   // a multiple of 4
-    size_t unpacked; // bytes of the buffer that is not there
+    size_t unpacked; // bytes of the placeholder buffer
     char views[4096];
     const char *extension;
 } pack;
 
 typedef struct view {
-    const char *mode, *filter; // filter NULL: none is named
+    const char *mode, *filter; // filter NULL: no filter is named
     size_t count, stride;
-    bool has_stride; // the view itself says so: vertices
+    bool has_stride; // the view declares a stride: vertices
 } view;
 
 static void add_view(pack *to, const view *added, size_t length)
@@ -141,7 +141,7 @@ static glint_scene load_good(const char *folder, const pack *from, const char *r
     return scene;
 }
 
-// The sheet as it is, not packed.
+// Loads the sheet without packing.
 static glint_scene load_plain(const char *folder, const sheet *made)
 {
     return load_rest(folder, made, sizeof *made,
@@ -152,7 +152,7 @@ static glint_scene load_plain(const char *folder, const sheet *made)
 
 // ---- Lossless -----------------------------------------------------------------------------------
 
-// The packer of triangles may begin each with another corner. The winding stays.
+// The packer may rotate the corners of a triangle. The winding stays.
 static bool is_same_triangle(const float *a, const float *b)
 {
     for (int turn = 0; turn < 3; turn++) {
@@ -194,7 +194,7 @@ static void plain_packing_keeps_every_bit(void **state)
     glint_scene_free(&plain);
 }
 
-// Two views of the same packed bytes, and a placeholder that does not say that it is one.
+// Two views of the same packed bytes, and a placeholder without the flag for one.
 static void packed_bytes_can_be_shared(void **state)
 {
     const sheet made = make_sheet();
@@ -228,7 +228,7 @@ static double distance(const float *a, const float *b)
     return sqrt(x * x + y * y + z * z);
 }
 
-// How far vertex i of one scene stands from vertex i of another.
+// Distance of vertex i between two scenes.
 static double apart(const glint_scene *a, const glint_scene *b, size_t i)
 {
     const float *p = a->positions + 3 * i, *q = b->positions + 3 * i;
@@ -259,11 +259,12 @@ static void filters_err_by_their_quantum(void **state)
     pack_vertices(&packed, octahedral, VERTICES, 4, "OCTAHEDRAL");
     pack_indices(&packed, &made, false, 4);
     glint_scene scene = load_good(*state, &packed, SHEET(BYTE_NORMALS, 5125));
-    // The largest component of a vertex has BITS − 1 digits at least one of which counts, so the
-    // quantum is 2^(2 − BITS) of it at most. Each of three components errs by half of that.
+    // The largest component of a vertex has BITS − 1 digits, at least one of them significant. So
+    // the quantum is at most 2^(2 − BITS) of the component. Each of three components errs by half
+    // of this.
     const double bound = sqrt(3) * largest * pow(2, 1 - BITS);
-    // Half a step of 1/127 moves a point of the octahedron by √6/254. The octahedron comes as near
-    // to its centre as 1/√3. Bytes round each component of the direction by 1/254.
+    // Half a step of 1/127 moves a point of the octahedron by √6/254. The least distance of the
+    // octahedron to its centre is 1/√3. Bytes round each component of the direction by 1/254.
     const double turned = (sqrt(18) + sqrt(3)) / 254;
     double largest_error = 0;
     for (size_t i = 0; i < 3 * plain.triangle_count; i++) {
@@ -275,7 +276,7 @@ static void filters_err_by_their_quantum(void **state)
     glint_scene_free(&plain);
 }
 
-// Instances turned by packed quaternions stand as those turned by plain ones.
+// Instances rotated by packed quaternions must match instances rotated by plain quaternions.
 static void quaternions_are_unpacked(void **state)
 {
     const float turns[4][4] = {{0.5f, 0.5f, 0.5f, 0.5f},
@@ -299,7 +300,7 @@ static void quaternions_are_unpacked(void **state)
     assert_int_equal(scene.triangle_count, 4);
     for (size_t i = 0; i < 4; i++) {
         const double x = turns[i][0], y = turns[i][1], z = turns[i][2], w = turns[i][3];
-        // Where the vertex (1, 0, 0) comes to.
+        // The new place of the vertex (1, 0, 0).
         const double expected[3] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w),
                                     2 * (x * z - y * w)};
         const float *p = scene.positions + 9 * i + 3;
@@ -307,7 +308,7 @@ static void quaternions_are_unpacked(void **state)
                               p[1] * scene.unit + scene.origin.y,
                               p[2] * scene.unit + scene.origin.z};
         for (int c = 0; c < 3; c++) {
-            // 15 bits of a component, and 15 of what is unpacked: a rotation errs by 2·10⁻⁴.
+            // A component has 15 bits, packed and unpacked: a rotation errs by 2·10⁻⁴.
             assert_true(fabs(at[c] - expected[c]) <= 2e-4);
         }
     }
@@ -328,7 +329,7 @@ static void a_lie_is_refused(const char *folder, const char *text, const char *s
     }
 }
 
-// In the good text `from` becomes `to`.
+// Replaces `from` by `to` in the good text.
 static const struct {
     const char *from, *to, *said;
 } lies[] = {
@@ -393,7 +394,7 @@ static void every_lie_is_named(void **state)
     free(text);
 }
 
-// A file that two buffers name is read once, for both.
+// A file that two buffers name is read once.
 static void packed_views_may_name_any_buffer_of_a_file(void **state)
 {
     const sheet made = make_sheet();
@@ -420,7 +421,7 @@ static void packed_views_may_name_any_buffer_of_a_file(void **state)
     free(text);
 }
 
-// More elements than the packed bytes can hold are refused before there is memory for them.
+// glint must refuse more elements than the packed bytes can hold, before it allocates memory.
 static void small_files_cannot_unpack_the_world(void **state)
 {
     static const unsigned zeros[4096];
@@ -433,7 +434,7 @@ static void small_files_cannot_unpack_the_world(void **state)
     a_lie_is_refused(*state, text,
                      "17592186044416 elements of 4 bytes cannot stand in 100 packed bytes");
     free(text);
-    // Each of these could be, but not all of the same bytes.
+    // Each of the views alone is possible, but not all of them from the same bytes.
     packed = (pack){.extension = "EXT_meshopt_compression"};
     const size_t length =
         meshopt_encodeVertexBuffer(packed.bytes, sizeof packed.bytes, zeros, sizeof zeros / 4, 4);

@@ -1,4 +1,4 @@
-// Properties of the error figures of pictures.
+// Tests the error figures of pictures.
 #include "image/metrics.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 enum { WIDTH = 20, HEIGHT = 10, PIXELS = WIDTH * HEIGHT };
 
-// Every pixel (1, 2, 3) and whole alpha: the mean is 2.
+// Every pixel is (1, 2, 3) with alpha 1: the mean is 2.
 static glint_image make_image(void)
 {
     glint_image image = {0};
@@ -49,7 +49,7 @@ static void one_pixel_off_gives_the_known_figures(void **state)
     (void)state;
     glint_image reference = make_image(), image = make_image();
     glint_image_pixel(&image, 3, 4)[1] += 0.5F;
-    glint_image_pixel(&image, 5, 4)[3] = 0.25F; // a figure of its own
+    glint_image_pixel(&image, 5, 4)[3] = 0.25F; // alpha has its own figure
     glint_metrics m = find(&image, &reference, NULL);
     assert_true(fabs(m.rmse - sqrt(0.25 / (3 * PIXELS))) < 1e-15);
     assert_true(fabs(m.relative_rmse - m.rmse / 2) < 1e-15);
@@ -63,7 +63,7 @@ static void one_pixel_off_gives_the_known_figures(void **state)
     glint_image_free(&image);
 }
 
-// Sums of a power of two have no rounding.
+// Sums of powers of two have no rounding.
 static void a_constant_offset_is_every_figure(void **state)
 {
     (void)state;
@@ -145,7 +145,7 @@ static void a_pixel_that_is_not_finite_on_both_sides_counts_once(void **state)
     glint_image_pixel(&image, 7, 1)[0] = NAN;
     glint_image_pixel(&image, 7, 1)[1] = -INFINITY;
     glint_image_pixel(&reference, 7, 1)[0] = NAN;
-    glint_image_pixel(&image, 8, 1)[3] = NAN; // an alpha hides nothing of the colour
+    glint_image_pixel(&image, 8, 1)[3] = NAN; // alpha does not hide the colour
     glint_metrics m = find(&image, &reference, NULL);
     assert_true(m.nonfinite == 1 && m.compared == PIXELS - 1);
     assert_true(m.in_either.nan == 2 && m.in_either.infinite == 1);
@@ -172,7 +172,7 @@ static void equal_values_have_no_error_whatever_their_sign_of_zero(void **state)
     glint_metrics m = find(&image, &reference, NULL);
     assert_true(m.rmse == 0 && m.relative_rmse == 0 && m.differing == 0);
     assert_true(isinf(m.psnr) && m.psnr > 0);
-    image.pixels[0] = 0x1p-149F; // the smallest float is a difference all the same
+    image.pixels[0] = 0x1p-149F; // even the smallest float is a difference
     m = find(&image, &reference, NULL);
     assert_true(m.largest == 0x1p-149 && m.rmse > 0 && isinf(m.relative_rmse));
     glint_image_free(&reference);

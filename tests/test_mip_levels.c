@@ -1,4 +1,4 @@
-// Properties of an environment's coarser levels.
+// Tests the coarser levels of an environment.
 #include "base/half.h"
 #include "environment/mip_levels.h"
 #include "support/direction_maps.h"
@@ -21,7 +21,7 @@ static void every_level_has_half_of_the_edge(void **state)
     assert_int_equal(glint_mip_levels_size(5), 6 * 4 * (7 * 7 + 4 * 4 + 3 * 3));
 }
 
-// All levels of a map, one after the other; the caller frees them.
+// Makes all levels of a map, one after the other. The caller frees them.
 static float *levels_of(const glint_cube *cube)
 {
     float *levels = calloc(glint_mip_levels_size(cube->edge), sizeof *levels);
@@ -31,7 +31,7 @@ static float *levels_of(const glint_cube *cube)
     return levels;
 }
 
-// The border of a uniform map is its value to a rounding or two, level by level.
+// The border of a uniform map equals its value to a rounding or two, at every level.
 static void a_uniform_map_is_uniform_at_every_level(void **state)
 {
     (void)state;
@@ -50,8 +50,8 @@ static void a_uniform_map_is_uniform_at_every_level(void **state)
     }
 }
 
-// A texel's solid angle, by the plain sum of (1 + s² + t²)^(−3/2) over 32² parts of it: off by less
-// than 10⁻³ of itself.
+// The solid angle of a texel by the plain sum of (1 + s² + t²)^(−3/2) over 32² parts: within 10⁻³
+// of the exact value.
 static double texel_angle(int edge, int i, int j)
 {
     const int parts = 32;
@@ -78,9 +78,9 @@ static double light_of(const glint_cube *cube)
     return sum;
 }
 
-// One bright texel anywhere. A texel of a level with an odd edge is divided between two of the
-// next, as if all of it were seen under the same angle: the parts of one of 1/n of the edge differ
-// by about 3/n of their mean, and by half of that from it.
+// One bright texel anywhere. A level with an odd edge divides a texel between two texels of the
+// next level, as if all of it had the same solid angle per area. The parts of a texel of 1/n of the
+// edge differ by about 3/n of their mean, so each differs from the mean by half of this.
 static void every_level_sends_the_same_light(void **state)
 {
     (void)state;
@@ -106,9 +106,9 @@ static void every_level_sends_the_same_light(void **state)
     }
 }
 
-// A map of directions stays one: a level's colour along d is d's, as it is of a map of its edge.
-// The mean over a texel is off its centre by no more than the interpolation is. With an odd edge
-// between them texels shift by what the parts of one differ, 1.5/n of its width of 2/n.
+// The levels of a map of directions are maps of directions: the colour along d is that of d, as in
+// a map of this edge. The mean over a texel errs by no more than interpolation does. At an odd edge
+// texels shift by the difference of their parts, 1.5/n of their width of 2/n.
 static void levels_lie_in_place(void **state)
 {
     (void)state;
@@ -161,8 +161,8 @@ static void halfs_are_the_rounded_levels(void **state)
     glint_cube_free(&cube);
 }
 
-// A light on the texels around one corner of the cube, nearly as bright as half holds: the border
-// of the level where it is one texel a face comes to twice as much.
+// A light on the texels around one corner of the cube, nearly as bright as half holds. At the level
+// of one texel a face, the border is twice as bright, so it is clamped.
 static void borders_that_half_cannot_hold_are_cut(void **state)
 {
     (void)state;

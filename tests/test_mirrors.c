@@ -1,5 +1,5 @@
-// Mirrors that see the environment alone take a shorter way through the kernel (mirrors.cl):
-// against the oracle, against the kernel that has everything, and at every width and size of tiles.
+// Tests the short way of mirrors (mirrors.cl), for mirrors that see only the environment: against
+// the oracle, against the kernel with all features, and at every width and size of tiles.
 #include "base/random.h"
 #include "support/bridge.h"
 #include "support/render.h"
@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#define EDGE 256 // of the environment's cube
+#define EDGE 256 // edge of the environment's cube
 
 static void keep(glint_scene *scene)
 {
@@ -28,7 +28,7 @@ static void drop_normals(glint_scene *scene)
     scene->normals = NULL;
 }
 
-// Every seventh corner has none, and some triangles have none at all.
+// Removes the normal of every seventh corner, and all normals of some triangles.
 static void drop_some_normals(glint_scene *scene)
 {
     for (size_t i = 0; i < 3 * scene->triangle_count; i++) {
@@ -45,8 +45,8 @@ static void turn_some_normals(glint_scene *scene)
     }
 }
 
-// By 53 degrees at most, so that many rays would go on behind the surface, and no interpolated
-// normal is shorter than 0.6.
+// Bends normals by at most 53 degrees, so that many rays would go behind the surface. No
+// interpolated normal is shorter than 0.6.
 static void roughen(glint_scene *scene)
 {
     glint_random random = {1};
@@ -78,7 +78,7 @@ static void whiten_and_roughen(glint_scene *scene)
     roughen(scene);
 }
 
-// Half of the triangles become white, as an instance of their own.
+// Makes half of the triangles white, as a separate instance.
 static void divide(glint_scene *scene)
 {
     assert_int_equal(scene->material_count, 1);
@@ -113,15 +113,15 @@ static void see_from_afar(glint_scene *scene)
     scene->cameras[0].yfov /= FAR;
 }
 
-// What single precision makes of a direction: a few dozen roundings, and the error of a triangle's
-// weights times the angle by which its normals part. The weights err as the pixel's distance to the
-// image's middle, 45 pixels and four roundings, divided by the triangle's thickness as it is seen,
-// which is a tenth of a pixel at the sphere's rim: 1800 roundings. The sphere's own normals part
-// by less than 0.1.
+// Error of a direction in single precision. It is a few dozen roundings, plus the error of a
+// triangle's weights times the angle between its normals. The weights err by the pixel's distance
+// to the middle of the image (45 pixels and four roundings) over the visible thickness of the
+// triangle. At the rim of the sphere this thickness is a tenth of a pixel: 1800 roundings. The
+// angle between the sphere's own normals is less than 0.1.
 #define ROUNDING 0x1p-24
 #define SMOOTH_ERROR (200 * ROUNDING)
 #define ROUGH_ERROR (2000 * ROUNDING)
-// In double precision what the host passes, sums of two floats, is good to 2⁻⁴⁸.
+// In double precision the host passes sums of two floats, which are right to 2⁻⁴⁸.
 #define DOUBLE_ERROR (300 * 0x1p-48)
 
 typedef struct mirror_case {
@@ -164,7 +164,7 @@ static glint_settings small_frame(void)
     settings.width = 91;
     settings.height = 70;
     settings.depth = 1;
-    settings.texels = GLINT_TEXELS_FLOAT; // the oracle's
+    settings.texels = GLINT_TEXELS_FLOAT; // the oracle's texels
     return settings;
 }
 
@@ -183,8 +183,8 @@ static void free_case(glint_scene *scene, glint_environment *environment)
     glint_scene_free(scene);
 }
 
-// The environment is 0.5 + 0.5 d: a radiance errs by half as much as the direction. No direction
-// ties between two faces of the cube, whose interpolations differ.
+// The environment is 0.5 + 0.5 d, so a radiance errs by half as much as the direction. No direction
+// ties between two faces of the cube, where interpolations differ.
 static void compare_with_oracle(const mirror_case *c, const glint_settings *settings,
                                 double tolerance)
 {
@@ -201,7 +201,7 @@ static void compare_with_oracle(const mirror_case *c, const glint_settings *sett
     double largest = 0;
     int near_edges = 0;
     const bool is_far = c == &cases[AFAR];
-    const double margin = is_far ? 1e-6 / FAR : 1e-6; // of an angle
+    const double margin = is_far ? 1e-6 / FAR : 1e-6; // as an angle
     for (int i = 0; i < pixels; i++) {
         const int pixel[2] = {i % settings->width, i / settings->width};
         double rgba[4];
@@ -236,14 +236,14 @@ static void mirrors_agree_with_the_oracle(void **state)
         settings.precision = GLINT_PRECISION_DOUBLE;
         compare_with_oracle(&cases[i], &settings, DOUBLE_ERROR);
     }
-    // Coloured metal without Fresnel's equations has one weight at every angle.
+    // Coloured metal without Fresnel's equations has the same weight at every angle.
     glint_settings settings = small_frame();
     settings.fresnel = GLINT_FRESNEL_NONE;
     compare_with_oracle(&cases[ROUGH_SILVER], &settings, ROUGH_ERROR);
 }
 
-// With everything compiled the general way is taken. (Each combination of features is a kernel to
-// compile: a few cases must do.)
+// With everything compiled, mirrors take the general way. (Each combination of features compiles a
+// kernel, so the test has few cases.)
 static void mirrors_agree_with_paths(void **state)
 {
     (void)state;
@@ -265,7 +265,7 @@ static void mirrors_agree_with_paths(void **state)
         for (size_t p = 0; p < 4 * (size_t)(settings.width * settings.height); p++) {
             assert_true(fabs(mirrors.exact[p] - paths.exact[p]) <= cases[i].error);
         }
-        // Two ways, not one: they round differently.
+        // The two ways round differently, so some pixels must differ.
         assert_true(test_count_different(&mirrors.image, &paths.image) > 0);
         assert_memory_equal(&mirrors.report.rays, &paths.report.rays, sizeof paths.report.rays);
         assert_int_equal(mirrors.report.deepest, paths.report.deepest);
@@ -279,7 +279,7 @@ static void mirrors_agree_with_paths(void **state)
     }
 }
 
-// Two metals seen through all that the short way has, and facets in double precision.
+// Two metals with all features of the short way, and facets in double precision.
 static void mirrors_are_the_same_at_every_width_and_size_of_tiles(void **state)
 {
     (void)state;
@@ -310,7 +310,7 @@ static void mirrors_are_the_same_at_every_width_and_size_of_tiles(void **state)
     }
 }
 
-// Metal that reflects nothing sends no ray on, and is black whatever is behind it.
+// Black metal sends no ray on, and is black in front of any background.
 static void black_metal_reflects_nothing(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Numbers and words as options take them.
+// Tests the numbers and words of option values.
 #include "base/option.h"
 
 #include <math.h>

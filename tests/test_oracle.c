@@ -1,8 +1,8 @@
-// The oracle's light transport against closed forms: textbook optics, and rules 3 to 8 one by one.
-// Rays, cameras and the tree are judged in test_oracle_rays.c.
+// Tests the oracle's light transport against closed forms: textbook optics, and rules 3 to 8 one by
+// one. test_oracle_rays.c tests rays, cameras and the tree.
 #include "oracle/check.h"
 
-// A path's radiance with at most `depth` surfaces and no branch ended by its weight.
+// Radiance of a path with at most `depth` surfaces. No branch ends by its weight.
 static vector radiance(const oracle_scene *scene, const oracle_ray *ray, int depth)
 {
     oracle_view view = {.depth = depth};
@@ -36,11 +36,12 @@ static void fresnel_meets_its_closed_forms(void **state)
         // r_s = cos²θ − sin²θ.
         double cosine = 1.0 / sqrt(1.0 + n * n), rs = (1.0 - n * n) / (1.0 + n * n);
         assert_close(oracle_fresnel(cosine, 1.0, n), 0.5 * rs * rs, 1e-14);
-        // Beyond the critical angle sin θ = 1/n all is reflected; short of it not all.
+        // Beyond the critical angle sin θ = 1/n all light is reflected; below it some is
+        // transmitted.
         double critical = asin(1.0 / n);
         assert_close(oracle_fresnel(cos(critical + 1e-9), n, 1.0), 1.0, 0.0);
         assert_true(oracle_fresnel(cos(critical - 1e-6), n, 1.0) < 1.0);
-        // Stokes: both sides of an interface reflect alike.
+        // Stokes: both sides of an interface have the same reflectance.
         double inside = sqrt(1.0 - (1.0 - 0.3 * 0.3) / (n * n));
         assert_close(oracle_fresnel(0.3, 1.0, n), oracle_fresnel(inside, n, 1.0), 1e-13);
     }
@@ -78,7 +79,7 @@ static void refraction_keeps_snells_law_and_unit_length(void **state)
     }
 }
 
-// A large slab between y = −thickness and y = 0, material 0.
+// Adds a large slab between y = −thickness and y = 0, of material 0.
 static void add_slab(mesh *m, double thickness)
 {
     mesh_add_box(m, (double[]){-50.0, -thickness, -50.0}, (double[]){50.0, 0.0, 50.0}, 0);
@@ -93,13 +94,13 @@ static void slab_shifts_a_ray_and_keeps_its_direction(void **state)
     materials[1].base[0] = 5.0;
     double thickness = 0.7;
     add_slab(&m, thickness);
-    // A dark screen under the slab covers x ≥ 2; where its edge is seen tells the shift.
+    // A dark screen under the slab covers x ≥ 2. The visible place of its edge gives the shift.
     const double screen[4][3] = {
         {2.0, -3.0, 9.0}, {90.0, -3.0, 9.0}, {90.0, -3.0, -9.0}, {2.0, -3.0, -9.0}};
     mesh_add_quad(&m, screen, 1);
     for (int k = 0; k < 5; k++) {
         double degrees = 10.0 + 15.0 * k;
-        double edge[2]; // start x from which the screen's edge is seen: with the slab, without
+        double edge[2]; // start x from which the ray sees the screen's edge: with the slab, without
         for (int without = 0; without < 2; without++) {
             oracle_scene scene = scene_of(&m, materials);
             scene.triangles += without ? 12 : 0;
@@ -147,7 +148,7 @@ static void prism_has_its_minimum_deviation(void **state)
         oracle_ray ray = {{target[0] - 3.0 * cos(a), target[1] - 3.0 * sin(a), 0.1},
                           {cos(a), sin(a), 0.0}};
         radiance(&scene, &ray, 2);
-        // Through two faces means below the entry direction, towards the base.
+        // Light through two faces leaves below the entry direction, towards the base.
         const double *out = seen.direction[seen.count - 1];
         if (out[0] > 0.0 && out[1] < ray.direction[1])
             least = fmin(least, angle_between(out, ray.direction));
@@ -158,8 +159,8 @@ static void prism_has_its_minimum_deviation(void **state)
     mesh_free(&m);
 }
 
-// Mean error of the direction that leaves balls about the origin straight through all interfaces,
-// against a closed form of the impact parameter.
+// Mean error of the exit direction of balls about the origin, after a straight path through all
+// interfaces. The reference is a closed form of the impact parameter.
 static double ball_error(const mesh *m, const oracle_material *materials, int surfaces,
                          double (*deviation)(double impact))
 {
@@ -198,14 +199,15 @@ static void glass_ball_bends_by_its_closed_form(void **state)
         mesh_add_ball(&m, &(mesh_ball){.radius = 1.0, .rows = rows, .smooth = true});
         double error = ball_error(&m, &glass, 2, solid_ball_deviation);
         print_message("ball, %d rows: mean error of direction %.3g\n", rows, error);
-        // Smooth normals are exact; the facets' sagitta leaves h².
+        // Smooth normals are exact. The sagitta of the facets leaves h².
         assert_true(error < 2.0 / (rows * rows) && error < previous / 2.5);
         previous = error;
         mesh_free(&m);
     }
 }
 
-// Radii 1 and ½, indices 1.5 and 1.2 (HARD_CASES 23); past b = 0.75 the ray misses the inner ball.
+// Radii 1 and ½, indices 1.5 and 1.2 (HARD_CASES 23). Beyond b = 0.75 the ray misses the inner
+// ball.
 static double nested_deviation(double b)
 {
     double outer = asin(b) - asin(b / 1.5);
@@ -291,7 +293,7 @@ static void facing_mirrors_give_tint_to_the_n(void **state)
         oracle_radiance(&scene, &view, &ray, rgb.at, &report);
         for (int i = 0; i < 3; i++)
             assert_close(rgb.at[i], pow(tinted.base[i], depth), 1e-14);
-        // Exactly the depth asked for, and what was cut is reported.
+        // The path has exactly the requested depth, and the report includes the truncation.
         assert_int_equal(report.surfaces, depth);
         assert_int_equal(report.deepest, depth);
         assert_int_equal(report.rays, depth);
@@ -310,7 +312,7 @@ static void branches_under_the_least_weight_take_the_environment(void **state)
     mesh_add_quad(&m, (const double[4][3]){{-5, 5, 2}, {5, 5, 2}, {5, -5, 2}, {-5, -5, 2}}, 0);
     oracle_scene scene = scene_of(&m, materials);
     oracle_ray ray = {{0.3, 0.2, 1.0}, {0.0, 0.0, -1.0}};
-    // Judged by "less than": at ½⁴ exactly the branch goes on, a little above it ends.
+    // The comparison is "less than": at exactly ½⁴ the branch continues, slightly above it ends.
     const double least[2] = {0.0625, 0.0626};
     for (int k = 0; k < 2; k++) {
         oracle_view view = {.depth = 64, .min_weight = least[k]};
@@ -326,7 +328,7 @@ static void branches_under_the_least_weight_take_the_environment(void **state)
     mesh_free(&m);
 }
 
-// Every lossless mixture of mirror, glass and paint, side by side and nested.
+// All lossless mixtures of mirror, glass and paint, side by side and nested.
 static void white_furnace_stays_at_one(void **state)
 {
     (void)state;
@@ -384,8 +386,8 @@ static void absorbing_slab_obeys_beer_and_lambert(void **state)
         double sine = sin(RADIANS(degrees)) / 1.5, path = 0.7 / sqrt(1.0 - sine * sine);
         double f = oracle_fresnel(cos(RADIANS(degrees)), 1.0, 1.5);
         for (int i = 0; i < 3; i++) {
-            // Straight through, plus every even number of internal reflections; the base colour
-            // tints the two crossings.
+            // The straight path, plus all even numbers of internal reflections. The base colour
+            // tints both crossings.
             double a = attenuation[i] > 0.0 ? pow(attenuation[i], path / 0.5) : 0.0;
             double once = (1.0 - f) * (1.0 - f) * a * base[i] * base[i];
             double expected = once / (1.0 - f * f * a * a);
@@ -407,10 +409,10 @@ static void what_lies_in_glass_is_seen_through_the_glass(void **state)
     mesh_add_box(&m, (double[]){-1.0, -3.0, -1.0}, (double[]){1.0, -2.0, 1.0}, 1);
     oracle_scene scene = scene_of(&m, materials);
     scene.radiance = light_below;
-    // Two metres of glass halve twice, whatever the segment ends on.
+    // Two metres of glass halve twice, whatever the end of the segment.
     oracle_ray ray = falling(0.0, 0.3, 2.0);
     assert_grey(radiance(&scene, &ray, 8), 0.96 * 0.25, 1e-14);
-    // From inside, before any surface tells so, the segment is taken as outside.
+    // A ray that starts inside counts as outside until its first surface.
     oracle_ray inside = falling(0.0, 0.3, -1.0);
     assert_grey(radiance(&scene, &inside, 8), 1.0, 0.0);
     mesh_free(&m);
@@ -428,8 +430,8 @@ static void nested_solids_absorb_one_at_a_time(void **state)
     mesh_add_box(&m, (double[]){-9.0, -2.0, -9.0}, (double[]){9.0, -1.0, 9.0}, 1);
     oracle_scene scene = scene_of(&m, materials);
     scene.radiance = light_below;
-    // Equal indices: nothing is reflected at the inner solid. Three metres of the outer, one of
-    // the inner; and 1/25 is reflected at each of the outer's faces.
+    // Equal indices: the inner solid reflects nothing. The path has three metres of the outer solid
+    // and one of the inner. Each face of the outer solid reflects 1/25.
     oracle_ray ray = falling(0.0, 0.3, 2.0);
     double straight = 0.125 * 0.125, f = 0.04;
     double expected = (1.0 - f) * (1.0 - f) * straight / (1.0 - f * f * straight * straight);
@@ -443,7 +445,7 @@ static void thin_wall_does_not_bend_and_is_alike_from_both_sides(void **state)
     mesh m = {0};
     oracle_material wall = glass_of(1.5, 0.0);
     wall.base[0] = wall.base[1] = wall.base[2] = 0.7;
-    wall.attenuation[0] = 0.1; // has no inside to absorb in
+    wall.attenuation[0] = 0.1; // a thin wall has no inside, so this has no effect
     mesh_add_quad(&m, (const double[4][3]){{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}}, 0);
     for (int side = 0; side < 2; side++) {
         for (int k = 0; k < 9; k++) {
@@ -504,7 +506,7 @@ static void turned_inside_out_glass_is_met_from_within(void **state)
         oracle_report report;
         vector rgb = {{0.0, 0.0, 0.0}};
         oracle_radiance(&scene, &view, &ray, rgb.at, &report);
-        // 50° is beyond the critical angle, 41.8°, from inside only.
+        // The critical angle 41.8° applies from inside only, and 50° is beyond it.
         assert_int_equal(report.total_reflections, turned);
         assert_int_equal(seen.count, turned ? 1 : 2);
         double in = asin(sin(RADIANS(50.0)) / 1.5), out[3] = {sin(in), -cos(in), 0.0};
@@ -519,7 +521,7 @@ static void a_solid_that_was_not_entered_changes_nothing_when_left(void **state)
     (void)state;
     mesh m = {0};
     oracle_material materials[2] = {glass_of(1.5, 1.0), glass_of(2.0, 1.0)};
-    // Into glass 0 through a single face, then out of glass 1's back face.
+    // The ray enters glass 0 through a single face and leaves by the back face of glass 1.
     mesh_add_quad(&m, (const double[4][3]){{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}}, 0);
     mesh_add_quad(&m, (const double[4][3]){{-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9}}, 1);
     record seen = {.count = 0};
@@ -528,7 +530,7 @@ static void a_solid_that_was_not_entered_changes_nothing_when_left(void **state)
     oracle_ray ray = falling(30.0, -0.3, 1.0);
     radiance(&scene, &ray, 2);
     double in = asin(0.5 / 1.5), out[3] = {sin(in), -cos(in), 0.0};
-    assert_int_equal(seen.count, 2); // F = 0 at the second: no reflected branch there
+    assert_int_equal(seen.count, 2); // F = 0 at the second surface: no reflected branch
     assert_close(angle_between(seen.direction[1], out), 0.0, 1e-14);
     mesh_free(&m);
 }

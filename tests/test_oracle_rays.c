@@ -1,11 +1,11 @@
-// The oracle's rays against geometry: hits, the tree, sides and normals, cameras, alpha, and the
-// rules for matte, mixed and emitting surfaces. Optics are judged in test_oracle.c.
+// Tests the oracle's rays against geometry: hits, the tree, sides and normals, cameras, alpha, and
+// the rules for matte, mixed and emitting surfaces. test_oracle.c tests optics.
 #include "oracle/check.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// A square of half-width 9 in the plane y = 0, faced from above.
+// Adds a square of half-width 9 in the plane y = 0, facing up.
 static void add_floor(mesh *m, int material)
 {
     mesh_add_quad(m, (const double[4][3]){{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}},
@@ -27,7 +27,7 @@ static void tree_finds_what_brute_force_finds(void **state)
     mesh m = {0};
     mesh_add_ball(&m, &(mesh_ball){.radius = 1.0, .rows = 12});
     for (int k = 0; k < 600; k++) {
-        // Sizes over three decades, some of them flat along an axis.
+        // Sizes span three decades. Some triangles are flat along an axis.
         double corners[3][3], size = pow(10.0, -3.0 * random_unit(&seed));
         for (int axis = 0; axis < 3; axis++) {
             double centre = 4.0 * random_unit(&seed) - 2.0;
@@ -121,7 +121,7 @@ static void spawned_rays_never_hit_where_they_start(void **state)
             vector_store(point, away.origin);
             random_direction(&seed, away.direction);
             bool out = dot(vector_of(away.direction), normal) > 0.0;
-            // The ball is convex: outward rays meet nothing, inward rays its far side.
+            // The ball is convex: outward rays miss it, inward rays hit its far side.
             oracle_hit next = oracle_closest_hit(&scene, &away, first.triangle);
             assert_true((next.triangle < 0) == out);
         }
@@ -154,7 +154,7 @@ static void coincident_faces_show_the_lowest_index(void **state)
     mesh m = {0};
     uint64_t seed = 2;
     add_floor(&m, 0);
-    // The same square cut along the other diagonal, so that distances round differently.
+    // The same square, cut along the other diagonal, so that distances round differently.
     mesh_add_quad(&m, (const double[4][3]){{9, 0, 9}, {9, 0, -9}, {-9, 0, -9}, {-9, 0, 9}}, 0);
     oracle_material white = oracle_material_default;
     oracle_scene scene = scene_of(&m, &white);
@@ -196,7 +196,7 @@ static void normals_decide_directions_but_never_sides(void **state)
     double weight; // Schlick's (1 − n·v)⁵
     oracle_ray ray = {{0.0, 1.0, 0.0}, {0.6, -0.8, 0.0}};
     const vector flat = {{0.6, 0.8, 0.0}};
-    // No normal, NaN, infinite, tiny and huge ones; and one that points to the wrong side.
+    // No normal, NaN, infinite, tiny and huge normals; and a normal on the wrong side.
     const double normals[6][3] = {{0, 0, 0},      {NAN, 1, 0},   {INFINITY, 1, 0},
                                   {0, 1e-200, 0}, {0, 1e200, 0}, {0, -1, 0}};
     for (int k = 0; k < 6; k++) {
@@ -209,13 +209,13 @@ static void normals_decide_directions_but_never_sides(void **state)
     vector r = seen_direction(normals[0], &below, &weight);
     assert_close(length(minus(r, (vector){{0.6, -0.8, 0.0}})), 0.0, 1e-15);
 
-    // Tilted by 45° towards the ray's travel, n sends r = 2n(n·v) − v to (0.8, −0.6), below the
-    // surface: folded back across it.
+    // n tilts by 45° towards the ray's travel. It sends r = 2n(n·v) − v to (0.8, −0.6), below the
+    // surface, so r is folded back across it.
     double s = sqrt(0.5);
     vector folded = seen_direction((double[]){s, s, 0.0}, &ray, &weight);
     assert_close(folded.at[0], 0.8, 1e-15);
     assert_close(folded.at[1], 0.6, 1e-15);
-    // n·v < 0 though n is on n_g's side: n ← −n, which gives the same r.
+    // n·v < 0 although n is on n_g's side: n ← −n, which gives the same r.
     oracle_ray grazing = {{-8.0, 1.0, 0.0}, {0.992, -0.126, 0.0}};
     vector_store(unit(vector_of(grazing.direction)), grazing.direction);
     vector flipped = seen_direction((double[]){s, s, 0.0}, &grazing, &weight);
@@ -238,7 +238,7 @@ static void primary_rays_go_through_pixel_centres(void **state)
     oracle_ray centre = oracle_primary_ray(&view, (double[]){100.0, 50.0});
     assert_close(centre.direction[0], -1.0, 1e-15);
     assert_close(centre.origin[1], 2.0, 0.0);
-    // The top right corner: tan 30° up, twice that to the right (which is −Z here).
+    // The top right corner: tan 30° up, twice as far to the right (which is −Z here).
     oracle_ray corner = oracle_primary_ray(&view, (double[]){200.0, 0.0});
     double t = tan(RADIANS(30.0)), norm = 1.0 / sqrt(1.0 + 5.0 * t * t);
     const double expected[3] = {-norm, t * norm, -2.0 * t * norm};
@@ -258,7 +258,7 @@ static void environment_turns_counter_clockwise_seen_from_above(void **state)
     (void)state;
     oracle_scene scene = {.radiance = light_direction, .environment_rotation = 90.0};
     oracle_view view = {.depth = 1};
-    // What was at +Z is at +X afterwards, what was at +X at −Z.
+    // Rotation moves +Z to +X, and +X to −Z.
     oracle_ray ray = {{0, 0, 0}, {1, 0, 0}};
     double rgb[3];
     assert_false(oracle_radiance(&scene, &view, &ray, rgb, NULL));
@@ -300,7 +300,7 @@ static void alpha_is_the_covered_share_of_samples(void **state)
     mesh_free(&m);
 }
 
-// What a floor of this material shows from 45° at depth 1 under E = ½ + ½d.
+// The colour of a floor of this material at 45° and depth 1 under E = ½ + ½d.
 static vector floor_colour(const oracle_material *material)
 {
     mesh m = {0};
@@ -341,7 +341,7 @@ static void surfaces_mix_metal_then_glass_then_paint(void **state)
     assert_close(floor_colour(&m).at[1], expected, 1e-15);
     m.emission[1] = 3.0;
     assert_close(floor_colour(&m).at[1], expected + 3.0, 1e-15);
-    m.mirror = 0.3; // the lecture's blend knows no Fresnel, tint, metal or glass
+    m.mirror = 0.3; // the lecture's blend ignores Fresnel, tint, metal and glass
     assert_close(floor_colour(&m).at[1], 3.0 + 0.7 * base * matte + 0.3 * reflected, 1e-15);
     m.unlit = true; // no emission either
     assert_close(floor_colour(&m).at[1], base, 0.0);
@@ -357,14 +357,14 @@ static void edges_and_critical_angles_are_told(void **state)
     oracle_view view = {.depth = 1, .edges = true};
     oracle_report report;
     double rgb[3];
-    // Ten metres away, 10⁻³ inside and 10⁻³ outside the silhouette; well inside; far outside.
+    // Ten metres away: 10⁻³ inside and 10⁻³ outside the silhouette, well inside, far outside.
     const double from[4] = {0.999, 1.001, 0.5, 2.0};
     const double expected[4] = {1e-4, 1e-4, ORACLE_EDGE_REACH, ORACLE_EDGE_REACH};
     for (int k = 0; k < 4; k++) {
         oracle_ray ray = {{from[k], 0.3, 11.0}, {0.0, 0.0, -1.0}};
         bool met = oracle_radiance(&scene, &view, &ray, rgb, &report);
         assert_true(met == (from[k] < 1.0));
-        // Outside, the box's far edges (12 m) are passed as near: the least ratio counts.
+        // Outside, the ray also passes the far edges of the box (12 m): the least ratio counts.
         assert_close(report.edge, expected[k], 2e-5);
     }
     double critical = asin(1.0 / 1.5);

@@ -1,4 +1,4 @@
-// What the oracle makes of textures, colours at vertices and alpha, against closed forms.
+// Tests the oracle's textures, vertex colours and alpha against closed forms.
 #include "oracle/check.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 static void levels_are_area_means(void **state)
 {
     (void)state;
-    // A row of 5 is halved to 2: each covers 2.5.
+    // A row of 5 texels is halved to 2: each covers 2.5 texels.
     static const double values[5] = {0.0, 1.0, 0.5, 0.25, 0.75};
     static const double alpha[5] = {1.0, 0.0, 0.5, 1.0, 0.0};
     for (int coverage = 0; coverage < 2; coverage++) {
@@ -36,7 +36,7 @@ typedef struct look_up_case {
     double u, expected;
 } look_up_case;
 
-// Of a row 0, 1, 2, 3, seen magnified.
+// Magnified look-ups in a row 0, 1, 2, 3.
 static void rows_are_wrapped_and_filtered(void **state)
 {
     (void)state;
@@ -76,7 +76,7 @@ static void rows_are_wrapped_and_filtered(void **state)
 
 enum { EDGE = 1024 };
 
-// An image of 1024² whose levels all hold their own numbers.
+// Makes an image of 1024² whose levels hold their own numbers.
 static oracle_image numbered_levels(void)
 {
     oracle_image image;
@@ -87,14 +87,14 @@ static oracle_image numbered_levels(void)
     return image;
 }
 
-// A level between powers of two, taken as linear.
+// Interpolates linearly between levels of powers of two.
 static double level_of(double texels)
 {
     double level = floor(log2(texels));
     return level + texels / exp2(level) - 1.0;
 }
 
-// A scene whose material 0 is unlit and shows an image, u = x and v = y of the corners.
+// A scene whose material 0 is unlit and shows an image, with u = x and v = y of the corners.
 typedef struct shown {
     mesh m;
     oracle_image image;
@@ -130,7 +130,7 @@ static void stop_showing(shown *s)
     mesh_free(&s->m);
 }
 
-// A camera at the origin that looks along −z, with pixels of 1/100 at distance 1.
+// A camera at the origin that looks along −z. Pixels are 1/100 wide at distance 1.
 static const oracle_view ahead = {.right = {1.0, 0.0, 0.0},
                                   .up = {0.0, 1.0, 0.0},
                                   .back = {0.0, 0.0, 1.0},
@@ -147,8 +147,8 @@ static double seen(const shown *s, const oracle_view *view, double x, double y)
     return rgba[0];
 }
 
-// Seen straight, and at a slant: a plane through (0, 0, −2) that is turned about y, so that u
-// changes more slowly along it.
+// A plane through (0, 0, −2), straight on and at a slant. The plane turns about y, so u changes
+// more slowly along it.
 static void slanted_planes_take_the_level_of_the_longer_axis(void **state)
 {
     (void)state;
@@ -162,12 +162,12 @@ static void slanted_planes_take_the_level_of_the_longer_axis(void **state)
         mesh_add_quad(&s.m, corners, 0);
         show(&s);
         for (int i = 0; i < 4; i++) {
-            double slope = (i - 1.5) / 10.0; // of the ray, in x
+            double slope = (i - 1.5) / 10.0; // slope of the ray in x
             // x = slope·t, z = −t; on the plane z = −2 + x tan.
             double t = 2.0 / (1.0 + slope * tan(RADIANS(degrees)));
             double cosine = fabs(-slope * d - c) / sqrt(1.0 + slope * slope);
-            double width = t / 100.0; // along the axis of view, pixels are as wide as t says
-            // Along the plane's slope u is c of the way; across it v is all of it.
+            double width = t / 100.0; // the width of a pixel grows along the axis of view
+            // Along the plane's slope u is c of the distance; across it v is the whole distance.
             double texels = EDGE * width * fmax(c / cosine, 1.0);
             assert_close(seen(&s, &ahead, 50.0 + 100.0 * slope, 50.0), level_of(texels), 1e-9);
             oracle_view finer = ahead;
@@ -179,7 +179,7 @@ static void slanted_planes_take_the_level_of_the_longer_axis(void **state)
     }
 }
 
-// A convex mirror of radius r spreads a pixel as its virtual image does: by s + 2w/r.
+// A convex mirror of radius r spreads a pixel like its virtual image: by s + 2w/r.
 static void mirror_balls_spread_what_a_pixel_sees(void **state)
 {
     (void)state;
@@ -190,14 +190,15 @@ static void mirror_balls_spread_what_a_pixel_sees(void **state)
     s.materials[1] = oracle_material_default;
     s.materials[1].metallic = 1.0;
     double width = 3.5 / 100.0, spread = 0.01 + 2.0 * width / 0.5;
-    s.materials[0].texture[ORACLE_BASE].transform[0][0] = 0.25; // lest it be more than all texels
+    // Scale down, so that the pixel does not cover more than all texels.
+    s.materials[0].texture[ORACLE_BASE].transform[0][0] = 0.25;
     s.materials[0].texture[ORACLE_BASE].transform[1][1] = 0.25;
     double texels = 0.25 * EDGE * (width + spread * 8.5);
     assert_close(seen(&s, &ahead, 50.01, 50.01), level_of(texels), 1e-3);
     stop_showing(&s);
 }
 
-// Behind a slab of glass all looks nearer by (1 − 1/n) of its thickness.
+// Behind a slab of glass, objects appear nearer by (1 − 1/n) of its thickness.
 static void slabs_bring_what_a_pixel_sees_nearer(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void slabs_bring_what_a_pixel_sees_nearer(void **state)
     mesh_add_box(&s.m, (double[]){-9, -9, -3}, (double[]){9, 9, -1.5}, 1);
     show(&s);
     s.materials[1] = glass_of(1.5, 1.0);
-    // What is reflected takes E = 1, and so does what a second inner reflection lets out.
+    // Reflected light takes E = 1, and so does the light after a second inner reflection.
     double f = normal_fresnel(1.5), once = (1.0 - f) * (1.0 - f);
     oracle_view view = ahead;
     view.depth = 3;
@@ -246,7 +247,8 @@ static void bent_normals_turn_reflections(void **state)
         oracle_ray ray = {{0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}};
         double rgb[3];
         oracle_radiance(&scene, &view, &ray, rgb, NULL);
-        // Normal +y, tangent +x, bitangent turn × (+y × +x) = −z; without a side nothing is bent.
+        // Normal +y, tangent +x, bitangent turn × (+y × +x) = −z. Without a side the normal is not
+        // bent.
         vector n = {{0.5 * 0.4, 0.8, 0.5 * -0.3 * -turn}};
         n = turn == 0 ? (vector){{0.0, 1.0, 0.0}} : unit(n);
         vector up = {{0.0, 1.0, 0.0}}, out = minus(scaled(n, 2.0 * dot(n, up)), up);
@@ -263,8 +265,8 @@ typedef struct cover_case {
     double factor, vertices, cutoff, expected;
 } cover_case;
 
-// Two planes, the first partly there: what is unlit shows its share, at depth 1 too, and what lies
-// behind the rest. Without the second the rest is missing of alpha.
+// Two planes, the first partly transparent. An unlit surface shows its share, also at depth 1, and
+// the rest shows the surface behind. Without the second plane, alpha is lower by the rest.
 static void what_is_there_in_part_lets_light_pass(void **state)
 {
     (void)state;
@@ -307,8 +309,8 @@ static void what_is_there_in_part_lets_light_pass(void **state)
     mesh_free(&m);
 }
 
-// A solid is all there. A thin wall that is there in part is met, so that at depth 1 what passes it
-// takes the environment.
+// Alpha does not apply to solids. A partly transparent thin wall counts as a surface, so at depth 1
+// the light through it takes the environment.
 static void glass_counts_where_it_is_there(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Output files appear whole or not at all, whatever goes wrong.
+// Tests that output files appear whole or not at all, whatever goes wrong.
 #include "image/image_io.h"
 #include "image/output_file.h"
 #include "support/scratch.h"
@@ -98,11 +98,11 @@ static void a_symbolic_link_is_followed_and_stays(void **state)
     assert_holds("elsewhere/real.exr", "new");
 }
 
-// The name of a temporary as this program makes it, of another process.
+// Makes a temporary with the name that this program would use in another process.
 static void make_temporary(const char *output, long process, char *name, size_t size)
 {
-    // The host's part is learnt from a write that stops half-way: none stays to be looked at, so it
-    // is worked out as output_file.c documents it: FNV-1a of the machine's name.
+    // The host part of the name is the FNV-1a hash of the machine's name, as output_file.c
+    // documents. No temporary remains for inspection, even from a write that stops half-way.
     char host[256] = {0};
     gethostname(host, sizeof host - 1);
     uint32_t hash = 2166136261u;
@@ -125,7 +125,7 @@ static void temporaries_of_dead_processes_are_removed(void **state)
     make_temporary("a.exr", (long)gone, dead, sizeof dead);
     make_temporary("a.exr", (long)getppid(), alive, sizeof alive);
     make_temporary("b.exr", (long)gone, other, sizeof other);
-    make_temporary("a.exr", (long)getpid(), ours, sizeof ours); // of a process before us
+    make_temporary("a.exr", (long)getpid(), ours, sizeof ours); // a process that ran before us
     scratch_write(".a.tmp.exr", "someone else's", -1);
     scratch_write(".a.exr.1-2-3x.tmp.exr", "someone else's", -1);
     assert_int_equal(write_text("a.exr", "x", NULL), GLINT_OK);
@@ -137,7 +137,7 @@ static void temporaries_of_dead_processes_are_removed(void **state)
     assert_int_equal(access(scratch_path(".a.exr.1-2-3x.tmp.exr"), F_OK), 0);
 }
 
-// A limit on the size of files stands for a full disk: write() then fails in the same place.
+// A limit on file sizes simulates a full disk: write() then fails in the same place.
 static void a_write_that_fails_leaves_nothing_and_keeps_what_was(void **state)
 {
     (void)state;
@@ -192,8 +192,8 @@ static void stop(int number)
     _exit(128 + number);
 }
 
-// A process that writes without end is stopped by a signal at some moment, many times: there is
-// either nothing or a whole file, and never a temporary.
+// A signal stops a process that writes without end, many times at different moments. The result
+// must be nothing or a whole file, and never a temporary.
 static void a_signal_leaves_no_temporary(void **state)
 {
     (void)state;
@@ -226,7 +226,7 @@ static void *write_without_end(void *name)
     return NULL;
 }
 
-// The signal comes to one thread while others are creating temporaries.
+// The signal reaches one thread while other threads create temporaries.
 static void a_signal_to_another_thread_leaves_no_temporary(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Solids that touch and overlap, against the oracle, which finds media by points and keeps no
-// stack: any order of triangles, faces in common whole or in part, one mesh or several.
+// Tests touching and overlapping solids against the oracle, which finds media by points instead of
+// a stack. Covers any order of triangles, faces shared wholly or partly, one mesh or several.
 #include "environment/irradiance.h"
 #include "support/bodies.h"
 #include "support/bridge.h"
@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-// The share of the light by which a frame differs from the oracle's, pixel by pixel.
+// Relative RMSE of a frame against the oracle.
 static double error_of(const glint_scene *scene, const glint_settings *settings,
                        glint_feature feature)
 {
@@ -34,6 +34,7 @@ static double error_of(const glint_scene *scene, const glint_settings *settings,
     const oracle_view view = bridge_view(&camera, settings);
     oracle_scene judge = *bridge_scene(b);
     judge.overlaps = true;
+    // Sum squared differences; skip pixels without surfaces or near edges.
     double squares = 0, light = 0;
     size_t count = 0;
     for (int i = 0; i < view.width * view.height; i++) {
@@ -60,8 +61,8 @@ static double error_of(const glint_scene *scene, const glint_settings *settings,
     return sqrt(squares * (double)count) / light;
 }
 
-// The oracle's rays start 2e-6 beside what they leave, and go on as far from their way; in single
-// precision so do glint's.
+// The oracle's rays start 2e-6 beside the surface that they leave, and continue at this distance
+// from their path. So do glint's rays in single precision.
 #define ALLOWED 1e-5
 
 static const bodies kinds[] = {
@@ -146,7 +147,7 @@ static void media_are_what_points_say(void **state)
     }
 }
 
-// Where eyes are, and in what.
+// Places of eyes, and the medium around them.
 typedef struct eye {
     const char *what;
     double at[3];
@@ -154,7 +155,8 @@ typedef struct eye {
     bodies bodies;
 } eye;
 
-// A block of glass with water in it and ice in the water; and one of ice that touches the glass.
+// A block of glass with water in it and ice in the water; and a block of ice that touches the
+// glass.
 #define NESTED                                                                                     \
     {                                                                                              \
         .of = {                                                                                    \

@@ -1,4 +1,4 @@
-// The parser of command lines, on tables made for it.
+// Tests the parser of command lines, on tables made for the test.
 #include "cli/common/options.h"
 
 #include <setjmp.h>
@@ -40,7 +40,7 @@ static const glint_command own = {.name = "own",
 
 enum { WORDS = 12 };
 
-// A command line, its words divided by '|', and what it gave.
+// A command line, with '|' between its words, and its results.
 typedef struct parsed {
     char line[200];
     char *words[WORDS];
@@ -159,7 +159,7 @@ static void mistakes_are_told_by_the_options_name(void **state)
     }
 }
 
-// However many a command has: the last one counts as the first.
+// Any number of options works: the last counts as well as the first.
 static void no_option_is_one_too_many(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Small parts: what is told from an origin of its own, and how exactly.
+// Tests small parts: which triangles get an origin of their own, and with what precision.
 #include "scene/parts.h"
 #include "scene/subset.h"
 #include "support/gltf_text.h"
@@ -41,7 +41,7 @@ static void add_floor(heap *h)
     add_quad(h, corners);
 }
 
-// Four corners about a place.
+// Four corners around a place.
 static void add_tetrahedron(heap *h, const double place[3], double size)
 {
     double p[4][3];
@@ -63,7 +63,7 @@ static glint_parts parts_of(const heap *h)
     return parts;
 }
 
-// How far corners are from where they should be, at most.
+// The largest error of corners.
 static double largest_error(const heap *h, const glint_parts *parts, size_t first, size_t end)
 {
     double largest = 0;
@@ -85,7 +85,7 @@ static void no_parts_without_need(void **state)
     glint_parts parts = parts_of(&h);
     assert_int_equal(parts.count, 0);
     assert_null(parts.positions);
-    // Nor of something small in many pieces as large as it is.
+    // Small parts also need small triangles.
     assert_false(glint_parts_may_be_there(0.01));
     assert_true(glint_parts_may_be_there(0.001));
     h.count = 0;
@@ -111,8 +111,9 @@ static void small_parts_keep_their_digits(void **state)
         for (size_t i = 2; i < h.count; i++) {
             assert_int_equal(parts.part_of[i], 1);
         }
-        // The anchor is at most four sizes away: half a rounding of that. It is a float itself, so
-        // that parts of 2⁻²⁴ and less are told from as far as floats step.
+        // The anchor is at most four sizes away, so the error is half a rounding of this distance.
+        // The anchor itself is a float, so for parts of 2⁻²⁴ and less it is up to a float step
+        // away.
         const double reach = fmax(4 * ldexp(1, -size), 0x1p-24);
         assert_true(largest_error(&h, &parts, 2, h.count) <= reach * 0x1p-24);
         glint_parts_free(&parts);
@@ -132,7 +133,7 @@ static void what_shares_an_edge_has_one_anchor(void **state)
 {
     (void)state;
     const double s = 0x1p-12, far[3] = {-0.8, 0.5, 0.3};
-    // A strip of small quads, longer than a small part may be.
+    // A strip of small quads, longer than the limit of a small part.
     heap h = {.count = 0};
     for (int i = 0; i < 24; i++) {
         const double x = 16 * s * i;
@@ -142,7 +143,7 @@ static void what_shares_an_edge_has_one_anchor(void **state)
     add_tetrahedron(&h, far, s);
     assert_true(share_anchor(&h, 0, 47));
     assert_false(share_anchor(&h, 0, 48));
-    // Small neighbours whose common edge differs by less than floats can tell.
+    // Small neighbours. Their common edge differs by less than the resolution of floats.
     const double a[4][3] = {{0.7, 0, 0}, {0.7 + s, 0, 0}, {0.7 + s, s, 0}, {0.7, s, 0}};
     const double b[4][3] = {{0.7 + s + 1e-12, 0, 0},
                             {0.7 + 400 * s, 0, 0},
@@ -177,13 +178,13 @@ static void zeros_of_both_signs_are_one(void **state)
     add_floor(&h);
     add(&h, a, b, c);
     add(&h, b_again, a_again, d);
-    add_tetrahedron(&h, c, s / 4); // so that there are parts
+    add_tetrahedron(&h, c, s / 4); // so that parts exist
     assert_true(share_anchor(&h, 2, 3));
 }
 
 // ---- Files --------------------------------------------------------------------------------------
 
-// The tetrahedron as a floor's corner, a thousand metres long, and as a bead of a millimetre on it.
+// The tetrahedron as a floor of a thousand metres, and as a bead of a millimetre on it.
 static void a_file_keeps_what_is_small(void **state)
 {
     glint_scene scene = load_rest(
@@ -200,7 +201,7 @@ static void a_file_keeps_what_is_small(void **state)
             const glint_vec3 at =
                 glint_vec3_add(scene.origin, glint_vec3_scale(stored, scene.unit));
             const glint_vec3 off = glint_vec3_scale(glint_vec3_subtract(at, place), 1000);
-            // Within a millionth of the bead at a corner of the tetrahedron.
+            // Within a millionth of the bead's size from a corner of the tetrahedron.
             const double sum = off.x + off.y + off.z;
             assert_true(fabs(sum) < 1e-6 || fabs(sum - 1) < 1e-6);
         }

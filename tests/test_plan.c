@@ -1,4 +1,5 @@
-// Properties of the plan: what is compiled follows from scene, settings and device, with a reason.
+// Tests the plan: scene, settings and device decide which features compile, and the plan gives
+// reasons.
 #include "kernels/layout.h"
 #include "render/plan.h"
 
@@ -19,7 +20,7 @@ static const glint_capabilities narrow_cpu = {
 static const glint_capabilities plain_gpu = {
     .is_gpu = true, .native_float_width = 1, .name = "gpu"};
 
-// One triangle a material.
+// One triangle for each material.
 typedef struct test_scene {
     glint_scene scene;
     glint_material materials[4];
@@ -49,7 +50,7 @@ static void make_scene(test_scene *s, const glint_material *materials, size_t co
                              .unit = 1};
 }
 
-// What the features of kernels/features.h need and exclude.
+// Checks needs and exclusions of features (kernels/features.h).
 static void check_features(const glint_plan *plan)
 {
 #define DECLARE(name, ...) const bool GLINT_##name = plan->features[GLINT_FEATURE_##name].compiled;
@@ -62,7 +63,7 @@ static void check_features(const glint_plan *plan)
 #undef CHECK
 }
 
-// `inputs` but for the topology.
+// Makes a plan of `inputs` and a topology.
 static glint_status plan_of(glint_plan_inputs inputs, glint_plan *plan, glint_error *error)
 {
     // No component is proved convex, so solids may nest.
@@ -89,8 +90,8 @@ static bool compiles(const glint_plan *plan, glint_feature feature)
     return plan->features[feature].compiled;
 }
 
-// Lobes are for rough metal and paint alone, facets for rough glass. Without Fresnel's term there
-// is no coat, but metal that is paint in part has its lobe.
+// Only rough metal and paint have lobes, and only rough glass has facets. Without Fresnel's term
+// there is no coat, but metal mixed with paint has its lobe.
 static void rough_materials_reflect_lobes(void **state)
 {
     (void)state;
@@ -131,7 +132,7 @@ static void rough_materials_reflect_lobes(void **state)
     }
 }
 
-// Solids alone disperse light, in pixels whose colours are wanted.
+// Only solids disperse light, and only in pixels with colours.
 static void dispersion_is_compiled_where_it_is_seen(void **state)
 {
     (void)state;
@@ -173,7 +174,7 @@ static void a_mirror_compiles_no_glass_and_no_paint(void **state)
     assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
     assert_true(compiles(&plan, GLINT_FEATURE_MIRROR));
     assert_true(compiles(&plan, GLINT_FEATURE_INTERREFLECTION));
-    assert_int_equal(glint_plan_feature_count(&plan), 3); // and GEOMETRY, as it is white
+    assert_int_equal(glint_plan_feature_count(&plan), 3); // and GEOMETRY, because it is white
     assert_int_equal(plan.stack_capacity, 0);
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         assert_true(plan.features[i].reason[0] != '\0');
@@ -314,10 +315,10 @@ static void the_stack_holds_every_branch_that_the_least_weight_allows(void **sta
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_false(plan.tiles); // 256 pixels × 65 branches × 104 bytes
     assert_non_null(strstr(plan.tiles_reason, "branches of a tile would take 1690 KiB"));
-    settings.filter = GLINT_FILTER_MIP; // whose branches take 120
+    settings.filter = GLINT_FILTER_MIP; // each branch takes 120 bytes
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_non_null(strstr(plan.tiles_reason, "branches of a tile would take 1950 KiB"));
-    glass.roughness = 0.5F; // likewise, of 136
+    glass.roughness = 0.5F; // each branch takes 136 bytes
     make_scene(&s, &glass, 1);
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_non_null(strstr(plan.tiles_reason, "branches of a tile would take 2210 KiB"));
@@ -367,8 +368,7 @@ static void media_take_as_few_bits_as_can_name_them(void **state)
     }
 }
 
-// Plans for a map of the value 0.3 with one texel of `brightest`, or for one that is `scale` as
-// bright.
+// Makes plans for a map of the value 0.3 with one texel of `brightest`, all multiplied by `scale`.
 static glint_status plan_texels(float brightest, float scale, const glint_settings *settings,
                                 glint_plan *plan, glint_error *error)
 {
@@ -401,13 +401,13 @@ static void texels_are_half_where_that_does_no_harm(void **state)
     glint_plan plan;
     assert_int_equal(plan_texels(1, 1, &settings, &plan, NULL), GLINT_OK);
     assert_true(plan.half_texels);
-    // A light counts by its own size, however bright.
+    // A light counts by its solid angle, however bright.
     assert_int_equal(plan_texels(60001, 1, &settings, &plan, NULL), GLINT_OK);
     assert_true(plan.half_texels);
     assert_int_equal(plan_texels(91000, 1, &settings, &plan, NULL), GLINT_OK);
     assert_false(plan.half_texels);
     assert_non_null(strstr(plan.texels_reason, "91000"));
-    // Where everything is dark, half has no digits left.
+    // In a dark map half has no digits left.
     assert_int_equal(plan_texels(1, 1e-5f, &settings, &plan, NULL), GLINT_OK);
     assert_false(plan.half_texels);
     settings.precision = GLINT_PRECISION_DOUBLE;
@@ -467,17 +467,18 @@ static void layers_are_compiled_where_they_are_asked_for(void **state)
     make_scene(&s, &white_paint, 1);
     glint_settings settings = glint_settings_default;
     glint_plan plan;
-    settings.all_features = true; // this one stays: without layers there is no room for them
+    // DIAGNOSTICS stays off: without layers it has no output.
+    settings.all_features = true;
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_false(plan.features[GLINT_FEATURE_DIAGNOSTICS].compiled);
     settings.aovs = GLINT_AOV_BIT(GLINT_AOV_TIR);
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_OK);
     assert_true(plan.features[GLINT_FEATURE_DIAGNOSTICS].compiled);
-    settings.output = GLINT_OUTPUT_HITS; // has no paths that they could tell of
+    settings.output = GLINT_OUTPUT_HITS; // hits have no paths to report
     assert_int_equal(plan_for(&s, &wide_cpu, &settings, &plan, NULL), GLINT_USAGE);
 }
 
-// Of each kind of material alone and of all of them, and of nothing.
+// With each kind of material alone, with all kinds, and without any.
 static void textures_are_averaged_along_ellipses_unless_one_tap_is_asked_for(void **state)
 {
     (void)state;
@@ -523,7 +524,8 @@ static void features_have_what_they_need_whatever_is_asked_for(void **state)
             glint_plan plan;
             make_scene(&s, i < 4 ? &kinds[i] : kinds, i < 4 ? 1 : i == 4 ? 4 : 0);
             const glint_status status = plan_for(&s, &wide_cpu, &settings, &plan, NULL);
-            assert_true(status == GLINT_OK || status == GLINT_USAGE); // not all go together
+            // Some features exclude each other.
+            assert_true(status == GLINT_OK || status == GLINT_USAGE);
         }
     }
 }

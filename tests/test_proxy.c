@@ -1,6 +1,6 @@
-// An environment on the walls of a room (--proxy): mirrors anywhere in it must show what is on the
-// wall that they see, which is known in closed form. The environment is what the room looks like
-// from one place; where the room is not its proxy, mirrors in other places are far off.
+// Tests an environment on the walls of a room (--proxy). Mirrors anywhere in the room must show the
+// part of the wall that they see, which is known in closed form. The environment shows the room
+// from one place. Where the proxy is not the room's shape, mirrors in other places differ a lot.
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -15,13 +15,13 @@
 
 enum { EDGE = 512 };
 
-// Walls with waves of three metres on them: a function of the place that is smooth in space.
+// Walls with waves of three metres: a smooth function of the place in space.
 static double wall(const double p[3], int channel)
 {
     return 0.5 + 0.4 * sin(2.1 * p[channel] + channel) * cos(1.3 * p[(channel + 1) % 3]);
 }
 
-// Where the ray o + t d, t > from, leaves the room; false where it does not come to it.
+// The point where the ray o + t d, t > from, leaves the room. False if it never meets the room.
 static bool leave(const glint_proxy *room, const double o[3], const double d[3], double from,
                   double p[3])
 {
@@ -56,7 +56,8 @@ static bool leave(const glint_proxy *room, const double o[3], const double d[3],
     return t > from;
 }
 
-// How near a place on the walls is to one where two of them meet, and a look-up is bent.
+// The distance of a place on the walls to the nearest corner of the room, where look-ups have a
+// kink.
 static double distance_to_edge(const glint_proxy *room, const double p[3])
 {
     const double middle[3] = {room->middle.x, room->middle.y, room->middle.z};
@@ -70,7 +71,8 @@ static double distance_to_edge(const glint_proxy *room, const double p[3])
     return room->kind == GLINT_PROXY_SPHERE ? INFINITY : next;
 }
 
-// What is to be seen from the room's center, in a map that is to be turned by `turned` radians.
+// Draws the view from the room's centre into a map. The device will rotate the map by `turned`
+// radians.
 static void look_around(const glint_proxy *room, double turned, glint_environment *environment)
 {
     *environment = (glint_environment){.proxy = *room};
@@ -95,13 +97,13 @@ static void look_around(const glint_proxy *room, double turned, glint_environmen
     glint_cube_fill_border(cube);
 }
 
-// ---- What must be seen -------------------------------------------------------------------------
+// ---- Expected views ----------------------------------------------------------------------------
 
 typedef struct sight {
     double rgb[3];
-    double to_edge; // of the room
+    double to_edge; // distance to a corner of the room
     bool meets_room;
-    bool is_folded; // a direction ended on the wrong side of its surface, where it may not stay
+    bool is_folded; // a direction was folded at its surface
 } sight;
 
 static double dot(const double a[3], const double b[3])
@@ -109,8 +111,8 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The plane's normal and the vertices' at a hit, which is the plane's where they have none; of any
-// length.
+// The plane's normal and the interpolated vertex normal at a hit, of any length. Without vertex
+// normals both are the plane's.
 static void normals_at(const oracle_triangle *t, const oracle_hit *hit, double plane[3],
                        double n[3])
 {
@@ -129,8 +131,8 @@ static void normals_at(const oracle_triangle *t, const oracle_hit *hit, double p
     }
 }
 
-// Follows a ray over white mirrors, or through glass where `ior` is not 0, of `depth` surfaces at
-// most, to the walls. `scene` is of metres.
+// Follows a ray to the walls, over white mirrors, or through glass if `ior` is not 0, with at most
+// `depth` surfaces. `scene` is in metres.
 static sight follow(const oracle_scene *scene, const glint_proxy *room, oracle_ray ray, double ior,
                     int depth)
 {
@@ -165,7 +167,7 @@ static sight follow(const oracle_scene *scene, const glint_proxy *room, oracle_r
     const double center[3] = {room->center.x, room->center.y, room->center.z};
     double p[3];
     s.meets_room = leave(room, ray.origin, ray.direction, 0, p);
-    if (!s.meets_room) { // as from the place from where the environment was seen
+    if (!s.meets_room) { // as seen from the environment's own place
         leave(room, center, ray.direction, 0, p);
     }
     s.to_edge = distance_to_edge(room, p);
@@ -175,22 +177,22 @@ static sight follow(const oracle_scene *scene, const glint_proxy *room, oracle_r
     return s;
 }
 
-// Bilinear look-ups err by h²/8 of second derivatives in each of two directions, h = 2/EDGE: of the
-// waves, 0.4 · 2.1² at most, times the square of how far the wall is away, less than 5 m, at up to
-// 60 degrees: 2 · 2e-6 · 1.8 · (10)². Where walls meet, by a texel's change of the slope: h · 0.9
-// · 10.
+// Bilinear look-ups err by h²/8 of second derivatives in each of two directions, h = 2/EDGE. The
+// waves have at most 0.4 · 2.1², times the square of the distance to the wall. The wall is less
+// than 5 m away, at up to 60 degrees: 2 · 2e-6 · 1.8 · (10)². Where walls meet, a texel changes the
+// slope: h · 0.9 · 10.
 #define SMOOTH_ERROR 8e-4
 #define BENT_ERROR 3.6e-2
-#define NEAR_EDGE 0.06 // metres: a texel is 0.04 at most there
+#define NEAR_EDGE 0.06 // metres; a texel is at most 0.04 there
 
 typedef struct room_case {
     const char *name, *scene;
     glint_proxy room;
-    glint_vec3 eye; // looks at the origin
+    glint_vec3 eye; // the camera looks at the origin
     bool in_parallel;
     int depth;
-    double ior;     // of glass that reflects nothing; 0: mirrors
-    double degrees; // the environment is turned by
+    double ior;     // of glass without reflection; 0: mirrors
+    double degrees; // rotation of the environment
     double in_room; // least share of pixels that show the room
 } room_case;
 
@@ -311,6 +313,7 @@ static outcome compare(const room_case *c, const glint_settings *settings)
         oracle_report report;
         double rgba[4];
         oracle_pixel(bridge_scene(b), &view, pixel, rgba, &report);
+        // Skip pixels near edges, and folded directions.
         if (report.edge < 1e-5) {
             o.at_edges++;
             continue;
@@ -321,6 +324,7 @@ static outcome compare(const room_case *c, const glint_settings *settings)
             o.at_edges++;
             continue;
         }
+        // Compare with the wall that the path sees.
         double *largest = s.to_edge < NEAR_EDGE ? &o.largest_bent : &o.largest;
         o.in_room += s.meets_room;
         for (int k = 0; k < 3; k++) {

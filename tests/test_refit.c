@@ -1,4 +1,4 @@
-// A tree that is fitted to triangles that moved: still a tree of them, and how good a one.
+// Tests refitting a tree to moved triangles: it must stay a valid tree, with a true cost.
 #include "accel/bvh.h"
 #include "kernels/layout.h"
 #include "support/tree_checks.h"
@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-// Turns vertices [first, last) about an axis that is no one of the scene's, and moves them.
+// Rotates vertices [first, last) about an axis that is not an axis of the scene, and moves them.
 static void turn(test_soup *s, size_t first, size_t last, double angle, double away)
 {
     const double c = cos(angle), n = sin(angle);
@@ -61,14 +61,14 @@ static void nothing_moved_is_the_tree_as_it_was_built(void **state)
     }
 }
 
-// The whole moves, or half of it away from the other half, and normals with it.
+// The whole soup moves, or one half away from the other, with changed normals.
 static void what_moved_is_in_its_boxes(void **state)
 {
     (void)state;
     for (int trial = 0; trial < 20; trial++) {
         test_soup s = trial % 2 == 0 ? test_soup_sheet(10 + (size_t)trial * 3)
                                      : test_soup_random(200 + 400 * (size_t)trial, 10);
-        // Halves that share no vertex.
+        // Halves without shared vertices.
         const size_t half = s.count / 2 * 3, all = 3 * s.count;
         turn(&s, half, all, 0, 5);
         glint_bvh bvh = test_tree_build(&s, trial % 4 < 2 ? 8 : 16);
@@ -100,8 +100,8 @@ static void move_triangles(test_soup *s, double by, bool each_by_another)
     }
 }
 
-// A motion of the whole leaves every box as large as it was; triangles that were side by side and
-// scatter cost many times what a tree of them would that is built anew.
+// A motion of the whole soup keeps the size of every box. If neighbouring triangles scatter, the
+// refitted tree costs many times as much as a new tree.
 static void the_cost_tells_when_to_build_anew(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void the_cost_tells_when_to_build_anew(void **state)
     const double before = fitted.report.sah_cost;
     move_triangles(&s, 7, false);
     assert_true(refit(&s, &fitted));
-    // Positions are stored eight times as coarsely there: 4e-7 of boxes of 1e-2 and more.
+    // Positions are eight times as coarse there: 4e-7, with boxes of 1e-2 and more.
     assert_true(fabs(fitted.report.sah_cost / before - 1) < 1e-3);
     move_triangles(&s, 10, true);
     assert_true(refit(&s, &fitted));
@@ -144,7 +144,7 @@ static void a_tree_that_does_not_serve_is_refused(void **state)
     test_soup s = test_soup_sheet(12);
 
     test_soup torn = copy_of(&s);
-    torn.positions[9 * 100] += 1; // of a vertex that others share
+    torn.positions[9 * 100] += 1; // other triangles share this vertex
     assert_does_not_serve(&s, &torn, 8);
     test_soup_free(&torn);
 
@@ -156,7 +156,7 @@ static void a_tree_that_does_not_serve_is_refused(void **state)
     test_soup flat = copy_of(&s);
     memcpy(flat.positions + 9 * 50, flat.positions + 9 * 50 + 3, 3 * sizeof(float));
     assert_does_not_serve(&s, &flat, 8);
-    // One that had no area has one now.
+    // A triangle without area has one now.
     assert_does_not_serve(&flat, &s, 8);
     test_soup_free(&flat);
 
@@ -172,12 +172,12 @@ static void a_tree_that_does_not_serve_is_refused(void **state)
 
     glint_bvh bvh = test_tree_build(&s, 8);
     glint_bvh_inputs in = test_tree_inputs(&s, 16);
-    assert_false(glint_bvh_refit(&in, &bvh)); // another width
+    assert_false(glint_bvh_refit(&in, &bvh)); // another tree width
     in = test_tree_inputs(&s, 8);
     in.normals = NULL;
     assert_false(glint_bvh_refit(&in, &bvh));
     glint_bvh_free(&bvh);
-    assert_false(glint_bvh_refit(&in, &bvh)); // no tree at all
+    assert_false(glint_bvh_refit(&in, &bvh)); // no tree
     test_soup_free(&s);
 }
 

@@ -1,4 +1,4 @@
-// Rough surfaces: the device's lobes against the oracle's quadrature.
+// Tests rough surfaces: the device's lobes against the oracle's quadrature.
 #include "support/bridge.h"
 #include "support/judged.h"
 #include "support/render.h"
@@ -21,7 +21,7 @@ static glint_settings rough_frame(glint_roughness roughness, int depth)
     return settings;
 }
 
-// A sphere under the studio.
+// A sphere in the studio.
 static void check_spheres(float metallic, glint_roughness roughness, double allowed)
 {
     for (size_t i = 0; i < ROUGHNESSES; i++) {
@@ -64,7 +64,7 @@ static void make_furnace(glint_environment *environment)
     }
 }
 
-// A white furnace: what is reflected is a share of 1, as much as the oracle's, on all of a sphere.
+// In a white furnace, the reflected share of 1 must equal the oracle's, everywhere on a sphere.
 static void in_a_white_furnace_lobes_are_their_albedo(void **state)
 {
     (void)state;
@@ -85,7 +85,7 @@ static void in_a_white_furnace_lobes_are_their_albedo(void **state)
     glint_environment_free(&environment);
 }
 
-// With all scattering white metal of any roughness reflects all of it.
+// With multiple scattering, white metal of any roughness reflects all light.
 static void all_scattering_loses_nothing(void **state)
 {
     (void)state;
@@ -113,8 +113,8 @@ static void all_scattering_loses_nothing(void **state)
     glint_environment_free(&environment);
 }
 
-// Surfaces that see each other, as they are and turned; without Fresnel; in double precision; with
-// all scattering. The environment is smooth, so that what is left is how paths go on.
+// Interreflections: normal and rotated; without Fresnel; in double precision; with multiple
+// scattering. The environment is smooth, so the remaining error is in the paths.
 static void paths_go_on_from_rough_surfaces(void **state)
 {
     (void)state;
@@ -138,17 +138,18 @@ static void paths_go_on_from_rough_surfaces(void **state)
                 variant == 4 ? GLINT_SCATTERING_MULTIPLE : GLINT_SCATTERING_SINGLE;
             const double error = judge(&j);
             print_message("%s, variant %d: %.5f\n", names[i], variant, error);
-            // The albedo's own error, 0.003 (test_lobes.c), is over what is reflected at once then.
+            // With multiple scattering the albedo's error, 0.003 (test_lobes.c), is divided by the
+            // albedo of single scattering.
             assert_true(error <= (variant == 4 ? 0.005 : 0.003));
         }
     }
     glint_environment_free(&environment);
 }
 
-// Rough glass: solid, thin and coloured, nested, absorbing, there in part; beside metal; in double
-// precision; without Fresnel. At depth 1 both sides go evenly over the facets of one surface;
-// behind it the oracle's come in an order that looks random, and its mean of 1,024 is off by about
-// a hundredth.
+// Rough glass: solid, thin and coloured, nested, absorbing, partly transparent; beside metal; in
+// double precision; without Fresnel. At depth 1 both programs cover the facets of one surface
+// evenly. Behind it the oracle's facets come in a pseudo-random order, and its mean of 1,024 errs
+// by about a hundredth.
 static void rough_glass_is_what_the_oracle_sees(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// What the decoder of images may do: read files, compute in threads, answer. Nothing else.
+// Tests the sandbox of the image decoder: it may only read files, compute in threads, and answer.
 #include "decoder/sandbox.h"
 
 #include <errno.h>
@@ -23,8 +23,8 @@
 
 #define NO_SANDBOX 100
 
-// In a child, as a sandbox cannot be left; the number of the first attempt that went wrong, or 0.
-// Skips where the system has no sandboxes.
+// Runs in a child, because a sandbox cannot be left. Returns the number of the first failed
+// attempt, or 0. Skips on systems without sandboxes.
 static int in_child(int (*attempt)(void))
 {
     const pid_t process = fork();

@@ -1,4 +1,4 @@
-// Properties of loaded scenes: which triangles, where, and with which normals.
+// Tests the triangles of loaded scenes: their number, places and normals.
 #include "scene/scene.h"
 
 #include "support/gltf_text.h"
@@ -30,7 +30,7 @@ static void assert_near3(glint_vec3 v, double x, double y, double z)
     }
 }
 
-// Positive for a closed mesh that is wound counter-clockwise from outside.
+// Positive: the mesh is closed and counter-clockwise from outside.
 static double volume_of(const glint_scene *scene)
 {
     double sum = 0;
@@ -41,7 +41,7 @@ static double volume_of(const glint_scene *scene)
     return sum;
 }
 
-// Every vertex normal points to the outer side of its triangle.
+// Every vertex normal must point to the outer side of its triangle.
 static void assert_normals_outside(const glint_scene *scene)
 {
     assert_non_null(scene->normals);
@@ -96,7 +96,7 @@ static void negative_scale_keeps_normals_outside(void **state)
 
 static void normals_turn_by_the_inverse_transpose(void **state)
 {
-    // A plane's normal (1, 1, 0) under a scale of (4, 1, 1) is (1/4, 1, 0), made a unit vector.
+    // The normal (1, 1, 0) of a plane under a scale of (4, 1, 1) becomes (1/4, 1, 0), normalised.
     const struct {
         float positions[3][3], normals[3][3];
     } data = {{{1, 0, 0}, {0, 1, 0}, {0, 1, -1}}, {{1, 1, 0}, {1, 1, 0}, {1, 1, 0}}};
@@ -116,7 +116,7 @@ static void normals_turn_by_the_inverse_transpose(void **state)
 
 static void matrices_and_trs_of_a_hierarchy_agree(void **state)
 {
-    // A quarter turn about +Y, twice as large, moved; then under it a child that moves by (1, 0,
+    // The parent has a quarter turn about +Y, scale 2 and a translation. Its child moves by (1, 0,
     // 0).
     const char *trs = "\"nodes\":[{\"translation\":[5,6,7],\"rotation\":[0,0.70710678118654752,0,"
                       "0.70710678118654752],\"scale\":[2,2,2],\"children\":[1]},"
@@ -133,13 +133,13 @@ static void matrices_and_trs_of_a_hierarchy_agree(void **state)
             assert_near3(corner(&a, t, c), p.x, p.y, p.z);
         }
     }
-    // The mesh's origin: (1, 0, 0) turned to (0, 0, −1), doubled, moved.
+    // The origin of the mesh: (1, 0, 0) turned to (0, 0, −1), doubled, moved.
     assert_near3(corner(&a, 0, 0), 5, 6, 5);
     glint_scene_free(&a);
     glint_scene_free(&b);
 }
 
-// Loads points with the mode, by indices of a type or (0) without.
+// Loads points in a mode, with indices of a type, or 0: without.
 static glint_scene load_mode(const char *folder, int mode, int index_type, const uint32_t *indices,
                              size_t count)
 {
@@ -185,7 +185,7 @@ static bool same_triangle(const float *a, const float *b)
     return false;
 }
 
-// In order, each triangle starting at any of its corners.
+// In order; each triangle may start at any corner.
 static void assert_same_triangles(const glint_scene *a, const glint_scene *b)
 {
     assert_int_equal(a->triangle_count, b->triangle_count);
@@ -253,7 +253,7 @@ static void triangles_without_area_are_counted_and_left_out(void **state)
                   "\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
     assert_int_equal(scene.degenerate_triangles, 3);
     assert_int_equal(scene.triangle_count, 2);
-    assert_true(scene.high.x == 1); // what is left out does not stretch the bounds
+    assert_true(scene.high.x == 1); // triangles without area do not count in the bounds
     assert_null(scene.normals);
     glint_scene_free(&scene);
 }
@@ -275,7 +275,7 @@ static void stored_coordinates_lie_within_one(void **state)
             largest = fmaxf(largest, fabsf(scene.positions[k]));
         }
         assert_true(largest <= 1);
-        // At -1e15 doubles are 1/8 apart, so that little of the small ones is left.
+        // At -1e15 doubles are 1/8 apart, so small triangles lose nearly all digits.
         assert_true(largest > 0.25f || i >= 12);
         glint_scene_free(&scene);
     }
@@ -344,7 +344,7 @@ static void sparse_and_absent_data_are_zeros_elsewhere(void **state)
         "{\"attributes\":{\"POSITION\":1}},{\"attributes\":{\"POSITION\":2}},"
         "{\"attributes\":{\"POSITION\":0},\"indices\":3}]}],\"nodes\":[{\"mesh\":0}]," ONE_SCENE;
     glint_scene scene = load_rest(*state, &data, sizeof data, rest);
-    // Only zeros, as positions or as indices, have no area.
+    // Positions or indices that are all zero give triangles without area.
     assert_int_equal(scene.triangle_count, 2);
     assert_int_equal(scene.degenerate_triangles, 2);
     assert_int_equal(scene.instance_count, 2);
@@ -355,7 +355,7 @@ static void sparse_and_absent_data_are_zeros_elsewhere(void **state)
     assert_near3(corner(&scene, 1, 1), 6, 0, 0);
     assert_near3(corner(&scene, 1, 2), 5, 1, 0);
     for (size_t k = 0; k < 18; k++) {
-        assert_true(scene.normals[k] == 0); // zeros, and none
+        assert_true(scene.normals[k] == 0); // zeros, and missing normals
     }
     glint_scene_free(&scene);
 }
@@ -366,7 +366,7 @@ static void unusable_normals_become_zero(void **state)
     data.normals[0][0] = NAN;
     data.normals[1][1] = INFINITY;
     data.normals[2][1] = 0;
-    data.normals[3][2] = 1e-30f; // short, and usable
+    data.normals[3][2] = 1e-30f; // short, but usable
     glint_scene scene =
         load_rest(*state, &data, sizeof data, TETRAHEDRON ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE);
     for (size_t i = 0; i < 12; i++) {

@@ -1,5 +1,5 @@
-// Properties of loaded scenes that are not their triangles: scenes, cameras, materials, warnings,
-// where bytes come from, and models made elsewhere.
+// Tests loaded scenes except for triangles: scenes, cameras, materials, warnings, sources of bytes,
+// and models from elsewhere.
 #include "scene/scene.h"
 
 #include "scene/topology.h"
@@ -102,7 +102,7 @@ static void cameras_come_depth_first_without_scale(void **state)
     glint_scene_free(&scene);
 }
 
-// What extensions said of the glass.
+// Checks the glass's values from extensions.
 static void assert_layers(const glint_material *glass)
 {
     assert_true(glint_material_lobes(glass).solid && glint_material_lobes(glass).specular);
@@ -156,7 +156,7 @@ static void materials_are_read_and_only_the_used_ones_kept(void **state)
     assert_string_equal(lamp->name, "lamp");
     assert_true(lamp->emission[0] == 8 && lamp->emission[1] == 4 && lamp->emission[2] == 0);
     assert_true(lamp->unlit && lamp->mirror == 0.25f && isinf(lamp->attenuation_distance));
-    assert_null(scene.materials[2].name); // the default
+    assert_null(scene.materials[2].name); // the default material
     assert_true(scene.materials[2].specular == 1 && scene.materials[2].specular_color[2] == 1);
     assert_int_equal(scene.instances[0].material, 1);
     assert_int_equal(scene.instances[1].material, 2);
@@ -278,7 +278,8 @@ static void buffers_come_from_files_data_uris_and_glb(void **state)
             unsigned char *glb =
                 glb_bytes(&the_tetrahedron, sizeof the_tetrahedron,
                           TETRAHEDRON ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE, &size);
-            path = write_bytes(folder, "test.gltf", glb, size); // told by its content, not its name
+            // The file's content tells the format, not its name.
+            path = write_bytes(folder, "test.gltf", glb, size);
             free(glb);
         }
         if (glint_scene_load(path, NULL, &scene, NULL, &error) != GLINT_OK) {
@@ -321,7 +322,7 @@ static void data_uris_may_have_any_media_type(void **state)
     }
 }
 
-// Spheres and boxes that modellers wrote are what the convexity proof is for.
+// The convexity proof is for spheres and boxes from modelling programs.
 static const struct {
     const char *name;
     size_t triangles, cameras, convex;

@@ -1,5 +1,5 @@
-// Seams: fine lines that cross every edge and corner of the cube, and the lat-long's poles and
-// ±180°, as the device looks them up: no step there is larger than within faces, and no error.
+// Tests seams of device look-ups. Fine lines cross every edge and corner of the cube, and the poles
+// and ±180° of the lat-long map. Steps and errors must not be larger there than within faces.
 #include "render/probe.h"
 
 #include "base/random.h"
@@ -14,10 +14,10 @@
 #include <cmocka.h>
 
 enum { EDGE = 128, LINES = 24, ALONG = 400, PAIRS = 12 * ALONG };
-#define TEXEL (2.0 / EDGE) // on a face, whose points reach from −1 to 1
-#define STEP (TEXEL / 8)   // between the two look-ups of a pair
+#define TEXEL (2.0 / EDGE) // size on a face, which extends from −1 to 1
+#define STEP (TEXEL / 8)   // distance between the two look-ups of a pair
 
-// Lines are great circles in all directions, three texels wide: each meets every face's edges.
+// Lines are great circles in all directions, three texels wide. Each crosses edges of every face.
 static glint_vec3 normals[LINES];
 
 static void choose_lines(void)
@@ -75,8 +75,8 @@ static void make_latlong(glint_environment *environment)
                      GLINT_OK);
 }
 
-// What pairs of look-ups came to: the largest step within a pair, for the angle of a texel in the
-// middle of a face; the largest error of any.
+// Results of pairs of look-ups: the largest step within a pair, scaled to the angle of a texel in
+// the middle of a face; and the largest error.
 typedef struct measured {
     double step, error;
 } measured;
@@ -105,7 +105,8 @@ static measured look_up(glint_probe *probe, const glint_vec3 *directions, size_t
         if (i % 2 == 1) {
             const glint_vec3 a = {in[4 * i], in[4 * i + 1], in[4 * i + 2]};
             const glint_vec3 b = {in[4 * i - 4], in[4 * i - 3], in[4 * i - 2]};
-            const double apart = glint_vec3_length(glint_vec3_subtract(a, b)); // their angle
+            // The angle between the directions.
+            const double apart = glint_vec3_length(glint_vec3_subtract(a, b));
             m.step = fmax(m.step, fabs(out[4 * i] - out[4 * i - 4]) / apart * TEXEL);
         }
     }
@@ -114,8 +115,8 @@ static measured look_up(glint_probe *probe, const glint_vec3 *directions, size_t
     return m;
 }
 
-// Pairs across the cube's edges: two coordinates as large as each other, the third goes along, up
-// to and over the corners.
+// Makes pairs across the cube's edges. Two coordinates have equal size; the third runs along the
+// edge, up to and over the corners.
 static size_t across_edges(glint_vec3 *directions)
 {
     size_t count = 0;
@@ -134,7 +135,7 @@ static size_t across_edges(glint_vec3 *directions)
     return count;
 }
 
-// Pairs round each corner, some of which cross one of its edges and some two.
+// Makes pairs around each corner. Some cross one edge, some two.
 static size_t round_corners(glint_vec3 *directions)
 {
     size_t count = 0;
@@ -155,7 +156,7 @@ static size_t round_corners(glint_vec3 *directions)
     return count;
 }
 
-// Pairs across the half plane x = 0, z < 0, the lat-long's ±180°, up to the poles.
+// Makes pairs across the half plane x = 0, z < 0, the lat-long's ±180°, up to the poles.
 static size_t across_the_back(glint_vec3 *directions)
 {
     size_t count = 0;
@@ -168,7 +169,7 @@ static size_t across_the_back(glint_vec3 *directions)
     return count;
 }
 
-// Pairs anywhere within faces, four texels and more from their edges.
+// Makes pairs within faces, at least four texels from the edges.
 static size_t within_faces(glint_vec3 *directions)
 {
     glint_random random = {20};
@@ -202,6 +203,7 @@ static void check(glint_environment *environment, const char *name)
     assert_int_equal(glint_probe_create(&inputs, &probe, &error), GLINT_OK);
     glint_vec3 *directions = calloc(40 * PAIRS, sizeof *directions);
     assert_non_null(directions);
+    // Measure within faces, then at each kind of seam.
     const measured within = look_up(probe, directions, within_faces(directions));
     const struct {
         const char *where;

@@ -1,5 +1,5 @@
-// The pipeline of a sequence: every frame is written once with the pixels that it has by itself,
-// no more are in flight than was promised, and it ends when it is told to.
+// Tests the pipeline of a sequence. Every frame must be written once with the pixels of a single
+// frame. No more frames may be in flight than promised, and the pipeline must end on request.
 #include "render/sequence.h"
 
 #include "device/opencl.h"
@@ -25,17 +25,17 @@ typedef struct shot {
     glint_environment environment;
     glint_settings settings;
     glint_renderer *renderer;
-    glint_image alone[FRAMES]; // each frame by itself
-    int asked;                 // how many frames `next` gave
-    int end;                   // how many it has
-    bool hesitates;            // asks `next` to be called again, every other time
-    int refuse_after;          // how many `done` takes before it asks for the end
-    int fail;                  // the frame that cannot be written; −1: none
+    glint_image alone[FRAMES]; // each frame rendered alone
+    int asked;                 // number of frames from `next`
+    int end;                   // number of frames in the sequence
+    bool hesitates;            // every other time, `next` asks to be called again
+    int refuse_after;          // number of frames that `done` takes before it ends the sequence
+    int fail;                  // the frame with a write error; −1: none
     atomic_int writing, most_writing, written[FRAMES], different;
     int in_flight, most_in_flight, traced, done, failed;
     pthread_t caller;
-    useconds_t delay; // of writing
-    int stop_at;      // the frame within which `progress` asks for the end; −1: none
+    useconds_t delay; // time for writing
+    int stop_at;      // `progress` ends the sequence within this frame; −1: never
 } shot;
 
 static glint_camera camera_of(const shot *s, int number)
@@ -141,7 +141,7 @@ static bool step(void *context, uint64_t at, uint64_t total)
     return !(s->asked - 1 == s->stop_at && at > 0 && at <= total);
 }
 
-// Runs with what is set in *s, and the counts beginning anew.
+// Runs with the settings in *s and with new counts.
 static glint_status run(shot *s, size_t writers, useconds_t delay)
 {
     s->asked = s->in_flight = s->most_in_flight = s->traced = s->done = s->failed = 0;
@@ -225,7 +225,7 @@ static void it_ends_when_told_to(void **state)
     assert_true(s->traced < FRAMES);
     assert_each_written_once(s, s->traced);
     settle(s);
-    s->stop_at = 4; // its pixels are discarded, what was traced before is written
+    s->stop_at = 4; // its pixels are discarded; frames traced before are written
     assert_int_equal(run(s, WRITERS, 0), GLINT_INTERRUPTED);
     assert_int_equal(s->traced, 4);
     assert_each_written_once(s, 4);
@@ -239,8 +239,8 @@ static void writers_are_bounded_by_memory(void **state)
     assert_true(glint_sequence_writers(256e6) <= 2);
 }
 
-// Frames of a renderer that is given one scene after the other are those of renderers made for
-// each: also where a scene needs other kernels, as one without glass does.
+// A renderer that gets several scenes must give the frames of separate renderers, also if a scene
+// needs other kernels, such as a scene without glass.
 static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
 {
     shot *s = *state;
@@ -279,14 +279,14 @@ static void a_renderer_given_a_scene_is_one_made_of_it(void **state)
         glint_image_free(&there);
         glint_scene_free(&scene);
     }
-    assert_in_range(refitted, 1, sizeof times / sizeof *times - 1); // trees of both kinds
+    assert_in_range(refitted, 1, sizeof times / sizeof *times - 1); // both refitted and new trees
     glint_renderer_free(moved);
     glint_scene_close(source);
 }
 
-// A scene that was made ready on another thread, while a frame of the one before was rendered,
-// gives the same pixels as one that was not, and so does the frame meanwhile; on devices that share
-// the host's memory and on those that get copies.
+// A scene may be prepared on another thread while a frame of the scene before renders. Both frames
+// must have the same pixels as without preparation. Tests devices that share the host's memory and
+// devices with copies.
 typedef struct preparation {
     glint_renderer *renderer;
     const glint_scene *scene;
@@ -313,7 +313,7 @@ static void render_into(glint_renderer *renderer, const glint_scene *scene, glin
 
 enum { TIMES = 6 };
 
-// A moving scene at some times, and its frames by renderers of their own.
+// Renders a moving scene at some times, each with a new renderer.
 static void render_alone(const glint_renderer_inputs *inputs, glint_scene *scenes,
                          glint_image *images)
 {
@@ -361,7 +361,7 @@ static void follow_ahead(const glint_environment *environment)
     }
     render_into(renderer, &scenes[TIMES - 1], &image);
     assert_int_equal(test_count_different(&image, &alone[TIMES - 1]), 0);
-    assert_in_range(refitted, 1, TIMES - 2); // trees of both kinds
+    assert_in_range(refitted, 1, TIMES - 2); // both refitted and new trees
     for (int i = 0; i < TIMES; i++) {
         glint_image_free(&alone[i]);
         glint_scene_free(&scenes[i]);
@@ -381,8 +381,8 @@ static void a_scene_made_ready_meanwhile_is_the_same(void **state)
     capabilities->shares_memory = shares;
 }
 
-// A scene that cannot be shown: nothing is lost of the one before where it is only prepared; where
-// it was set, no frame is rendered until another one is.
+// An impossible scene. After a failed preparation the renderer keeps the scene before. After a
+// failed set it renders no frame until it gets another scene.
 static void a_renderer_outlives_a_scene_that_it_cannot_show(void **state)
 {
     shot *s = *state;

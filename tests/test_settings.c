@@ -1,5 +1,5 @@
-// Other settings for a renderer that there is: its frames are, bit by bit, those of one that was
-// made with them. And what is counted of frames for whoever chooses settings.
+// Tests new settings for an existing renderer: its frames must equal, bit for bit, the frames of a
+// new renderer with these settings. Also tests the statistics for choosing settings.
 #include "device/opencl.h"
 #include "support/render.h"
 
@@ -34,7 +34,7 @@ static const variation variations[] = {
      .grid_step = 3},
     {.depth = 1, .min_weight = 0.01, .aovs = GLINT_AOV_ALL},
     {.min_weight = 1e-5, .grid_step = 2, .terms = 2},
-    {.min_weight = 0.01, .truncation_squares = true}, // the first once more
+    {.min_weight = 0.01, .truncation_squares = true}, // again the first
     {.depth = 200, .min_weight = 1e-7},
 };
 
@@ -67,7 +67,7 @@ static void check_plan(const glint_plan *plan, const glint_plan *other)
     assert_string_equal(plan->width_reason, other->width_reason);
 }
 
-// Both frames have what the settings ask for, and it is the same.
+// Both frames must contain the same requested results.
 static void check_frame(test_stage *s, const glint_settings *settings)
 {
     test_frame own;
@@ -116,11 +116,11 @@ static void frames_are_those_of_a_renderer_made_with_them(void **state)
 {
     (void)state;
     check_variations("gallery", VARIATIONS);
-    check_variations("mirror_sphere", VARIATIONS); // where depth 1 is proved, for eyes outside
+    check_variations("mirror_sphere", VARIATIONS); // depth 1 is proved for eyes outside
     check_variations("lecture_example_2", 4);
 }
 
-// What is proved of a scene is heeded by whatever settings may, and by these alone.
+// Settings that permit it, and only these, use the proofs about a scene.
 static void proofs_are_for_all_settings(void **state)
 {
     (void)state;
@@ -136,7 +136,7 @@ static void proofs_are_for_all_settings(void **state)
     assert_true(glint_renderer_plan(s.renderer)->depth_is_exact);
     test_stage_close(&s);
     assert_true(glint_settings_are_variation(&two, &automatic));
-    assert_false(glint_settings_are_variation(&automatic, &two)); // nothing has been looked for
+    assert_false(glint_settings_are_variation(&automatic, &two)); // nobody has searched for proofs
 }
 
 static void another_scene_or_environment_brings_the_first_settings_back(void **state)
@@ -160,8 +160,8 @@ static void another_scene_or_environment_brings_the_first_settings_back(void **s
     test_stage_close(&s);
 }
 
-// More plans than kernels are kept of, small frames and large ones in turns: the two that take
-// turns with all of the others are as they were.
+// More plans than the kernel cache holds, with small and large frames in turns. The two plans
+// between the others must not change.
 static void there_may_be_any_number_of_them(void **state)
 {
     (void)state;
@@ -213,7 +213,7 @@ static void bad_ones_are_refused_until_there_are_good_ones(void **state)
     test_stage_close(&s);
 }
 
-// The frame's buffers are compared with what the device has left, for these settings too.
+// The buffers of the new settings must also fit into the device's free memory.
 static void what_the_device_cannot_hold_is_refused(void **state)
 {
     (void)state;
@@ -239,7 +239,7 @@ static void what_the_device_cannot_hold_is_refused(void **state)
     test_stage_close(&s);
 }
 
-// What is uploaded once does not count again with each change of settings and each mended frame.
+// Changes of settings and mended frames must not count shared uploads again.
 static void uploads_do_not_add_up(void **state)
 {
     (void)state;
@@ -257,13 +257,13 @@ static void uploads_do_not_add_up(void **state)
     test_stage_close(&s);
 }
 
-// ---- What is counted ---------------------------------------------------------------------------
+// ---- Counters ----------------------------------------------------------------------------------
 
 typedef struct truncation_case {
     const char *scene;
     int depth, samples_per_axis;
     double min_weight;
-    bool is_zero; // nothing counts
+    bool is_zero; // the error is exactly zero
 } truncation_case;
 
 static const truncation_case truncations[] = {
@@ -272,7 +272,7 @@ static const truncation_case truncations[] = {
     {"lecture_example_2", 2, 1, 0, false},
 };
 
-// The layer holds what the longest way of counting gives: each pixel's weights one by one.
+// The layer holds each pixel's truncated weight, added up the slowest way: one by one.
 static double rms_of_layer(const test_frame *frame, const glint_settings *settings)
 {
     const size_t pixels = (size_t)settings->width * (size_t)settings->height;
@@ -310,7 +310,7 @@ static void truncated_weight_is_counted_pixel_by_pixel(void **state)
         test_render(&scene, test_studio(), NULL, &settings, &with_layer);
         const double expected = c->is_zero ? 0 : rms_of_layer(&with_layer, &settings);
         assert_true(c->is_zero || expected > 1e-3);
-        // Float sums of at most some hundred weights, and 2^−37 of each square.
+        // Float sums of up to some hundred weights, and 2^−37 of each square.
         assert_true(fabs(rms[0] - expected) <= 1e-5 * expected);
         test_frame_free(&with_layer);
         glint_scene_free(&scene);

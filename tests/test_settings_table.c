@@ -1,5 +1,5 @@
-// Properties of the table of settings, and of what reads it: they hold for every row, so that a new
-// one needs no test of its own here.
+// Tests the table of settings and its readers. The tests hold for every row, so a new row needs no
+// new test.
 #include "render/settings_table.h"
 #include "report/frame/fingerprint.h"
 #include "report/json.h"
@@ -23,14 +23,15 @@ static glint_status check(const glint_settings *settings, glint_error *error)
     return glint_settings_check(settings, &able, &nothing, error);
 }
 
-// Reads `text` as the option's value. Errors as of the option.
+// Reads `text` as the option's value. Errors: those of the option.
 static glint_status read(const glint_setting *setting, const char *text, glint_settings *settings)
 {
     char *destination = (char *)settings + glint_setting_destination(setting);
     return glint_option_parse(&setting->option, text, destination, NULL);
 }
 
-// Another value than the default, which may be asked for. Of choices the second: the first is 0.
+// Changes a setting to a valid value that is not its default. Choices change to the second; the
+// first is 0.
 static void change(const glint_setting *setting, glint_settings *settings)
 {
     static const char *const texts[] = {"1", "2", "0.5", "16", "4", "tir", "transparent", "64x48"};
@@ -175,7 +176,7 @@ static void what_decides_pixels_decides_the_fingerprint(void **state)
     }
 }
 
-// Numbers as such, auto and choices as words.
+// Numbers stay numbers; auto and choices are words.
 static void reports_hold_what_the_options_take(void **state)
 {
     (void)state;
@@ -209,7 +210,7 @@ static void zeros_of_both_signs_are_one_value(void **state)
     settings.mend = settings.env_rotate = -0.0;
     assert_null(glint_settings_find_changed(&settings, ~0u));
     assert_true(glint_settings_are_variation(&settings, &glint_settings_default));
-    settings.mend = NAN; // no value's equal, its own neither
+    settings.mend = NAN; // NaN equals no value, not even itself
     assert_non_null(glint_settings_find_changed(&settings, ~0u));
 }
 

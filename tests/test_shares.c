@@ -1,4 +1,4 @@
-// How much of a picture shows which material, against areas in closed form.
+// Tests each material's share of the picture against areas in closed form.
 #include "scene/shares.h"
 
 #include <math.h>
@@ -11,11 +11,11 @@
 
 #define PI 3.14159265358979323846
 
-// Shares count a grid of 64 rows: the edges of a shape pass between its rays, so that a row at each
-// edge may be counted or not.
+// Shares count a grid of 64 rows. The edges of a shape lie between its rays, so a row at each edge
+// may count or not.
 #define ROW (1.0 / 64)
 
-// A rectangle about a point, across the view of a camera that looks along −z.
+// A rectangle around a point, across the view of a camera that looks along −z.
 static void add_rectangle(float *positions, glint_vec3 middle, double half_width,
                           double half_height)
 {
@@ -30,7 +30,7 @@ static void add_rectangle(float *positions, glint_vec3 middle, double half_width
 static const glint_camera looking_along = {
     .yfov = PI / 2, .ymag = 1, .right = {1, 0, 0}, .up = {0, 1, 0}, .back = {0, 0, 1}};
 
-// Two rectangles of materials 0 and 1; the second is behind the first in part.
+// Two rectangles of materials 0 and 1. The first partly hides the second.
 static glint_scene make_two(float positions[36], uint32_t materials[4])
 {
     add_rectangle(positions, (glint_vec3){-1, 0, -4}, 1, 1);
@@ -53,7 +53,7 @@ static void nearer_surfaces_hide_others(void **state)
     const glint_scene scene = make_two(positions, materials);
     double shares[3];
     assert_true(glint_material_shares(&scene, &looking_along, 2, shares));
-    // The picture is 4 × 2 at 1 metre: there the first is 1/2 × 1/2, the second 1 × 1/2.
+    // The picture is 4 × 2 at 1 metre. The first rectangle is 1/2 × 1/2 there, the second 1 × 1/2.
     assert_true(fabs(shares[0] - 0.25 / 8) < 2 * ROW * 0.25);
     assert_true(fabs(shares[1] - (0.5 - 0.25) / 8) < 2 * ROW * 0.5);
     assert_true(shares[2] <= 0);
@@ -78,7 +78,7 @@ static void parallel_rays_see_sizes(void **state)
     assert_true(fabs(shares[1] - 32.0 / 100) < ROW * 2.4);
 }
 
-// A floor that reaches behind the eye fills the lower half, up to the horizon.
+// A floor that extends behind the eye fills the lower half, up to the horizon.
 static void a_floor_reaches_behind_the_eye(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void a_floor_reaches_behind_the_eye(void **state)
     assert_true(glint_material_shares(&scene, &away, 1.5, shares));
     assert_true(fabs(shares[0] - 0.5) < 1e-12);
     away = looking_along;
-    away.eye.y = -1; // in its plane
+    away.eye.y = -1; // the eye is in its plane
     assert_true(glint_material_shares(&scene, &away, 1.5, shares));
     assert_true(shares[0] <= 0);
 }

@@ -1,5 +1,5 @@
-// What is proved of the surfaces that paths can meet, held against frames whose paths are traced:
-// none goes deeper than was proved, and the pixels are the same.
+// Tests proofs about the surfaces that paths can meet, against frames with traced paths: no path
+// may go deeper than proved, and the pixels must be the same.
 #include "selftest/shapes.h"
 #include "support/render.h"
 
@@ -20,13 +20,13 @@ static double bumpy(const double d[3])
     return 1 + 0.1 * sin(9 * d[0]) * sin(7 * d[1] + 1);
 }
 
-// A ball with a dent that no more than a few of its triangles have.
+// A ball with a dent in a few triangles only.
 static double dented(const double d[3])
 {
     return d[1] > 0.995 ? 0.99 : 1;
 }
 
-// From z = −0.4 to 0.4 and from x0, at height y, to x1, at height y + tilt.
+// A quad from z = −0.4 to 0.4, and from x0 at height y to x1 at height y + tilt.
 typedef struct quad {
     double y, x0, x1, tilt;
 } quad;
@@ -133,7 +133,7 @@ static void a_glass_ball(shape *s)
     shape_add_ball(s, &(shape_ball){middle, 0.5, 3, MATERIAL_GLASS, true, NULL});
 }
 
-static void a_pane_before_a_mirror(shape *s) // so near that they might be taken for one plane
+static void a_pane_before_a_mirror(shape *s) // nearly coplanar
 {
     add_quad(s, (quad){0.3, -0.6, 0.6, 0}, MATERIAL_MIRROR);
     add_quad(s, (quad){0.3 + 1e-6, -0.6, 0.6, 0}, MATERIAL_CORE);
@@ -148,9 +148,10 @@ static void a_pane_beside_a_mirror(shape *s)
 typedef struct sight_case {
     const char *name;
     void (*build)(shape *s);
-    int depth; // that must be proved; 0: none may be
+    int depth; // depth to be proved; 0: no proof may exist
     bool from_outside;
-    int met; // surfaces that the longest path of 16 meets at least, where nothing is proved
+    // Least number of surfaces of the longest path (of at most 16), if nothing is proved.
+    int met;
 } sight_case;
 
 static const sight_case cases[] = {
@@ -205,7 +206,7 @@ static void render(const glint_scene *scene, const glint_camera *camera, int dep
     test_render(&seen, test_studio(), NULL, &settings, frame);
 }
 
-// Whose exits are proved to meet nothing: glass alone, and convex.
+// Only a single convex glass object is proved to have no hits after exits.
 static void glass_on_paint(shape *s)
 {
     a_glass_ball(s);
@@ -228,8 +229,8 @@ static const struct {
     {"a bubble", a_bubble, false},
 };
 
-// Where it is proved that what leaves glass meets nothing, all that it meets when it is traced all
-// the same, as with a depth by number, is nothing: bit by bit, from outside and from within.
+// If the proof says that rays leaving glass meet nothing, tracing them must change nothing, bit for
+// bit. A fixed depth forces the tracing. Tests eyes outside and inside.
 static void exits_escape_as_is_proved(void **state)
 {
     (void)state;
@@ -280,7 +281,7 @@ static void is_proved_as_it_must_be(void **state)
         assert_int_equal(sight.depth, cases[i].depth);
         assert_int_equal(sight.from_outside, cases[i].from_outside);
         assert_true(sight.reason[0] != '\0');
-        // What convexity proves must be asked for, as it is not looked into otherwise.
+        // Convexity is only examined on request, so the proof must request it.
         assert_true(!sight.from_outside || glint_sight_wants_topology(&scene, false));
         const glint_sight without = glint_sight_find(&scene, &(glint_topology){0}, false);
         assert_int_equal(without.depth, sight.from_outside ? 0 : sight.depth);
@@ -292,8 +293,7 @@ static void is_proved_as_it_must_be(void **state)
     }
 }
 
-// What becomes of a path at each kind of surface, told by what is proved of a convex ball and of a
-// bumpy one that are made of it.
+// Which materials end a path: proofs for a convex ball and for a bumpy ball of each material.
 static void materials_end_paths_or_not(void **state)
 {
     (void)state;
@@ -345,7 +345,7 @@ static void materials_end_paths_or_not(void **state)
     }
 }
 
-// From four places: paths that are traced meet no more than was proved.
+// From four places, traced paths must not meet more surfaces than proved.
 static void no_path_goes_deeper(void **state)
 {
     (void)state;
@@ -365,7 +365,7 @@ static void no_path_goes_deeper(void **state)
             assert_true(c->depth == 0 || traced.report.deepest <= (uint32_t)c->depth);
             assert_true(c->depth == 0 || automatic.report.truncation.by_depth == 0);
             for (size_t p = 0; c->depth > 0 && p < 61 * 43 * 4; p++) {
-                // The short way of mirrors rounds otherwise (test_mirrors.c): 1e-4 of 20 at most.
+                // The short way of mirrors rounds differently (test_mirrors.c): at most 1e-4 of 20.
                 const double off =
                     (double)traced.image.pixels[p] - (double)automatic.image.pixels[p];
                 assert_true(fabs(off) < 2e-3);
@@ -380,8 +380,7 @@ static void no_path_goes_deeper(void **state)
     }
 }
 
-// From within a closed mirror paths go on for ever: its plan, made for eyes outside, gives way, and
-// comes back.
+// Inside a closed mirror paths never end. The plan for eyes outside must give way, and come back.
 static void an_eye_inside_is_noticed(void **state)
 {
     (void)state;
@@ -394,6 +393,7 @@ static void an_eye_inside_is_noticed(void **state)
                                           .settings = &settings};
     glint_renderer *renderer;
     assert_int_equal(glint_renderer_create(&inputs, &renderer, NULL), GLINT_OK);
+    // Cameras outside and inside, and orthographic cameras whose plane cuts the box or does not.
     const glint_camera outside = camera_at(1.1, 0.9, 1.3), inside = camera_at(0.1, 0.1, 0.1);
     const double eye[3] = {0.1, 0.1, 0.1};
     const glint_camera cutting = shape_camera(eye, middle, 0, 0.5);

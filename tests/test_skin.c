@@ -1,5 +1,5 @@
-// Skins and morph targets against a model of their formulas in double precision (support/figure.h),
-// and closed forms.
+// Tests skins and morph targets against a model of their formulas in double precision
+// (support/figure.h), and against closed forms.
 #include "scene/scene.h"
 
 #include "support/figure.h"
@@ -33,7 +33,7 @@ static glint_scene_source *open_figure(const char *folder, const figure *f)
     return source;
 }
 
-// `warning` is part of the only one that is to be given; NULL: none.
+// Expects one warning that contains `warning`; NULL: none.
 static glint_scene warned_scene_at(glint_scene_source *source, double time, const char *warning)
 {
     glint_scene scene;
@@ -62,8 +62,8 @@ static double world(const glint_scene *scene, size_t number)
     return origin[number % 3] + scene->unit * (double)scene->positions[number];
 }
 
-// Positions are stored in floats of at most one unit, normals in floats of at most 1: half of their
-// last digit, and what both ways of computing round in double precision.
+// Positions are stored as floats of at most one unit, normals as floats of at most 1. The tolerance
+// is half of the last digit, plus the rounding of both computations in double precision.
 static void assert_stands_as_modelled(const figure *f, const glint_scene *scene, double time)
 {
     const double rounding = 0x1p-25 * (1 + 1e-5);
@@ -151,7 +151,7 @@ static void vertices_follow_their_joints(void **state)
     }
 }
 
-// Their sums are not 1 by up to 8 halves of 1/255: within what rounds, so nobody is warned.
+// The sums differ from 1 by up to 8 halves of 1/255. This is rounding, so there is no warning.
 static void weights_may_be_integers(void **state)
 {
     static const int types[] = {5121, 5123};
@@ -183,7 +183,7 @@ static void mirrored_joints_turn_the_winding(void **state)
                 false);
 }
 
-// A scale of 0 along one axis: normals stand on the plane that is left.
+// A scale of 0 along one axis: normals are perpendicular to the remaining plane.
 static void flattened_skins_keep_their_normals(void **state)
 {
     assert_kind(*state, (figure_kind){.influences = 4, .flattens = true, .turns = true}, true);
@@ -197,8 +197,8 @@ static void joints_need_not_be_in_the_scene(void **state)
                 true);
 }
 
-// Each copy of a skinned mesh stands where its instance alone says, of a morphed one at its node,
-// too: the second is the first, shifted.
+// The instance alone places each copy of a skinned mesh; a morphed mesh also uses its node. The
+// second copy is the first, shifted.
 static void instances_share_what_deforms_them(void **state)
 {
     figure_kind kind = {.influences = 8, .turns = true, .instanced = true, .seed = 7};
@@ -228,8 +228,7 @@ static void instances_share_what_deforms_them(void **state)
     }
 }
 
-// glTF hides a skinned mesh where all its joints have a scale of 0, and not where only its node
-// has.
+// glTF hides a skinned mesh if all joints have scale 0, but not if only its node has.
 static void joints_of_no_size_hide_the_mesh(void **state)
 {
     const figure_kind kind = {.influences = 4, .seed = 1};
@@ -249,7 +248,7 @@ static void joints_of_no_size_hide_the_mesh(void **state)
 
 // ---- Mistakes ----------------------------------------------------------------------------------
 
-// Sums that are not 1 are mended as the model mends them.
+// The loader normalises sums that are not 1, like the model.
 static void weights_are_normalised_with_a_warning(void **state)
 {
     const figure_kind kind = {.influences = 8, .turns = true, .seed = 2};
@@ -328,7 +327,7 @@ static void what_means_nothing_is_refused(void **state)
         "output: value 3 is not finite",
     };
     for (int which = 0; which < (int)(sizeof said / sizeof *said); which++) {
-        for (int turns = 0; turns < 2; turns++) { // the bounds of a clip meet them first
+        for (int turns = 0; turns < 2; turns++) { // the bounds of a clip find the error first
             const figure_kind kind = {.influences = 8,
                                       .targets = 3,
                                       .interpolation = "LINEAR",
@@ -349,7 +348,7 @@ static void what_means_nothing_is_refused(void **state)
     }
 }
 
-// The numbers in a file of a few lines may ask for hours of adding zeros.
+// A file of a few lines may ask for hours of adding zeros.
 static void more_work_than_minutes_is_refused(void **state)
 {
     enum { TARGETS = 1100 };
@@ -381,7 +380,7 @@ static void more_work_than_minutes_is_refused(void **state)
     free(text);
 }
 
-// A joint's number does not matter where its weight is 0.
+// A joint with weight 0 may have any index.
 static void joints_without_weight_may_be_any(void **state)
 {
     const figure_kind kind = {.influences = 4, .turns = true, .seed = 6};
@@ -398,7 +397,7 @@ static void joints_without_weight_may_be_any(void **state)
 
 // ---- Bounds ------------------------------------------------------------------------------------
 
-// The default camera's bounds: the figure at all times that are looked at, and no more.
+// The bounds of the default camera hold the figure at all sampled times, and no more.
 static void bounds_are_those_of_the_whole_clip(void **state)
 {
     const figure_kind kind = {

@@ -1,6 +1,6 @@
-// Frames of a skinned, morphing box against frames of plain files that hold it as the test's own
-// arithmetic leaves it. All numbers are short sums of powers of two, so that nothing rounds and
-// both must agree bit for bit: scene, tree fitted from frame to frame, and pixels.
+// Tests frames of a skinned, morphing box against frames of plain files with the box baked by the
+// test's own arithmetic. All numbers are short sums of powers of two, so nothing rounds. Scene,
+// tree (refitted from frame to frame) and pixels must agree bit for bit.
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "support/gltf_text.h"
@@ -17,10 +17,10 @@
 
 enum { LEVELS = 9, VERTICES = 4 * LEVELS, TRIANGLES = 8 * (LEVELS - 1) + 4, FRAMES = 5 };
 
-// A square column along +Y, its vertices level by level.
+// A square column along +Y, with its vertices level by level.
 typedef struct column {
     float positions[VERTICES][3];
-    float bump[VERTICES][3]; // the morph target's
+    float bump[VERTICES][3]; // deltas of the morph target
     uint8_t joints[VERTICES][4];
     float weights[VERTICES][4];
     uint16_t indices[TRIANGLES][3];
@@ -68,7 +68,8 @@ static column make_column(void)
     return c;
 }
 
-// Joint 0 stays at the origin. Joint 1 is at home at (0, 1, 0); it moves and grows.
+// Bakes the column at a time. Joint 0 stays at the origin. Joint 1 rests at (0, 1, 0); it moves and
+// grows.
 static void bake(const column *c, double time, float baked[VERTICES][3])
 {
     const double share = time / 4;

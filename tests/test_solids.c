@@ -1,4 +1,4 @@
-// Which solids touch and overlap, and which of them gives way.
+// Tests which solids touch and overlap, and which of two overlapping solids gives way.
 #include "scene/solids.h"
 
 #include "support/bodies.h"
@@ -131,7 +131,7 @@ static void contacts_are_found(void **state)
     }
 }
 
-// Stuffs from the one that gives way on, as media have them.
+// Checks the order of media, from the solid that gives way first.
 static void assert_order(const bodies *all, const stuff *order, size_t count)
 {
     found f = find(all, 0.3);
@@ -167,7 +167,7 @@ static void the_lesser_solid_is_there_unless_the_file_says_else(void **state)
     assert_order(&again, (const stuff[]){GLASS, WATER, GLASS}, 3);
 }
 
-// A hollow's own surface is of the same medium as the solid that it is in.
+// The surface of a hollow has the same medium as the solid around it.
 static void a_hollow_belongs_to_its_solid(void **state)
 {
     (void)state;

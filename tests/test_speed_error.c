@@ -1,5 +1,5 @@
-// The arithmetic of speed against error: which rungs a ladder has, which of them are beaten, how
-// far directions are off, and how a page puts texts and points.
+// Tests the arithmetic of speed against error: the rungs of a ladder, dominated rungs, errors of
+// directions, and the layout of texts and points on a page.
 #include "render/ladder.h"
 #include "report/speed_error/data_uri.h"
 #include "report/speed_error/page_plot.h"
@@ -101,7 +101,7 @@ static void what_a_scene_has_not_has_no_rung(void **state)
     assert_int_equal(glass.count, GLINT_RUNGS_MAX);
 }
 
-// What a rung does not speak of is the settings'.
+// A rung only changes its own settings.
 static void the_rest_is_as_it_was(void **state)
 {
     (void)state;
@@ -123,7 +123,7 @@ static void the_rest_is_as_it_was(void **state)
     }
 }
 
-// ---- Which are beaten --------------------------------------------------------------------------
+// ---- Dominated rungs ---------------------------------------------------------------------------
 
 static void the_beaten_know_by_whom(void **state)
 {
@@ -132,10 +132,10 @@ static void the_beaten_know_by_whom(void **state)
         double ms, error;
         int by;
     } cases[] = {
-        {1, 0.5, -1},  {2, 0.5, 0},             // as right, slower
-        {3, 0.1, -1},  {3, 0.2, 2},             // as fast, less right
-        {4, NAN, 0},   {5, 0.05, 6},            // what is NaN is beaten by the fastest
-        {5, 0.01, -1}, {6, 0, -1},   {7, 0, 7}, // two without an error: the faster is left
+        {1, 0.5, -1},  {2, 0.5, 0},             // the same error, but slower
+        {3, 0.1, -1},  {3, 0.2, 2},             // the same speed, but a larger error
+        {4, NAN, 0},   {5, 0.05, 6},            // the fastest rung dominates NaN
+        {5, 0.01, -1}, {6, 0, -1},   {7, 0, 7}, // two without an error: the faster remains
     };
     enum { COUNT = sizeof cases / sizeof *cases };
     glint_rung_result rungs[COUNT] = {0};
@@ -147,7 +147,7 @@ static void the_beaten_know_by_whom(void **state)
     for (int i = 0; i < COUNT; i++) {
         assert_int_equal(rungs[i].dominated_by, cases[i].by);
     }
-    glint_rung_result same[2] = {0}; // neither is better
+    glint_rung_result same[2] = {0}; // neither dominates
     glint_speed_error_compare(same, 2);
     assert_true(same[0].dominated_by < 0 && same[1].dominated_by < 0);
 }
@@ -196,7 +196,7 @@ static void angles_are_told_in_degrees(void **state)
     assert_true(found.compared == PIXELS && found.mean == 0 && found.largest == 0);
 
     turn(one, 7, 90);
-    turn(one, 8, 1e-4);       // the cosine would not show it
+    turn(one, 8, 1e-4);       // too small for the cosine
     other->values[3][9] = 1;  // an irradiance
     other->values[5][10] = 0; // no light
     assert_int_equal(glint_direction_error_find(&one->layers, &other->layers, PIXELS, &found, NULL),
@@ -215,7 +215,7 @@ static void angles_are_told_in_degrees(void **state)
 
 static char *plot_of(const glint_plot_point *points, size_t count)
 {
-    static char *text; // static, as GCC 12 takes what is left of one on the stack to dangle
+    static char *text; // static: for a variable on the stack, GCC 12 warns of a dangling pointer
     static size_t size;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
@@ -250,13 +250,13 @@ static void what_can_be_shown_is(void **state)
     assert_non_null(strstr(text, ">none<"));
     assert_true(strstr(text, "nan") == NULL && strstr(text, "inf") == NULL);
     free(text);
-    text = plot_of(points, 0); // nothing to show is no mistake
+    text = plot_of(points, 0); // an empty plot is valid
     assert_true(strstr(text, "nan") == NULL && strstr(text, "inf") == NULL);
     assert_int_equal(count_of(text, "<circle"), 0);
     free(text);
 }
 
-// Every point within the axes, however narrow or wide the ranges.
+// All points must be within the axes, for narrow and wide ranges.
 static void points_stay_within_the_axes(void **state)
 {
     (void)state;
@@ -281,7 +281,7 @@ static void points_stay_within_the_axes(void **state)
     }
 }
 
-// A PNG file begins with eight bytes that base64 turns into these.
+// The base64 text of a PNG file's first eight bytes.
 static void pictures_of_the_page_need_no_file(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Properties of the statistics that measurements are reported by.
+// Tests the statistics of measurements.
 #include "base/statistics.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-// A sequence that looks random and is the same everywhere (Numerical Recipes' constants).
+// A pseudo-random sequence, the same everywhere (Numerical Recipes' constants).
 static double next_value(uint32_t *state)
 {
     *state = *state * 1664525u + 1013904223u;
@@ -65,7 +65,7 @@ static double median_of(double *values, size_t count)
     return (values[(count - 1) / 2] + values[count / 2]) / 2;
 }
 
-// The deviation without another array, against the definition.
+// Compares the deviation, computed without another array, with its definition.
 static void the_deviation_is_the_median_distance_from_the_median(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Scenes without some of their nodes: what is left, what it is called, and what is refused.
+// Tests scenes without some of their nodes: the remaining triangles, their names, and refusals.
 #include "scene/subset.h"
 
 #include "support/gltf_text.h"
@@ -14,8 +14,9 @@
 
 #define MESH_OF(material) "{" TETRAHEDRON_PRIMITIVE ",\"material\":" material "}"
 
-// A group with two tetrahedra of two materials, one of which bears the name of a third beside it,
-// and one without a name; a tetrahedron's bounds are a unit cube at its node's translation.
+// A group with two tetrahedra of two materials. One of them has the same name as a third
+// tetrahedron beside the group; a fourth has no name. The bounds of a tetrahedron are a unit cube
+// at its node's translation.
 static glint_scene load(void **state)
 {
     return load_rest(

@@ -1,4 +1,4 @@
-// What pixels are the sum of: lit anew, a frame is what is rendered with that environment.
+// Tests terms of pixels: relighting a frame must give the frame rendered with the new environment.
 #include "render/terms.h"
 
 #include "image/image_io.h"
@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-// Another environment: what the first has along a direction, of another colour.
+// Makes another environment: the radiance of the first along a direction, in another colour.
 static void other_environment(glint_environment *environment)
 {
     bridge_direction_environment(32, environment);
@@ -37,7 +37,7 @@ static void render(const char *name, const glint_environment *environment,
     glint_scene_free(&scene);
 }
 
-// The frame's terms, by way of a file.
+// Writes the frame's terms to a file and reads them.
 static glint_terms terms_of(const test_frame *frame)
 {
     glint_terms terms;
@@ -51,8 +51,8 @@ static glint_terms terms_of(const test_frame *frame)
     return terms;
 }
 
-// A pixel is a sum of up to `capacity` products of numbers up to 3·weight, and all weights are 1 at
-// most together: half a hundred roundings at the very most, of numbers under 3.
+// A pixel is a sum of up to `capacity` products of numbers up to 3·weight. All weights add up to at
+// most 1. The error is at most half a hundred roundings of numbers under 3.
 static const double rounding = 50 * 6e-8 * 3;
 
 static double worst_difference(const glint_image *a, const glint_image *b)
@@ -81,11 +81,13 @@ static void check(const char *name, const glint_settings *settings)
     assert_int_equal(terms.capacity, settings->terms);
     assert_true(terms.dropped == 0);
 
+    // Relight with the same environment.
     assert_int_equal(glint_terms_relight(&terms, &first, settings->env_rotate, &found, &error),
                      GLINT_OK);
     assert_true(worst_difference(&found, &kept.image) <= rounding);
     glint_image_free(&found);
 
+    // Relight with another environment, rotated.
     plain.env_rotate = 70;
     render(name, &other, &plain, &wanted);
     assert_int_equal(glint_terms_relight(&terms, &other, 70, &found, &error), GLINT_OK);
@@ -160,7 +162,7 @@ static void packets_of_1_8_and_16_rays_keep_the_same(void **state)
     glint_environment_free(&environment);
 }
 
-// The environment is 1 at most: so much less is a pixel as what was left out weighs.
+// The environment is at most 1, so a pixel lacks at most the weight of the dropped terms.
 static void what_finds_no_room_is_the_lightest_and_is_counted(void **state)
 {
     (void)state;
@@ -224,7 +226,7 @@ static void files_without_terms_are_refused(void **state)
     glint_image_free(&image);
 }
 
-// A file from elsewhere may hold anything: what is no number is passed on, and nothing else is
+// A file from elsewhere may hold any value: non-finite values pass through, and nothing else is
 // lost.
 static void what_is_no_number_stays_one(void **state)
 {

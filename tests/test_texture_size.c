@@ -1,4 +1,4 @@
-// Levels that --texture-size leaves out, and images that are joined.
+// Tests --texture-size, which drops texture levels, and joined images.
 #include "scene/texture.h"
 #include "support/scratch.h"
 #include "support/textured_plane.h"

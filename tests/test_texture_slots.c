@@ -1,6 +1,6 @@
-// What each of a material's textures does, and colours and alpha of vertices: a texture of one
-// value is a factor of that value; bent normals and layers of planes have closed forms. And what
-// stands in for textures that cannot be read.
+// Tests each texture slot of a material, and colours and alpha of vertices. A texture of one value
+// must act as a factor of this value. Bent normals and layers of planes have closed forms. Also
+// tests the substitutes for unreadable textures.
 #include "scene/material_override.h"
 #include "support/bridge.h"
 #include "support/gltf_text.h"
@@ -53,7 +53,7 @@ static const slot_case slots[] = {
      "}}",
      "\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{"
      "\"KHR_materials_transmission\":{\"transmissionFactor\":0.1}}"},
-    // A normal that stands upright bends nothing.
+    // An upright normal bends nothing.
     {"\"pbrMetallicRoughness\":{\"roughnessFactor\":0},\"normalTexture\":{\"index\":1,"
      "\"scale\":0}",
      "\"pbrMetallicRoughness\":{\"roughnessFactor\":0}"},
@@ -91,7 +91,7 @@ static void a_texture_of_one_value_is_a_factor(void **state)
         render_plane(textured_plane_load(*state, MESH("") "\"materials\":[{%s}]", slots[i].plain),
                      &settings, &plain);
         const double worst = largest_difference(&textured, &plain, 61 * 43);
-        // Texels are rounded to 1/65535, and factors to floats.
+        // Texels are rounded to 1/65535, factors to floats.
         if (!(worst < 2e-5)) {
             fail_msg("slot %zu: %g", i, worst);
         }
@@ -124,14 +124,15 @@ static void colors_of_vertices_multiply_the_base_color(void **state)
 
 // ---- Normals ------------------------------------------------------------------------------------
 
-// The direction that a mirror shows whose normal is bent by (x, y) of a normal texture.
+// The direction in a mirror whose normal a normal texture bends by (x, y).
 static void bent_normals_turn_reflections(void **state)
 {
     write_texel("n.png", 178, 89, 230, 255); // x = 0.396, y = −0.302, z = 0.804
     const double raw[3] = {2 * 178 / 255.0 - 1, 2 * 89 / 255.0 - 1, 2 * 230 / 255.0 - 1};
     glint_environment directions;
     bridge_direction_environment(32, &directions);
-    static const char *const tangents[] = {",\"TANGENT\":4", ""}; // of the file; as computed
+    // Tangents of the file; computed tangents.
+    static const char *const tangents[] = {",\"TANGENT\":4", ""};
     for (int from_file = 0; from_file < 2; from_file++) {
         glint_scene scene = textured_plane_load(
             *state,
@@ -143,7 +144,7 @@ static void bent_normals_turn_reflections(void **state)
         glint_settings settings = test_small_frame(1);
         test_frame frame;
         test_render(&scene, &directions, NULL, &settings, &frame);
-        // Tangent +x, bitangent where v falls: −z, normal +y.
+        // Tangent +x, bitangent in the direction of falling v: −z, normal +y.
         const double length = sqrt(raw[0] * raw[0] / 4 + raw[1] * raw[1] / 4 + raw[2] * raw[2]);
         const double n[3] = {raw[0] / 2 / length, raw[2] / length, -raw[1] / 2 / length};
         int compared = 0;
@@ -159,10 +160,10 @@ static void bent_normals_turn_reflections(void **state)
                 r[k] = 2 * along * n[k] - v[k];
             }
             if (along < 0 || r[1] < 0) {
-                continue; // folded, which tests/test_frame.c judges
+                continue; // skip folded directions, which tests/test_frame.c tests
             }
             for (int k = 0; k < 3; k++) {
-                // Within what 32 texels a face make of a direction.
+                // Within the angular resolution of 32 texels a face.
                 assert_true(fabs(frame.exact[4 * i + k] - (0.5 + 0.5 * r[k])) < 2e-3);
             }
             compared++;
@@ -176,7 +177,7 @@ static void bent_normals_turn_reflections(void **state)
 
 // ---- Alpha --------------------------------------------------------------------------------------
 
-// A second plane a little under the first, which glows; the first is there in part.
+// A second, glowing plane slightly below the first. The first is partly transparent.
 #define TWO_PLANES(material)                                                                       \
     "\"meshes\":[{\"primitives\":[{\"indices\":6,\"material\":0,\"attributes\":{\"POSITION\":0,"   \
     "\"TEXCOORD_0\":2}}]},{\"primitives\":[{\"indices\":6,\"material\":1,\"attributes\":{"         \
@@ -203,7 +204,7 @@ static glint_scene load_two(const char *folder, const char *material, bool with_
 
 typedef struct alpha_case {
     const char *material;
-    double share; // of the first plane, unlit (1, 0.5, 0)
+    double share; // share of the first plane, unlit (1, 0.5, 0)
 } alpha_case;
 
 #define RED(alpha) UNLIT ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,0," alpha "]}"
@@ -218,7 +219,7 @@ static const alpha_case alphas[] = {
     {RED("1") ",\"alphaMode\":\"MASK\",\"alphaCutoff\":1.5", 0},
 };
 
-// A pixel of the near part, where both planes are seen.
+// A near pixel, which shows both planes.
 enum { NEAR_PIXEL = 61 * 33 + 30 };
 
 static void what_is_there_in_part_lets_light_pass(void **state)
@@ -261,7 +262,7 @@ static void alpha_is_kept_where_the_background_is_left_out(void **state)
     }
 }
 
-// ---- What is refused, and what stands in --------------------------------------------------------
+// ---- Refusals and substitutes -------------------------------------------------------------------
 
 static void unreadable_textures_become_grey_paint(void **state)
 {
@@ -289,7 +290,7 @@ static void unreadable_textures_become_grey_paint(void **state)
     }
 }
 
-// Loads a plane's file again, with an override.
+// Loads the plane's file again, with an override.
 static glint_scene load_overridden(const char *path, const char *text, glint_warnings *warnings)
 {
     glint_material_overrides overrides = {0};
@@ -305,8 +306,8 @@ static glint_scene load_overridden(const char *path, const char *text, glint_war
 #define COLORED(material)                                                                          \
     "{\"indices\":6,\"material\":" #material ",\"attributes\":{\"POSITION\":0,\"COLOR_0\":5}}"
 
-// Both materials have colours at vertices. A preset that is white takes those of its own away; one
-// whose colour is the file's keeps them.
+// Both materials have vertex colours. A white preset removes the colours of its material. A preset
+// with the file's colour keeps them.
 static void presets_take_colors_of_vertices_away_or_keep_them(void **state)
 {
     glint_scene plain =

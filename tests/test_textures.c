@@ -1,5 +1,5 @@
-// Look-ups of textures as frames show them, against the oracle's: a plane that glows with its
-// texture, seen at a slant. The oracle has its textures from the file, and their levels in double
+// Tests texture look-ups in frames against the oracle's: a plane at a slant that glows with its
+// texture. The oracle reads its textures from the file, and computes their levels in double
 // precision (support/file_textures.h).
 #include "support/bridge.h"
 #include "support/render.h"
@@ -17,8 +17,8 @@
 
 enum { LARGEST = 32 };
 
-// Codes that differ from texel to texel, smooth enough that an error of place shows as one of
-// value.
+// Writes texels that differ from each other, but smoothly, so that an error of place becomes an
+// error of value.
 static void write_picture(const int size[2])
 {
     unsigned char codes[LARGEST * LARGEST][4];
@@ -33,7 +33,7 @@ static void write_picture(const int size[2])
 typedef struct lookup_case {
     int size[2];
     const char *sampler;
-    const char *info; // members of the textureInfo, each with a comma before it
+    const char *info; // members of the textureInfo, each after a comma
     int anisotropy;   // 0: the default
 } lookup_case;
 
@@ -55,7 +55,7 @@ static const lookup_case cases[] = {
      ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0.25,0.5],\"rotation\":0.5,"
      "\"scale\":[1.5,0.75],\"texCoord\":0}},\"texCoord\":1",
      0},
-    // Ellipses that are sheared, and longer than the taps reach.
+    // Sheared ellipses that are longer than the taps reach.
     {{8, 8}, "{}", SHEARED("8,3"), 0},
     {{8, 8}, "{}", SHEARED("1,6"), 3},
     {{8, 8}, "{}", SHEARED("8,3"), 16},
@@ -69,7 +69,7 @@ typedef struct comparison {
     int pixels, left_out;
 } comparison;
 
-// Where texels are taken whole, a point near their border may fall on the other side: such pixels
+// With nearest filtering, a point near a texel's border may fall on the other side. These pixels
 // are not compared.
 static comparison compare(const glint_scene *scene, const glint_settings *settings)
 {
@@ -107,10 +107,10 @@ static comparison compare(const glint_scene *scene, const glint_settings *settin
 }
 
 // Each texel is rounded to 1/65535 once; its mean in single precision adds little. Neighbouring
-// texels differ by 0.8 at most. Single precision places a point within some 2⁻²² of a texture
-// coordinate of 2: with 32 texels that is an error of 6e-6. A transform scales it, by 8 with 8
-// texels at most; and it is stored as floats, so that places are off by 2⁻²⁴ of 22, in double
-// precision too.
+// texels differ by at most 0.8. Single precision places a point within about 2⁻²² of a texture
+// coordinate of 2. With 32 texels this is an error of 6e-6. A transform scales the error, by 8 with
+// at most 8 texels. Transforms are stored as floats, so places err by 2⁻²⁴ of 22, also in double
+// precision.
 #define ROUNDING (0.5 / 65535 * 1.01)
 #define PLACE 6e-6
 #define TRANSFORM 8.5e-6

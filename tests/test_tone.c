@@ -1,4 +1,4 @@
-// Tone curves, judged by the published formulas in double precision.
+// Tests tone curves against the published formulas in double precision.
 #include "image/image_io.h"
 #include "image/tone.h"
 #include "support/scratch.h"
@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-// Around every bend of both curves, and far beyond.
+// Values around every bend of both curves, and far beyond.
 static const float values[] = {0,       1e-30f, 1e-6f, 1.8e-4f, 0.02f,  0.04f,  0.08f,
                                0.0801f, 0.18f,  0.5f,  0.8f,    0.801f, 1.0f,   1.5f,
                                4.0f,    16.3f,  1e3f,  1e9f,    1e30f,  FLT_MAX};
@@ -36,7 +36,7 @@ static void neutral(const double c_in[3], double c_out[3])
     }
 }
 
-// AgXToneMapping of three.js. Its matrices are columns.
+// AgXToneMapping of three.js, with matrices by columns.
 static void times(const double columns[9], const double v[3], double product[3])
 {
     for (int row = 0; row < 3; row++) {
@@ -78,9 +78,9 @@ static void agx(const double c_in[3], double c_out[3])
 
 typedef void curve_function(const double c_in[3], double c_out[3]);
 
-// Neutral: the result's rounding to float. AgX: log2 and pow are floats of 24 bits. The logarithm's
-// last bit is 2⁻²¹ where it is the largest, and the curves make at most 0.6 of it; pow's is 2⁻²⁵,
-// and Rec. 709 makes at most 3.3 of it, as of what the logarithm brought.
+// Neutral: the rounding of the result to float. AgX: log2 and pow are floats of 24 bits. The last
+// bit of the logarithm is 2⁻²¹ at its largest, and the curves scale it by at most 0.6. The last bit
+// of pow is 2⁻²⁵. Rec. 709 scales both by at most 3.3.
 static const struct {
     glint_tone tone;
     curve_function *judge;
@@ -186,13 +186,13 @@ static void neutral_keeps_base_colours_and_hues(void **state)
     for (int i = 0; i < 9 * 9 * 9; i++) {
         const int red = i % 9, green = i / 9 % 9, blue = i / 81;
         const double before[3] = {0.08 + 0.09 * red, 0.08 + 0.09 * green, 0.08 + 0.09 * blue};
-        // Within 0.08 to 0.8 the reflection's F90 alone is taken away.
+        // Between 0.08 and 0.8 the curve only subtracts the reflection's F90.
         float color[3] = {(float)before[0], (float)before[1], (float)before[2]};
         glint_tone_map(GLINT_TONE_PBR_NEUTRAL, color);
         for (int c = 0; c < 3; c++) {
             assert_true(fabs((double)color[c] - (before[c] - 0.04)) < 2e-7);
         }
-        // Beyond it the colour stays in the plane through the white axis.
+        // Beyond 0.8 the colour stays in the plane through the white axis.
         float bright[3] = {(float)(5 * before[0]), (float)(5 * before[1]), (float)(5 * before[2])};
         glint_tone_map(GLINT_TONE_PBR_NEUTRAL, bright);
         const double cross = (double)(bright[0] - bright[1]) * (before[2] - before[1]) -

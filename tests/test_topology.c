@@ -1,4 +1,4 @@
-// Properties of what is proved of surfaces: open or closed, convex or not, nested or not.
+// Tests proofs about surfaces: open or closed, convex or not, nested or not.
 #include "scene/topology.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-// A scene of bare triangles that grows; every mesh is an instance.
+// A growing scene of bare triangles; every mesh is an instance.
 typedef struct mesh_builder {
     glint_scene scene;
     size_t capacity;
@@ -52,7 +52,7 @@ static void add_quad(mesh_builder *builder, const glint_vec3 *v, const int *corn
     add(builder, v[corners[0]], v[corners[2]], v[corners[3]]);
 }
 
-// Rotated by angles without a meaning, so that no coordinate is exact; (0, 0) turns nothing.
+// Rotates by arbitrary angles, so that no coordinate is exact. (0, 0) does not rotate.
 static glint_vec3 turned(glint_vec3 p, double yaw, double pitch)
 {
     glint_vec3 q = {cos(yaw) * p.x + sin(yaw) * p.z, p.y, -sin(yaw) * p.x + cos(yaw) * p.z};
@@ -74,8 +74,8 @@ static void add_box(mesh_builder *builder, glint_vec3 center, double half, doubl
     }
 }
 
-// A point of a latitude-longitude grid over a sphere-like body of revolution; the profile is a
-// radius and a height by a parameter in [0, 1].
+// A point of a latitude-longitude grid over a body of revolution like a sphere. The profile gives
+// radius and height by a parameter in [0, 1].
 typedef glint_vec3 (*profile)(double t, double azimuth);
 
 static glint_vec3 sphere(double t, double azimuth)
@@ -84,7 +84,7 @@ static glint_vec3 sphere(double t, double azimuth)
     return (glint_vec3){r * cos(azimuth), 0.7 * -cos(GLINT_PI * t), -r * sin(azimuth)};
 }
 
-// A bowl: outside a sphere of 0.9, inside one of 0.6 around a higher centre.
+// A bowl: the outside of a sphere of 0.9, and the inside of a sphere of 0.6 with a higher centre.
 static glint_vec3 bowl(double t, double azimuth)
 {
     double angle = t < 0.5 ? GLINT_PI * t : GLINT_PI * (1 - t);
@@ -97,7 +97,7 @@ static void add_revolved(mesh_builder *builder, profile at, int rings, int secto
 {
     for (int i = 0; i < rings; i++) {
         for (int j = 0; j < sectors; j++) {
-            // The same azimuth and poles to the bit where the grid closes.
+            // The grid closes with the same azimuth and poles, bit for bit.
             double t0 = (double)i / rings;
             double t1 = (double)(i + 1) / rings;
             double a0 = 2 * GLINT_PI * j / sectors;
@@ -190,7 +190,7 @@ static void a_body_inside_out_is_closed_and_not_convex(void **state)
     (void)state;
     mesh_builder builder = {0};
     begin_instance(&builder, 0);
-    add_box(&builder, (glint_vec3){0, 0, 0}, -0.5, 0.3); // mirrored in its centre
+    add_box(&builder, (glint_vec3){0, 0, 0}, -0.5, 0.3); // mirrored at its centre
     glint_topology topology = find(&builder);
     assert_true(topology.components[0].closed);
     assert_false(topology.components[0].convex);
@@ -213,7 +213,7 @@ static void spheres_are_convex_poles_and_all(void **state)
     }
 }
 
-// In the finest ones every edge of the hollow bends by less than rounding explains.
+// In the finest bowls, each edge of the hollow bends by less than a rounding error could.
 static void bowls_are_not_convex_however_fine(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void a_dent_far_above_rounding_is_seen(void **state)
     free_all(&builder, &topology);
 }
 
-// Over a pentagram: closed, V − E + F = 2, and bent outwards at every edge, but wound around twice.
+// A bipyramid over a pentagram: closed, V − E + F = 2, and convex at every edge, but wound twice.
 static void a_pentagrams_bipyramid_is_not_convex(void **state)
 {
     (void)state;
@@ -298,7 +298,7 @@ static void components_keep_apart_by_instance_and_by_position(void **state)
     add_box(&builder, (glint_vec3){0.5, 0, 0}, 0.1, 0);
     add_box(&builder, (glint_vec3){-0.5, 0, 0}, 0.1, 0);
     begin_instance(&builder, 0);
-    add_box(&builder, (glint_vec3){0.5, 0, 0}, 0.1, 0); // where the first one is
+    add_box(&builder, (glint_vec3){0.5, 0, 0}, 0.1, 0); // at the place of the first box
     glint_topology topology = find(&builder);
     assert_int_equal(topology.component_count, 3);
     assert_int_equal(topology.components[0].instance, 0);
@@ -403,7 +403,7 @@ static void what_is_no_solid_does_not_count(void **state)
     assert_false(may_nest(&builder));
 }
 
-// A million triangles in seconds, not minutes, whatever the machine.
+// A million triangles must take seconds, not minutes, on any machine.
 static void a_million_triangles_take_seconds(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-// Shading at vertices against the oracle: what it finds where a ray from the eye meets a triangle
-// of its own through a vertex, interpolated here between the corners of the triangle that a pixel
-// sees.
+// Tests shading at vertices against the oracle. The oracle shades a vertex by a ray from the eye
+// through it, onto a small plane of its own. The test interpolates the results between the corners
+// of the triangle that a pixel sees.
 #include "environment/irradiance.h"
 #include "scene/icosphere.h"
 #include "support/bridge.h"
@@ -16,26 +16,26 @@
 
 #include <cmocka.h>
 
-// ---- What a vertex shows -----------------------------------------------------------------------
+// ---- Colours of vertices -----------------------------------------------------------------------
 
-// A look-up that the oracle made: of the radiance along a direction or of the irradiance about it.
+// A look-up of the oracle: the radiance along a direction, or the irradiance about it.
 typedef struct look_up {
     double direction[3], weight[3];
-    bool is_irradiance, is_ahead; // on the other side of the surface than the viewer
+    bool is_irradiance, is_ahead; // ahead: on the side of the surface away from the viewer
 } look_up;
 
 enum { LOOK_UPS = 4 };
 
 typedef struct vertex_light {
-    bool is_away;      // seen from the other side than its triangle
-    double color[3];   // with the environment
-    double emitted[3]; // without
+    bool is_away;      // the viewer sees its back
+    double color[3];   // colour with the environment
+    double emitted[3]; // colour without the environment
     look_up look_ups[LOOK_UPS];
     int count;
 } vertex_light;
 
-// Stands in for the environment: notes what is asked for, and answers 1 to one question alone, 0 to
-// the others, so that the weight of that one is what comes of it.
+// Replaces the environment. It records the look-ups, answers 1 to one of them and 0 to the others.
+// The oracle's result is then the weight of this look-up.
 typedef struct listener {
     vertex_light *light;
     int asked, answered; // −1: none
@@ -73,7 +73,7 @@ static void cross(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// A large triangle about `place` with the normal n.
+// A large triangle around `place` with the normal n.
 static oracle_triangle facing(const double place[3], const double n[3], double size, int material)
 {
     oracle_triangle t = {.material = material};
@@ -95,7 +95,7 @@ static oracle_triangle facing(const double place[3], const double n[3], double s
     return t;
 }
 
-// The ray that sees a place, from the eye or, in parallel, from the image's plane.
+// The ray to a place, from the eye or, for parallel rays, from the image plane.
 static oracle_ray ray_to(const oracle_view *view, const double place[3])
 {
     oracle_ray ray;
@@ -120,8 +120,8 @@ static void plane_of(const oracle_triangle *t, double plane[3])
     cross(a, b, plane);
 }
 
-// The normal of a triangle's corner: the vertices' own where all have one, on the side from which
-// the triangle winds counter-clockwise.
+// The normal at a corner of a triangle, on the side where the triangle is counter-clockwise. Uses
+// vertex normals if all three exist.
 static void corner_normal(const oracle_triangle *t, int corner, double n[3])
 {
     double plane[3];
@@ -151,6 +151,7 @@ static vertex_light light_at(const oracle_scene *all, const oracle_view *view,
     for (int k = 0; k < 3; k++) {
         far = fmax(far, fabs(ray.direction[k]));
     }
+    // Make a scene of one triangle around the corner.
     const oracle_triangle one = facing(t->position[corner], n, fmax(1, far), t->material);
     oracle_scene scene = *all;
     scene.triangles = &one;
@@ -160,15 +161,17 @@ static vertex_light light_at(const oracle_scene *all, const oracle_view *view,
     first_hit.depth = 1;
     first_hit.min_weight = 0;
     first_hit.edges = false;
+    // Trace it with the environment, then with the listener.
     oracle_radiance(&scene, &first_hit, &ray, light.color, NULL);
     listener ear = {.light = &light, .answered = -1};
     struct listener *context = &ear;
     scene.context = &context;
-    scene.environment_rotation = 0; // directions are noted in the world's axes
+    scene.environment_rotation = 0; // directions are recorded in the world's axes
     scene.radiance = listen_radiance;
     scene.irradiance = listen_irradiance;
     oracle_radiance(&scene, &first_hit, &ray, light.emitted, NULL);
     light.count = ear.asked;
+    // Find the weight of each look-up.
     for (int i = 0; i < light.count; i++) {
         look_up *l = &light.look_ups[i];
         ear.asked = 0;
@@ -183,11 +186,11 @@ static vertex_light light_at(const oracle_scene *all, const oracle_view *view,
     return light;
 }
 
-// ---- What a pixel shows ------------------------------------------------------------------------
+// ---- Colours of pixels -------------------------------------------------------------------------
 
-// Adds the light of the corners' look-ups of one kind: radiance on the viewer's side of the surface
-// (0), radiance on the other side (1), irradiance (2). Returns false where only some corners make
-// that look-up: the interpolated direction is then undefined.
+// Adds the light of one kind of look-up at all corners: radiance on the viewer's side of the
+// surface (0), radiance on the other side (1), irradiance (2). Returns false if only some corners
+// make this look-up: the interpolated direction is then undefined.
 static bool add_look_up(const oracle_scene *scene, const vertex_light lights[3],
                         const double weights[3], int kind, double rgb[3])
 {
@@ -212,7 +215,7 @@ static bool add_look_up(const oracle_scene *scene, const vertex_light lights[3],
         for (int k = 0; k < 3; k++) {
             direction[k] /= length;
         }
-        // The environment turned by an angle about +Y is looked up along what is turned back.
+        // To rotate the environment about +Y, rotate the direction backwards.
         const double angle = scene->environment_rotation * 3.14159265358979323846 / 180;
         const double turned[3] = {cos(angle) * direction[0] - sin(angle) * direction[2],
                                   direction[1],
@@ -301,7 +304,7 @@ static void see_in_parallel(glint_scene *scene)
     scene->cameras[0].ymag = 1.2;
 }
 
-// Into the middle of what is there, from where every surface is seen from inside.
+// Moves the camera into the middle of the scene, where it sees every surface from inside.
 static void see_from_inside(glint_scene *scene)
 {
     glint_camera *camera = &scene->cameras[0];
@@ -309,21 +312,21 @@ static void see_from_inside(glint_scene *scene)
     camera->yfov = 1.2;
 }
 
-// The device's values of a vertex are floats, their place and their normal are in both, and what
-// follows is in double precision; where light grazes a vertex Fresnel's term multiplies errors
-// by 5.
+// The device stores a vertex's values as floats; places and normals are floats on both sides. The
+// rest is in double precision. At grazing light Fresnel's term multiplies errors by 5.
 #define DOUBLE_ERROR (16 * 0x1p-24)
-// In single precision a place within a triangle errs by 1800 roundings at most (test_mirrors.c), by
-// which the corners' values are mixed; those differ by up to 1.
+// In single precision a place within a triangle errs by at most 1800 roundings (test_mirrors.c).
+// This place weights the values of the corners, which differ by up to 1.
 #define FLOAT_ERROR (2000 * 0x1p-24)
 
 typedef struct vertex_case {
     const char *name, *scene;
     void (*change)(glint_scene *scene);
     double env_rotate;
-    double uncertain; // share of pixels of which corners reflect all, or are just out of sight, and
-                      // not all
-    bool in_float;    // too: each is a kernel more to compile
+    // Share of pixels where some corners, but not all, have total reflection or are just out of
+    // sight.
+    double uncertain;
+    bool in_float; // also test float, which compiles another kernel
 } vertex_case;
 
 static const vertex_case cases[] = {
@@ -343,7 +346,7 @@ enum { CASES = sizeof cases / sizeof *cases };
 static glint_settings frame_of(glint_shading shading, const vertex_case *c)
 {
     glint_settings settings = test_small_frame(0);
-    settings.texels = GLINT_TEXELS_FLOAT; // the oracle's
+    settings.texels = GLINT_TEXELS_FLOAT; // the oracle's texels
     settings.env_rotate = c->env_rotate;
     settings.shading = shading;
     return settings;
@@ -372,8 +375,8 @@ static void end(setting *s)
     glint_scene_free(&s->scene);
 }
 
-// Pixels at an edge, at a tie between two faces of the cube, whose interpolations differ, or whose
-// corners do not all make the same look-ups are left out, and counted.
+// Leaves out and counts three kinds of pixels: at an edge, at a tie between two faces of the cube
+// (whose interpolations differ), and with corners that do not make the same look-ups.
 static void compare(const vertex_case *c, const glint_settings *settings, double tolerance)
 {
     setting s;
@@ -394,6 +397,7 @@ static void compare(const vertex_case *c, const glint_settings *settings, double
         oracle_report report;
         oracle_pixel(&s.oracle, &view, pixel, rgba, &report);
         const expected e = expect(&s, &view, settings->shading, pixel);
+        // Leave out uncertain pixels.
         if (report.edge < 1e-6 || e.tie < 1e-6 || !e.is_certain) {
             left_out++;
             uncertain += !e.is_certain;
@@ -436,7 +440,7 @@ static void vertices_are_the_same_at_every_width(void **state)
     (void)state;
     static const int forms[][2] = {{8, 16}, {16, 16}, {16, 1}};
     for (int by_color = 0; by_color < 2; by_color++) {
-        const vertex_case *c = &cases[8]; // every material
+        const vertex_case *c = &cases[8]; // has every material
         setting s;
         begin(c, &s);
         glint_settings settings =
@@ -459,7 +463,7 @@ static void vertices_are_the_same_at_every_width(void **state)
     }
 }
 
-// An icosphere in the place of the silver sphere, which is that of radius 1 about the origin.
+// Adds an icosphere in place of the silver sphere, which has radius 1 about the origin.
 static void add_triangle(void *context, const glint_vec3 corners[3])
 {
     glint_scene *scene = context;
@@ -505,8 +509,8 @@ static double mean_difference(const glint_image *a, const glint_image *b)
     return sum / (double)values;
 }
 
-// The lecture's argument: as a mesh is refined, both come to what shading pixels gives, the colours
-// from further away.
+// The lecture's argument: with a finer mesh, both methods approach pixel shading, and colours start
+// farther away.
 static void finer_meshes_come_to_what_pixels_show(void **state)
 {
     (void)state;
@@ -529,8 +533,8 @@ static void finer_meshes_come_to_what_pixels_show(void **state)
         glint_scene_free(&sphere);
         print_message("%d triangles: off by %.3g by directions, by %.3g by colours\n",
                       20 << 2 * (level + 3), errors[level][0], errors[level][1]);
-        // Interpolation errs by h² of smooth functions; at a light's edge, a colour is wrong as far
-        // as the triangle that it crosses reaches, h, and a direction by h² there, too.
+        // Interpolation errs by h² for smooth functions. At a light's edge, interpolated colours
+        // err over the size h of the triangle there, interpolated directions only over h².
         assert_true(errors[level][1] > 10 * errors[level][0]);
         if (level > 0) {
             assert_true(errors[level][0] < errors[level - 1][0] / 3);

@@ -1,5 +1,5 @@
-// Shading at vertices where it must not show: at the rim of solids, where corners are just out of
-// sight, and where there are none.
+// Tests shading at vertices in hard places: at the rim of solids, where corners are just out of
+// sight, and without vertices.
 #include "support/bridge.h"
 #include "support/render.h"
 
@@ -21,8 +21,8 @@ static double largest_difference(const glint_image *a, const glint_image *b)
     return largest;
 }
 
-// From outside, what a ball absorbs inside is not seen at depth 1. What paint shows is interpolated
-// as the irradiance is, 1/2 + n/3 here: off by h² where triangles are h = 0.1 large.
+// From outside, depth 1 does not show the absorption inside a ball. Paint interpolates the
+// irradiance, 1/2 + n/3 here, with an error of h² for triangles of size h = 0.1.
 static void corners_out_of_sight_show_the_outside(void **state)
 {
     (void)state;
@@ -58,7 +58,7 @@ static void corners_out_of_sight_show_the_outside(void **state)
     glint_environment_free(&environment);
 }
 
-// Without triangles there are no vertices, and what pixels meet is asked of pixels.
+// Without triangles there are no vertices, so glint shades pixels.
 static void where_there_are_no_vertices_pixels_are_shaded(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Properties of the primary rays that the host hands to the kernel.
+// Tests the primary rays that the host hands to the kernel.
 #include "render/view.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ static double joined(const glint_split_vector *v, int k)
     return (double)v->high[k] + (double)v->low[k];
 }
 
-// Where the ray of X = x, Y = y is at view depth `depth` beyond its start, coordinate k.
+// Coordinate k of the ray at X = x, Y = y, at view depth `depth` beyond its start.
 static double ray_at(const glint_frame_record *r, double x, double y, double depth, int k)
 {
     double origin =
@@ -40,12 +40,13 @@ static double ray_at(const glint_frame_record *r, double x, double y, double dep
     return origin + depth * direction;
 }
 
-// A regression: an optimiser once dropped the rounding between the halves, and the low ones were 0.
+// A regression test: an optimiser once dropped the rounding between the halves, and the low halves
+// were 0.
 static void both_halves_of_a_split_vector_are_kept(void **state)
 {
     (void)state;
     glint_camera camera = looking_along_minus_z(0.3);
-    // A rotation by an angle whose sine and cosine no float holds.
+    // A rotation by an angle without an exact sine and cosine in float.
     camera.right = (glint_vec3){cos(0.1), sin(0.1), 0};
     camera.up = (glint_vec3){-sin(0.1), cos(0.1), 0};
     glint_settings settings = square_frame();
@@ -79,7 +80,7 @@ static void rays_start_before_the_scene_and_on_the_same_lines(void **state)
         double start = (double)r.start[0] + (double)r.start[1];
         assert_true(start >= 0 && start <= fmax(0, z - 1));
         assert_true(z < 2 || start > z - 1.1 - 1e-5 * z);
-        // The ray through the corner (50, −50), where the far plane of the scene is.
+        // The ray through the corner (50, −50), at the far plane of the scene.
         double half = tan(camera.yfov / 2), depth = z + 1 - start;
         double tolerance = 1e-13 * (z + 1);
         assert_true(fabs(ray_at(&r, 50, -50, depth, 0) - (0.1 + half * (z + 1))) <= tolerance);

@@ -1,5 +1,6 @@
-// The lecture's refraction through one interface: an open surface of water, from above and from
-// below, against the closed form in double precision, which shares no code with the renderer.
+// Tests the lecture's refraction through one interface: an open surface of water, from above and
+// from below. The reference is a closed form in double precision that shares no code with the
+// renderer.
 #include "render/frame.h"
 
 #include "scene/subset.h"
@@ -16,19 +17,20 @@
 #define EDGE 512
 #define PI 3.14159265358979323846
 
-static const double attenuation[3] = {0.55, 0.85, 0.9}; // of white, after this way:
+static const double attenuation[3] = {0.55, 0.85, 0.9}; // of white light over this distance:
 static const double attenuation_distance = 12;
 
-// bridge_direction_environment's radiance, which is smooth: the cube's texels are it, and between
-// them it is off by h²/8 of its second derivatives (under 1.5 in each of s and t), with h = 2/EDGE.
+// Radiance of bridge_direction_environment. It is smooth: exact at the cube's texels. Between them
+// interpolation errs by h²/8 of its second derivatives (under 1.5 in each of s and t), with h =
+// 2/EDGE.
 static double radiance(const double d[3], int channel)
 {
     return 0.5 + 0.5 * d[channel] / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 static const double between_texels = 4.0 / EDGE / EDGE / 8 * 1.5 * 2;
 
-// The unpolarised reflectance where light comes from `from` and goes on into `to`; 1 where none
-// does. *cos_t is of the angle in there.
+// Unpolarised reflectance for light from the index `from` into the index `to`; 1 at total
+// reflection. *cos_t belongs to the transmitted angle.
 static double fresnel(double cos_i, double from, double to, double *cos_t)
 {
     const double sin_t_squared = (from / to) * (from / to) * (1 - cos_i * cos_i);
@@ -44,12 +46,11 @@ static double fresnel(double cos_i, double from, double to, double *cos_t)
 
 typedef struct seen {
     double rgb[3];
-    double margin; // how far the rounding of the kernel's may be off
-    bool is_total; // reflection
+    double margin; // bound on the kernel's rounding error
+    bool is_total; // total reflection
 } seen;
 
-// What a ray from `eye`, `height` over the surface (negative: under it), along the unit vector d
-// shows.
+// The colour along the unit vector d, from an eye `height` above the surface (negative: below).
 static seen look(double height, const double d[3])
 {
     seen s = {.margin = between_texels};
@@ -72,8 +73,8 @@ static seen look(double height, const double d[3])
         s.rgb[c] = left * (f * radiance(mirrored, c) + (1 - f) * radiance(on, c));
     }
     s.is_total = f == 1;
-    // A dozen roundings of numbers under 2; and what cos_t's square, off by as much, makes of
-    // cos_t, and by it of f: df/dcos_t is under 4·from/to where light comes from the denser side.
+    // A dozen roundings of numbers under 2. The square of cos_t has the same error, which affects
+    // cos_t and f: df/dcos_t is under 4·from/to where light comes from the denser side.
     const double rounding = 12 * 1.2e-7;
     const double of_cos_t = fmin(sqrt(rounding), rounding / fmax(cos_t, 1e-9));
     s.margin += rounding + 6 * of_cos_t;
@@ -121,11 +122,12 @@ static void check_camera(const char *name, bool expect_total)
         for (int i = 0; i < settings.width; i++) {
             double d[3];
             direction_of(&camera, &settings, i, j, d);
-            // Beyond the sheet's 40 m there is no surface; near its end either may be seen.
+            // Beyond the sheet's 40 m there is no surface. Near its end the pixel may show either.
             const double away = fabs(camera.eye.y / d[1]) * hypot(d[0], d[2]);
             if (d[1] * camera.eye.y < 0 && away > 35) {
                 continue;
             }
+            // Compare the pixel with the closed form.
             const seen wanted = look(camera.eye.y, d);
             total += wanted.is_total;
             through += !wanted.is_total && d[1] * camera.eye.y < 0;
@@ -161,14 +163,14 @@ static void from_below_the_world_lies_in_snells_window(void **state)
     check_camera("below", true);
 }
 
-// Straight up, at the critical angle and beyond: what is known without a formula's help.
+// Straight up, at the critical angle and beyond: results that are known without a formula.
 static void the_closed_form_knows_its_limits(void **state)
 {
     (void)state;
     double cos_t;
     const double normal = (IOR - 1) / (IOR + 1);
     assert_true(fabs(fresnel(1, IOR, 1, &cos_t) - normal * normal) < 1e-15 && cos_t == 1);
-    const double critical = asin(1 / IOR); // 48.6 degrees: the window is 97.2 wide
+    const double critical = asin(1 / IOR); // 48.6 degrees: Snell's window is 97.2 wide
     assert_true(fabs(critical * 180 / PI - 48.607) < 1e-3);
     assert_true(fresnel(cos(critical + 1e-9), IOR, 1, &cos_t) == 1);
     assert_true(fresnel(cos(critical - 1e-3), IOR, 1, &cos_t) < 0.8);

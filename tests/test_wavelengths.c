@@ -1,4 +1,4 @@
-// The wavelengths that solids divide light into: shares and places, beside the CIE's own table.
+// Tests the wavelengths of dispersion, their shares and places, against the CIE's own table.
 #include "render/wavelengths.h"
 
 #include <math.h>
@@ -9,17 +9,17 @@
 
 #include <cmocka.h>
 
-// By glTF's own numbers: n(λ) = n_d + (n_d − 1)/V (523655/λ² − 1.5168), here for (n_d − 1) × 20/V
-// = 1.
+// By glTF's numbers: n(λ) = n_d + (n_d − 1)/V (523655/λ² − 1.5168), here for (n_d − 1) × 20/V = 1.
 static void the_index_rises_as_gltf_says(void **state)
 {
     (void)state;
     for (int nm = 390; nm <= 750; nm += 10) {
         const double rise = (523655.0 / (nm * nm) - 1.5168) / 20;
-        assert_true(fabs(glint_wavelength_ior_step(nm) - rise) < 1e-4); // its lines are rounded
+        // glTF's constants are rounded.
+        assert_true(fabs(glint_wavelength_ior_step(nm) - rise) < 1e-4);
     }
     const double lines = glint_wavelength_ior_step(486.1) - glint_wavelength_ior_step(656.3);
-    assert_true(fabs(lines - 0.05) < 1e-12); // which is how Abbe's number is defined
+    assert_true(fabs(lines - 0.05) < 1e-12); // the definition of Abbe's number
     assert_true(glint_wavelength_ior_step(587.6) == 0);
 }
 
@@ -55,7 +55,7 @@ static const double observer[][3] = {
 };
 #define OBSERVED (int)(sizeof observer / sizeof *observer)
 
-// Mean of 1/λ² over what of a primary of Rec.709 the observer sees.
+// Mean of 1/λ² over the observer's response to a primary of Rec.709.
 static double mean_place(const double primary[3])
 {
     double sum = 0, places = 0;
@@ -68,7 +68,7 @@ static double mean_place(const double primary[3])
     return places / sum;
 }
 
-// Three wavelengths are the primaries' means; and as many as there may be have the same means.
+// Three wavelengths are the means of the primaries. The maximum number has the same means.
 static void each_primary_keeps_its_mean(void **state)
 {
     (void)state;

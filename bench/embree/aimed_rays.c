@@ -1,4 +1,4 @@
-// Rays aimed at what triangles share. See aimed_rays.h.
+// Aims rays at the vertices and edges of triangles. See aimed_rays.h.
 #include "embree/aimed_rays.h"
 
 #include "render/probe.h"
@@ -6,10 +6,10 @@
 #include <math.h>
 
 // A ray comes from within 75° of the normals of the vertices that it is aimed at. The meshes are
-// smooth, so all triangles around face it, and the next surface behind them is far away.
+// smooth, so all triangles around the target face the ray, and the next surface is far behind them.
 #define LEAST_COSINE 0.26
 
-// One of the two neighbours of x, or x.
+// Returns x or one of the two floats next to x.
 static float nudge(float x, glint_random *random)
 {
     double which = glint_random_number(random);
@@ -59,7 +59,7 @@ aimed_ray aim_ray(const bench_scene *scene, bool at_edge, glint_random *random)
     }
 }
 
-// The rays from `first` on, as many as an item has.
+// Traces AIMED_RAYS_PER_ITEM rays from `first` on.
 static glint_status trace_item(glint_probe *probe, const bench_scene *scene, uint64_t first,
                                leak_count *leaks, glint_error *error)
 {

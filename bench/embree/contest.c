@@ -1,10 +1,10 @@
-// A contest: glint and Embree render the same frame in turns. See contest.h.
+// Lets glint and Embree render the same frame in turns. See contest.h.
 #include "embree/contest.h"
 
 #include <math.h>
 #include <string.h>
 
-// A mode this much slower than the best of the sweep's first round is not run again.
+// The sweep drops a mode that is this much slower than the fastest mode of its first round.
 #define HOPELESS 2.0
 
 // ---- Embree's modes ----------------------------------------------------------------------------
@@ -14,7 +14,7 @@ static void add_entry(bench_contest *contest, embree_mode mode)
     contest->entries[contest->entry_count++] = (bench_entry){.mode = mode, .sweep_ms = INFINITY};
 }
 
-// A mode in each kind of shading that the job has; of two the plain one first.
+// Adds a mode for each kind of shading of the job, EMBREE_PLAIN first.
 static void add_shadings(bench_contest *contest, embree_mode mode)
 {
     bool shaded = contest->job == BENCH_REFLECT || contest->job == BENCH_REFRACT;
@@ -25,7 +25,7 @@ static void add_shadings(bench_contest *contest, embree_mode mode)
     }
 }
 
-// The modes of a job with one ray after the other, or with one query for all rays.
+// Adds the modes with the same query for all rays.
 static void add_simple_modes(bench_contest *contest, embree_quality quality)
 {
     int calls = contest->job == BENCH_GLASS ? 1 : EMBREE_CALLS;
@@ -40,7 +40,7 @@ static void add_simple_modes(bench_contest *contest, embree_quality quality)
     }
 }
 
-// Queries that differ: rays inside glass are less coherent than those from the eye.
+// Adds modes with a different query inside glass, where rays are less coherent than primary rays.
 static void add_mixed_modes(bench_contest *contest, embree_quality quality)
 {
     const embree_query stream = {EMBREE_STREAM_16_16, true}, packet = {EMBREE_INTERSECT_16, true};
@@ -76,7 +76,8 @@ static void try_mode(const bench_arena *arena, bench_contest *contest, bench_ent
     entry->sweep_ms = fmin(entry->sweep_ms, ms);
 }
 
-// The first round tries plain shading; its staged twin, the next entry, stands and falls with it.
+// Times all modes. The first round tries plain shading only. Each staged mode follows its plain
+// twin in the list, and is dropped with it.
 static void sweep(const bench_arena *arena, bench_contest *contest)
 {
     double best = INFINITY;
@@ -149,7 +150,7 @@ static glint_status create_renderer(const bench_arena *arena, bench_job job, int
     return bench_stage_renderer(&arena->stage, job, &settings, renderer, error);
 }
 
-// Compares glint's frame with that of each listed mode; the worst of all.
+// Compares glint's frame with the frame of each listed mode. Returns the worst agreement.
 static bench_agreement compare_frames(const bench_arena *arena, const bench_contest *contest,
                                       int depth, const glint_image *image)
 {
@@ -169,7 +170,7 @@ static bench_agreement compare_frames(const bench_arena *arena, const bench_cont
     return worst;
 }
 
-// Renders with a renderer of its own and compares.
+// Compares the frames of a new renderer and of Embree.
 static glint_status find_agreement(const bench_arena *arena, const bench_contest *contest,
                                    int depth, bench_agreement *found, glint_error *error)
 {
@@ -177,7 +178,7 @@ static glint_status find_agreement(const bench_arena *arena, const bench_contest
     glint_image image = {0};
     glint_status status;
     TRY_OR(cleanup, status, create_renderer(arena, contest->job, depth, &renderer, error));
-    double ms; // of a first frame, which says nothing
+    double ms; // of the first frame; unused
     TRY_OR(cleanup, status, bench_stage_frame(&arena->stage, renderer, &ms, &image, error));
     *found = compare_frames(arena, contest, depth, &image);
 cleanup:
@@ -231,7 +232,7 @@ glint_status bench_contest_run(const bench_arena *arena, bench_job job, bench_co
     glint_status status;
     TRY_OR(cleanup, status, check_agreement(arena, contest, error));
     TRY_OR(cleanup, status, create_renderer(arena, job, BENCH_GLASS_DEPTH, &renderer, error));
-    double warming_up; // Embree's modes have run in the sweep
+    double warming_up; // Embree's modes warmed up in the sweep
     TRY_OR(cleanup, status, bench_stage_frame(&arena->stage, renderer, &warming_up, &image, error));
     for (int round = 0; round < arena->stage.rounds; round++) {
         TRY_OR(cleanup, status, run_round(arena, renderer, &image, contest, error));

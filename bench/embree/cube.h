@@ -1,5 +1,5 @@
-// The environment of the Embree program: where a direction meets the cube map of kernels/layout.h,
-// and bilinear look-ups there.
+// Looks up the Embree program's environment: finds the place of a direction in the cube map of
+// kernels/layout.h and interpolates bilinearly.
 #ifndef GLINT_BENCH_EMBREE_CUBE_H
 #define GLINT_BENCH_EMBREE_CUBE_H
 
@@ -10,8 +10,8 @@
 
 #include <stdint.h>
 
-// Sets the index of the upper left of the four texels, and how far, in [0, 1), the point lies
-// towards the right and the lower ones.
+// Returns the index of the upper left of the four texels. *right and the lower weight, in [0, 1),
+// are the offsets of the point towards the right and the lower texels.
 static inline ints find_on_cube(reals3 d, int edge, reals *right, reals *down)
 {
     reals ax = absolute(d.x), ay = absolute(d.y), az = absolute(d.z);
@@ -23,7 +23,7 @@ static inline ints find_on_cube(reals3 d, int edge, reals *right, reals *down)
     reals s = choose(x_major, s_x, choose(y_major, d.x, s_z));
     reals t = choose(y_major, choose(negative, d.z, -d.z), -d.y);
     ints face = choose_int(x_major, int_of(0), choose_int(y_major, int_of(2), int_of(4)));
-    face -= negative; // true is −1
+    face -= negative; // a true lane is −1
 
     const float half = (float)edge * 0.5f;
     const int pitch = edge + 2 * GLINT_CUBE_BORDER;
@@ -35,7 +35,7 @@ static inline ints find_on_cube(reals3 d, int edge, reals *right, reals *down)
     return (face * pitch + j) * pitch + i;
 }
 
-// One look-up in texels of four floats.
+// One look-up in a map of float texels.
 static inline quad sample_floats(const glint_cube *cube, int texel, float right, float down)
 {
     const float *upper = cube->texels + 4 * (size_t)texel;
@@ -47,11 +47,11 @@ static inline quad sample_floats(const glint_cube *cube, int texel, float right,
     return top + down * (bottom - top);
 }
 
-#define PAIR_HALVES 8 // a texel and the one below it
+#define PAIR_HALVES 8 // a texel and the texel below it
 
 #ifdef __AVX512F__
 
-// Moves a lane's number to the four lanes of its pixel: lanes 4 g … 4 g + 3 spread out.
+// Copies the values of lanes 4 g … 4 g + 3, each to the four lanes of its pixel.
 static inline reals spread_group(reals values, int group)
 {
     const __m512i zero_to_three = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
@@ -59,16 +59,16 @@ static inline reals spread_group(reals values, int group)
     return (reals)_mm512_permutexvar_ps(lanes, (__m512)values);
 }
 
-// Four look-ups in pairs of halves: lanes 4 g … 4 g + 3, as R G B A of each.
+// Four look-ups in pairs of half texels, for lanes 4 g … 4 g + 3. Each result is R G B A.
 static inline reals sample_halves(const uint16_t *pairs, const int *texels, reals right, reals down,
                                   int group)
 {
-    __m512 t[4]; // of each pixel: upper left, lower left, upper right, lower right
+    __m512 t[4]; // one register a pixel: upper left, lower left, upper right, lower right
     for (int k = 0; k < 4; k++) {
         const uint16_t *at = pairs + PAIR_HALVES * (size_t)texels[4 * group + k];
         t[k] = _mm512_cvtph_ps(_mm256_loadu_si256((const __m256i *)at));
     }
-    // A 4 × 4 transposition of quarters.
+    // Transpose the 4 × 4 quarters.
     __m512 left_01 = _mm512_shuffle_f32x4(t[0], t[1], 0x44);
     __m512 left_23 = _mm512_shuffle_f32x4(t[2], t[3], 0x44);
     __m512 right_01 = _mm512_shuffle_f32x4(t[0], t[1], 0xee);

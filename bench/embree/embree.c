@@ -1,5 +1,5 @@
-// bench/embree: glint against Embree, in turns, on the same scenes. bench/README.md says what is
-// measured and what it means. Results go to stdout, chatter to stderr.
+// bench/embree: times glint against Embree, in turns, on the same scenes. bench/README.md explains
+// the measurements. Results go to stdout, progress to stderr.
 #include "embree/contest.h"
 #include "embree/report.h"
 #include "options.h"
@@ -50,7 +50,7 @@ static const char help[] =
 
 // ---- Options -----------------------------------------------------------------------------------
 
-#define JOB_BUILD BENCH_JOBS // after the jobs proper
+#define JOB_BUILD BENCH_JOBS // after the jobs of bench_job
 
 static glint_status parse_jobs(const char *text, unsigned *jobs, glint_error *error)
 {
@@ -190,7 +190,7 @@ cleanup:
     return status;
 }
 
-// Sets up Embree's side and runs the jobs. `arena` lacks scene and program.
+// Sets up Embree's side and runs the jobs. Fills in the scene and program of `arena`.
 static glint_status run_scene(const request *r, bench_arena arena, const char *name, json_t *report,
                               glint_error *error)
 {

@@ -1,14 +1,14 @@
-// Glass with both branches by rtcIntersect1: a plain program, one ray after the other, with the
-// branches that wait on a stack. See embree_tile.h.
+// Traces both branches of glass by rtcIntersect1: a plain program, one ray after the other, with a
+// stack of waiting branches. See tile.h.
 #include "embree/cube.h"
 #include "embree/tile.h"
 
 #include <math.h>
 
-// Reflected rays may graze the surface that they leave: they start farther along than those of
-// embree_shade.c.
+// Reflected rays may graze the surface that they leave, so they start farther along than the rays
+// in shade.c.
 #define BRANCH_START 2e-5f
-// At each surface but the last of the longest path one branch waits.
+// One branch waits at each surface of the longest path, except the last.
 #define WAITING_MAX (BENCH_GLASS_DEPTH + 1)
 
 typedef struct vec3 {
@@ -18,7 +18,7 @@ typedef struct vec3 {
 typedef struct branch {
     vec3 origin, direction; // the direction is a unit vector
     float weight;
-    int met; // surfaces so far
+    int met; // surfaces met so far
 } branch;
 
 typedef struct scattering {
@@ -47,7 +47,7 @@ static inline vec3 unit3(vec3 a)
     return scale3(a, 1 / sqrtf(dot3(a, a)));
 }
 
-// Puts q on the side of the plane that `sign` says, see embree_shade.c.
+// Folds q to the side of the plane that the sign selects, see shade.c.
 static inline vec3 fold3(vec3 q, vec3 geometric, float sign)
 {
     float along = dot3(q, geometric);
@@ -61,7 +61,7 @@ static vec3 interpolated_normal(const float *normals, const struct RTCHit *hit)
                         m[2] + hit->u * m[5] + hit->v * m[8]});
 }
 
-// Fresnel's equations and Snell's law at a hit.
+// Applies Fresnel's equations and Snell's law at a hit.
 static scattering scatter(const float *normals, const struct RTCRayHit *ray, vec3 d)
 {
     const vec3 geometric = {ray->hit.Ng_x, ray->hit.Ng_y, ray->hit.Ng_z};
@@ -104,8 +104,8 @@ static quad look_up(const embree_program *program, vec3 d)
     return sample_floats(cube, (face * pitch + j) * pitch + i, column - (float)i, row - (float)j);
 }
 
-// Where a branch has met all the surfaces it may or weighs too little, it takes the environment;
-// else it waits. Without weight it ends.
+// Continues or ends a branch. A branch that has met all its surfaces, or has too little weight,
+// takes the environment. A branch without weight ends. All others wait on the stack.
 static void go_on(const embree_frame *frame, const branch *next, branch *stack, int *waiting,
                   quad *sum)
 {
@@ -139,11 +139,13 @@ static quad follow(const embree_frame *frame, struct RTCIntersectContext *contex
                     .mask = UINT32_MAX},
             .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}},
         };
+        // Find the next surface; a miss takes the environment.
         rtcIntersect1(frame->scene, context, &ray);
         if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             sum += b.weight * look_up(frame->program, b.direction);
             continue;
         }
+        // Split the branch in two.
         scattering out = scatter(frame->program->normals, &ray, b.direction);
         const branch reflected = {out.position, out.reflected, b.weight * out.reflectance,
                                   b.met + 1};

@@ -1,6 +1,6 @@
-// Sixteen values at a time, in GCC's vectors: what the Embree program computes with. Comparisons
-// give masks, −1 for true and 0 for false in each lane. Where the compiler targets AVX-512 a vector
-// is one register; elsewhere it is split, and nothing here changes.
+// Computes with sixteen values at a time, in GCC's vectors, for the Embree program. Comparisons
+// give masks: −1 for true and 0 for false in each lane. With AVX-512 a vector is one register. On
+// other machines the compiler splits it, with the same code here.
 #ifndef GLINT_BENCH_EMBREE_LANES_H
 #define GLINT_BENCH_EMBREE_LANES_H
 
@@ -27,7 +27,7 @@ static inline ints int_of(int x)
     return (ints){0} + x;
 }
 
-// The compiler makes one masked move of these.
+// Compiles to one masked move.
 static inline reals choose(ints mask, reals yes, reals no)
 {
     return (reals)((mask & (ints)yes) | (~mask & (ints)no));
@@ -44,7 +44,7 @@ static inline reals3 choose3(ints mask, reals3 yes, reals3 no)
                     choose(mask, yes.z, no.z)};
 }
 
-// Bit i is set where lane i of the mask is.
+// Sets bit i where lane i of the mask is true.
 static inline unsigned bits_of(ints mask)
 {
 #ifdef __AVX512F__
@@ -95,7 +95,7 @@ static inline reals square_root(reals x)
 #endif
 }
 
-// 1/x within two units in the last place: an estimate of 14 bits and one step of Newton's.
+// 1/x within two units in the last place: a 14-bit estimate and one Newton step.
 static inline reals reciprocal(reals x)
 {
 #ifdef __AVX512F__
@@ -106,7 +106,7 @@ static inline reals reciprocal(reals x)
 #endif
 }
 
-// 1/√x, likewise.
+// 1/√x within two units in the last place, by the same method.
 static inline reals inverse_root(reals x)
 {
 #ifdef __AVX512F__

@@ -1,4 +1,4 @@
-// Rays aimed at what triangles share: how many pass between them. See embree_reference.h.
+// Counts the aimed rays that pass between Embree's triangles. See reference.h.
 #include "embree/tile.h"
 
 #include "embree/aimed_rays.h"
@@ -23,7 +23,7 @@ static void set_ray(struct RTCRayHit16 *packet, int lane, const aimed_ray *ray)
     packet->ray.tfar[lane] = INFINITY;
 }
 
-// Odd lanes are aimed at edges, even ones at vertices.
+// Traces the rays of one item: odd lanes at edges, even lanes at vertices.
 static void search_item(void *context, size_t item, int thread)
 {
     (void)thread;

@@ -1,4 +1,4 @@
-// Threads that wait for work. See pool.h.
+// Runs work on a pool of waiting threads. See pool.h.
 #include "embree/pool.h"
 
 #include "base/clock.h"
@@ -18,15 +18,15 @@ struct bench_pool {
     pthread_cond_t begin, end;
     int threads;
     pthread_t handles[THREADS_MAX];
-    // Under the lock: the number of the run, and how many threads have ended it.
+    // Guarded by the lock: the number of the run, and how many threads have finished it.
     unsigned long run;
     int finished;
     bool closing;
-    // Of this run.
+    // The current run.
     bench_pool_body *body;
     void *context;
     size_t count;
-    double first_ms, last_ms; // under the lock: when the first began and the last ended
+    double first_ms, last_ms; // guarded by the lock: when the first thread began and the last ended
     _Alignas(64) atomic_size_t next;
     _Alignas(64) atomic_int ready;
 };
@@ -38,7 +38,7 @@ typedef struct worker {
 
 static void run_items(bench_pool *pool, int index)
 {
-    // All set off together: waking up is not part of the work.
+    // Wait for all threads: waking up is not part of the measured work.
     atomic_fetch_add(&pool->ready, 1);
     while (atomic_load(&pool->ready) < pool->threads) {
         _mm_pause();
@@ -67,7 +67,7 @@ static void *work(void *argument)
     free(argument);
     bench_pool *pool = self.pool;
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _mm_setcsr(_mm_getcsr() | 0x40); // denormals are zero
+    _mm_setcsr(_mm_getcsr() | 0x40); // count denormals as zero
     unsigned long done = 0;
     for (;;) {
         pthread_mutex_lock(&pool->lock);

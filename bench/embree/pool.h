@@ -1,4 +1,4 @@
-// Threads that wait for work between measurements and cost nothing meanwhile.
+// Runs work on threads that sleep between measurements and cost nothing then.
 #ifndef GLINT_BENCH_EMBREE_POOL_H
 #define GLINT_BENCH_EMBREE_POOL_H
 
@@ -8,7 +8,7 @@
 
 typedef struct bench_pool bench_pool; // opaque
 
-// One thread for each core that the process may use.
+// Starts one thread for each core that the process may use.
 glint_status bench_pool_create(bench_pool **pool, glint_error *error);
 
 // NULL is allowed.
@@ -16,10 +16,9 @@ void bench_pool_free(bench_pool *pool);
 
 int bench_pool_threads(const bench_pool *pool);
 
-// Calls body(context, item, thread) for each item below `count`, an item at a time on whichever
-// thread is free, and returns the milliseconds from when all threads were awake and ready to when
-// the last item was done. The caller sleeps meanwhile. Denormal numbers count as zero in `body`,
-// which is how Embree wants to be called.
+// Calls body(context, item, thread) for each item below `count`; free threads take one item at a
+// time. Returns the milliseconds from when all threads are ready to when the last item is done. The
+// caller sleeps meanwhile. Denormal numbers count as zero in `body`, as Embree wants it.
 typedef void bench_pool_body(void *context, size_t item, int thread);
 double bench_pool_run(bench_pool *pool, size_t count, bench_pool_body *body, void *context);
 

@@ -1,5 +1,4 @@
-// The Embree program: what is set up before frames are timed, and the frames. See
-// embree_reference.h.
+// Renders frames by Embree: the setup, which is not timed, and the frames. See reference.h.
 #include "embree/cube.h"
 #include "embree/tile.h"
 
@@ -21,8 +20,8 @@ static bool count_bytes(void *context, ssize_t bytes, bool post)
     return true;
 }
 
-// The mesh as one geometry over the scene's own arrays, nothing attached to it that would be called
-// back. *ms is what the commit took.
+// Builds a tree of the mesh: one geometry over the scene's own arrays, without callbacks. *ms is
+// the time of the commit.
 static RTCScene build_scene(embree_program *program, embree_quality quality, double *ms)
 {
     const bench_scene *mesh = program->inputs.scene;
@@ -53,8 +52,7 @@ double embree_program_build(embree_program *program, embree_quality quality)
 
 static glint_status build_scenes(embree_program *program, glint_error *error)
 {
-    // Other trees, leaves, page sizes and vector widths than its defaults were tried: none was
-    // faster.
+    // No other tree, leaf, page size or vector width was faster than the defaults.
     program->device = rtcNewDevice(NULL);
     if (program->device == NULL) {
         return glint_fail(error, GLINT_DEVICE_FAILED, "Embree: no device (error %d)",
@@ -75,7 +73,7 @@ static glint_status build_scenes(embree_program *program, glint_error *error)
                             "Embree: the scene cannot be built (error %d)", (int)code);
 }
 
-// ---- What shading needs ------------------------------------------------------------------------
+// ---- Data for shading --------------------------------------------------------------------------
 
 static void fill_normals(embree_program *program)
 {
@@ -101,7 +99,7 @@ static void fill_texel_pairs(embree_program *program)
     const glint_cube *cube = program->inputs.environment;
     const size_t count = texel_count(cube), pitch = (size_t)cube->edge + 2 * GLINT_CUBE_BORDER;
     for (size_t i = 0; i < count; i++) {
-        // The last row has none below it, and is no upper row of any look-up.
+        // The last row has no row below. No look-up uses it as its upper row.
         size_t below = i + pitch < count ? i + pitch : i;
         for (size_t c = 0; c < 4; c++) {
             uint16_t *pair = program->texel_pairs + PAIR_HALVES * i;

@@ -1,5 +1,5 @@
-// The same frames by Embree: the program that glint is measured against, as fast as Embree 3 lets
-// it be. bench/README.md says what is in and out of its times.
+// Renders the same frames by Embree 3, as fast as Embree allows: the program that glint is measured
+// against. bench/README.md lists the work that its times include.
 #ifndef GLINT_BENCH_EMBREE_REFERENCE_H
 #define GLINT_BENCH_EMBREE_REFERENCE_H
 
@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// How rays are handed to Embree.
+// Embree's calls for tracing rays.
 typedef enum embree_call {
     EMBREE_INTERSECT_1,  // rtcIntersect1
     EMBREE_INTERSECT_8,  // rtcIntersect8
@@ -43,17 +43,18 @@ typedef enum embree_shading {
 
 typedef struct embree_mode {
     embree_query primary;
-    embree_query secondary; // of rays inside glass
-    bool rows;              // a packet is 16 × 1 pixels, else 4 × 4
+    embree_query secondary; // for rays inside glass
+    bool rows;              // a packet has 16 × 1 pixels, otherwise 4 × 4
     embree_quality quality;
     embree_shading shading;
 } embree_mode;
 
-// Writes "NM 16x16 coherent, then 16 incoherent, 4x4, MEDIUM, plain", as much of it as `job` has.
+// Describes a mode, as far as it matters for `job`: "NM 16x16 coherent, then 16 incoherent, 4x4,
+// MEDIUM, plain".
 void embree_mode_describe(const embree_mode *mode, bench_job job, char *text, size_t capacity);
 
-// What a primary ray met, where only that is wanted. `t` is in lengths of the ray's direction,
-// whose component along the axis of view is 1 stored unit: the depth in stored units.
+// The hit of a primary ray, for BENCH_TRAVERSE. `t` is the depth in stored units: it counts in
+// lengths of the ray's direction, whose component along the axis of view is 1 stored unit.
 typedef struct embree_hit {
     float t;
     uint32_t triangle; // UINT32_MAX: none
@@ -61,11 +62,11 @@ typedef struct embree_hit {
 
 typedef struct embree_inputs {
     const bench_scene *scene;      // borrowed, must outlive the program
-    const glint_cube *environment; // likewise
-    bench_pool *pool;              // likewise
+    const glint_cube *environment; // borrowed, must outlive the program
+    bench_pool *pool;              // borrowed, must outlive the program
     int width, height;             // pixels, multiples of 16
     bool robust;                   // RTC_SCENE_FLAG_ROBUST
-    bool high;                     // build the tree of quality HIGH beside MEDIUM's
+    bool high;                     // build a tree of quality HIGH beside the MEDIUM tree
 } embree_inputs;
 
 typedef struct embree_program embree_program; // opaque
@@ -77,27 +78,27 @@ glint_status embree_program_create(const embree_inputs *inputs, embree_program *
 // NULL is allowed.
 void embree_program_free(embree_program *program);
 
-// Renders a frame and returns its milliseconds. TRAVERSE leaves hits, the other jobs pixels.
-// `depth` is the number of surfaces that a path of GLASS meets; the other jobs have theirs.
+// Renders a frame and returns its milliseconds. BENCH_TRAVERSE writes hits, the other jobs write
+// pixels. `depth` limits the surfaces of a path of BENCH_GLASS; the other jobs ignore it.
 double embree_program_frame(embree_program *program, bench_job job, int depth,
                             const embree_mode *mode);
 
 const float *embree_program_pixels(const embree_program *program);    // [height][width][4]
 const embree_hit *embree_program_hits(const embree_program *program); // [height][width]
 
-// Builds the tree once more, throws it away and returns the milliseconds of rtcCommitScene.
+// Builds the tree again, discards it and returns the milliseconds of rtcCommitScene.
 double embree_program_build(embree_program *program, embree_quality quality);
 
-// What Embree holds for the tree, with the triangles in its leaves, in bytes.
+// Bytes of Embree's tree, with the triangles in its leaves.
 size_t embree_program_bytes(const embree_program *program, embree_quality quality);
 
-// What the program holds beside it to shade with: normals.
+// Bytes of the program's data for shading: normals.
 size_t embree_program_shading_bytes(const embree_program *program);
 
-// "3.13.5"
+// Writes Embree's version, such as "3.13.5".
 void embree_version(char *text, size_t capacity);
 
-// What Embree lets through of the first `count` aimed rays, rounded down to whole packets.
+// Counts Embree's leaks among the first `count` aimed rays, rounded down to whole packets.
 leak_count embree_program_leaks(embree_program *program, uint64_t count);
 
 #endif

@@ -1,4 +1,4 @@
-// What bench/embree says. See embree_report.h.
+// Writes the report of bench/embree. See report.h.
 #include "embree/report.h"
 
 #include "report/json.h"
@@ -28,7 +28,7 @@ json_t *embree_report_add_scene(json_t *report, const bench_scene *scene)
     return object;
 }
 
-// A mode's name beside the summary of its times.
+// A mode's name and the summary of its times.
 static json_t *entry_object(const bench_contest *contest, const bench_entry *entry)
 {
     char name[128];
@@ -38,7 +38,7 @@ static json_t *entry_object(const bench_contest *contest, const bench_entry *ent
     return object;
 }
 
-// All modes that were tried: the fastest time of the sweep, and the rounds' median where listed.
+// All modes with the fastest time of the sweep, and the rounds' median of listed modes.
 static json_t *modes_array(const bench_contest *contest)
 {
     json_t *list = json_array();

@@ -1,15 +1,15 @@
-// A tile of a frame: rays, optics and look-ups, sixteen rays at a time. See embree_tile.h.
+// Shades a tile of a frame: rays, optics and look-ups, sixteen rays at a time. See tile.h.
 #include "embree/cube.h"
 #include "embree/tile.h"
 
 #include <math.h>
 
-// Rays inside glass start this far along, in stored units: some ten roundings of a position
-// within [−1, 1], and far less than a triangle.
+// Rays inside glass start this far along, in stored units. That is about ten roundings of a
+// position within [−1, 1], and far less than a triangle.
 #define SECONDARY_START 1e-5f
 
 typedef struct tile_place {
-    int x0, y0; // pixels, of the tile's upper left
+    int x0, y0; // upper left corner of the tile, pixels
 } tile_place;
 
 // ---- Rays --------------------------------------------------------------------------------------
@@ -81,8 +81,9 @@ static void make_primary_rays(const embree_frame *frame, tile_place place,
 
 // ---- Optics ------------------------------------------------------------------------------------
 
-// The interpolated normals of the rays in `hit`, not normalised. Neighbouring rays mostly hit the
-// same few triangles: each of those is fetched once and its values spread over its lanes.
+// Interpolates the normals of the rays in `hit`, without normalising. Neighbouring rays mostly hit
+// the same few triangles. The function fetches each triangle once and spreads its values over its
+// lanes.
 static inline reals3 interpolate_normals(const float *normals, const struct RTCRayHit16 *p,
                                          ints hit)
 {
@@ -101,7 +102,7 @@ static inline reals3 interpolate_normals(const float *normals, const struct RTCR
     return n;
 }
 
-// Asks for the normals of all packets' hits ahead of their use; a triangle's may lie in two lines.
+// Prefetches the normals of all packets' hits. A triangle's normals may lie in two cache lines.
 static void prefetch_normals(const float *normals, const struct RTCRayHit16 *packets, int count)
 {
     for (int p = 0; p < count; p++) {
@@ -118,8 +119,8 @@ static inline reals3 geometric_normal(const struct RTCRayHit16 *p)
     return (reals3){load(p->hit.Ng_x), load(p->hit.Ng_y), load(p->hit.Ng_z)};
 }
 
-// Where `q` must lie on the side of the plane that `sign` says (that of n_g where it is positive),
-// and does not, it is folded back across the plane: rare, so asked for first.
+// Folds `q` back across the surface's plane where `q` lies on the wrong side. The right side is
+// that of n_g if `sign` is positive. Folding is rare, so a test for an early exit comes first.
 static inline reals3 fold_to_side(reals3 q, reals3 geometric, reals sign, ints hit)
 {
     reals along = dot(q, geometric);
@@ -131,8 +132,8 @@ static inline reals3 fold_to_side(reals3 q, reals3 geometric, reals sign, ints h
     return choose3(wrong, scale_add(geometric, twice, q), q);
 }
 
-// The mirror direction of the rays in `hit`, of any length: which way the normal points, and how
-// long it and v are, falls out of r = 2n(n·v)/(n·n) − v.
+// The mirror direction of the rays in `hit`, of any length. In r = 2n(n·v)/(n·n) − v the side of
+// the normal and the lengths of n and v cancel out.
 static inline reals3 reflect_packet(const float *normals, const struct RTCRayHit16 *p, ints hit)
 {
     reals3 d = ray_direction(p), geometric = geometric_normal(p);
@@ -142,8 +143,8 @@ static inline reals3 reflect_packet(const float *normals, const struct RTCRayHit
     return fold_to_side(r, geometric, -dot(d, geometric), hit);
 }
 
-// Snell's law for the rays in `hit`: the unit direction in which light goes on, refracted, or
-// reflected where all of it is.
+// Applies Snell's law to the rays in `hit`. Returns the unit direction of the refracted ray, or of
+// the reflected ray at total reflection.
 static inline reals3 refract_packet(const float *normals, const struct RTCRayHit16 *p, ints hit)
 {
     reals3 d = ray_direction(p), geometric = geometric_normal(p);
@@ -151,7 +152,7 @@ static inline reals3 refract_packet(const float *normals, const struct RTCRayHit
     reals facing = -dot(d, geometric);
     reals3 n = interpolate_normals(normals, p, hit);
     n = scale(n, inverse_root(dot(n, n)));
-    // On the viewer's side of the surface, and then turned to the viewer.
+    // Put the normal on the viewer's side of the surface, then turn it to the viewer.
     reals cosine = -dot(n, d);
     ints turned = cosine < 0.0f;
     n = choose3(turned, negate(n), n);
@@ -163,7 +164,7 @@ static inline reals3 refract_packet(const float *normals, const struct RTCRayHit
     reals cosine_t = square_root(larger(squared, real_of(0)));
     reals3 refracted = scale_add(n, scaled - cosine_t, scale(d, eta));
     reals3 reflected = scale_add(n, 2.0f * cosine, d);
-    // A refracted direction goes on to the other side of the surface.
+    // A refracted direction belongs on the other side of the surface.
     reals side = choose(total, facing, -facing);
     return fold_to_side(choose3(total, reflected, refracted), geometric, side, hit);
 }
@@ -179,8 +180,8 @@ static void trace(const embree_frame *frame, embree_query query, struct RTCRayHi
     }
 }
 
-// The rays inside, packets without any left out. Returns how many packets there are; `origin` says
-// which packet of the primary rays each continues.
+// Makes the rays inside the glass, and skips packets without rays. Returns the number of packets;
+// `origin` names the packet of primary rays that each packet continues.
 static int make_secondary_rays(const embree_frame *frame, embree_tile *tile, int origin[TILE])
 {
     int count = 0;
@@ -251,7 +252,7 @@ static void look_up_floats(const embree_frame *frame, tile_place place, const re
     }
 }
 
-// Finds the texels of a packet and asks for them.
+// Finds the texels of a packet and prefetches them.
 static inline void prepare_look_up(const embree_program *program, embree_tile *tile, int p)
 {
     const int edge = program->inputs.environment->edge;
@@ -264,7 +265,7 @@ static inline void prepare_look_up(const embree_program *program, embree_tile *t
     }
 }
 
-// The first of the four pixels, side by side, of lanes 4 group … 4 group + 3 of packet p.
+// Index of the first of the four neighbouring pixels of lanes 4 group … 4 group + 3 of packet p.
 static inline size_t group_pixel(const embree_frame *frame, tile_place place, int p, int group)
 {
     const bool rows = frame->mode->rows;
@@ -344,7 +345,7 @@ static void render_tile(const embree_frame *frame, tile_place place, embree_tile
     }
 }
 
-// Tiles are taken in blocks of 4 × 4, which share more of the tree than a row does.
+// Takes tiles in blocks of 4 × 4: a block shares more of the tree than a row does.
 static size_t blocks_across(int pixels)
 {
     return ((size_t)pixels + 4 * TILE - 1) / (4 * TILE);

@@ -1,7 +1,7 @@
-// Handing rays to Embree, one call for each of its interfaces. See embree_tile.h.
+// Calls each of Embree's interfaces for tracing rays. See tile.h.
 #include "embree/tile.h"
 
-// Sets an array of sixteen from, or to, the half of an array of eight.
+// Copies to or from one half of an array of sixteen.
 #define COPY_HALF(to, from) memcpy((to), (from), 8 * sizeof *(from))
 
 static void trace_one_by_one(RTCScene scene, struct RTCIntersectContext *context,

@@ -1,4 +1,4 @@
-// A contest: glint and llvmpipe draw the same mirror in turns. See llvmpipe_contest.h.
+// Lets glint and llvmpipe draw the same mirror in turns. See contest.h.
 #include "llvmpipe/contest.h"
 
 #include "base/memory.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// All that draw; owned.
+// The renderers of all contestants; owned.
 typedef struct players {
     glint_renderer *glint, *one_ray;
     llvmpipe_program *llvmpipe;
@@ -72,7 +72,7 @@ cleanup:
     return status;
 }
 
-// Draws the first frame of all, which warms them up, and compares.
+// Draws the first frame of each contestant as a warm-up, and compares the frames.
 static glint_status check_agreement(const bench_stage *stage, const players *p,
                                     llvmpipe_contest *contest, glint_error *error)
 {
@@ -80,7 +80,7 @@ static glint_status check_agreement(const bench_stage *stage, const players *p,
     double ms;
     glint_status status;
     TRY_OR(cleanup, status, bench_stage_frame(stage, p->glint, &ms, &image, error));
-    // What is found in no frame yet agrees.
+    // Start from full agreement.
     contest->agreement.pixels = (uint64_t)stage->width * (uint64_t)stage->height;
     TRY_OR(cleanup, status, compare_one_ray(stage, p, &image, &contest->one_ray_agreement, error));
     TRY_OR(cleanup, status, compare_llvmpipe(stage, p, &image, &contest->agreement, error));

@@ -1,4 +1,4 @@
-// An OpenGL context drawn by llvmpipe. See llvmpipe_context.h.
+// Creates an OpenGL context that llvmpipe draws. See context.h.
 #include "llvmpipe/context.h"
 
 #include <epoxy/egl.h>
@@ -18,7 +18,7 @@ static glint_status fail(const char *what, glint_error *error)
                       (unsigned)eglGetError());
 }
 
-// No surface is made: frames go to a framebuffer object.
+// Creates a context without a surface: frames go to a framebuffer object.
 static glint_status create_context(llvmpipe_context *c, glint_error *error)
 {
     static const EGLint config_wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0,
@@ -54,7 +54,7 @@ static glint_status create_context(llvmpipe_context *c, glint_error *error)
 glint_status llvmpipe_context_create(llvmpipe_context **context, glint_error *error)
 {
     *context = NULL;
-    // Mesa reads these when the display is initialised; a graphics card must not answer.
+    // Mesa reads these variables when the display is initialised. They keep a graphics card out.
     (void)setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     (void)setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") ||
@@ -96,7 +96,7 @@ void llvmpipe_context_free(llvmpipe_context *c)
 
 const char *llvmpipe_context_renderer(const llvmpipe_context *context)
 {
-    (void)context; // which is current
+    (void)context; // the current context
     return (const char *)glGetString(GL_RENDERER);
 }
 

@@ -1,5 +1,5 @@
-// bench/llvmpipe: glint against Mesa's llvmpipe, in turns, on the same mirrors. bench/README.md
-// says what is measured and what it means. Results go to stdout, chatter to stderr.
+// bench/llvmpipe: times glint against Mesa's llvmpipe, in turns, on the same mirrors.
+// bench/README.md explains the measurements. Results go to stdout, progress to stderr.
 #include "llvmpipe/contest.h"
 #include "llvmpipe/context.h"
 #include "llvmpipe/report.h"
@@ -46,7 +46,7 @@ static glint_status parse(int argc, char **argv, bench_request *r, glint_error *
 
 // ---- Work --------------------------------------------------------------------------------------
 
-// `stage` lacks its scene.
+// Runs one scene. `stage` comes without its scene.
 static glint_status run_scene(bench_stage stage, const char *name, json_t *report,
                               glint_error *error)
 {

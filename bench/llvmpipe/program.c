@@ -1,4 +1,4 @@
-// The mirror by OpenGL. See llvmpipe_program.h.
+// Draws the mirror by OpenGL. See program.h.
 #include "llvmpipe/program.h"
 
 #include "base/clock.h"
@@ -15,7 +15,7 @@
 
 // ---- Shaders -----------------------------------------------------------------------------------
 
-enum { POSITION, NORMAL }; // the vertices' attributes
+enum { POSITION, NORMAL }; // attributes of the vertices
 
 static const char mesh_vertex[] = "#version 330 core\n"
                                   "uniform mat4 clip_from_stored;\n"
@@ -31,7 +31,7 @@ static const char mesh_vertex[] = "#version 330 core\n"
                                   "    gl_Position = clip_from_stored * vec4(position, 1.0);\n"
                                   "}\n";
 
-// There is one level of texels: textureLod spares the derivatives that choose among several.
+// The texture has one level only. textureLod saves the derivatives that select a level.
 static const char mesh_fragment[] =
     "#version 330 core\n"
     "uniform samplerCube environment;\n"
@@ -43,7 +43,8 @@ static const char mesh_fragment[] =
     "    radiance = textureLod(environment, reflect(incident, normalize(normal)), 0.0);\n"
     "}\n";
 
-// A triangle that covers the screen, on the far plane: what the mesh hides is not shaded.
+// A triangle that covers the screen on the far plane, so that the depth test culls it behind the
+// mesh.
 static const char background_vertex[] =
     "#version 330 core\n"
     "uniform vec3 right, up, forward;\n"
@@ -97,7 +98,7 @@ static glint_status compile(GLuint program, GLenum kind, const char *source, gli
         glGetShaderInfoLog(shader, sizeof log, NULL, log);
         error->details = strdup(log);
     }
-    glDeleteShader(shader); // once the program goes
+    glDeleteShader(shader); // OpenGL deletes it with the program
     return compiled ? GLINT_OK
                     : glint_fail(error, GLINT_DEVICE_FAILED,
                                  "llvmpipe: a shader does not compile (the log follows)");
@@ -125,7 +126,7 @@ static void set_vector(GLuint program, const char *name, glint_vec3 v)
     glUniform3f(glGetUniformLocation(program, name), (float)v.x, (float)v.y, (float)v.z);
 }
 
-// The depths between which the scene lies, in stored units, with some room.
+// Finds the near and far depth of the scene, in stored units, with a margin.
 static void find_depths(const bench_scene *scene, glint_vec3 eye, double *near, double *far)
 {
     *near = INFINITY;
@@ -139,10 +140,10 @@ static void find_depths(const bench_scene *scene, glint_vec3 eye, double *near, 
         *far = fmax(*far, depth);
     }
     *far *= 1.01;
-    *near = fmax(0.99 * *near, 1e-3 * *far); // an eye inside the scene
+    *near = fmax(0.99 * *near, 1e-3 * *far); // for an eye inside the scene
 }
 
-// glint's camera, see glint_frame_record: a pixel's side is the same in both directions.
+// Sets glint's camera, see glint_frame_record. A pixel is as wide as it is high.
 static void set_camera(const llvmpipe_inputs *inputs, const llvmpipe_program *p)
 {
     const glint_camera *camera = &inputs->scene->camera;
@@ -186,10 +187,12 @@ static glint_status upload_mesh(const bench_scene *scene, llvmpipe_program *p, g
     if (vertices == NULL) {
         return glint_fail_memory(error, "vertices");
     }
+    // Interleave positions and normals.
     for (size_t i = 0; i < scene->vertex_count; i++) {
         memcpy(vertices[i].position, scene->positions + 3 * i, sizeof vertices->position);
         memcpy(vertices[i].normal, scene->normals + 3 * i, sizeof vertices->normal);
     }
+    // Create the vertex arrays and upload the vertices.
     glGenVertexArrays(1, &p->empty_array);
     glGenVertexArrays(1, &p->mesh_array);
     glBindVertexArray(p->mesh_array);
@@ -203,6 +206,7 @@ static glint_status upload_mesh(const bench_scene *scene, llvmpipe_program *p, g
                           (const void *)offsetof(vertex, normal));
     glEnableVertexAttribArray(POSITION);
     glEnableVertexAttribArray(NORMAL);
+    // Upload the indices.
     glGenBuffers(1, &p->indices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, p->indices);
     p->index_count = (GLsizei)(3 * scene->triangle_count);
@@ -213,8 +217,8 @@ static glint_status upload_mesh(const bench_scene *scene, llvmpipe_program *p, g
     return GLINT_OK;
 }
 
-// OpenGL's faces stand in the same order as those of kernels/layout.h, but are seen from outside
-// (OpenGL 3.3, table 3.19): ±X and ±Z are ours left to right, ±Y ours top to bottom.
+// Copies a face, flipped. OpenGL's faces have the order of kernels/layout.h, but are seen from
+// outside (OpenGL 3.3, table 3.19). ±X and ±Z are flipped left to right, ±Y top to bottom.
 static void copy_face(const glint_cube *cube, int face, float *texels)
 {
     const int edge = cube->edge, last = edge - 1;
@@ -349,7 +353,7 @@ double llvmpipe_program_frame(llvmpipe_program *p, llvmpipe_texels texels)
     return glint_now_ms() - start;
 }
 
-// OpenGL's rows run from the bottom up.
+// OpenGL's rows run from the bottom up, so this reverses them.
 glint_status llvmpipe_program_read(llvmpipe_program *p, float *pixels, glint_error *error)
 {
     for (int row = 0; row < p->height; row++) {

@@ -1,4 +1,4 @@
-// What bench/llvmpipe says. See llvmpipe_report.h.
+// Writes the report of bench/llvmpipe. See report.h.
 #include "llvmpipe/report.h"
 
 #include "report/json.h"
@@ -17,7 +17,7 @@ json_t *llvmpipe_report_create(const bench_stage *stage, const llvmpipe_context 
     return report;
 }
 
-// A series beside glint's: its times, and how many times glint's they are.
+// A series with its times and their ratio to glint's.
 static json_t *series_object(const llvmpipe_contest *contest, const bench_series *series)
 {
     json_t *object = json_object();

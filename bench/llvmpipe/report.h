@@ -1,4 +1,4 @@
-// What bench/llvmpipe says: a table on stdout as it goes along, and JSON at the end.
+// Writes the report of bench/llvmpipe: a table on stdout line by line, and JSON at the end.
 #ifndef GLINT_BENCH_LLVMPIPE_REPORT_H
 #define GLINT_BENCH_LLVMPIPE_REPORT_H
 
@@ -7,8 +7,8 @@
 
 #include <jansson.h>
 
-// The whole report without its scenes. Prints the driver's name and the table's head. A new
-// reference.
+// Prints the driver's name and the head of the table. Returns the report without its scenes; the
+// caller owns it.
 json_t *llvmpipe_report_create(const bench_stage *stage, const llvmpipe_context *context);
 
 // Adds a scene and prints its lines.

@@ -1,4 +1,4 @@
-// The commands: what main.c chooses from.
+// The subcommands of glint: main.c chooses one of them by its name.
 #ifndef GLINT_CLI_COMMANDS_H
 #define GLINT_CLI_COMMANDS_H
 

@@ -1,5 +1,5 @@
-// The program: dispatches to a command, prints errors and warnings, decides the exit status.
-// Nothing else prints an error or exits.
+// Runs the command that the command line names, prints errors and warnings, and sets the exit
+// status.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 
@@ -23,7 +23,7 @@ static const glint_command *const commands[] = {
     &glint_command_selftest, &glint_command_info,    &glint_command_devices};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
-// The width for texts on stdout: the terminal's within [80, 100], 80 where there is none.
+// Width for texts on stdout, [80, 100] columns: the terminal's width, or 80 without a terminal.
 static int text_columns(void)
 {
     struct winsize size;
@@ -87,7 +87,7 @@ static glint_status run_help(int argc, char **argv, glint_error *error)
     return GLINT_OK;
 }
 
-// What was done about the driver's cache is said at the end.
+// Runs the command. At the end, reports how the driver's cache was handled.
 static glint_status run_and_tidy(const glint_command *command, void *request,
                                  const glint_arguments *arguments, glint_error *error)
 {
@@ -144,8 +144,9 @@ static glint_status dispatch(int argc, char **argv, glint_error *error)
     return command != NULL ? run_command(command, argc - 1, argv + 1, error) : GLINT_USAGE;
 }
 
-// A file opened while one of the three standard streams is closed would take its number, and get
-// its messages. Where standard output is closed, writing to it stays an error.
+// Opens /dev/null for each closed standard stream. Otherwise the next opened file would take its
+// number and receive its messages. A closed standard output becomes read-only, so that writing
+// still fails.
 static void open_standard_streams(void)
 {
     int descriptor;

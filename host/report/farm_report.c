@@ -1,4 +1,4 @@
-// The sum of what a farm's parts did. See farm_report.h.
+// Sums up the work of a farm's parts. See farm_report.h.
 #include "report/farm_report.h"
 
 #include "base/regular_file.h"
@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #define FORMAT "glint farm"
-#define FAILURES_MAX 40     // that are named
-#define ATTEMPTS_MAX 100000 // a number beyond is none that a farm gave
+#define FAILURES_MAX 40     // failures listed by name
+#define ATTEMPTS_MAX 100000 // a larger attempt number does not come from a farm
 
 // ---- The job -----------------------------------------------------------------------------------
 
@@ -48,7 +48,7 @@ glint_status glint_farm_job_write(const char *folder, const glint_farm_job *job,
     return status;
 }
 
-// The number in the name of a job's file, "1234.json"; 0 of other names.
+// The number in the name of a job's file, "1234.json"; 0 for other names.
 static unsigned long long job_in_name(const char *name)
 {
     const size_t digits = strspn(name, "0123456789");
@@ -124,17 +124,18 @@ cleanup:
 
 typedef enum frame_state { FRAME_FAILED, FRAME_SKIPPED, FRAME_RENDERED } frame_state;
 
-// A frame's line in the statistics of some attempt.
+// A frame's line in the statistics of an attempt.
 typedef struct frame_line {
     int64_t number;
     frame_state state;
     char *failure; // owned; NULL unless it failed
 } frame_line;
 
+// The lines of a part.
 typedef struct part_lines {
     frame_line *lines;
     size_t count, capacity;
-    int last_attempt; // −1: none began
+    int last_attempt; // −1: no attempt began
 } part_lines;
 
 static void free_lines(part_lines *lines)
@@ -198,7 +199,7 @@ static glint_status take_frame(const json_t *root, glint_farm_part *part, part_l
     return GLINT_OK;
 }
 
-// The last line of an attempt that was killed may be cut: what is no object is left out.
+// Takes a line of statistics. Ignores an incomplete line: a killed attempt may cut its last line.
 static glint_status take_line(const char *text, glint_farm_part *part, part_lines *lines,
                               glint_error *error)
 {
@@ -212,7 +213,7 @@ static glint_status take_line(const char *text, glint_farm_part *part, part_line
     return status;
 }
 
-// Hands each line of a file to `take`. A file that is not there has none.
+// Hands each line of a file to `take`. A missing file counts as empty.
 static glint_status read_lines(const char *path, glint_farm_part *part, part_lines *lines,
                                glint_status (*take)(const char *text, glint_farm_part *part,
                                                     part_lines *lines, glint_error *error),
@@ -235,7 +236,7 @@ cleanup:
     return status;
 }
 
-// A line of the part's account.
+// Takes a line of the part's list of attempts.
 static glint_status take_account(const char *text, glint_farm_part *part, part_lines *lines,
                                  glint_error *error)
 {
@@ -256,6 +257,7 @@ static glint_status take_account(const char *text, glint_farm_part *part, part_l
 
 // ---- The sums ----------------------------------------------------------------------------------
 
+// Sorts by frame number; within a frame, rendered before skipped before failed.
 static int by_number_best_first(const void *a, const void *b)
 {
     const frame_line *first = a, *second = b;
@@ -286,7 +288,7 @@ static void count_frames(part_lines *lines, glint_farm_part *part, glint_farm_re
     }
 }
 
-// Part I of N has every N-th frame.
+// The number of frames of part `index` (from 0): part I of N has every N-th frame.
 static uint64_t frames_of(const glint_farm_job *job, int index)
 {
     const uint64_t parts = (uint64_t)job->parts;

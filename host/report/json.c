@@ -1,4 +1,4 @@
-// JSON values, and the files and texts they are written to. See json.h.
+// Makes, reads and writes JSON. See json.h.
 #include "report/json.h"
 
 #include "base/plain_text.h"
@@ -15,7 +15,7 @@
 
 void glint_json_put(json_t *object, const char *key, json_t *value)
 {
-    // Both may be NULL where memory is short; jansson accepts that and releases the value.
+    // Both may be NULL if memory ran short; jansson accepts this and releases the value.
     (void)json_object_set_new(object, key, value);
 }
 

@@ -1,6 +1,6 @@
-// JSON through jansson: what the reports of this floor share. Objects that are made here are new
-// references. Where memory is short an entry is missing, and the text at the end cannot be made
-// either: glint_json_write and glint_json_print report it.
+// Makes, reads and writes JSON for all reports, with jansson. Functions that make values return new
+// references. If memory runs short, an entry may be missing. Then the final text cannot be made
+// either: glint_json_write and glint_json_print report this.
 #ifndef GLINT_REPORT_JSON_H
 #define GLINT_REPORT_JSON_H
 
@@ -14,13 +14,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-void glint_json_put(json_t *object, const char *key, json_t *value); // takes the reference
+void glint_json_put(json_t *object, const char *key, json_t *value); // takes over the reference
 void glint_json_put_flag(json_t *object, const char *key, bool value);
 void glint_json_put_count(json_t *object, const char *key, uint64_t value);
-// JSON has no NaN and no infinity: null stands for them.
+// Puts a number; NaN and infinity become null, because JSON has neither.
 void glint_json_put_real(json_t *object, const char *key, double value);
-// Where a text is no UTF-8 (file names may hold any bytes), those that are no ASCII become '?';
-// NULL becomes null.
+// Makes a string. If the text is not valid UTF-8 (file names may hold any bytes), all its bytes
+// that are not ASCII become '?'. NULL becomes null.
 json_t *glint_json_text(const char *text);
 void glint_json_put_text(json_t *object, const char *key, const char *text);
 
@@ -34,31 +34,30 @@ json_t *glint_json_warnings(const glint_warnings *warnings);
 json_t *glint_json_rays(const glint_ray_counts *rays);
 json_t *glint_json_truncation(const glint_truncation *truncation);
 json_t *glint_json_summary(const glint_summary *summary);
-// Where no pixel was compared, the figures are null.
+// The figures are null if no pixel was compared.
 json_t *glint_json_metrics(const glint_metrics *metrics);
-// Counts, bounds, the variant and overrides; with `everything` also what the file uses, the
-// topology, if the subject has one, the materials, their variants, the instances and the cameras.
+// The scene's counts, bounds, variant and overrides. `everything` adds the features that the file
+// uses, topology (if known), materials, variants, instances and cameras.
 json_t *glint_json_scene(const glint_subject *subject, bool everything);
 
-// The value at the end of the names in `path`, "frames.kernel.median"; NULL where there is none. Of
-// the wrong type or missing, a number is NaN and a text is NULL. All borrowed.
+// The value at the end of a path such as "frames.kernel.median"; NULL if there is none. If the
+// value is missing or has another type, the number is NaN and the text is NULL. All borrowed.
 json_t *glint_json_at(const json_t *root, const char *path);
 double glint_json_real_at(const json_t *root, const char *path);
 const char *glint_json_text_at(const json_t *root, const char *path);
 
-// Writes `root` indented into the file, whole or not at all (image/output_file.h). Takes the
-// reference, also where it is NULL (memory was short when it was made). Errors:
-// GLINT_OUTPUT_FAILED.
+// Writes `root` indented into the file, whole or not at all (image/output_file.h). Takes over the
+// reference. `root` may be NULL if memory ran short. Errors: GLINT_OUTPUT_FAILED.
 glint_status glint_json_write(const char *path, json_t *root, glint_error *error);
 
-// Reads a file that holds one value, in which no object has two members of one name. The caller
-// releases *root. Errors: GLINT_BAD_INPUT with the file's name, and the line where one is at fault.
+// Reads a file with one value. Refuses objects with two members of the same name. The caller
+// releases *root. Errors: GLINT_BAD_INPUT with the file's name, and the line if known.
 glint_status glint_json_read(const char *path, json_t **root, glint_error *error);
 
-// As json_dumps, with escapes for all that a terminal should not get.
+// Like json_dumps, but escapes everything that a terminal should not receive.
 char *glint_json_dump(const json_t *value, size_t flags);
 
-// The same as a malloc'd text that ends with a newline.
+// Makes an indented text that ends with a newline, malloc'd. Takes over the reference.
 glint_status glint_json_print(json_t *root, char **text, glint_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// The machine that a measurement is made on. See machine.h.
+// Describes the machine of a measurement. See machine.h.
 #include "report/machine.h"
 
 #include "base/parallel.h"
@@ -11,7 +11,7 @@
 #include <sys/utsname.h>
 #include <time.h>
 
-// "model name : …" of Linux on x86; other processors have no such line.
+// Reads "model name : …" on x86 Linux; other processors have no such line.
 static void find_cpu(char *text, size_t capacity)
 {
     static const char key[] = "model name";

@@ -1,2 +1,2 @@
-// Does not compile: what a test of the error message needs.
+// A kernel that does not compile, to test the error message.
 kernel void render_tiles(global float *pixels) { pixels[0] = undeclared_name; }

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Command-line tests of glint bench. bench_checks.sh GLINT JSON_GET
-# Each run compiles the kernels from nothing, so one run serves many checks. No time is asserted.
+# Tests the command line of glint bench. bench_checks.sh GLINT JSON_GET
+# Each run compiles the kernels from nothing, so one run serves many checks. No check depends on
+# time.
 root=$(readlink -f -- "$(dirname "$0")/../..")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
@@ -104,7 +105,7 @@ clean
 
 # ---- baselines ----------------------------------------------------------------------------------
 
-# Multiplies the times of a frame's launches in a report by a factor.
+# Multiplies the launch times of a frame in a report by a factor.
 scale_times() { # FACTOR FROM TO
     awk -v factor="$1" '/"kernel": \{/ { inside = 1 } /\}/ { inside = 0 }
         inside && /"median"|quartile/ { match($0, /[0-9.e+-]+,$/)
@@ -141,7 +142,7 @@ clean
 
 # ---- wrong pictures -----------------------------------------------------------------------------
 
-# breaks FOLDER WEIGHT: the kernels, but for the weight that primary rays begin with.
+# breaks FOLDER WEIGHT: copies the kernels with another start weight of primary rays.
 breaks() {
     cp -r "$root/kernels" "$1"
     sed -i "/ray\.weight = /s/real_of(1)/real_of($2)/g" "$1/paths.cl"
@@ -150,7 +151,7 @@ breaks() {
 check 'kernels that make pictures two per cent too bright' breaks too_bright 1.02f
 check 'kernels that make pictures of NaN' breaks not_finite NAN
 
-# no_throughput: neither in the table nor in the report.
+# no_throughput: checks that neither the table nor the report has a throughput.
 no_throughput() {
     ! grep -qE 'Mrays|frames/s' stdout &&
         ! "$json_get" out/stats.json scenes 0 mrays_per_second &&
@@ -186,8 +187,8 @@ rm -f mirror mirror_sphere.bin
 
 # ---- signals ------------------------------------------------------------------------------------
 
-# stops SIGNAL STATUS DELAY: the program runs in a session of its own, so that what it leaves running
-# can be found.
+# stops SIGNAL STATUS DELAY: runs the program in a session of its own, to find processes that it
+# leaves running.
 stops() {
     setsid "$glint" bench mirror --size 1920x1080 --samples 16 --json out/x.json >stdout 2>stderr &
     local process=$!

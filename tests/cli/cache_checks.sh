@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The driver's cache of kernels, damaged or out of reach: one clear line, and glint goes on.
+# Tests a damaged or unreachable kernel cache: glint must print one clear line and go on.
 # cache_checks.sh GLINT JSON_GET SCENES
 # shellcheck source-path=SCRIPTDIR source=common.sh
 . "$(dirname -- "$0")/common.sh"
@@ -7,13 +7,13 @@ scene=$3/mirror_sphere.gltf
 export POCL_CACHE_DIR=$work/cache
 picture=("$scene" --size 16x9 -o out/x.png --progress none)
 
-# A cache that holds the kernel, and what PoCL keeps of it.
+# A cache with the kernel, and PoCL's files for it.
 mkdir cache
 run render "${picture[@]}"
 check 'the cache is filled' test "$status" -eq 0 -a -n "$(find cache -name program.bc)"
 cp -r cache good
 
-# Damages the files of that name by a command on each.
+# Runs a command on each file of this name, to damage it.
 damage() { # NAME COMMAND…
     local name=$1
     shift
@@ -23,7 +23,7 @@ damage() { # NAME COMMAND…
 }
 empty() { : >"$1"; }
 shorten() { head -c 1000 "$1" >"$1.short" && mv "$1.short" "$1"; }
-# What glint itself says; PoCL and LLVM say more.
+# Prints glint's own messages, without those of PoCL and LLVM.
 says() { grep -q "^glint: .*$work/cache: .*$1" stderr; }
 
 damage program.bc empty
@@ -33,7 +33,7 @@ check 'an empty program: a warning names the cache' says 'damaged'
 run render "${picture[@]}"
 check 'an empty program: once' test "$status" -eq 0 -a ! -s stderr
 
-# dies NAME WHAT COMMAND: the driver dies in the first run, and the second one mends the cache.
+# dies NAME WHAT COMMAND: the driver dies in the first run, and the second run repairs the cache.
 dies() {
     damage "$2" "$3"
     run render "${picture[@]}"
@@ -52,7 +52,7 @@ else
     skip 'a short kernel' 'AddressSanitizer takes SIGBUS'
 fi
 
-# A cache out of reach: kernels go to a folder that is gone afterwards.
+# An unreachable cache: kernels go to a folder that is removed afterwards.
 out_of_reach() { # NAME
     rm -f out/x.png
     mkdir -p tmp
@@ -75,7 +75,7 @@ else
     skip 'a full disk' 'no small file system can be mounted'
 fi
 
-# Another's death is its own: nothing is marked.
+# Another process's death must not mark the cache.
 rm -rf cache
 cp -r good cache
 "$glint" render "$scene" --turntable 9999 --size 64x64 -o out/f.####.png --progress none 2>/dev/null &

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Cameras from the command line: --eye and what belongs to it, --fit, --elevation. Prints TAP.
+# Tests cameras from the command line: --eye with its companions, --fit, --elevation. Prints TAP.
 #
 #   camera_checks.sh GLINT JSON_GET SCENES
 
@@ -7,8 +7,8 @@ scenes=$(readlink -f -- "$3")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
-# A triangle that spans x and y from -1 to 1 at z = 0, seen by a perspective and an orthographic
-# camera; the same without cameras; the same with a node that goes from x = 0 to 4 in a second.
+# A triangle that spans x and y from -1 to 1 at z = 0, with a perspective and an orthographic
+# camera; the same without cameras; the same with a node that moves from x = 0 to 4 in a second.
 buffer=$(printf '\0\0\200\277\0\0\200\277\0\0\0\0\0\0\200\077\0\0\200\277\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\100\0\0\0\0\0\0\0\0' |
     base64 -w 0)
 write_scene() { # NODES ANIMATIONS
@@ -35,11 +35,11 @@ write_scene '[0, 1, 2]' '' >in/seen.gltf
 write_scene '[0]' '' >in/unseen.gltf
 write_scene '[0]' '"animations": [{"samplers": [{"input": 1, "output": 2}],
    "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],' >in/moving.gltf
-# A camera that moves alone.
+# Only the camera moves.
 write_scene '[0, 1, 2]' '"animations": [{"samplers": [{"input": 1, "output": 2}],
    "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],' >in/panned.gltf
 
-# A number of the camera that glint info uses, to 1e-6.
+# Checks numbers of the camera in glint info, to 1e-6.
 camera_is() { # WANTED KEY[,KEY] ARGUMENT…
     local wanted=$1 keys=${2//,/ } got
     shift 2
@@ -50,7 +50,7 @@ camera_is() { # WANTED KEY[,KEY] ARGUMENT…
         'BEGIN { off = got - wanted; exit !(off < 1e-6 && off > -1e-6) }' || { echo "$keys is $got"; return 1; }
 }
 
-# How many times as far away the eye is as with --fit, seen along z.
+# Checks the eye's distance relative to --fit, along z.
 eye_is_further() { # LEAST MOST ARGUMENT…
     local least=$1 most=$2 own fitted
     shift 2
@@ -61,7 +61,7 @@ eye_is_further() { # LEAST MOST ARGUMENT…
         'BEGIN { exit !(own > least * fitted && own < most * fitted) }'
 }
 
-# The bytes of worldToCamera in an EXR's header.
+# Prints the bytes of worldToCamera in an EXR's header.
 matrix_of() {
     grep -aoP 'worldToCamera\0m44f\0\x40\0\0\0\K[\s\S]{64}' "$1" | od -An -tf4
 }
@@ -106,7 +106,7 @@ check '--fov of the file'"'"'s camera' camera_is 25 yfov_degrees in/seen.gltf --
 check '--fov keeps its place' camera_is 3 eye,2 in/seen.gltf --fov 25
 check 'straight down: the far side is up' camera_is -1 up,2 in/seen.gltf --eye 0,5,0
 check 'straight up: the near side is up' camera_is 1 up,2 in/seen.gltf --eye 0,-5,0
-# The camera of the file, said in words, gives its picture.
+# The file's camera in words must give the same picture.
 run render in/seen.gltf --size 16x16 -o in/file.exr
 run render in/seen.gltf --size 16x16 -o in/own.exr --eye 0,0,3 --look-at 0,0,0 --fov 45.8366236104659
 check 'as the same camera of a file' within 1e-5 in/own.exr in/file.exr
@@ -139,7 +139,7 @@ check '--fit: and its width' camera_is 1.6875 eye,2 in/moving.gltf --eye 0,0,9 -
 "$glint" info in/seen.gltf --size 160x90 --eye 3,3,3 --look-at 0,0,0 --fit --json >info.json
 check '--fit: by its shape where only the camera moves' camera_is "$("$json_get" info.json camera eye 2)" eye,2 \
     in/panned.gltf --eye 3,3,3 --look-at 0,0,0 --fit
-# In front of the triangle, from the direction (0.4, 0.3, 1); a little further away than with --fit.
+# In front of the triangle, from the direction (0.4, 0.3, 1); slightly farther than with --fit.
 check 'a file without cameras: its direction' camera_is 0.8944272 back,2 in/unseen.gltf
 check 'a file without cameras: fitted, with a margin' eye_is_further 1.02 1.08 in/unseen.gltf --size 160x90
 check 'a file without cameras: in a tall frame, too' eye_is_further 1.02 1.08 in/unseen.gltf --size 90x160

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What the command-line tests share: a folder to work in, and checks. Sourced by a script whose first
-# two arguments are the program and json_get, and which ends with `finish`. Prints TAP.
+# Shared by the command-line tests: a work folder and checks. A script sources it with the program
+# and json_get as its first two arguments, and ends with `finish`. Prints TAP.
 set -u
 
 glint=$(readlink -f -- "$1")
@@ -22,7 +22,7 @@ verdict() { # ok|"not ok" NAME [WHY]
     fi
 }
 
-# check NAME COMMAND…: passes when the command does.
+# check NAME COMMAND…: passes if the command succeeds.
 check() {
     local name=$1
     shift
@@ -43,7 +43,7 @@ run() {
     status=$?
 }
 
-# within LIMIT A B: the relative RMSE of two pictures is no more. apart LIMIT A B: it is more.
+# within LIMIT A B: the relative RMSE of two pictures is at most LIMIT. apart LIMIT A B: it is more.
 within() {
     "$glint" compare "$2" "$3" --fail-above "relative-rmse=$1" --fail-above nan=0
 }
@@ -52,7 +52,7 @@ apart() {
     [ $? -eq 7 ]
 }
 
-# refuses STATUS TEXT ARGUMENT…: a mistake; TEXT is part of the line that it gets.
+# refuses STATUS TEXT ARGUMENT…: expects a mistake, with a line that contains TEXT.
 refuses() {
     local wanted=$1 text=$2
     shift 2
@@ -84,12 +84,12 @@ begins_with() { # FILE HEX
     [ "$(od -An -tx1 -N $((${#2} / 2)) "$1" | tr -d ' \n')" = "$2" ]
 }
 
-# The options of groups of the table of settings (host/render/settings_table.h).
+# Lists the options of groups of the settings table (host/render/settings_table.h).
 settings_of() { # GROUP…
     "$(dirname "$json_get")/list_settings" "$@"
 }
 
-# --help tells of these options, and of no other.
+# Checks that --help lists these options, and no others.
 help_mentions() { # COMMAND OPTION…
     local command=$1 option
     shift
@@ -116,7 +116,7 @@ stat_is_positive() { # KEY…
     awk -v value="$got" 'BEGIN { exit !(value + 0 > 0) }'
 }
 
-# The plan, and as the result whether all passed.
+# Prints the plan. Succeeds if all tests passed.
 finish() {
     printf '1..%d\n' "$count"
     [ "$failures" -eq 0 ] || printf '# %d failed\n' "$failures"

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Command-line tests of glint compare. compare_checks.sh GLINT JSON_GET MAKE_EXR
+# Tests the command line of glint compare. compare_checks.sh GLINT JSON_GET MAKE_EXR
 make_exr=$(readlink -f -- "$3")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
 # ---- inputs -------------------------------------------------------------------------------------
 
-# exr NAME CHANNELS VALUES [X Y VALUE]…: 8 × 4 flat pixels, but for those that are given.
+# exr NAME CHANNELS VALUES [X Y VALUE]…: writes 8 × 4 constant pixels, except for the given pixels.
 exr() {
     local name=$1 channels=$2 values=$3
     shift 3
@@ -27,9 +27,9 @@ exr layer beauty.B,beauty.G,beauty.R 0.5,0.5,0.5
 exr layers a.B,a.G,a.R,b.B,b.G,b.R 1,1,1,1,1,1
 exr depth Z,ZBack 1,1
 "$make_exr" in/wide.exr B,G,R 0.5,0.5,0.5 0,0,8,3 0,0,8,3
-# A window over the right half: what it leaves out is 0.
+# The data window covers the right half; pixels outside it are 0.
 "$make_exr" in/cropped.exr B,G,R 0.5,0.5,0.5 4,0,7,3 0,0,7,3
-# A window that stands out on all sides: only what is in the display window counts.
+# The data window exceeds the display window on all sides; only the display window counts.
 "$make_exr" in/overscan.exr B,G,R 0.5,0.5,0.5 -2,-1,9,4 0,0,7,3 -2 -1 100 9 4 100
 "$make_exr" in/moved.exr B,G,R 0.5,0.5,0.5 10,20,17,23 10,20,17,23
 printf 'not an image' >in/text.png
@@ -91,7 +91,7 @@ check 'results onto a full device: exit status 5' test $? -eq 5
 
 # ---- figures ------------------------------------------------------------------------------------
 
-# compares NAME IMAGE REFERENCE [ARGUMENT…]: succeeds quietly, with the JSON in out/stats.json.
+# compares NAME IMAGE REFERENCE [ARGUMENT…]: must succeed quietly, with JSON in out/stats.json.
 compares() {
     local name=$1
     shift
@@ -99,7 +99,7 @@ compares() {
     check "$name" test "$status" -eq 0 -a ! -s stderr
 }
 
-# are FIGURE… VALUE: the figures of the JSON.
+# are FIGURE… VALUE: checks figures of the JSON.
 are() {
     local value=${*: -1} figure
     for figure in "${@:1:$#-1}"; do
@@ -179,7 +179,7 @@ clean
 
 # ---- bounds -------------------------------------------------------------------------------------
 
-# fails TEXT ARGUMENT…: exit status 7, one line that holds TEXT, the table all the same.
+# fails TEXT ARGUMENT…: expects exit status 7, one line with TEXT, and still the table.
 fails() {
     local text=$1
     shift
@@ -229,7 +229,7 @@ clean
 
 # ---- heat maps ----------------------------------------------------------------------------------
 
-# paints FILE HEX ARGUMENT…: the heat map alone is in the folder, and begins so.
+# paints FILE HEX ARGUMENT…: the heat map must be the only file, and begin with these bytes.
 paints() {
     local file=$1 hex=$2
     shift 2
@@ -257,7 +257,7 @@ clean
 printf 'old' >out/x.png
 paints out/x.png 89504e470d0a1a0a
 clean
-# The differences in an EXR are the pictures' own: compared with what they should be.
+# The EXR must hold the pictures' own differences: compares them with the expected values.
 run compare in/brighter.exr in/half.exr -o out/difference.exr --heat absolute
 exr quarter B,G,R 0.25,0.25,0.25
 compares 'an EXR holds the differences' out/difference.exr in/quarter.exr

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Command-line tests of glint env, and of environments in every layout.
+# Tests the command line of glint env, and environments in every layout.
 # env_checks.sh GLINT JSON_GET MAKE_EXR SCENES
 make_exr=$(readlink -f -- "$3")
 scenes=$(readlink -f -- "$4")
@@ -99,7 +99,7 @@ for layout in $single; do
     # Sharp labels lose their edges in layouts that hold them in fewer pixels; a mistaken direction
     # gives 0.5 and more.
     limit=0.1
-    [ "$layout" != ball ] || limit=0.16 # there is little in the picture of what lies behind it
+    [ "$layout" != ball ] || limit=0.16 # its picture has few pixels for the side behind it
     for map in axes studio; do
         run env "in/$map.exr" "out/$map.exr" --to "$layout"
         check "$map as $layout: exit status 0, nothing on stdout" test "$status" -eq 0 -a ! -s stdout
@@ -163,7 +163,7 @@ for axis in x y z; do
     run env in/axes.exr "out/$axis.exr" --flip "$axis"
     check "mirrored along $axis: another" apart 0.2 "out/$axis.exr" in/axes.exr
     run env "out/$axis.exr" out/back.exr --flip "$axis"
-    # Half a turn is no whole number of pixels between edges, so that z blurs a little.
+    # Half a turn is no whole number of pixels between edges, so z blurs a little.
     check "mirrored along $axis twice: the same" within "$([ $axis = z ] && echo 0.05 || echo 0.001)" \
         out/back.exr in/axes.exr
 done
@@ -175,7 +175,7 @@ run env in/studio.exr out/s.png
 check 'a PNG' begins_with out/s.png 89504e47
 clean
 
-# A ball seen from near by: the same environment, by the distance and by the angle of view.
+# A ball seen from nearby: the distance and the angle of view must give the same environment.
 run env in/axes.exr out/ball.exr --to ball --size 256
 run env out/ball.exr out/near.exr --env-layout ball --ball-distance 4 --to latlong --size 256
 run env out/ball.exr out/fov.exr --env-layout ball --ball-fov 28.955024 --to latlong --size 256
@@ -185,8 +185,8 @@ clean
 
 # ---- a rendered ball ----------------------------------------------------------------------------
 
-# A mirror sphere that an orthographic camera sees is the disk map; one seen by a camera 5 radii away
-# is the map of that distance.
+# The picture of a mirror sphere by an orthographic camera is the disk map. By a camera 5 radii away
+# it is the map of this distance.
 sed 's/0\.972,/1,/; s/0\.96,/1,/; s/0\.915,/1,/' in/mirror_sphere.gltf >in/mirror.gltf
 sed 's/"type": "perspective"/"type": "orthographic"/; s/"perspective": {/"orthographic": {/
     s/"aspectRatio": [0-9.]*/"xmag": 1, "ymag": 1/; s/"yfov": [0-9.]*/"zfar": 100/' in/mirror.gltf >in/flat.gltf
@@ -197,7 +197,7 @@ check 'a sphere seen from far away is the disk map' within 0.1 out/flat.exr out/
 run env out/flat.exr out/back.exr --env-layout ball --to latlong --size 256
 check 'and the environment can be had back from it' within 0.16 out/back.exr in/axes.exr
 run render in/mirror.gltf "${ball[@]}" -o out/near.exr
-# asin(1/5) of 30 degrees: tan 11.537 / tan 15 of half the picture.
+# asin(1/5) of 30 degrees: the sphere covers tan 11.537 / tan 15 of half the picture.
 for how in '--ball-distance 5' '--ball-fov 30'; do
     # shellcheck disable=SC2086 # two words
     run env out/near.exr out/back.exr --env-layout ball --ball-circle 128,128,97.51 $how \

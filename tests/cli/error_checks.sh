@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Command-line tests of glint bench --error. error_checks.sh GLINT JSON_GET
-# No time is asserted; errors are held against those that glint compare finds of rendered files.
+# Tests the command line of glint bench --error. error_checks.sh GLINT JSON_GET
+# No check depends on time. glint compare on rendered files gives the expected errors.
 root=$(readlink -f -- "$(dirname "$0")/../..")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
@@ -62,7 +62,7 @@ for row in 0 1 2 3; do
     check "JSON: sampling, row $row" stat_is_positive scenes 0 sampling rows "$row" error relative_rmse
 done
 
-# An error is what comparing the files gives that the rung's options render.
+# The error must equal the comparison of files rendered with the rung's options.
 render() { # OUT OPTION…
     local out=$1
     shift

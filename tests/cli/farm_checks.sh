@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Command-line tests of glint farm, with stand-ins for sbatch and scontrol that write down what they
-# were given. tests/slurm is the same with the real ones.
+# Tests the command line of glint farm, with stand-ins for sbatch and scontrol that record their
+# arguments. tests/slurm uses the real programs.
 # farm_checks.sh GLINT JSON_GET SCENES
 scenes=$(readlink -f -- "$3")
 # shellcheck source=tests/cli/common.sh
@@ -27,7 +27,7 @@ touch "$CALLS"
 real_path=$PATH
 PATH=$work/bin:$PATH
 
-# part NUMBER ATTEMPT SCRIPT: as Slurm would run it.
+# part NUMBER ATTEMPT SCRIPT: runs a part as Slurm would.
 part() {
     SLURM_ARRAY_JOB_ID=4711 SLURM_ARRAY_TASK_ID=$1 SLURM_RESTART_COUNT=$2 SLURMD_NODENAME=node7 sh "$3" >part.log 2>&1
     status=$?
@@ -108,7 +108,7 @@ clean
 
 # ---- the parts ----------------------------------------------------------------------------------
 
-# A name that the shell and Slurm read in their own ways.
+# A name with characters that are special to the shell and to Slurm.
 odd="out/it's 5% \"odd\" \$HOME.####.exr"
 SBATCH_PARTITION=debug SBATCH_NO_REQUEUE=1 SLURM_RESTART_COUNT=7 SBATCH_ACCOUNT=film \
     run farm slurm --parts 3 --partition short --folder 'out/a job' -- "$scene" --turntable 8 "${small[@]}" -o "$odd"
@@ -123,7 +123,7 @@ run farm report 'out/a job'
 check 'before its parts ran: exit status 6' test "$status" -eq 6
 check 'before its parts ran: all are missing' grep -q '^0 of 8 frames are there, 0 failed, 8 are missing' stdout
 mkdir elsewhere
-touch elsewhere/out # where a folder would be made
+touch elsewhere/out # a file in place of the folder
 here=$PWD
 cd elsewhere || exit 1
 part 1 0 "$job"
@@ -169,7 +169,7 @@ PATH=$work/refusing:$PATH run farm slurm -- "$scene" --turntable 2 "${small[@]}"
 check 'a report that is refused: exit status 0' test "$status" -eq 0 -a "$(cat stdout)" = 4713
 check 'a report that is refused: said' grep -q '^glint: warning: job 4713 goes on' stderr
 clean
-# Ctrl-C while a job is waited for: everybody in the foreground gets the signal.
+# Ctrl-C while glint waits for a job: all foreground processes get the signal.
 printf '#!/bin/sh\ncase $* in *--wait*) touch "%s/waits"; exec sleep 60 ;; esac\necho 4714\n' "$work" \
     >refusing/sbatch
 PATH=$work/refusing:$PATH setsid "$glint" farm slurm --wait -- "$scene" --turntable 2 "${small[@]}" \
@@ -203,7 +203,8 @@ clean
 
 # ---- parts that end badly -----------------------------------------------------------------------
 
-# ends_with RETRIES COMMAND: a part whose program does this, after so many retries.
+# ends_with RETRIES COMMAND: runs a part with this command as its program, after this number of
+# retries.
 ends_with() {
     printf '#!/bin/sh\n%s\n' "$2" >program
     chmod +x program
@@ -234,7 +235,7 @@ done
 # shellcheck disable=SC2016
 ends_with 0 'kill -TERM $PPID; exit 4'
 check 'told to stop while it fails: it stays ended' test ! -s "$CALLS" -a "$status" -eq 4
-# A signal that comes while the shell starts.
+# A signal that arrives while the shell starts.
 sed 's/^status=143$/kill -TERM $$\nstatus=143/' script >early
 : >"$CALLS"
 part 2 8 early

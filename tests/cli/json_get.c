@@ -1,5 +1,5 @@
-// json_get FILE KEY…: prints the value at the end of the keys, for the command-line tests. An array
-// is entered by an index. Exit status 1 where the file is no JSON or has no such value.
+// json_get FILE KEY…: prints a value of a JSON file for the command-line tests. The KEYs lead to
+// the value; an index enters an array. Exit status 1: the file is no JSON, or has no such value.
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-// list_settings GROUP…: the options of groups of the table of settings, a line each, for the tests
-// of help texts.
+// list_settings GROUP…: prints the options of groups of the settings table, one for each line, to
+// test the help texts.
 #include "render/settings_table.h"
 
 #include <stdio.h>

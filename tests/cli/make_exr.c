@@ -1,7 +1,7 @@
-// make_exr FILE NAMES VALUES DATA DISPLAY [X Y VALUE]…: writes an EXR of flat channels, for the
-// command-line tests. NAMES and VALUES go by commas, names in alphabetical order, windows are x
-// min, y min, x max, y max. Each X Y VALUE sets all channels of one pixel. "nan" and "inf" are
-// values.
+// make_exr FILE NAMES VALUES DATA DISPLAY [X Y VALUE]…: writes an EXR of constant channels, for the
+// command-line tests. NAMES and VALUES are lists with commas, the names in alphabetical order.
+// Windows are x min, y min, x max, y max. Each X Y VALUE sets all channels of one pixel. VALUEs may
+// be "nan" and "inf".
 #include "support/image_bytes.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Command-line tests of --material and --variant. material_checks.sh GLINT JSON_GET SCENES
+# Tests the command-line options --material and --variant. material_checks.sh GLINT JSON_GET SCENES
 scenes=$(readlink -f -- "$3")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
@@ -47,7 +47,7 @@ refuses 3 'in/glass_sphere.gltf: there is no material variant "a" (the file has 
 refuses 3 'there is no material variant "Hard" (there is 0 "hard", 1 "soft")' \
     render in/variants.gltf -o out/a.exr --variant Hard
 
-# ---- what they do -------------------------------------------------------------------------------
+# ---- effects ------------------------------------------------------------------------------------
 
 sed 's/"ior": *[0-9.]*/"ior": 1.75/' "$glass" >in/dense.gltf
 run render in/dense.gltf -o out/file.exr "${small[@]}"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Command-line tests of glint render --max-error. max_error_checks.sh GLINT JSON_GET SCENES
-# Errors are those that glint compare finds between files, the reference being one of its own.
+# Tests the command line of glint render --max-error. max_error_checks.sh GLINT JSON_GET SCENES
+# glint compare on files gives the errors, with a rendered reference.
 scenes=$(readlink -f -- "$3")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
@@ -100,7 +100,7 @@ run render "$scene" --turntable 4 --progress none "${size[@]}" -o out/f.#.exr --
 check 'none: all again' test "$(grep -c 'made from other settings\|made from another' stderr)" -eq 4
 clean
 
-# What moves, under light that changes: frame by frame, as each is by itself.
+# Moving objects under changing light: each frame of a sequence must equal the single frame.
 for k in 1 2 3; do
     "$glint" env in/axes.hdr in/light.$k.exr --env-rotate $((k * 50)) --to latlong --size 128 2>/dev/null
 done

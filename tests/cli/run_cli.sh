@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Command-line tests: every option, every mistake. run_cli.sh GLINT JSON_GET
-# A mistake gets its exit status, one line on stderr that begins with "glint: ", nothing on stdout
-# and no file. Prints TAP; exit status 1 when a test failed.
+# Tests the command line: every option, every mistake. run_cli.sh GLINT JSON_GET
+# A mistake must give its exit status, one line on stderr that begins with "glint: ", nothing on
+# stdout and no file. Prints TAP; exit status 1 if a test failed.
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
-# renders NAME FILE ARGUMENT…: a frame is written to FILE; stdout stays empty.
+# renders NAME FILE ARGUMENT…: must write a frame to FILE, with empty stdout.
 renders() {
     local name=$1 file=$2
     shift 2
@@ -24,7 +24,7 @@ renders() {
 
 # ---- inputs -------------------------------------------------------------------------------------
 
-# A mirror triangle in the plane z = 0, seen by two cameras. The buffer holds three positions.
+# A mirror triangle in the plane z = 0, with two cameras. The buffer holds three positions.
 buffer=$(printf '\0\0\200\277\0\0\200\277\0\0\0\0\0\0\200\077\0\0\200\277\0\0\0\0\0\0\0\0\0\0\200\077\0\0\0\0' |
     base64 -w 0)
 cat >in/mirror.gltf <<JSON
@@ -43,11 +43,11 @@ cat >in/mirror.gltf <<JSON
  "bufferViews": [{"buffer": 0, "byteLength": 36}],
  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,$buffer"}]}
 JSON
-# The same with a rough mirror, and with a coat that is not modelled, which is said once.
+# The same with a rough mirror, and with an unsupported coat, which glint must report once.
 sed 's/"roughnessFactor": 0/"roughnessFactor": 0.5/' in/mirror.gltf >in/rough.gltf
 sed 's/"name": "chrome",/& "extensions": {"KHR_materials_volume_scatter": {}},/' \
     in/mirror.gltf >in/coated.gltf
-# Radiance, flat: 8 × 4 pixels of (1, 1, 1), and of 2¹⁷, more than half can hold.
+# Constant radiance: 8 × 4 pixels of (1, 1, 1), and of 2¹⁷, which half cannot hold.
 {
     printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'
     for _ in $(seq 32); do printf '\200\200\200\201'; done
@@ -194,7 +194,7 @@ refuses 4 'nonsense' render "${ok[@]}" --device nonsense
 refuses 4 'nonsense' info in/mirror.gltf --device nonsense
 refuses 4 '99' render "${ok[@]}" --device 99
 
-# ---- output that cannot be written --------------------------------------------------------------
+# ---- write errors -------------------------------------------------------------------------------
 
 refuses 5 'out/missing' render in/mirror.gltf -o out/missing/x.png
 refuses 5 'in/mirror.gltf' render in/mirror.gltf -o in/mirror.gltf/x.png
@@ -235,7 +235,7 @@ check 'results onto a closed stdout: exit status 5' test $? -eq 5
 check 'what writes a file needs no stdout' test $? -eq 0
 rm -f out/x.png
 
-# Names that would drive a terminal: ESC, BEL, newline, CSI (U+009B), right-to-left (U+202E).
+# Names with terminal control characters: ESC, BEL, newline, CSI (U+009B), right-to-left (U+202E).
 evil='\\u001b[31m\\u0007\\n\\u009b1m\\u202e'
 sed "s/\"name\": \"[a-z]*/&$evil/g" in/mirror.gltf >in/evil.gltf
 cp in/evil.gltf "in/e"$'\e[31m\a\u009b1m\u202e'vil.gltf
@@ -251,7 +251,7 @@ check 'a reader that leaves is no error' test "${PIPESTATUS[0]}" -eq 0 -a ! -s s
 
 # ---- memory ------------------------------------------------------------------------------------
 
-# A triangle and 300 buffers of 10 MB that are one file; and 20 million triangles by 20,000 nodes.
+# A triangle, and 300 buffers of 10 MB in the same file; and 20 million triangles by 20,000 nodes.
 { printf %s "$buffer" | base64 -d && head -c 10000000 /dev/zero; } >in/big.bin
 repeat() { # COUNT TEXT: with commas between
     printf "%.0s$2," $(seq "$1") | sed 's/,$//'
@@ -280,7 +280,7 @@ else
     skip 'memory' 'AddressSanitizer knows no limit'
 fi
 
-# ---- what is written ----------------------------------------------------------------------------
+# ---- output files -------------------------------------------------------------------------------
 
 renders 'EXR' out/x.exr && check 'EXR: signature' begins_with out/x.exr 762f3101
 clean
@@ -311,7 +311,7 @@ clean
 renders 'float channels' out/x.exr --exr-type float
 clean
 
-# ---- every option works -------------------------------------------------------------------------
+# ---- every option -------------------------------------------------------------------------------
 
 renders '--env' out/x.png --env in/sky.hdr
 clean
@@ -407,7 +407,7 @@ clean
 
 # ---- layers -------------------------------------------------------------------------------------
 
-# has_channels NAME…: the EXR's header names these channels beside R, G, B and A, and no other.
+# has_channels NAME…: the EXR's header has exactly these channels beside R, G, B and A.
 has_channels() {
     local name
     for name in "$@"; do grep -qaF "$name" out/x.exr || return 1; done
@@ -560,7 +560,7 @@ clean
 
 # ---- signals ------------------------------------------------------------------------------------
 
-# stops SIGNAL STATUS: in the middle of a frame.
+# stops SIGNAL STATUS: sends a signal in the middle of a frame.
 stops() {
     "$glint" render in/mirror.gltf --size 8192x4096 --samples 256 -o out/x.png --stats out/x.json \
         --progress plain >stdout 2>stderr &

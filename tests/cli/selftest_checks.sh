@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Command-line tests of glint selftest. selftest_checks.sh GLINT JSON_GET KERNELS
+# Tests the command line of glint selftest. selftest_checks.sh GLINT JSON_GET KERNELS
 kernels=$(readlink -f -- "$3")
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
-# Cases that take no time.
+# Fast cases.
 quick=equal_indices,metal_at_its_ends
 
 # ---- help and mistakes --------------------------------------------------------------------------

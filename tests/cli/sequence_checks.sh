@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Command-line tests of sequences: glint render --frames, --turntable, --shard, --skip-existing.
+# Tests sequences on the command line: glint render --frames, --turntable, --shard, --skip-existing.
 # sequence_checks.sh GLINT JSON_GET SCENES [KILLS]
-# KILLS is how many times a run is killed at a random moment (3).
+# KILLS is the number of runs killed at a random moment (3).
 scenes=$(readlink -f -- "$3")
 kills=${4:-3}
 # shellcheck source=tests/cli/common.sh
@@ -12,7 +12,7 @@ cp "$scenes/mirror_sphere.gltf" in/scene.gltf
 cp "$scenes/mirror_sphere.bin" in/
 small=(--size 48x32 --progress none)
 
-# sequence ARGUMENT…: with a turntable of 8.
+# sequence ARGUMENT…: renders a turntable of 8.
 sequence() {
     run render "$scene" --turntable 8 "${small[@]}" "$@"
 }
@@ -177,7 +177,7 @@ sequence --frames 1-2 --preview -o out/f.####.exr
 check 'previews: a name that is taken is one bad frame' test "$status" -eq 6 -a -s out/f.0002.png
 clean
 
-# Killed at any moment, a run leaves whole frames alone, and the next one completes them.
+# A run killed at any moment must leave only whole frames, and the next run must complete them.
 large=(--turntable 8 --size 400x300 -o)
 mkdir undisturbed
 run render "$scene" "${large[@]}" undisturbed/f.####.exr --progress none
@@ -258,8 +258,8 @@ check 'another rate: frame 1 is the same, frame 2 is not' \
 clean
 clean
 
-# A triangle before a camera, one of which a STEP moves, or shrinks to nothing, at frame 3 of 24 a
-# second: the key's float is a little later than that.
+# A triangle before a camera. At frame 3 of 24 a second, a STEP moves one of them, or shrinks it to
+# nothing. The float of the key is slightly later than the frame.
 stepping() { # NODE PATH BYTES: of the second key, the first being 0 0 0 or 1 1 1
     local data
     data=$({
@@ -288,20 +288,20 @@ check 'a clip of two frames and one' test "$(files out)" = 's.1.hdr s.2.hdr s.3.
 check 'a step is not early' cmp out/s.1.hdr out/s.2.hdr
 check 'a step is not late' test "$(cmp -s out/s.2.hdr out/s.3.hdr; echo $?)" -eq 1
 clean
-# Near enough the triangle fills the picture.
+# From near enough the triangle fills the picture.
 sed 's/"yfov": 0.8/"yfov": 0.1/' in/step.gltf >in/near.gltf
 run render in/near.gltf --size 8x8 --progress none --depth 1 --aov surfaces --animation none \
     --roughness smooth -o out/near.exr
 check 'a share of 100%' grep -q 'warning: 100% of the light took the environment' stderr
 clean
-# A camera without a direction at frame 3, which comes first.
+# At frame 3, which comes first, the camera has no direction.
 stepping 1 scale "$one$nothing" >in/lost.gltf
 run render in/lost.gltf "${small[@]}" --frames 3,1-2 -o out/s.#.hdr
 check 'one frame that cannot be seen: exit status 6' test "$status" -eq 6
 check 'one frame that cannot be seen: why' grep -q '^glint: frame 3: .* camera 0 has no direction' stderr
 check 'one frame that cannot be seen: the others are there' test "$(files out)" = 's.1.hdr s.2.hdr '
 clean
-# Without one in the beginning, which need not be asked for.
+# At the beginning, which need not be requested, the camera has no direction.
 stepping 1 scale "$nothing$one" >in/late.gltf
 run render in/late.gltf "${small[@]}" --frames 3 -o out/s.#.exr
 check 'a camera that is there later: exit status 0' test "$status" -eq 0
@@ -327,7 +327,7 @@ for pair in INT:130 TERM:143; do
         [ ! -e out/f.000003.exr ] || break
         sleep 0.1
     done
-    # SIGINT is 2 and SIGTERM 15: the bits of 4002.
+    # SIGINT is 2 and SIGTERM is 15: bits of 4002.
     check 'one thread alone takes signals' test "$(sed -n 's/^SigBlk:.*\(....\)$/0x\1/p' \
         /proc/"$process"/task/*/status | while read -r mask; do echo $((mask & 0x4002)); done |
         grep -vcx $((0x4002)))" -eq 1
@@ -343,7 +343,7 @@ for pair in INT:130 TERM:143; do
     clean
 done
 
-# ---- what cannot be written ---------------------------------------------------------------------
+# ---- write errors -------------------------------------------------------------------------------
 
 mkdir out/f.0003.exr out/f.0005.exr
 sequence -o out/f.####.exr --stats failed.jsonl
@@ -422,7 +422,7 @@ for k in 1 2 3 4 5 6 7 8; do
 done
 clean
 
-# ---- what is shown ------------------------------------------------------------------------------
+# ---- display ------------------------------------------------------------------------------------
 
 run render "$scene" --turntable 3 --size 48x32 -o out/f.#.exr --progress plain
 check 'plain: a line a frame' test "$(grep -c '^glint: frame [123] rendered, traced in .* ms, written in .* ms: out/f.[123].exr (. of 3, .*left)$' stderr)" -eq 3

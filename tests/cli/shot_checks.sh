@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Command-line tests of glint capture, and of what renders of shots are made of: parts of scenes,
-# plates, the file's lights, an environment for each frame.
+# Tests the command line of glint capture, and the other steps of shots: parts of scenes, plates,
+# the file's lights, an environment for each frame.
 # shot_checks.sh GLINT JSON_GET MAKE_EXR SCENES
 make_exr=$(readlink -f -- "$3")
 scenes=$(readlink -f -- "$4")
@@ -36,7 +36,7 @@ refuses 3 'no node "" has triangles' capture "$spheres" out/a.exr --at 0,0,0 --w
 refuses 2 '--size 1: 2 to' capture "$spheres" out/a.exr --at 0,0,0 --size 1
 refuses 2 '--size 5000: 1 to 4096' capture "$spheres" out/a.exr --at 0,0,0 --size 5000 --to cube
 refuses 5 'out/none' capture "$spheres" out/none/a.exr --around mirror
-# Without its only object a scene is its environment.
+# Without its only object a scene is just its environment.
 run capture in/mirror_sphere.gltf out/all.exr --around 'mirror sphere' --env in/axes.exr --size 256 \
     --samples 4
 check 'the environment around the only object' within 0.1 out/all.exr in/axes.exr
@@ -44,7 +44,7 @@ check 'said: how large, and from where' \
     grep -q 'out/all.exr: latlong 512x256, six views from (0, 0, 0), ' stderr
 run capture in/mirror_sphere.gltf out/index.exr --around 1 --env in/axes.exr --size 256 --samples 4
 check 'the node by its index' same_pixels out/index.exr out/all.exr
-# A mirror's picture of what is around it, by its map of it: what is far away is where it should be.
+# A mirror rendered under its captured surroundings: distant objects must be in their places.
 small=(--size 96x96 --samples 4)
 run capture "$spheres" out/around.exr --around mirror --samples 4
 run render in/mirror_sphere.gltf "${small[@]}" --env out/around.exr -o out/mapped.exr
@@ -59,8 +59,8 @@ run capture "$spheres" out/cross.png --around mirror --to hcross --size 32
 check 'a cross' begins_with out/cross.png 89504e47
 clean
 
-# Of a scene that moves, at the times of frames: alone a clockwork sees its environment, and what
-# stands still is seen from where each part is.
+# Captures a moving scene at the times of frames. A lone clockwork sees its environment; otherwise
+# each part sees the static objects from its place.
 refuses 2 'need a place for their number' capture in/clockwork.gltf out/a.exr --at 0,0,0 --frames 1-2
 refuses 2 'which frames?' capture in/clockwork.gltf out/a.####.exr --at 0,0,0
 refuses 2 "a number from" capture in/clockwork.gltf out/a.####.exr --at 0,0,0 --frames x
@@ -83,7 +83,7 @@ clean
 cp in/studio.exr in/w.0002.exr
 refuses 2 'this is an input' capture in/mirror_sphere.gltf in/w.####.exr --at 0,0,0 --frames 1-2 \
     --env in/w.0002.exr
-# What is hidden at the beginning is there later: the growing ball.
+# An object that is hidden at first appears later: the growing ball.
 run capture in/clockwork.gltf out/late.####.exr --around 'growing ball' --size 16 --frames 1,24
 check 'hidden at frame 1: that one fails' test "$status" -eq 6 -a -s out/late.0024.exr
 check 'why' grep -q 'has no triangles at this time' stderr
@@ -106,7 +106,7 @@ run render "$spheres" -o out/right.exr "${small[@]}" --without green,blue,yellow
 check 'a part by what it is or by what it is not' same_pixels out/left.exr out/right.exr
 clean
 
-# A node that has nothing to show at a time is nothing that is left out, or kept.
+# A node that is empty at some time can still be left out or kept.
 clock=(in/clockwork.gltf --size 48x36)
 run render "${clock[@]}" -o out/a.####.exr --frames 1,24
 run render "${clock[@]}" -o out/b.####.exr --frames 1,24 --without 'growing ball'
@@ -114,7 +114,7 @@ check 'hidden at frame 1: leaving it out changes nothing' same_pixels out/a.0001
 check 'seen at frame 24: it does' apart 0 out/a.0024.exr out/b.0024.exr
 run render "${clock[@]}" -o out/c.####.exr --frames 1,24 --only 'growing ball' --background transparent
 check 'and alone it is nothing, or seen' test "$status" -eq 0
-# A name stands before an index, whether it is seen or not.
+# A name takes precedence over an index, whether visible or not.
 sed 's/"growing ball"/"3"/' in/clockwork.gltf >in/numbered.gltf
 run render in/numbered.gltf --size 48x36 -o out/d.####.exr --frames 1,24 --without 3
 check 'a name that is a number: frame 1' same_pixels out/b.0001.exr out/d.0001.exr
@@ -124,7 +124,8 @@ refuses 3 'no node "front" has triangles' render "$spheres" -o out/a.exr --only 
 
 # ---- plates -------------------------------------------------------------------------------------
 
-# Not at depth 1, which is exact here: its short way, which a transparent background has not, rounds otherwise.
+# Not at depth 1, which is exact here: a transparent background cannot take its short way, which
+# rounds otherwise.
 shot=(in/mirror_sphere.gltf --size 64x48 --env in/studio.exr --depth 2)
 exact=(--exr-type float)
 run render "${shot[@]}" "${exact[@]}" -o in/plate.exr --without 1
@@ -139,7 +140,7 @@ run render "${shot[@]}" -o out/preview.exr --background in/plate.exr --preview -
 check 'the background is told' test "$("$json_get" out/a.json settings background)" = in/plate.exr
 run render "${shot[@]}" -o out/direct.png --background in/plate.exr
 check 'the preview has the plate, too' same_pixels out/preview.png out/direct.png
-# Eight bits and back: the curve is undone and done.
+# Eight bits and back: decoding undoes the curve.
 run render "${shot[@]}" -o in/plate.png --without 1
 run render "${shot[@]}" -o out/empty.png --without 1 --background in/plate.png
 check 'a PNG comes out as it went in' same_pixels out/empty.png in/plate.png
@@ -159,7 +160,7 @@ refuses 2 'this is an input' render "${shot[@]}" -o in/y.001#.exr --background i
 refuses 2 'this is an input' render "${shot[@]}" -o out/r.####.exr --background in/r.####.exr --frames 1-2 \
     --stats in/r.0002.exr
 
-# One for each frame; one that is missing is one bad frame.
+# One plate for each frame; a missing plate fails only its frame.
 run render "${shot[@]}" "${exact[@]}" -o in/p.####.exr --without 1 --turntable 5
 rm in/p.0004.exr
 cp in/bad.exr in/p.0002.exr
@@ -206,7 +207,7 @@ check 'one frame has the first' same_pixels out/x.exr out/f.0001.exr
 clean
 refuses 2 'this is an input' render "${ball[@]}" --env in/turned.####.exr -o in/turned.#.exr \
     --frames 1001-1002
-# Texels that half cannot hold change the kernels: from frame to frame, there and back.
+# Environments that half cannot hold change the kernels from frame to frame, and back.
 "$glint" env in/studio.exr in/e.0001.exr --size 64 2>/dev/null
 "$glint" env in/studio.exr in/e.0003.exr --size 64 2>/dev/null
 "$glint" env in/studio.exr in/e.0002.hdr --size 128 --env-rotate 30 2>/dev/null
@@ -219,7 +220,7 @@ for frame in 1 2 3; do
 done
 clean
 
-# One that half cannot hold is one bad frame, wherever it stands.
+# An impossible environment fails only its frame, wherever it is in the sequence.
 "$glint" env in/studio.exr in/b.0001.exr --size 16 2>/dev/null
 "$make_exr" in/b.0002.exr B,G,R 1,1,200000 0,0,63,31 0,0,63,31
 for frames in 1-2 2,1; do

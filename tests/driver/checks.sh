@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests run on the driver that ctest chooses (OCL_ICD_VENDORS), whatever other drivers are installed.
+# Checks that tests run on ctest's driver (OCL_ICD_VENDORS), whatever other drivers are installed.
 # driver/checks.sh GLINT OTHER_DRIVER
 set -eu
 glint=$1

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A driver that aborts, crashes, exits, hangs, refuses, computes nothing or does not compile is a
-# finding of the self-test and not its end: the other cases are reported.
+# Tests the self-test on a faulty driver that aborts, crashes, exits, hangs, refuses, computes
+# nothing or does not compile. The self-test must report the fault, continue, and report the other
+# cases.
 # driver/faulty_checks.sh GLINT FAULTY_DRIVER SCENE
 set -eu
 glint=$1
@@ -11,18 +12,18 @@ export FAULTY_REAL
 mkdir "$folder/vendors"
 echo "$2" >"$folder/vendors/faulty.icd"
 export OCL_ICD_VENDORS=$folder/vendors
-export POCL_CACHE_DIR=$folder/cache # a death in it has its entries removed, also those of other runs
+export POCL_CACHE_DIR=$folder/cache # a crash removes its entries, also those of other runs
 cases=fresnel_at_its_ends,metal_at_its_ends,cube_ties
 failed=0
 
-# run WAY KERNEL: its table, what it says, JUnit's report, and its status.
+# run WAY KERNEL: records the table, the messages, JUnit's report, and the status.
 run() {
     status=0
     FAULTY_WAY=$1 FAULTY_KERNEL=$2 "$glint" selftest --precision float --case $cases --case-timeout 40 \
         --junit "$folder/$1.xml" >"$folder/$1.table" 2>"$folder/$1.said" || status=$?
 }
 
-# expect WAY TEXT: what is in TEXT stands in the table.
+# expect WAY TEXT: checks that the table contains TEXT.
 expect() {
     if [ "$status" != 7 ]; then
         echo "$1: exit status $status, not 7"
@@ -62,7 +63,7 @@ done
 run compile none
 expect compile 'BROKEN'
 [ "$(grep -c '<testcase' "$folder/compile.xml")" = 3 ] || { echo "compile: JUnit lacks cases"; failed=1; }
-# render: one line that names the device, and exit status 4, also while kernels run.
+# render must print one line that names the device, with exit status 4, also while kernels run.
 for after in 0 1; do
     status=0
     FAULTY_WAY=abort FAULTY_KERNEL=render_tiles FAULTY_AFTER=$after \

@@ -1,10 +1,10 @@
-// An OpenCL driver for tests that goes wrong in a way of one's choice: it is PoCL, but for one of
-// its functions. Environment: FAULTY_REAL, the library of PoCL; FAULTY_KERNEL, the name of a
-// kernel, and FAULTY_WAY, what happens when it is launched:
-//   abort, crash, exit, hang   the process does that, after a word on stderr
+// An OpenCL driver for tests that fails on request. It is PoCL, except for one function.
+// Environment: FAULTY_REAL is the library of PoCL, FAULTY_KERNEL the name of a kernel, and
+// FAULTY_WAY the fault when a program launches this kernel:
+//   abort, crash, exit, hang   the process does this, after a word on stderr
 //   garbage                    the launch succeeds and nothing is computed
 //   refuse                     the launch fails
-//   compile                    programs do not compile at all, whatever the kernel
+//   compile                    no program compiles, whatever the kernel
 // NOLINTBEGIN(readability-*): signatures are OpenCL's
 #include <CL/cl_icd.h>
 
@@ -78,7 +78,7 @@ static CL_API_ENTRY cl_int CL_API_CALL build(cl_program program, cl_uint count,
                              : real.clBuildProgram(program, count, devices, options, notify, user);
 }
 
-// All of PoCL's objects share one table: it is changed where it stands.
+// Changes the table of functions in place, because all of PoCL's objects share it.
 CL_API_ENTRY cl_int CL_API_CALL clIcdGetPlatformIDsKHR(cl_uint entries, cl_platform_id *platforms,
                                                        cl_uint *count)
 {
@@ -116,7 +116,7 @@ CL_API_ENTRY void *CL_API_CALL clGetExtensionFunctionAddress(const char *name)
     return function;
 }
 
-// The loader asks by this name before it has the table.
+// The loader asks for this function by name before it has the table.
 CL_API_ENTRY cl_int CL_API_CALL clGetPlatformInfo(cl_platform_id platform, cl_platform_info name,
                                                   size_t size, void *value, size_t *needed)
 {

@@ -1,4 +1,4 @@
-// Stands for a second OpenCL driver: any program that loads it ends at once.
+// Stands for a second OpenCL driver: it ends any program that loads it.
 #include <unistd.h>
 
 __attribute__((constructor)) static void end_the_program(void)

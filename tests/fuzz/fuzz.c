@@ -1,11 +1,13 @@
-// A fuzzer of what glint reads, for builds with sanitizers:
+// Fuzzes everything that glint reads, in builds with sanitizers:
 //
 //   fuzz TARGET SECONDS SEED FOLDER [FILE…]
 //
-// TARGET is gltf, textures, options, images or texts. Inputs are mutations of the FILEs (of command
-// lines for options). Each stands in FOLDER before it is read: when the process dies, the input is
-// there. The parent of the image decoder must live; its children may die, and are counted. Exit
-// status 0: all inputs were read or refused. The same seed gives the same inputs.
+// TARGET is gltf, textures, options, images or texts. Inputs are mutations of the FILEs; for
+// options
+// the FILEs hold command lines. The fuzzer writes each input to FOLDER before reading it, so a
+// crash
+// leaves its input there. The image decoder's child processes may die, and are counted; the parent
+// must live. Exit status 0: all inputs were read or refused. The same seed gives the same inputs.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "environment/environment.h"
@@ -51,7 +53,7 @@ static size_t below(size_t limit)
     return limit > 0 ? next_random() % limit : 0;
 }
 
-// What parsers stumble over.
+// Words that break parsers.
 static const char *const words[] = {
     "0",
     "-1",
@@ -105,7 +107,7 @@ static void replace(text *t, size_t at, size_t removed, const char *by, size_t l
     t->length += length - removed;
 }
 
-// The end of the token at `at`: a number, or a word.
+// The end of the token at `at`, a number or a word.
 static size_t token_end(const text *t, size_t at)
 {
     while (at < t->length &&
@@ -146,7 +148,7 @@ static void mutate_once(text *t)
         replace(t, at, token_end(t, at) - at, word, strlen(word));
         break;
     default:
-        t->length = below(16) == 0 ? at : t->length; // cut short
+        t->length = below(16) == 0 ? at : t->length; // truncate
     }
 }
 
@@ -204,7 +206,7 @@ static void put_number(char *to, size_t number)
     }
 }
 
-// The JSON as the first chunk of a GLB, behind 20 bytes that may be damaged, too.
+// Packs the JSON as the first chunk of a GLB. The 20 bytes before it may be damaged, too.
 static void pack(text *glb, const text *t)
 {
     enum { HEADER = 20 };
@@ -253,7 +255,7 @@ static void try_gltf(const text *t, tallies *sum)
     load_scene(sum);
 }
 
-// An image as the texture of a triangle, in all roles.
+// Uses an image as the texture of a triangle, in all roles.
 static void try_textures(const text *t, tallies *sum)
 {
     static char gltf[] =
@@ -303,7 +305,7 @@ static const glint_command *const commands[] = {
     &glint_command_capture, &glint_command_relight, &glint_command_selftest,
 };
 
-// The words of a line, one after the other.
+// Parses the words of a line in order.
 static void try_options(const text *t, tallies *sum)
 {
     enum { WORDS = 64 };
@@ -329,7 +331,7 @@ static void try_options(const text *t, tallies *sum)
     count(sum, status, &error);
 }
 
-// Small texts that have parsers of their own, and JSON that glint reads again.
+// Tests the parsers of small texts, and the JSON files that glint reads back.
 static void try_texts(const text *t, tallies *sum)
 {
     char *copy = strndup(t->bytes, t->length);
@@ -409,6 +411,7 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < seed_count; i++) {
         seeds[i] = read_seed(argv[5 + i]);
     }
+    // Read mutations of random seeds until the time is over.
     tallies sum = {0};
     for (const time_t end = time(NULL) + (time_t)seconds; time(NULL) < end; sum.inputs++) {
         const text *seed = &seeds[below(seed_count)];

@@ -1,5 +1,6 @@
-// Calls single functions of the kernels on arrays, for tests/test_kernels.c. Each work-item takes one
-// packet: element i of an array goes to lane i % GLINT_WIDTH. `in` and `out` hold 4 numbers an element.
+// Calls single functions of the kernels on arrays, for tests/test_kernels.c. Each work-item takes
+// one packet: element i of an array is lane i % GLINT_WIDTH. `in` and `out` hold 4 numbers an
+// element.
 #include "layout.h"
 #include "lanes.cl"
 #include "cubemap.cl"
@@ -34,7 +35,7 @@ static void store3(global scalar *out, real3 v, real fourth)
     store(out, 3, fourth);
 }
 
-// The sizes and last offsets of the structs that the host shares, in the order of test_kernels.c.
+// out: sizes and last offsets of the shared structs, in the order of test_kernels.c.
 kernel void probe_layout(global const scalar *in, global scalar *out, global const void *texels,
                          int edge)
 {
@@ -74,9 +75,9 @@ kernel void probe_cube(global const scalar *in, global scalar *out, global const
     store3(out, sample_cube(&map, d, mask_all()), real_of(0));
 }
 
-// in: a sphere's radius, a beam's width 3 units before it, η, the beam's spread. out: the curvature of a
-// triangle of that sphere, then how far from it the beam along the normal comes to a point: reflected
-// from inside, refracted into it, refracted into its other side.
+// in: the radius of a sphere, the width of a beam 3 units before it, η, the spread of the beam.
+// out: the curvature of a triangle of the sphere, then three focal distances of the beam along the
+// normal: reflected from inside, refracted into the sphere, refracted into its other side.
 kernel void probe_cones(global const scalar *in, global scalar *out, global const void *texels,
                         int edge)
 {
@@ -100,8 +101,8 @@ kernel void probe_cones(global const scalar *in, global scalar *out, global cons
            -width / beyond.spread);
 }
 
-// in: a spread, and a unit vector's largest component. out: the level of an edge of 64 texels with 7
-// levels, and the blend.
+// in: a spread, and the largest component of a unit vector. out: the level for an edge of 64 texels
+// with 7 levels, and the blend.
 kernel void probe_levels(global const scalar *in, global scalar *out, global const void *texels,
                          int edge)
 {

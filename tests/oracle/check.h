@@ -1,5 +1,5 @@
-// Shared by the oracle's own tests: comparisons, closed-form environments, and a record of every
-// direction along which the environment was asked for.
+// Helpers of the oracle's own tests: comparisons, closed-form environments, and a record of the
+// directions of all environment look-ups.
 #ifndef GLINT_TESTS_ORACLE_CHECK_H
 #define GLINT_TESTS_ORACLE_CHECK_H
 
@@ -25,7 +25,7 @@
             fail_msg("%s = %.17g, expected %.17g ± %g", #value, value_, expected_, tolerance_);    \
     } while (0)
 
-// The environments' context: how often and where they were asked.
+// Context of the environments: the number and directions of look-ups.
 typedef struct record {
     double direction[256][3];
     int count;
@@ -33,7 +33,7 @@ typedef struct record {
 
 static inline void record_add(const void *context, const double direction[3])
 {
-    // The callback's context is const because most are; this one is the test's own and writable.
+    // A callback's context is const, but this context is the test's own and writable.
     record *r = (record *)(uintptr_t)context;
     if (r && r->count < 256)
         vector_store(vector_of(direction), r->direction[r->count++]);
@@ -46,7 +46,7 @@ static inline void light_white(const void *context, const double direction[3], d
     rgb[0] = rgb[1] = rgb[2] = 1.0;
 }
 
-// Its irradiance over π. Unlike the environments, these keep no record.
+// The irradiance of light_white over π. Irradiance look-ups keep no record.
 static inline void light_white_mean(const void *context, const double normal[3], double rgb[3])
 {
     (void)context;
@@ -62,7 +62,7 @@ static inline void light_direction(const void *context, const double direction[3
         rgb[i] = 0.5 + 0.5 * direction[i];
 }
 
-// Its irradiance over π: the cosine-weighted mean of d about n is ⅔n.
+// The irradiance of light_direction over π: the cosine-weighted mean of d about n is ⅔n.
 static inline void light_direction_mean(const void *context, const double normal[3], double rgb[3])
 {
     (void)context;
@@ -77,7 +77,7 @@ static inline void light_below(const void *context, const double direction[3], d
     rgb[0] = rgb[1] = rgb[2] = direction[1] < 0.0 ? 1.0 : 0.0;
 }
 
-// A mesh and materials as a scene under E = 1.
+// Makes a scene of a mesh and materials under E = 1.
 static inline oracle_scene scene_of(const mesh *m, const oracle_material *materials)
 {
     return (oracle_scene){.triangles = m->triangles,
@@ -96,7 +96,7 @@ static inline oracle_material glass_of(double ior, double thickness)
     return m;
 }
 
-// What an interface reflects of light that meets it straight.
+// Reflectance of an interface at normal incidence.
 static inline double normal_fresnel(double ior)
 {
     return (ior - 1.0) / (ior + 1.0) * ((ior - 1.0) / (ior + 1.0));
@@ -112,12 +112,12 @@ static inline oracle_material blend_of(double mirror)
 
 static inline double angle_between(const double a[3], const double b[3])
 {
-    // atan2 keeps its precision at 0 and at π, where acos loses half of the digits.
+    // atan2 keeps its precision at 0 and at π. acos loses half of the digits there.
     vector u = vector_of(a), v = vector_of(b);
     return atan2(length(cross(u, v)), dot(u, v));
 }
 
-// Angle between `direction` and the nearest recorded one.
+// The angle between `direction` and the nearest recorded direction.
 static inline double nearest_recorded(const record *r, const double direction[3])
 {
     double least = INFINITY;
@@ -126,7 +126,7 @@ static inline double nearest_recorded(const record *r, const double direction[3]
     return least;
 }
 
-// Small, seeded, the same everywhere: splitmix64 as a double in [0, 1).
+// A random double in [0, 1) by splitmix64, the same on every machine.
 static inline double random_unit(uint64_t *state)
 {
     uint64_t z = (*state += 0x9E3779B97F4A7C15u);

@@ -1,4 +1,4 @@
-// Quads, boxes, prisms and tessellated balls.
+// Makes quads, boxes, prisms and tessellated balls. See meshes.h.
 #include "meshes.h"
 
 #include <math.h>
@@ -48,7 +48,8 @@ void mesh_add_box(mesh *m, const double low[3], const double high[3], int materi
         for (int side = 0; side < 2; side++) {
             double corners[4][3];
             for (int i = 0; i < 4; i++) {
-                // Around the face: (0,0) (1,0) (1,1) (0,1), the other way on the low side.
+                // The corners around the face are (0,0) (1,0) (1,1) (0,1); in reverse order on the
+                // low side.
                 int step = side ? i : 3 - i;
                 corners[i][axis] = side ? high[axis] : low[axis];
                 corners[i][next] = step == 1 || step == 2 ? high[next] : low[next];
@@ -100,7 +101,7 @@ void mesh_add_ball(mesh *m, const mesh_ball *ball)
 {
     for (int row = 0; row < ball->rows; row++) {
         for (int column = 0; column < 2 * ball->rows; column++) {
-            // A cell's two triangles; at the poles one of them has no area and is left out.
+            // The two triangles of a cell. At the poles one of them has no area and is left out.
             const int cell[2][3][2] = {
                 {{row, column}, {row, column + 1}, {row + 1, column + 1}},
                 {{row, column}, {row + 1, column + 1}, {row + 1, column}},

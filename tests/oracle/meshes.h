@@ -1,10 +1,11 @@
-// Meshes for the tests that the oracle judges or that judge the oracle.
+// Makes meshes for the tests with the oracle and of the oracle.
 #ifndef GLINT_TESTS_ORACLE_MESHES_H
 #define GLINT_TESTS_ORACLE_MESHES_H
 
 #include "oracle/oracle.h"
 
-// Grows as triangles are added; aborts the test program if memory runs out. Starts as {0}.
+// A mesh that grows as triangles are added. Starts as {0}. Aborts the test program if memory runs
+// out.
 typedef struct mesh {
     oracle_triangle *triangles;
     int count, capacity;
@@ -12,7 +13,7 @@ typedef struct mesh {
 
 typedef struct mesh_ball {
     double centre[3], radius;
-    int rows; // of latitude; twice as many columns
+    int rows; // rows of latitude; there are twice as many columns
     bool smooth;
     int material;
 } mesh_ball;
@@ -21,21 +22,21 @@ void mesh_free(mesh *m);
 
 void mesh_add(mesh *m, const oracle_triangle *triangle);
 
-// Flat; corners counter-clockwise seen from outside.
+// Flat-shaded. Corners run counter-clockwise seen from outside.
 void mesh_add_triangle(mesh *m, const double corners[3][3], int material);
 void mesh_add_quad(mesh *m, const double corners[4][3], int material);
 
-// Faces outward.
+// Adds a box that faces outward.
 void mesh_add_box(mesh *m, const double low[3], const double high[3], int material);
 
-// A right prism: `corners` in the x, y plane, counter-clockwise seen from +Z; from z = −depth to
-// +depth.
+// Adds a right prism from z = −depth to +depth. `corners` lie in the x, y plane, counter-clockwise
+// seen from +Z.
 void mesh_add_prism(mesh *m, const double corners[3][2], double depth, int material);
 
-// Vertices on the sphere. With smooth normals, so n is exactly radial at every point.
+// Adds a ball with vertices on the sphere. With smooth normals n is exactly radial at every point.
 void mesh_add_ball(mesh *m, const mesh_ball *ball);
 
-// Turns every triangle's winding around, and the normals.
+// Reverses the winding and the normals of all triangles.
 void mesh_turn_inside_out(mesh *m);
 
 #endif

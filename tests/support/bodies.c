@@ -1,4 +1,4 @@
-// Scenes of a few boxes. See bodies.h.
+// Makes scenes of a few boxes. See bodies.h.
 #include "support/bodies.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 
 typedef struct scene_builder {
     glint_scene scene;
-    double turn; // of all bodies, radians
+    double turn; // rotation of all bodies, radians
 } scene_builder;
 
 static void put(const scene_builder *b, const double at[3], float *p)
@@ -40,7 +40,8 @@ static void add_triangle(scene_builder *b, const double corners[3][3], const bod
     scene->instances[scene->instance_count - 1].triangle_count++;
 }
 
-// Column i and row j of a face divided into parts: at right angles to `axis`, `up` or down.
+// Corner in column i and row j of a subdivided face. The face is at right angles to `axis`, `up` or
+// down.
 static void corner_of(const body *of, int face, int i, int j, double at[3])
 {
     const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -140,7 +141,7 @@ void bodies_look(glint_scene *scene, const double at[3], double turn, bool ortho
 {
     const scene_builder b = {.turn = turn};
     static const double axes[3][3] = {{0.1, 0, -0.9}, {0.2, 1, 0.1}, {0.9, 0.3, 0.15}};
-    float eye[3]; // the nearest floats: an eye that is on a corner is there exactly
+    float eye[3]; // the nearest floats, so that an eye on a corner is exactly there
     put(&b, at, eye);
     glint_mat4 to_world = {.m[3][3] = 1};
     for (int column = 0; column < 4; column++) {

@@ -1,4 +1,4 @@
-// What glint loads, as the oracle takes it. See bridge.h.
+// Converts glint's scenes to the oracle's. See bridge.h.
 #include "support/bridge.h"
 
 #include "kernels/layout.h"
@@ -16,13 +16,13 @@
 #include <cmocka.h>
 
 struct bridge {
-    judge judge;                  // the scene, with the light
-    file_textures *textures;      // NULL: those of the judge
+    judge judge;                  // the scene, with its light
+    file_textures *textures;      // NULL: use the textures of the judge
     const glint_cube *cube, *map; // radiance; irradiance, or NULL
-    // Every texel as a vector: its direction, and its colour times its solid angle over π.
+    // All texels as vectors: direction, and colour times solid angle over π.
     double (*directions)[3], (*weighted)[3];
     int texel_count;
-    double *tie; // see bridge_take_tie; by itself, as look-ups get a const bridge
+    double *tie; // see bridge_take_tie; a pointer, because look-ups get a const bridge
 };
 
 static const int s_axis[6] = GLINT_CUBE_S_AXIS, s_sign[6] = GLINT_CUBE_S_SIGN;
@@ -39,7 +39,8 @@ static void texel_direction(int face, double s, double t, double d[3])
     }
 }
 
-// Bilinear in the face whose axis is nearest; the border of one texel is part of the data.
+// Interpolates bilinearly in the face of the largest component. The border of one texel is part of
+// the data.
 static void look_up(const bridge *b, const glint_cube *cube, const double d[3], double rgb[3])
 {
     int face = 0;

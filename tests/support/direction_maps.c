@@ -1,4 +1,4 @@
-// Maps whose colour encodes direction. See direction_maps.h.
+// Makes maps whose colour encodes direction. See direction_maps.h.
 #include "support/direction_maps.h"
 
 #include <setjmp.h>
@@ -36,7 +36,7 @@ void color_of(glint_vec3 d, double rgb[3])
     rgb[2] = 0.5 + 0.5 * d.z / length;
 }
 
-// How far a look-up's colour is from the direction's, the worst of three channels.
+// See direction_maps.h.
 double error_along(const glint_cube *cube, glint_vec3 d)
 {
     double found[3], wanted[3], worst = 0.0;
@@ -48,7 +48,7 @@ double error_along(const glint_cube *cube, glint_vec3 d)
     return isfinite(found[0] + found[1] + found[2]) ? worst : INFINITY;
 }
 
-// Directions that are hard for maps: axes, edges, corners and what lies next to them.
+// See direction_maps.h. Hard directions are axes, edges, corners and their neighbourhoods.
 double worst_error(const glint_cube *cube)
 {
     double worst = 0.0;
@@ -68,16 +68,16 @@ double worst_error(const glint_cube *cube)
     return worst;
 }
 
-// Bilinear interpolation of 0.5 + 0.5 d between texels 2/N apart errs by up to (2/N)²/8 of the
-// second derivatives in s and in t, each at most 1 in size for a unit vector's component: 0.5 (0.5
-// + 0.5)/N². Halfway over an edge, the mean of two unit vectors is too short by their angle's
-// square over 8, at most (√2/N)²/8 of 0.5. Hard case 26 allows 2/N² for d, 1/N² for 0.5 d.
+// Texels are 2/N apart. Bilinear interpolation of 0.5 + 0.5 d errs by up to (2/N)²/8 of the second
+// derivatives in s and t. For a component of a unit vector each is at most 1 in size: 0.5 (0.5 +
+// 0.5)/N². Halfway over an edge, the mean of two unit vectors is too short by the square of their
+// angle over 8, at most (√2/N)²/8 of 0.5. Hard case 26 allows 2/N² for d, 1/N² for 0.5 d.
 double seam_bound(int edge)
 {
     return 1.0 / ((double)edge * edge);
 }
 
-// OpenEXR's cube, ImfEnvmap.h, face by face: pixel (column, row) to direction, in [0, 1].
+// The direction of OpenEXR's cube (ImfEnvmap.h) at pixel (column, row) in [0, 1], face by face.
 glint_vec3 openexr_cube_direction(int face, double column, double row)
 {
     double across = 2.0 * column - 1.0, down = 2.0 * row - 1.0;
@@ -124,9 +124,9 @@ glint_image direction_latlong(int height, bool on_edges)
     return image;
 }
 
-// Second derivatives of d by longitude and latitude are at most 1: spacing π/H, two axes, the
-// colour's half, (π/H)²/8 each; maps with texels on the edges have spacings of 2π/(2H − 1) at most
-// and π/(H − 1).
+// Second derivatives of d by longitude and latitude are at most 1. With spacing π/H, two axes and
+// the colour's half, each contributes (π/H)²/8. Maps with texels on the edges have spacings of at
+// most 2π/(2H − 1) and π/(H − 1).
 double latlong_bound(int height, bool on_edges)
 {
     double h = GLINT_PI / (on_edges ? height - 1 : height);

@@ -1,4 +1,4 @@
-// Meshes packed by Draco. See draco_mesh.h.
+// Packs meshes by Draco. See draco_mesh.h.
 #include "support/draco_mesh.h"
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Meshes packed by Draco's own encoder, for tests.
+// Packs meshes by Draco's own encoder, for tests.
 #ifndef GLINT_TESTS_SUPPORT_DRACO_MESH_H
 #define GLINT_TESTS_SUPPORT_DRACO_MESH_H
 
@@ -17,10 +17,10 @@ typedef struct draco_mesh {
     const uint8_t *colors;   // [vertices][4], normalised, attribute 2
     const uint32_t *indices; // [triangles][3]
     bool edgebreaker;        // vertices and triangles may change their order
-    int bits;                // of positions and normals; 0: they keep every bit
+    int bits;                // bits of positions and normals; 0: lossless
 } draco_mesh;
 
-// The packed bytes, which the caller frees.
+// Returns the packed bytes. The caller frees them.
 unsigned char *draco_pack(const draco_mesh *mesh, size_t *size);
 
 #ifdef __cplusplus

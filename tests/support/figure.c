@@ -1,4 +1,4 @@
-// A figure with morph targets and a skin. See figure.h.
+// Makes a figure with morph targets and a skin. See figure.h.
 #include "support/figure.h"
 
 #include "base/random.h"
@@ -44,7 +44,7 @@ static figure_node make_node(glint_random *random)
     return node;
 }
 
-// Stored integers, and what they stand for.
+// A delta, rounded by its storage.
 static double rounded_delta(figure_deltas deltas, int attribute, double value)
 {
     if (deltas == FIGURE_BYTES) {
@@ -140,6 +140,7 @@ figure figure_make(const figure_kind *kind)
                 i % 4 == 3 ? (float)(i == 15) : (float)between(&random, -1, 1);
         }
     }
+    // Apply the options of the kind.
     f.bones[1].scale[0] *= kind->mirrors ? -1 : 1;
     if (kind->flattens) {
         f.rig.scale[0] = f.rig.scale[1] = 1;
@@ -158,8 +159,7 @@ figure figure_make(const figure_kind *kind)
 
 // ---- The file ----------------------------------------------------------------------------------
 
-// Buffer, views and accessors as they grow: an accessor has one view of its own, but for the
-// sparse.
+// The growing buffer, views and accessors. An accessor has its own view, except sparse accessors.
 typedef struct storage {
     unsigned char bytes[16384];
     size_t size;
@@ -189,7 +189,8 @@ static int add_view(storage *s, const void *bytes, size_t size)
     return s->view_count++;
 }
 
-// `format` is the rest of the accessor: count, type and component type.
+// Adds an accessor with its view. `format` is the rest of the accessor: count, type and component
+// type.
 static int add_accessor(storage *s, const void *bytes, size_t size, const char *format)
 {
     append(s->accessors, sizeof s->accessors, "%s{\"bufferView\":%d,%s}",
@@ -224,7 +225,7 @@ static int add_sparse(storage *s, const float deltas[FIGURE_VERTICES][3])
     return s->accessor_count++;
 }
 
-// The deltas of one attribute, packed tightly.
+// Adds the deltas of one attribute, packed tightly.
 static int add_deltas(storage *s, const figure *f, int target, int attribute)
 {
     float floats[FIGURE_VERTICES][3];
@@ -252,7 +253,8 @@ static int add_deltas(storage *s, const figure *f, int target, int attribute)
     }
 }
 
-// Four influences of each vertex, from `first` on. The joints' accessor; the weights' is the next.
+// Adds four influences of each vertex, from `first` on. Returns the accessor of joints; the next
+// accessor holds the weights.
 static int add_influences(storage *s, const figure *f, int first)
 {
     uint8_t small[FIGURE_VERTICES][4], small_weights[FIGURE_VERTICES][4];
@@ -325,7 +327,7 @@ static void write_primitive(char *text, size_t capacity, const figure *f, storag
     append(text, capacity, "%s}", f->kind.targets > 0 ? "]" : "");
 }
 
-// Node 0 has the mesh, node 1 is the rig, then come the joints.
+// Node 0 is the mesh, node 1 the rig, and the joints follow.
 static void write_nodes(char *text, size_t capacity, const figure *f, storage *s)
 {
     append(text, capacity, ",\"nodes\":[{\"mesh\":0%s",

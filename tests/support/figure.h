@@ -1,6 +1,6 @@
-// A figure of random triangles with morph targets and a skin: as a glTF text, and as a model that
-// computes by the formulas of the glTF 2.0 specification (3.7.2.2, 3.7.3.3, appendix C), in double
-// precision and without glint's code.
+// Makes a figure of random triangles with morph targets and a skin, as a glTF text and as a model.
+// The model follows the formulas of the glTF 2.0 specification (3.7.2.2, 3.7.3.3, appendix C) in
+// double precision, without glint's code.
 #ifndef GLINT_TESTS_SUPPORT_FIGURE_H
 #define GLINT_TESTS_SUPPORT_FIGURE_H
 
@@ -17,13 +17,14 @@ enum {
     FIGURE_KEYS = 3,
 };
 
-// Joints 0 and 3 stand under a rig that is no joint, 1 under 0, 2 under 1. Two of them turn.
+// Hierarchy of joints: 0 and 3 are children of a rig that is no joint, 1 of joint 0, 2 of joint 1.
+// Two joints turn.
 extern const int figure_parents[FIGURE_JOINTS], figure_turning[2];
 
-// Where the second copy of an instanced figure stands, from its node; from the origin with a skin.
+// Place of the second copy of an instanced figure, from its node; with a skin, from the origin.
 extern const float figure_instance[3];
 
-// How deltas of targets are stored.
+// Storage of morph target deltas.
 typedef enum figure_deltas {
     FIGURE_FLOATS,
     FIGURE_BYTES,  // normalised (KHR_mesh_quantization)
@@ -31,20 +32,20 @@ typedef enum figure_deltas {
     FIGURE_SPARSE, // every third vertex moves; the others have no data
 } figure_deltas;
 
-// What a file is made of. Zero is a mesh that only its node places.
+// Kind of a figure. Zero: a mesh without skin and targets, placed by its node.
 typedef struct figure_kind {
-    int influences;  // of each vertex: 0 (no skin), 4 or 8
-    int weight_type; // glTF's component type; 0: floats
+    int influences;  // influences of each vertex: 0 (no skin), 4 or 8
+    int weight_type; // component type in glTF; 0: floats
     bool short_joints, no_inverse_bind;
     int targets; // 0 to FIGURE_TARGETS
     figure_deltas deltas;
-    const char *weights_of;    // "mesh", "node"; NULL: neither
-    const char *interpolation; // of animated weights; NULL: they are not animated
+    const char *weights_of;    // owner of the weights: "mesh", "node"; NULL: none
+    const char *interpolation; // interpolation of animated weights; NULL: not animated
     bool turns;                // two joints turn over time
     bool mirrors;              // a joint mirrors
     bool flattens;             // all joints stand under a scale of (1, 1, 0)
-    bool hides_mesh_node;      // by a scale of 0, which skins do not heed
-    bool joints_outside;       // the scene shows the mesh's node alone
+    bool hides_mesh_node;      // the mesh's node has scale 0, which skins ignore
+    bool joints_outside;       // the scene shows only the node of the mesh
     bool instanced;            // a second copy stands at figure_instance
     uint64_t seed;
 } figure_kind;
@@ -53,12 +54,12 @@ typedef struct figure_node {
     double translation[3], rotation[4], scale[3];
 } figure_node;
 
-// What the file holds, as its reader is to understand it.
+// A figure: the data of the file in its intended meaning.
 typedef struct figure {
     figure_kind kind;
     float positions[FIGURE_VERTICES][3], normals[FIGURE_VERTICES][3];
     uint16_t indices[FIGURE_TRIANGLES][3];
-    double deltas[FIGURE_TARGETS][2][FIGURE_VERTICES][3]; // of position and normal
+    double deltas[FIGURE_TARGETS][2][FIGURE_VERTICES][3]; // deltas of position and normal
     int joints[FIGURE_VERTICES][FIGURE_INFLUENCES];
     double weights[FIGURE_VERTICES][FIGURE_INFLUENCES];
     float inverse_bind[FIGURE_JOINTS][16]; // column by column
@@ -69,14 +70,14 @@ typedef struct figure {
     float turn_keys[2][FIGURE_KEYS][4];
 } figure;
 
-// Random, by the kind's seed.
+// Makes a random figure from the kind's seed.
 figure figure_make(const figure_kind *kind);
 
-// Its glTF text; the caller frees it.
+// Returns the glTF text of the figure; the caller frees it.
 char *figure_text(const figure *f);
 
-// A triangle's corners at a time, counter-clockwise from outside: positions and unit normals. Where
-// most corners' matrices mirror, the winding is turned round.
+// The corners of a triangle at a time: positions and unit normals, counter-clockwise from outside.
+// If most corners have a mirroring matrix, the winding is reversed.
 typedef struct figure_triangle {
     double positions[3][3], normals[3][3];
 } figure_triangle;

@@ -1,10 +1,10 @@
-// The model of a figure with morph targets and a skin. See figure.h.
+// Computes the model of a figure with morph targets and a skin. See figure.h.
 #include "support/figure.h"
 
 #include <math.h>
 #include <string.h>
 
-// The interval of a time that lies between the first key and the last, and its share.
+// Finds the interval of a time between the first key and the last, and the share within it.
 static int find_interval(const figure *f, double time, double *share)
 {
     int key = 0;
@@ -80,7 +80,7 @@ static void place(const figure_node *node, affine m)
     double q[4];
     memcpy(q, node->rotation, sizeof q);
     unit4(q);
-    // Each column is an axis turned by q v q*.
+    // Each column is an axis, rotated by q v q*.
     for (int column = 0; column < 3; column++) {
         double v[3] = {0}, t[3];
         v[column] = node->scale[column];
@@ -131,7 +131,7 @@ static void joint_matrices(const figure *f, double time, affine joints[FIGURE_JO
     }
 }
 
-// The matrix that places a vertex in the world: the weighted sum of the joints', or the node's.
+// The matrix from a vertex to the world: the weighted sum of the joints' matrices, or the node's.
 static void vertex_matrix(const figure *f, double time, int vertex, affine m)
 {
     if (f->kind.influences == 0) {
@@ -153,7 +153,8 @@ static void vertex_matrix(const figure *f, double time, int vertex, affine m)
     }
 }
 
-// Cofactors of the 3 × 3 part: its inverse transposed, times its determinant.
+// Cofactors of the 3 × 3 part: its inverse transposed, times the determinant. Returns the
+// determinant.
 static double cofactors(affine m, double c[3][3])
 {
     for (int i = 0; i < 3; i++) {
@@ -165,7 +166,7 @@ static double cofactors(affine m, double c[3][3])
     return m[0][0] * c[0][0] + m[0][1] * c[0][1] + m[0][2] * c[0][2];
 }
 
-// The sign of the determinant of the vertex's matrix.
+// Computes a vertex. Returns the sign of the determinant of its matrix.
 static int vertex_at(const figure *f, double time, int vertex, double position[3], double normal[3])
 {
     double weights[FIGURE_TARGETS], base[2][3], c[3][3], length = 0;
@@ -180,7 +181,7 @@ static int vertex_at(const figure *f, double time, int vertex, double position[3
         }
     }
     vertex_matrix(f, time, vertex, m);
-    // Flattened matrices have a determinant of rounding errors, which means nothing.
+    // The determinant of a flattened matrix is rounding error only.
     const double determinant = cofactors(m, c);
     const int sign = f->kind.flattens ? 1 : determinant < 0 ? -1 : 1;
     for (int k = 0; k < 3; k++) {

@@ -1,4 +1,4 @@
-// A glTF file's textures. See file_textures.h.
+// Reads the textures of a glTF file. See file_textures.h.
 #include "support/file_textures.h"
 
 #include "image/decoder.h"
@@ -16,7 +16,7 @@
 
 struct file_textures {
     json_t *root;
-    const char *path;     // of the file, borrowed
+    const char *path;     // path of the file, borrowed
     oracle_image *images; // [material][role]
     size_t count;
 };
@@ -27,7 +27,7 @@ static double number(const json_t *object, const char *key, double otherwise)
     return found != NULL ? json_number_value(found) : otherwise;
 }
 
-// A member of a list that is a member of the file.
+// Item of a list in the file.
 static const json_t *item(const file_textures *t, const char *list, double index)
 {
     return json_array_get(json_object_get(t->root, list), (size_t)index);
@@ -49,7 +49,7 @@ static void fill_first_level(const glint_stored *stored, bool is_color, oracle_i
     assert_int_equal(glint_stored_read(stored, 0, codes, stored->value_bytes, NULL), GLINT_OK);
     for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
         for (int c = 0; c < 4; c++) {
-            const int from = channels >= 3 ? c : c == 3 ? 1 : 0; // grey, and its alpha
+            const int from = channels >= 3 ? c : c == 3 ? 1 : 0; // grey with alpha
             double value =
                 from < channels ? code_at(codes, bits, i * (size_t)channels + (size_t)from) : 1;
             image->texels[0][i][c] = c < 3 && is_color ? srgb_of_code(value) : value;
@@ -97,7 +97,8 @@ static void take_sampler(const json_t *sampler, oracle_texture *t)
                                                : ORACLE_MIPS_LINEAR;
 }
 
-// Scale, then rotation, then offset. A positive rotation turns the image clockwise, with v down.
+// Applies scale, then rotation, then offset. A positive rotation turns the image clockwise; v runs
+// down.
 static void take_transform(const json_t *transform, oracle_texture *t)
 {
     const double angle = number(transform, "rotation", 0), c = cos(angle), s = sin(angle);
@@ -109,7 +110,7 @@ static void take_transform(const json_t *transform, oracle_texture *t)
             t->transform[row][k] =
                 turn[row][k] * (scale != NULL ? json_number_value(json_array_get(scale, k)) : 1);
         }
-        t->transform[row][2] = json_number_value(json_array_get(offset, row)); // 0 without
+        t->transform[row][2] = json_number_value(json_array_get(offset, row)); // 0 if missing
     }
 }
 

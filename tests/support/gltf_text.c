@@ -1,4 +1,4 @@
-// glTF files for tests. See gltf_text.h.
+// Writes glTF files for tests. See gltf_text.h.
 #include "support/gltf_text.h"
 
 #include <setjmp.h>
@@ -30,7 +30,7 @@ static void write_file(const char *path, const void *bytes, size_t size)
     assert_int_equal(fclose(file), 0);
 }
 
-// What the fuzzer starts from: every file under a name of its own.
+// Keeps a copy of every file under a unique name, as a seed of the fuzzer.
 static void keep_copy(const char *name, const void *bytes, size_t size)
 {
     static int count;
@@ -50,7 +50,7 @@ const char *write_bytes(const char *folder, const char *name, const void *bytes,
     return path;
 }
 
-// `text` has room for 4 characters per 3 bytes, and the end.
+// `text` needs 4 characters for every 3 bytes, and a terminator.
 static void write_base64(const unsigned char *bytes, size_t size, char *text)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -89,7 +89,7 @@ static void put32(unsigned char *bytes, size_t value)
     }
 }
 
-// Four letters without an end.
+// Writes four letters without a terminator.
 static void put_tag(unsigned char *bytes, const char *tag)
 {
     for (int i = 0; i < 4; i++) {
@@ -118,7 +118,7 @@ unsigned char *glb_bytes(const void *bytes, size_t size, const char *rest, size_
     memset(glb + 20, ' ', json_size);
     memcpy(glb + 20, json, (size_t)length);
     put32(glb + 20 + json_size, bin_size);
-    put_tag(glb + 24 + json_size, "BIN"); // and a zero
+    put_tag(glb + 24 + json_size, "BIN"); // with a zero at the end
     memcpy(glb + 28 + json_size, bytes, size);
     free(json);
     return glb;

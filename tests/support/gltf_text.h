@@ -1,5 +1,5 @@
-// glTF files for tests, made in the test itself in a folder of its own (scratch.h): a text with its
-// data as a data URI, and a small mesh that most tests start from.
+// Writes glTF files for tests, in the test's own folder (scratch.h): a text with its data as a data
+// URI. Most tests start from a small mesh declared here.
 #ifndef GLINT_TESTS_SUPPORT_GLTF_TEXT_H
 #define GLINT_TESTS_SUPPORT_GLTF_TEXT_H
 
@@ -9,31 +9,31 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The path of a file in the folder; the text lasts until the next call.
+// Returns the path of a file in the folder. The text is valid until the next call.
 const char *folder_path(const char *folder, const char *name);
 
-// Writes folder/name and returns its path. A failure fails the test. The environment's
-// GLINT_TESTS_KEEP is a path that begins the names of copies, which stay.
+// Writes folder/name and returns its path. Fails the test on error. If the environment has
+// GLINT_TESTS_KEEP, a copy stays under a path that begins with its value.
 const char *write_bytes(const char *folder, const char *name, const void *bytes, size_t size);
 
-// A glTF text with the bytes as buffers[0] and `rest`, members of the top level: "\"nodes\":[…],…".
-// The caller frees it.
+// Makes a glTF text: the bytes are buffers[0], `rest` holds members of the top level:
+// "\"nodes\":[…],…". The caller frees it.
 char *gltf_text(const void *bytes, size_t size, const char *rest);
 
-// The same as a .glb with the bytes in its BIN chunk.
+// Makes the same file as a .glb, with the bytes in the BIN chunk.
 unsigned char *glb_bytes(const void *bytes, size_t size, const char *rest, size_t *glb_size);
 
-// Loads folder/test.gltf made of the text. The lists are the caller's to free.
+// Writes the text as folder/test.gltf and loads it. The caller frees the lists.
 glint_status load_text(const char *folder, const char *text, glint_scene *scene,
                        glint_warnings *warnings, glint_error *error);
 
-// gltf_text and load_text, with success asserted.
+// gltf_text and load_text; asserts success.
 glint_scene load_rest(const char *folder, const void *bytes, size_t size, const char *rest);
 
 bool any_warning_has(const glint_warnings *warnings, const char *part);
 
-// A tetrahedron of unit legs at the origin, wound counter-clockwise from outside: accessors 0
-// positions, 1 normals (vertex normals pointing away from its centre), 2 indices (unsigned short).
+// A tetrahedron of unit legs at the origin, counter-clockwise from outside. Accessor 0: positions,
+// 1: normals (vertex normals pointing away from the centre), 2: indices (unsigned short).
 typedef struct tetrahedron {
     float positions[4][3];
     float normals[4][3];
@@ -54,13 +54,13 @@ extern const tetrahedron the_tetrahedron;
     TETRAHEDRON_STORAGE ",\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE "}]}]"
 #define ONE_SCENE "\"scenes\":[{\"nodes\":[0]}]"
 
-// The file must be refused, with a line that begins with its path and has `said` in it.
+// Asserts that glint refuses the file, in one line that begins with the path and contains `said`.
 void assert_refused(const char *path, const char *said);
 
-// The same of the tetrahedron's data with `rest`.
+// Asserts the same for the tetrahedron's data with `rest`.
 void assert_rest_refused(const char *folder, const char *rest, const char *said);
 
-// The tetrahedron with the node, scenes and so on that `rest` gives.
+// Loads the tetrahedron with the nodes, scenes and so on in `rest`.
 glint_scene load_tetrahedron(const char *folder, const char *rest);
 
 #endif

@@ -1,4 +1,4 @@
-// Image files that broke decoders. See hostile_images.h.
+// Makes image files that broke decoders. See hostile_images.h.
 #include "support/hostile_images.h"
 
 #include <stdio.h>
@@ -29,7 +29,7 @@ static exr_recipe one_pixel(void)
     return (exr_recipe){.names = rgb, .channels = 3, .envmap = -1, .value = half};
 }
 
-// One pixel in a window of 16384 × 16384.
+// One pixel in a display window of 16384 × 16384.
 static image_bytes exr_display_window(void)
 {
     exr_recipe recipe = one_pixel();
@@ -37,7 +37,7 @@ static image_bytes exr_display_window(void)
     return exr_bytes(&recipe);
 }
 
-// A header that says 16384 × 16384, and one pixel behind it.
+// The header declares 16384 × 16384 pixels; the file holds one.
 static image_bytes exr_data_window(void)
 {
     exr_recipe recipe = one_pixel();
@@ -48,7 +48,7 @@ static image_bytes exr_data_window(void)
     return file;
 }
 
-// An attribute of 0 by which OpenImageIO divides, before all others.
+// The first attribute is 0, and OpenImageIO divides by it.
 static image_bytes exr_rows_per_strip(void)
 {
     static const char attribute[] = "tiff:RowsPerStrip\0int\0\4\0\0\0\0\0\0";
@@ -113,7 +113,7 @@ static image_bytes dds_bytes(const dds_recipe *recipe)
     return file;
 }
 
-// Two thousand million levels of a cube of 16 × 16.
+// A cube of 16 × 16 that declares two thousand million levels.
 static image_bytes dds_mip_levels(void)
 {
     return dds_bytes(&(dds_recipe){.flags = 0x21007,
@@ -126,7 +126,8 @@ static image_bytes dds_mip_levels(void)
                                    .code = "DXT5"});
 }
 
-// Six levels of 16 × 1: the smaller ones have no rows, and OpenImageIO divides by their number.
+// Six levels of 16 × 1. The smaller levels have no rows, and OpenImageIO divides by the number of
+// rows.
 static image_bytes dds_no_rows(void)
 {
     return dds_bytes(&(dds_recipe){.flags = 0x21007,
@@ -138,7 +139,7 @@ static image_bytes dds_no_rows(void)
                                    .code = "DXT4"});
 }
 
-// Plain colours of no bits.
+// Uncompressed colours of zero bits.
 static image_bytes dds_no_bits(void)
 {
     return dds_bytes(&(dds_recipe){.flags = 0x1007,
@@ -162,7 +163,7 @@ static image_bytes dds_bits(void)
 
 // ---- TIFF 6.0 -----------------------------------------------------------------------------------
 
-// Ink in four colours, in tiles: OpenImageIO 2.4 writes beyond a buffer.
+// CMYK in tiles: OpenImageIO 2.4 writes beyond a buffer.
 static image_bytes tiff_ink(void)
 {
     enum { SHORT = 3, LONG = 4, ENTRIES = 13, TILES = 256, AFTER = 8 + 2 + 12 * ENTRIES + 4 };
@@ -187,7 +188,7 @@ static image_bytes tiff_ink(void)
     image_bytes_put_number(&file, 0, 4);
     put_repeated(&file, "\x08\0", 2, 4);
     for (int i = 0; i < TILES; i++) {
-        image_bytes_put_number(&file, DATA, 4); // all the same one
+        image_bytes_put_number(&file, DATA, 4); // all pointers to the same data
     }
     for (int i = 0; i < TILES; i++) {
         image_bytes_put_number(&file, 64 * 64 * 4, 4);
@@ -196,7 +197,7 @@ static image_bytes tiff_ink(void)
     return file;
 }
 
-// A picture of 30000 × 30000, nearly all of which is missing.
+// An image of 30000 × 30000 with nearly all data missing.
 static image_bytes tiff_large(void)
 {
     static const uint16_t codes[3];
@@ -210,7 +211,7 @@ static image_bytes tiff_large(void)
 
 // ---- JPEG: ITU-T T.81, annex B ------------------------------------------------------------------
 
-// Progressive, 65500 × 65500: the decoder keeps all coefficients.
+// A progressive JPEG of 65500 × 65500: the decoder keeps all coefficients.
 static image_bytes jpeg_progressive(void)
 {
     image_bytes file = {0};
@@ -251,7 +252,8 @@ static void put_chunk(image_bytes *file, const char *type, const image_bytes *da
     image_bytes_put_big(file, crc(file->bytes + begin, file->length - begin), 4);
 }
 
-// Two mebibytes of metadata in one-letter pieces: OpenImageIO's time grows with their square.
+// Two mebibytes of metadata in one-letter pieces: OpenImageIO's time grows with the square of their
+// number.
 static image_bytes png_metadata(void)
 {
     image_bytes file = {0}, head = {0}, text = {0}, data = {0}, nothing = {0};

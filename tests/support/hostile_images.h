@@ -1,5 +1,5 @@
-// Image files that broke decoders: small ones that would cost much, and some that OpenImageIO 2.4
-// dies of. Each is put together from its format's specification.
+// Makes image files that broke decoders: small files with high costs, and files that crash
+// OpenImageIO 2.4. Each is built from the specification of its format.
 #ifndef GLINT_TESTS_HOSTILE_IMAGES_H
 #define GLINT_TESTS_HOSTILE_IMAGES_H
 
@@ -8,7 +8,7 @@
 typedef struct hostile_image {
     const char *name;
     image_bytes (*make)(void);
-    const char *said; // part of the message
+    const char *said; // expected part of the message
 } hostile_image;
 
 extern const hostile_image hostile_images[];

@@ -1,4 +1,4 @@
-// Image files put together byte by byte. See image_bytes.h.
+// Builds image files byte by byte. See image_bytes.h.
 #include "support/image_bytes.h"
 
 #include <stdio.h>
@@ -24,7 +24,7 @@ void image_bytes_put(image_bytes *file, const void *bytes, size_t length)
     file->length += length;
 }
 
-// All three formats are written with the low byte first.
+// All three formats are little-endian.
 void image_bytes_put_number(image_bytes *file, uint64_t number, int bytes)
 {
     for (int i = 0; i < bytes; i++) {

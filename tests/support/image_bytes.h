@@ -1,5 +1,5 @@
-// Image files put together byte by byte from their formats' specifications: what the reader is
-// judged by, and formats that the writer does not make.
+// Builds image files byte by byte from their formats' specifications, to test the reader
+// independently of the writer, also with formats that glint does not write.
 #ifndef GLINT_TESTS_IMAGE_BYTES_H
 #define GLINT_TESTS_IMAGE_BYTES_H
 
@@ -13,14 +13,14 @@ typedef struct image_bytes {
 
 void image_bytes_free(image_bytes *file);
 
-// For files that are put together elsewhere. Numbers have their low byte first, or their high one.
+// Append to any file. put_number is little-endian, put_big is big-endian.
 void image_bytes_put(image_bytes *file, const void *bytes, size_t length);
 void image_bytes_put_number(image_bytes *file, uint64_t number, int bytes);
 void image_bytes_put_big(image_bytes *file, uint64_t number, int bytes);
 
-// An uncompressed EXR of one part with float channels, names in alphabetical order. Windows are
-// {x min, y min, x max, y max}. The value of a channel at a pixel is value(channel, x, y, context).
-// envmap: −1 for no such attribute, 0 lat-long, 1 cube.
+// An uncompressed EXR of one part with float channels, names in alphabetical order. Windows are {x
+// min, y min, x max, y max}. value(channel, x, y, context) gives the value of a pixel. envmap: −1
+// no attribute, 0 lat-long, 1 cube.
 typedef struct exr_recipe {
     const char *const *names;
     int channels;
@@ -31,15 +31,15 @@ typedef struct exr_recipe {
 } exr_recipe;
 image_bytes exr_bytes(const exr_recipe *recipe);
 
-// An uncompressed little-endian TIFF of one strip. bits: 8 or 16; samples: 1 to 4, above 3 (or 1)
-// with an extra sample of that kind (1 premultiplied alpha, 2 alpha beside). orientation 1 to 8.
+// An uncompressed little-endian TIFF of one strip. bits: 8 or 16; samples: 1 to 4; orientation: 1
+// to 8. A fourth (or second) sample is an extra sample: 1 premultiplied alpha, 2 straight alpha.
 typedef struct tiff_recipe {
     int width, height, samples, bits, extra, orientation;
     const uint16_t *codes; // [height][width][samples]
 } tiff_recipe;
 image_bytes tiff_bytes(const tiff_recipe *recipe);
 
-// A Radiance picture without run lengths, four bytes a pixel, of fewer than 8 columns.
+// A Radiance picture without run-length coding, four bytes a pixel, of fewer than 8 columns.
 image_bytes hdr_bytes(int width, int height, const unsigned char *rgbe);
 
 #endif

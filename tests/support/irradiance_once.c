@@ -1,7 +1,7 @@
-// Computes the irradiance of each environment once a program. The studio's took half the time of
-// tests that open it for every frame. The linker option --wrap=glint_irradiance_map puts this
-// function in the place of the real one, in all tests that link glint_library. test_irradiance
-// tests the real one.
+// Caches irradiance: computes the map of each environment once a program. Without the cache, tests
+// that open the studio for every frame spent half of their time on it. The linker option
+// --wrap=glint_irradiance_map replaces the real function in all tests that link glint_library.
+// test_irradiance tests the real function.
 #include "environment/irradiance.h"
 
 #include <pthread.h>

@@ -1,4 +1,4 @@
-// The device's frames against the oracle's. See judged.h.
+// Compares the device's frames with the oracle's. See judged.h.
 #include "support/judged.h"
 
 #include "environment/irradiance.h"
@@ -25,7 +25,7 @@ glint_settings judged_frame(int width, int height, int depth)
     return settings;
 }
 
-// `edge`: what nearness to a triangle's edge counts as a decision.
+// Relative RMSE. Skips pixels nearer than `edge` to the edge of a triangle.
 static double error_of(const oracle_scene *scene, const oracle_view *view, double edge,
                        const test_frame *frame)
 {
@@ -89,7 +89,7 @@ double judge(const judged *j)
     oracle_view view = bridge_view(&camera, &j->settings);
     if (j->strata > 0) {
         view.roughness = j->strata;
-        view.edges = false; // any is near to some facet's path
+        view.edges = false; // in every pixel the path of some facet passes near an edge
     }
     oracle_scene turned = *bridge_scene(b);
     turned.environment_rotation = j->settings.env_rotate;

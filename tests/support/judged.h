@@ -1,4 +1,4 @@
-// Frames beside the oracle: how far the device's are off, pixel by pixel.
+// Compares frames of the device with the oracle, pixel by pixel.
 #ifndef GLINT_TESTS_SUPPORT_JUDGED_H
 #define GLINT_TESTS_SUPPORT_JUDGED_H
 
@@ -7,25 +7,27 @@
 #include "scene/scene.h"
 
 typedef struct judged {
-    const char *scene; // of scenes/, without .gltf
+    const char *scene; // name of a file in scenes/, without .gltf
     const glint_environment *environment;
     glint_settings settings;
-    glint_feature feature; // which the plan must compile
-    int strata;            // of the oracle's facets along each axis; 0: there is no rough glass
-    float roughness;       // of all materials, or of the glass alone where there are strata, which
-                           // leaves the others smooth; less than 0: as they are
-    float metallic;        // of all materials; less than 0: as it is
-    float alpha;           // of thin walls, less than 1: how much of them is there
-    void (*change)(const void *kind, glint_material *material); // what else is to be; or NULL
-    const void *kind;                                           // handed to it
+    glint_feature feature; // the plan must compile this feature
+    int strata;            // the oracle's facets along each axis; 0: no rough glass
+    // Roughness of all materials. If there are strata: roughness of the glass, 0 for all others.
+    // Less than 0: unchanged.
+    float roughness;
+    float metallic; // metallic of all materials; less than 0: unchanged
+    float alpha;    // alpha of thin walls, if less than 1
+    // Changes a material further; or NULL.
+    void (*change)(const void *kind, glint_material *material);
+    const void *kind; // argument of `change`
 } judged;
 
-// A frame of few pixels, with texels as the oracle reads them and exact lobes, of so many surfaces
-// at most. Rough glass has as many facets as so few pixels are worth.
+// Settings of a small frame with at most `depth` surfaces, the oracle's texels and exact lobes.
+// Rough glass has 1024 facets.
 glint_settings judged_frame(int width, int height, int depth);
 
-// What the oracle and the device disagree by: relative RMSE over the pixels that show surfaces and
-// that no decision is near.
+// Returns the relative RMSE of the device against the oracle, over the pixels that show surfaces
+// and are not near a decision.
 double judge(const judged *j);
 
 #endif

@@ -1,4 +1,4 @@
-// A floor that lights shine on. See lit_floor.h.
+// Renders a floor under punctual lights. See lit_floor.h.
 #include "support/lit_floor.h"
 
 #include <math.h>
@@ -124,7 +124,7 @@ void lit_floor_point(const lit_floor *s, const glint_settings *settings, int pix
     p[1] = (double)(float)on->y + on->slope * p[0];
 }
 
-// What a light sends to a point with a unit normal, over π: KHR_lights_punctual, word by word.
+// Irradiance over π from a light at a point with a unit normal, as KHR_lights_punctual defines it.
 static double irradiance(const glint_punctual_light *light, const double p[3], const double n[3])
 {
     const double place[3] = {light->position.x, light->position.y, light->position.z};

@@ -1,4 +1,4 @@
-// Rendering in tests. See render.h.
+// Renders in tests. See render.h.
 #include "support/render.h"
 
 #include "support/bridge.h"
@@ -16,7 +16,7 @@
 static glint_device *shared_device;
 static glint_environment shared_studio;
 
-// cmocka leaves the test at fail(), so what went wrong is said first.
+// cmocka leaves the test at fail(), so the error is printed first.
 static void require(glint_status status, const glint_error *error)
 {
     if (status != GLINT_OK) {

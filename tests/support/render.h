@@ -1,4 +1,4 @@
-// Rendering in tests: one call from a file of scenes/ to pixels.
+// Renders in tests: one call from a file of scenes/ to pixels.
 #ifndef GLINT_TESTS_SUPPORT_RENDER_H
 #define GLINT_TESTS_SUPPORT_RENDER_H
 
@@ -7,13 +7,13 @@
 #include "render/frame.h"
 #include "scene/scene.h"
 
-// The device and the studio that all tests of a program share; opened at the first call, closed by
-// the group's teardown, test_close_device.
+// The device and the studio, shared by all tests of a program. The first call opens them; the
+// group's teardown, test_close_device, closes them.
 glint_device *test_device(void);
 const glint_environment *test_studio(void);
 int test_close_device(void **state);
 
-// Loads scenes/NAME.gltf; fails the running test, with the error, if it cannot.
+// Loads scenes/NAME.gltf. Fails the running test, with the error, if it cannot.
 void test_scene_load(const char *name, glint_scene *scene);
 
 // A scene, its first camera, the studio around it, and a renderer. Fails the test on any error.
@@ -32,22 +32,22 @@ typedef struct test_frame {
     glint_image image;
     glint_frame_report report;
     glint_plan plan;
-    double *exact;       // as the device computed it, [height][width][4]
-    glint_layers layers; // those that the settings ask for
+    double *exact;       // full precision of the device, [height][width][4]
+    glint_layers layers; // the layers of the settings
 } test_frame;
 
-// Renders with the scene's camera of that name (NULL: the first). Fails the test on any error.
+// Renders with the camera of this name (NULL: the first). Fails the test on any error.
 void test_render(const glint_scene *scene, const glint_environment *environment, const char *camera,
                  const glint_settings *settings, test_frame *frame);
-// The same of scenes/NAME.gltf under bridge_direction_environment(32).
+// Renders scenes/NAME.gltf under bridge_direction_environment(32).
 void test_render_named(const char *name, const glint_settings *settings, test_frame *frame);
 void test_frame_free(test_frame *frame);
 
-// Settings of 61 × 43 pixels, which are no multiples of a packet: packets hang over both edges.
-// Rough surfaces are smooth: test_rough.c has the others.
+// Settings of 61 × 43 pixels. These are no multiples of a packet, so packets hang over both edges.
+// Rough surfaces are smooth; test_rough.c tests the other kinds.
 glint_settings test_small_frame(int depth);
 
-// The number of pixels of two images of one size that are not equal bit for bit.
+// Counts the pixels of two images of one size that are not equal bit for bit.
 size_t test_count_different(const glint_image *a, const glint_image *b);
 
 #endif

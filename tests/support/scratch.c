@@ -1,4 +1,4 @@
-// A folder for one test's files. See scratch.h.
+// Makes a folder for the files of one test. See scratch.h.
 #include "support/scratch.h"
 
 #include <dirent.h>

@@ -1,4 +1,4 @@
-// A textured plane seen at a slant. See textured_plane.h.
+// Shows a textured plane at a slant. See textured_plane.h.
 #include "support/textured_plane.h"
 
 #include "image/image_io.h"

@@ -1,5 +1,5 @@
-// A textured plane seen at a slant: a file for tests to fill in, the images for it, and where the
-// pixels' rays meet it, in closed form.
+// Shows a textured plane at a slant: a file that tests fill in, its images, and the closed-form
+// points where the rays of pixels meet the plane.
 #ifndef GLINT_TESTS_SUPPORT_TEXTURED_PLANE_H
 #define GLINT_TESTS_SUPPORT_TEXTURED_PLANE_H
 
@@ -9,8 +9,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Two triangles in the plane y = 0 from (−4, 0, 2) to (4, 0, −14): u runs along +x, v along +z;
-// 0 to 2 in set 0, and in set 1 half as much, the other way round.
+// Two triangles in the plane y = 0 from (−4, 0, 2) to (4, 0, −14). u runs along +x, v along +z.
+// Texture coordinates are 0 to 2 in set 0; set 1 is half as large and reversed.
 typedef struct textured_plane {
     float positions[4][3], normals[4][3], first[4][2], second[4][2], tangents[4][4], colors[4][4];
     uint16_t indices[6];
@@ -18,8 +18,8 @@ typedef struct textured_plane {
 
 extern const textured_plane the_plane;
 
-// Accessors 0 positions, 1 normals, 2 and 3 texture coordinates, 4 tangents, 5 colours, 6 indices;
-// mesh 0 stands at node 0, the camera at node 1.
+// Accessors: 0 positions, 1 normals, 2 and 3 texture coordinates, 4 tangents, 5 colours, 6 indices.
+// Node 0 has mesh 0, node 1 the camera.
 #define PLANE_YFOV 0.8
 #define PLANE                                                                                      \
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"                                           \
@@ -39,7 +39,7 @@ extern const textured_plane the_plane;
     "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.8,\"znear\":1}}],"         \
     "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},"                                      \
     "{\"camera\":0,\"translation\":[0,1.5,3],\"rotation\":[-0.19866933,0,0,0.98006658]}],"
-// The mesh, with more attributes.
+// The mesh, with `more` attributes.
 #define MESH(more)                                                                                 \
     "\"meshes\":[{\"primitives\":[{\"indices\":6,\"material\":0,\"attributes\":{\"POSITION\":0,"   \
     "\"NORMAL\":1,\"TEXCOORD_0\":2,\"TEXCOORD_1\":3" more "}}]}],"
@@ -47,24 +47,24 @@ extern const textured_plane the_plane;
 #define ONE_TEXTURE(file)                                                                          \
     "\"images\":[{\"uri\":\"" file "\"}],\"textures\":[{\"source\":0,\"sampler\":0}],"
 
-// The plane with a mesh, materials and what else `format` says.
+// Loads the plane with the mesh, materials and other members in `format`.
 glint_scene textured_plane_load(const char *folder, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-// Where the primary ray through a pixel's centre meets the plane.
+// The point where the primary ray through a pixel's centre meets the plane.
 typedef struct meeting {
     double at[2];          // x and z
-    double length, cosine; // of the way; against the plane's normal
-    double slant;          // how long the ray is where it has come 1 forwards
+    double length, cosine; // length of the ray; cosine to the plane's normal
+    double slant;          // length of the ray over its depth
 } meeting;
 
-// False where it does not.
+// Returns false if the ray misses the plane.
 bool textured_plane_meet(const glint_settings *settings, int pixel, meeting *m);
 
-// sRGB's curve: linear, of a code in [0, 1].
+// Decodes sRGB: the linear value of a code in [0, 1].
 double srgb_of_code(double code);
 
-// Writes width × height texels of R, G, B, A as NAME in the scratch folder, a PNG.
+// Writes width × height texels of R, G, B, A to the PNG NAME in the scratch folder.
 void write_codes(const char *name, const int size[2], const unsigned char (*codes)[4]);
 
 #endif

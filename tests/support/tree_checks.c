@@ -1,4 +1,4 @@
-// See tree_checks.h.
+// Checks trees. See tree_checks.h.
 #include "support/tree_checks.h"
 
 #include "kernels/layout.h"
@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-// SplitMix64: the tests are the same on every machine.
+// State of SplitMix64: the tests are the same on every machine.
 static uint64_t random_state;
 
 double test_random(void)
@@ -23,7 +23,7 @@ double test_random(void)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-// Without positions yet; one material, and one normal for all vertices.
+// See tree_checks.h.
 test_soup test_soup_empty(size_t count)
 {
     test_soup s = {.positions = malloc(count * 9 * sizeof(float)),
@@ -46,7 +46,7 @@ void test_soup_free(test_soup *s)
     free(s->material_of);
 }
 
-// Small triangles whose size and place span many orders of magnitude when `spread` is large.
+// See tree_checks.h.
 test_soup test_soup_random(size_t count, double spread)
 {
     random_state = count;
@@ -62,7 +62,7 @@ test_soup test_soup_random(size_t count, double spread)
     return s;
 }
 
-// A wavy sheet of 2 × edge² triangles that share their vertices.
+// See tree_checks.h.
 test_soup test_soup_sheet(size_t edge)
 {
     static const int corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
@@ -78,7 +78,7 @@ test_soup test_soup_sheet(size_t edge)
     return s;
 }
 
-// Puts the triangles in an order that has nothing to do with where they are.
+// See tree_checks.h.
 void test_soup_shuffle(test_soup *s)
 {
     for (size_t i = s->count - 1; i > 0; i--) {
@@ -125,7 +125,7 @@ static void check_box(const float *p, const float low[3], const float high[3])
     }
 }
 
-// The values of one corner, [3][GLINT_CLUSTER_LANES] of them, are the vertex's bit for bit.
+// The values of one corner, [3][GLINT_CLUSTER_LANES], must equal the vertices bit for bit.
 static void check_corner(const float *values, const glint_cluster *cluster, int corner, int lane,
                          const float vertex[3])
 {
@@ -144,7 +144,7 @@ static uint32_t bits_of(float value)
     return bits;
 }
 
-// No two vertices are the same, and what is past the last repeats the first.
+// No two vertices of a cluster may be equal. Unused entries repeat the first vertex.
 static void check_vertices(const glint_cluster *cluster, const float *normals)
 {
     int last = 0;
@@ -199,7 +199,7 @@ double test_half_area(const float low[3], const float high[3])
     return x * y + y * z + z * x;
 }
 
-// A node, its box, and what a traversal may have on its stack there.
+// A node with its box, and the largest number of entries on a traversal's stack there.
 typedef struct visited {
     size_t node;
     const float *low, *high; // [3]
@@ -214,6 +214,7 @@ static void visit(test_walk *w, const visited *at)
     const float *base = w->bvh->nodes + at->node * GLINT_NODE_VALUES * (size_t)width;
     w->nodes++;
     w->depth = at->depth + 1 > w->depth ? at->depth + 1 : w->depth;
+    // Count the used children; unused children follow them.
     while (used < width && base[used] < GLINT_FAR) {
         used++;
     }
@@ -226,6 +227,7 @@ static void visit(test_walk *w, const visited *at)
             child_low[k] = base[k * width + c];
             child_high[k] = base[(3 + k) * width + c];
         }
+        // An unused child has an empty box.
         if (c >= used) {
             assert_true(child == 0 && child_low[1] == GLINT_FAR && child_low[2] == GLINT_FAR);
             assert_true(child_high[0] == GLINT_FAR && child_high[1] == GLINT_FAR &&
@@ -237,6 +239,7 @@ static void visit(test_walk *w, const visited *at)
             assert_true(child_low[k] >= low[k] && child_high[k] <= high[k]);
         }
         w->area += test_half_area(child_low, child_high);
+        // Visit inner nodes; check clusters.
         if (child >= 0) {
             assert_in_range(child, 1, w->bvh->node_count - 1);
             visit(w, &(visited){(size_t)child, child_low, child_high, at->depth + 1,

@@ -1,4 +1,4 @@
-// Triangles to build trees from, and what must be true of every tree.
+// Makes triangles to build trees from, and checks the invariants of a tree.
 #ifndef GLINT_TESTS_TREE_CHECKS_H
 #define GLINT_TESTS_TREE_CHECKS_H
 
@@ -12,7 +12,7 @@ typedef struct test_soup {
     float *positions, *normals; // [count][3][3]
     uint32_t *material_of;
     size_t count;
-    const bool *flat; // which of them have no area; NULL: none
+    const bool *flat; // marks triangles without area; NULL: none
     size_t flat_count;
 } test_soup;
 
@@ -22,19 +22,20 @@ typedef struct test_walk {
     unsigned char *seen; // by triangle
     size_t nodes, clusters;
     int depth, stack_need;
-    double area; // of the boxes of nodes and clusters
+    double area; // sum over the boxes of nodes and clusters
 } test_walk;
 
-// Numbers within [0, 1), the same on every machine.
+// Random numbers in [0, 1), the same on every machine.
 double test_random(void);
 
-// Without positions yet; one material, and one normal for all vertices.
+// Makes triangles without positions, of one material, with the same normal at all vertices.
 test_soup test_soup_empty(size_t count);
-// Small triangles whose size and place span many orders of magnitude when `spread` is large.
+// Makes random small triangles. With a large `spread`, size and place span many orders of
+// magnitude.
 test_soup test_soup_random(size_t count, double spread);
-// A wavy sheet of 2 × edge² triangles that share their vertices.
+// Makes a wavy sheet of 2 × edge² triangles with shared vertices.
 test_soup test_soup_sheet(size_t edge);
-// Puts the triangles in an order that has nothing to do with where they are.
+// Shuffles the triangles, so that their order does not depend on their places.
 void test_soup_shuffle(test_soup *s);
 void test_soup_free(test_soup *s);
 
@@ -45,8 +46,8 @@ int32_t test_tree_child(const glint_bvh *bvh, size_t node, int child);
 // Half of the surface area of a box.
 double test_half_area(const float low[3], const float high[3]);
 
-// Every triangle that has an area is in one cluster, inside every box above it, and the report is
-// true.
+// Checks that every triangle with an area is in one cluster, inside every box above it, and that
+// the report is true.
 test_walk test_tree_check(const test_soup *s, const glint_bvh *bvh);
 
 #endif

@@ -1,4 +1,4 @@
-// glint bench --error. See bench_error.h.
+// Implements glint bench --error. See bench_error.h.
 #include "cli/bench/bench_error.h"
 
 #include "cli/common/json_output.h"

@@ -1,4 +1,4 @@
-// The benchmark's table. See bench_table.h.
+// Prints the benchmark's table. See bench_table.h.
 #include "cli/bench/bench_table.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@ static const char *text_at(const json_t *root, const char *path)
     return text != NULL ? text : "?";
 }
 
-// A whole number; 0 where there is none.
+// The integer at a path; 0 if it is missing.
 static long long count_at(const json_t *root, const char *path)
 {
     return (long long)json_integer_value(glint_json_at(root, path));
@@ -28,7 +28,7 @@ void glint_bench_print_head(const json_t *document, FILE *out)
     fprintf(out, "glint %s, %s\n%s, %lld cores, %s\n", text_at(document, "glint"),
             text_at(document, "date"), text_at(document, "host.cpu"), cores,
             text_at(document, "host.system"));
-    // More than half of the cores at work for others: a launch that takes all of them waits.
+    // If other processes use more than half of the cores, a launch on all cores has to wait.
     fprintf(out, "load %.2f%s\n", load,
             load > 0.5 * (double)cores ? ": the machine is busy, times are long and vary" : "");
 }

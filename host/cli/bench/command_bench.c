@@ -1,8 +1,8 @@
-// glint bench: how fast scenes are rendered, phase by phase, with the picture's error beside.
+// Implements glint bench: measures how fast scenes render, phase by phase, and the picture's error.
 //
-// Each scene is measured in a process of its own, which answers with its part of the report: so
-// peak memory is that scene's, and what a driver did for one scene weighs on no other. Table and
-// comparison are made from the report.
+// Each scene is measured in its own process, which returns its entry of the report. So the peak
+// memory belongs to one scene, and the driver's state does not carry over to the next scene. Table
+// and comparison are made from the report.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/say.h"
@@ -27,20 +27,21 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define DEFAULT_MARGIN 10.0 // per cent
+#define DEFAULT_MARGIN 10.0 // percent
 
+// The options of glint bench.
 typedef struct bench_request {
-    glint_input_request inputs; // first: the shared tables' offsets count from here
+    glint_input_request inputs; // first: the offsets in the shared tables refer to it
     bool list;
     double seconds; // 0: not given
     int rounds;     // 0: not given
     bool no_check;
-    bool error; // speed against error, of every rung
+    bool error; // measure the speed and error of every rung
     bool no_sampling;
     const char *html;
     const char *json; // "-" is stdout
     const char *baseline;
-    double margin; // per cent; negative: not given
+    double margin; // percent; negative: not given
 } bench_request;
 
 static const glint_option bench_options[] = {
@@ -95,18 +96,18 @@ static const glint_option *const groups[] = {
     size_options,  glint_settings_options, glint_kernel_dir_options,
     NULL};
 
-// Everything a run holds. Zero is valid.
+// The state of a run. Zero is valid.
 typedef struct bench_work {
     const bench_request *request;
     glint_progress_display display;
     json_t *baseline;    // NULL: none
-    json_t *comparisons; // a list, one entry for each scene that is not wrong
+    json_t *comparisons; // a list, one entry per scene with a correct picture
     json_t *document;
-    char *command;                  // the command line, or NULL
-    size_t wrong, compared, slower; // scenes
+    char *command;                  // the command line; NULL without memory
+    size_t wrong, compared, slower; // numbers of scenes
 } bench_work;
 
-// Where there is a file of that name, it is meant.
+// True if the name is a built-in scene. A file of the same name takes precedence.
 static bool is_built_in(const char *name)
 {
     struct stat facts;
@@ -119,15 +120,16 @@ static bool is_built_in(const char *name)
 
 // ---- One scene, in its own process -------------------------------------------------------------
 
+// The measurement of one scene.
 typedef struct scene_task {
     glint_input_request inputs;
     glint_bench_options options;
-    bool error; // then by these options
+    bool error; // true: measure by error_options
     glint_speed_error_options error_options;
     glint_progress_display *display;
 } scene_task;
 
-// In the child: a signal of its own, or one that ended the program that waits for it.
+// In the child: true if the child got a signal, or a signal ended its parent.
 static bool stop_requested(void)
 {
     return glint_stop_requested() || glint_child_is_abandoned();
@@ -226,7 +228,7 @@ static glint_speed_error_options error_options_of(const bench_request *request)
     };
 }
 
-// The scene's entry of the report, a new reference.
+// Measures a scene in a child. *entry becomes its entry of the report, a new reference.
 static glint_status measure_scene(bench_work *work, const char *name, json_t **entry,
                                   glint_error *error)
 {
@@ -277,7 +279,7 @@ static glint_status compare_scene(bench_work *work, const json_t *entry, glint_e
     return GLINT_OK;
 }
 
-// Takes the entry's reference.
+// Adds a scene's entry to the report, and prints it. Takes over the reference.
 static glint_status take_scene(bench_work *work, json_t *entry, glint_error *error)
 {
     glint_status status = GLINT_OK;
@@ -326,7 +328,7 @@ static glint_status measure_scenes(bench_work *work, const char *const *names, s
     return GLINT_OK;
 }
 
-// The comparison with the baseline, in the report and on the table.
+// Adds the comparisons with the baseline to the report, and prints them.
 static void add_comparisons(bench_work *work)
 {
     const bench_request *request = work->request;
@@ -408,7 +410,7 @@ static glint_status check_scene(const bench_request *request, const char *name, 
     return GLINT_OK;
 }
 
-// A report that would replace an input. `option` names it.
+// True if writing a report to `path` would replace an input.
 static bool is_input(const bench_request *request, const char *path, const char *const *names,
                      size_t count)
 {
@@ -453,7 +455,7 @@ static glint_status check_reports(const bench_request *request, const char *cons
     return GLINT_OK;
 }
 
-// What goes with --error and what without.
+// Checks which options go with --error and which without; sets the default size.
 static glint_status check_kind(bench_request *request, glint_error *error)
 {
     const char *lone = request->html != NULL ? "--html" : "--no-sampling";
@@ -473,7 +475,7 @@ static glint_status check_kind(bench_request *request, glint_error *error)
     return GLINT_OK;
 }
 
-// All that can be found wrong before anything is measured.
+// Checks everything that can be checked before measuring.
 static glint_status check_request(bench_request *request, const char *const *names, size_t count,
                                   glint_error *error)
 {
@@ -514,7 +516,8 @@ static void set_defaults(void *context)
     request->margin = -1;
 }
 
-// The names on the command line or, without any, those of all built-in scenes; malloc'd.
+// The scene names on the command line; without any, the names of all built-in scenes. malloc'd;
+// NULL without memory.
 static const char **scene_names(const glint_arguments *arguments, size_t *count)
 {
     *count = (size_t)arguments->positional_count;

@@ -1,4 +1,4 @@
-// The table of speed against error. See error_table.h.
+// Prints the table of speed against error. See error_table.h.
 #include "cli/bench/error_table.h"
 
 #include "cli/bench/bench_table.h"

@@ -1,5 +1,4 @@
-// What `glint bench --error` prints for people: the same figures that --json holds, read from
-// there.
+// Prints the results of glint bench --error for people. Reads the same JSON as --json writes.
 #ifndef GLINT_CLI_BENCH_ERROR_TABLE_H
 #define GLINT_CLI_BENCH_ERROR_TABLE_H
 
@@ -7,7 +6,7 @@
 
 #include <stdio.h>
 
-// One scene of a document (report/speed_error/speed_error_json.h).
+// Prints one scene of a document (report/speed_error/speed_error_json.h).
 void glint_error_print_scene(const json_t *scene, FILE *out);
 
 #endif

@@ -1,4 +1,4 @@
-// glint farm: a sequence in parts on the machines of a cluster, and what became of it.
+// Implements glint farm: renders a sequence in parts on a cluster, and reports the result.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/say.h"
@@ -19,6 +19,7 @@
 #include <string.h>
 #include <unistd.h>
 
+// The options of glint farm.
 typedef struct farm_request {
     int parts, at_once, cpus, retries;
     const char *folder, *name, *time, *partition, *further, *report_further, *program, *json, *job;
@@ -156,11 +157,11 @@ static glint_status give_report(const char *folder, const char *job, const char 
 
 // ---- What is rendered --------------------------------------------------------------------------
 
-// The arguments of glint render, read as the parts will read them: a mistake is found here, not in
-// each of them.
+// The arguments of glint render, parsed as the parts will parse them. So mistakes show here once,
+// not in every part.
 typedef struct farm_subject {
     render_request request;
-    char **words; // "render --skip-existing …", the rest borrowed
+    char **words; // "render --skip-existing …"; the further words are borrowed
     int count;
 } farm_subject;
 
@@ -203,7 +204,7 @@ static glint_status read_subject(char *const *arguments, int count, farm_subject
     subject->count = count + 2;
     render_request *request = &subject->request;
     glint_command_render.set_defaults(request);
-    request->shard = (glint_shard){0}; // to see whether one is given
+    request->shard = (glint_shard){0}; // unset, so that check_subject sees a given --shard
     glint_arguments found = {.words = subject->words, .word_count = subject->count};
     glint_status status = glint_options_parse(&glint_command_render, request, &found, error);
     if (status == GLINT_OK && found.help) {
@@ -216,7 +217,8 @@ static glint_status read_subject(char *const *arguments, int count, farm_subject
     return status == GLINT_OK ? check_subject(request, error) : status;
 }
 
-// The frames of an animation are known once the scene is loaded; and whether it can be.
+// Loads the scene and the first light. This checks that they load and finds the frames of an
+// animation.
 static glint_status load_subject(farm_subject *subject, glint_error *error)
 {
     glint_inputs inputs = {0};
@@ -246,10 +248,10 @@ static glint_status load_subject(farm_subject *subject, glint_error *error)
 
 // ---- The job -----------------------------------------------------------------------------------
 
-// What is submitted. Owns its texts.
+// A job to submit. Owns its texts.
 typedef struct farm_job {
     farm_slurm slurm;
-    char *stem; // "out/jewel" of "out/jewel.####.exr"
+    char *stem; // "out/jewel" for "out/jewel.####.exr"
     char *directory, *program, *folder, *name;
 } farm_job;
 
@@ -262,7 +264,7 @@ static void free_job(farm_job *job)
     free(job->name);
 }
 
-// The frames' name up to the number's place, without what sets the number off.
+// The frames' path up to the number's place, without the separators before it.
 static char *stem_of(const glint_frame_name *name)
 {
     const char *slash = strrchr(name->path, '/');
@@ -306,7 +308,7 @@ static glint_status find_place(const farm_request *request, const render_request
     return GLINT_OK;
 }
 
-// As many parts as are asked for, but none without a frame.
+// The number of parts: as many as requested, but at most one per frame.
 static int count_parts(const farm_request *request, uint64_t frames)
 {
     const int parts = request->parts > 0 ? request->parts : 8;
@@ -320,7 +322,7 @@ static int count_parts(const farm_request *request, uint64_t frames)
     return (int)frames;
 }
 
-// The name that was asked for, or the frames' without what Slurm cannot write.
+// The requested name, or the frames' name without characters that Slurm cannot write.
 static char *name_of(const farm_request *request, const char *stem)
 {
     const char *slash = strrchr(stem, '/');
@@ -374,7 +376,8 @@ static glint_status put_script(const farm_job *job, const char *name, const char
     return glint_output_file_write(*path, script, strlen(script), error);
 }
 
-// The folder of the frames first: the job's may lie in it.
+// Submits the array job of the parts. Makes the frames' folder first: the job's folder may lie in
+// it.
 static glint_status submit_parts(const farm_job *job, const char *frames_folder, const char *script,
                                  char id[FARM_ID_CAPACITY], glint_error *error)
 {
@@ -405,8 +408,8 @@ cleanup:
     return status;
 }
 
-// The parts, and after them the report. Once the parts are in the queue all is well: what fails of
-// the report is a warning, unless somebody waits for it.
+// Submits the parts and then the report. Once the parts are in the queue, a failure of the report
+// is only a warning, except with --wait.
 static glint_status submit(const farm_request *request, const farm_subject *subject,
                            const farm_job *job, const char *script, glint_error *error)
 {
@@ -422,9 +425,10 @@ static glint_status submit(const farm_request *request, const farm_subject *subj
     if (!request->wait) {
         printf("%s\n", facts.id);
     }
+    // Submit the report; with --wait, wait for it.
     status = glint_farm_job_write(job->folder, &facts, error);
     if (status == GLINT_OK) {
-        glint_signals_cooperate(request->wait); // a Ctrl-C ends sbatch, too
+        glint_signals_cooperate(request->wait); // Ctrl-C also ends sbatch
         status = submit_report(job, facts.id, request->wait, error);
     }
     if (glint_stop_requested() || status == GLINT_INTERRUPTED) {
@@ -434,7 +438,7 @@ static glint_status submit(const farm_request *request, const farm_subject *subj
     }
     glint_signals_cooperate(false);
     if (request->wait && (status == GLINT_OK || status == GLINT_FRAMES_FAILED)) {
-        // Whatever became of the job that made it, the report tells.
+        // Read the parts' results even if the report's own job failed.
         glint_error_free(error);
         *error = (glint_error){0};
         return give_report(job->folder, facts.id, request->json, error);

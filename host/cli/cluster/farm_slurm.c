@@ -1,4 +1,4 @@
-// Array jobs of Slurm. See farm_slurm.h.
+// Writes and submits array jobs of Slurm. See farm_slurm.h.
 #include "cli/cluster/farm_slurm.h"
 
 #include "cli/common/shell_word.h"
@@ -16,7 +16,8 @@
 
 // ---- Texts within scripts ----------------------------------------------------------------------
 
-// As the value of an option in an #SBATCH line. In names of files % begins a pattern.
+// Writes the value of an option in an #SBATCH line. In file names, % begins a pattern and is
+// doubled.
 static void put_value(FILE *out, const char *value, bool is_pattern)
 {
     fputc('"', out);
@@ -45,7 +46,8 @@ static glint_status check_text(const char *what, const char *text, const char *f
     return GLINT_OK;
 }
 
-// Slurm reads quotes and backslashes in names of its own way, and differently from place to place.
+// Refuses texts that a script cannot hold. Slurm parses quotes and backslashes in its own way, and
+// differently in different places.
 static glint_status check_texts(const farm_slurm *slurm, glint_error *error)
 {
     const char *const texts[][3] = {
@@ -113,7 +115,7 @@ static void put_part_options(FILE *out, const farm_slurm *slurm)
     put_options(out, slurm, "", "%A_%a.log", slurm->further);
 }
 
-// The part's own account of its attempts, which the report reads: see report/farm_report.h.
+// Records the attempt in a file that the report reads; see report/farm_report.h.
 static const char begin_attempt[] =
     "part=${SLURM_ARRAY_TASK_ID:?}\n"
     "attempt=${SLURM_RESTART_COUNT:-0}\n"
@@ -127,9 +129,10 @@ static const char begin_attempt[] =
     "stopped=\n"
     "trap 'stopped=yes' TERM INT\n";
 
-// A part that was killed, lost its device, ran out of memory or found no program goes back into the
-// queue: another node, or another time, may do better. Where it was told to stop it stays ended,
-// and mistakes, bad input, full disks and bad frames are the same everywhere.
+// Puts the part back into the queue if it was killed, lost its device, ran out of memory or did not
+// find the program. Another node or another time may succeed. A part that was told to stop stays
+// ended. Wrong usage, bad input, full disks and bad frames also end the part: they fail on every
+// node.
 static const char end_attempt[] =
     "echo \"end $attempt $status\" >>\"$account.attempts\"\n"
     "[ -z \"$stopped\" ] || exit \"$status\"\n"
@@ -217,8 +220,8 @@ glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, 
 
 // ---- Handing in --------------------------------------------------------------------------------
 
-// The environment beats what stands in a script: what the script says must hold, and a job that is
-// submitted from within another is not that one's next attempt.
+// Unsets environment variables that override the script's options. Also unsets the variables of an
+// enclosing job: a job submitted from there is no further attempt of it.
 static void clear_environment(const farm_slurm *slurm)
 {
     static const char *const names[] = {
@@ -237,8 +240,8 @@ static void clear_environment(const farm_slurm *slurm)
     }
 }
 
-// What the program prints on stdout, cut to the buffer; its exit status, or −1, or −2 where
-// somebody stopped it.
+// Runs a program and stores the beginning of its stdout in `output`. Returns its exit status, −1 on
+// failure (*cause is errno if it did not start), or −2 if SIGINT or SIGTERM stopped it.
 static int run_program(char *const *words, char *output, size_t capacity, int *cause)
 {
     int ends[2];
@@ -247,10 +250,11 @@ static int run_program(char *const *words, char *output, size_t capacity, int *c
         *cause = errno;
         return -1;
     }
+    // Start the program with its stdout in the pipe.
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawnattr_t attributes; // a Ctrl-C ends the program, too: it blocks no signals
+    posix_spawnattr_t attributes; // unblocks all signals, so that Ctrl-C also ends the program
     posix_spawnattr_init(&attributes);
     sigset_t none;
     sigemptyset(&none);
@@ -261,6 +265,7 @@ static int run_program(char *const *words, char *output, size_t capacity, int *c
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     close(ends[1]);
+    // Read stdout to its end, then wait for the exit.
     int how = -1;
     if (*cause == 0) {
         size_t length = 0;
@@ -290,6 +295,7 @@ glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *s
     const char *path = submission->path, *after = submission->after;
     char dependency[96];
     snprintf(dependency, sizeof dependency, "--dependency=afterany:%s", after != NULL ? after : "");
+    // Call sbatch.
     char *words[6] = {"sbatch", "--parsable"};
     int count = 2;
     if (after != NULL) {
@@ -302,7 +308,8 @@ glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *s
     clear_environment(slurm);
     int cause = 0;
     const int status = run_program(words, id, FARM_ID_CAPACITY, &cause);
-    id[strcspn(id, ";\r\n")] = '\0'; // the cluster's name may follow
+    id[strcspn(id, ";\r\n")] = '\0'; // sbatch may append the cluster's name
+    // Judge its result.
     if (cause != 0) {
         return glint_fail(error, GLINT_DEVICE_FAILED,
                           "sbatch: %s (install Slurm's client, or see the script with --dry-run)",

@@ -1,4 +1,4 @@
-// A sequence as an array job of Slurm: the scripts, and handing them in.
+// Writes the scripts of a sequence as an array job of Slurm, and submits them.
 #ifndef GLINT_CLI_CLUSTER_FARM_SLURM_H
 #define GLINT_CLI_CLUSTER_FARM_SLURM_H
 
@@ -9,39 +9,39 @@
 
 #define FARM_ID_CAPACITY 64
 
-// All texts are borrowed; NULL where nothing was asked for.
+// An array job. All texts are borrowed; NULL if not requested.
 typedef struct farm_slurm {
-    const char *folder;     // the job's, absolute
-    const char *directory;  // in which the parts run, absolute
-    const char *program;    // glint on the nodes
-    const char *name;       // of the job
-    char *const *arguments; // of glint render
+    const char *folder;     // folder of the job, absolute
+    const char *directory;  // working directory of the parts, absolute
+    const char *program;    // path of glint on the nodes
+    const char *name;       // name of the job
+    char *const *arguments; // for glint render
     int argument_count;
-    int parts, at_once; // at_once 0: as many as the cluster likes
+    int parts, at_once; // at_once 0: the cluster decides
     int cpus, retries;  // cpus 0: the cluster's default
     const char *time, *partition;
-    // Options of sbatch as a script has them: of the parts, of the report.
+    // Further #SBATCH options of the parts and of the report.
     const char *further, *report_further;
 } farm_slurm;
 
-// The scripts of the parts and of the report, malloc'd. Errors: GLINT_USAGE (a text that cannot
-// stand in a script), GLINT_OUT_OF_MEMORY.
+// Write the script of the parts and of the report, malloc'd. Errors: GLINT_USAGE (a text that a
+// script cannot hold), GLINT_OUT_OF_MEMORY.
 glint_status farm_slurm_script(const farm_slurm *slurm, char **script, glint_error *error);
 glint_status farm_slurm_report_script(const farm_slurm *slurm, const char *job, char **script,
                                       glint_error *error);
 
-// A script to hand in.
+// A script to submit.
 typedef struct farm_submission {
     const char *path;
-    const char *after; // a job: once its parts have ended, however they did; NULL: at once
-    bool wait;         // until it has ended
+    const char *after; // start once this job has ended, with any result; NULL: start now
+    bool wait;         // return only when the job has ended
 } farm_submission;
 
-// Hands the script in, as job `id`. sbatch's own messages go to stderr; variables of the
-// environment that would beat the script's options are unset. Errors: GLINT_DEVICE_FAILED where
-// there is no sbatch or it refuses; GLINT_FRAMES_FAILED if it was waited for and failed;
-// GLINT_INTERRUPTED if a signal stopped sbatch, as a Ctrl-C does, perhaps before this program has
-// seen its own.
+// Submits the script and stores the job's number in `id`. sbatch prints its own messages to stderr.
+// Unsets environment variables that would override the script's options. Errors:
+// GLINT_DEVICE_FAILED if sbatch is missing or refuses the job; GLINT_FRAMES_FAILED if the awaited
+// job failed; GLINT_INTERRUPTED if a signal stopped sbatch, such as Ctrl-C. sbatch may stop before
+// this program has received its own signal.
 glint_status farm_slurm_submit(const farm_slurm *slurm, const farm_submission *submission,
                                char id[FARM_ID_CAPACITY], glint_error *error);
 

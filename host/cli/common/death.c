@@ -1,7 +1,7 @@
-// Where the driver takes the process down. See death.h.
+// Ends the process with a message when the OpenCL driver crashes it. See death.h.
 //
-// This is the one handler of signals in glint: the process is lost, and what it calls is
-// async-signal-safe.
+// This is the only signal handler in glint. The process is lost anyway, and the handler calls only
+// async-signal-safe functions.
 #include "cli/common/death.h"
 
 #include "base/status.h"
@@ -29,8 +29,8 @@ static void end_if_driver_died(void)
     }
 }
 
-// Its action is the default again: what is no driver's death, as a signal that another process sent
-// is not, dies of the signal.
+// SA_RESETHAND has restored the default action. So a signal that the driver did not cause kills the
+// process as usual, for example a signal from another process.
 static void on_fatal_signal(int number, siginfo_t *from, void *context)
 {
     (void)context;
@@ -41,7 +41,7 @@ static void on_fatal_signal(int number, siginfo_t *from, void *context)
     raise(number);
 }
 
-// Not SIGFPE, which PoCL itself survives. AddressSanitizer has handlers of its own for the others.
+// SIGFPE is missing because PoCL survives it. AddressSanitizer handles the other three itself.
 static const int fatal[] = {
     SIGABRT,
 #ifndef __SANITIZE_ADDRESS__
@@ -51,7 +51,8 @@ static const int fatal[] = {
 #endif
 };
 
-// Anew for each build: LLVM puts handlers of its own before these, which let abort() pass.
+// Installs the handlers again before each build: LLVM installs its own handlers on top, and these
+// let abort() pass.
 static void install_handlers(void)
 {
     struct sigaction action = {.sa_sigaction = on_fatal_signal,
@@ -64,6 +65,6 @@ static void install_handlers(void)
 
 void glint_death_install(void)
 {
-    atexit(end_if_driver_died); // LLVM exits where it finds a disk full
+    atexit(end_if_driver_died); // LLVM calls exit() when the disk is full
     glint_driver_cache_watch(install_handlers);
 }

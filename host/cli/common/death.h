@@ -1,9 +1,10 @@
-// What is said where the OpenCL driver takes the process down while it compiles.
+// Reports a crash of the OpenCL driver.
 #ifndef GLINT_CLI_COMMON_DEATH_H
 #define GLINT_CLI_COMMON_DEATH_H
 
-// From here on a fatal signal, or an exit that is not glint's, while the driver compiles becomes
-// one line and exit status 4, and a mark in the driver's cache for the next run
+// Installs handlers for fatal signals and for an exit that glint did not ask for. If one of these
+// happens while the driver compiles or runs kernels, the process prints one line and ends with exit
+// status 4. After a crash while compiling, it also marks the driver's cache for the next run
 // (device/driver_cache.h).
 void glint_death_install(void);
 

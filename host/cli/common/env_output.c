@@ -1,4 +1,4 @@
-// Writing environments. See env_output.h.
+// Writes environments as one picture or as six faces. See env_output.h.
 #include "cli/common/env_output.h"
 
 #include "cli/common/file_names.h"
@@ -78,8 +78,8 @@ static glint_status check_faces(const char *output, const glint_write_options *o
 
 // ---- Pictures -----------------------------------------------------------------------------------
 
-// OpenEXR's attribute, which says that the outermost centres lie on the edges, is written where
-// there is one.
+// OpenEXR's envmap attribute means that the outermost texel centres lie on the edges. glint writes
+// the attribute if OpenEXR has one for the layout.
 static glint_envmap envmap_of(const char *path, glint_layout layout)
 {
     return !glint_has_extension(path, ".exr") ? GLINT_ENVMAP_NONE
@@ -88,8 +88,7 @@ static glint_envmap envmap_of(const char *path, glint_layout layout)
                                               : GLINT_ENVMAP_NONE;
 }
 
-// Where nothing is asked for, that of what is read; a DDS, whose six faces are one file, is a
-// strip.
+// Without --to, the layout of the source. The six faces of a DDS are one file: they become a strip.
 static glint_layout layout_to_write(const env_output *output, glint_layout from)
 {
     const glint_layout asked = output->request->to;
@@ -111,7 +110,7 @@ static glint_status choose_chart(env_output *output, const glint_chart *from, gl
     return glint_chart_make(to, size, on_edges, &output->chart, error);
 }
 
-// As far as it can be told before the input has been read.
+// Checks the size as far as possible before the input has been read.
 static glint_status check_size(const env_output *output, glint_error *error)
 {
     glint_chart chart;
@@ -149,7 +148,7 @@ glint_status env_output_open(const env_output_request *request, const char *path
 static glint_write_options write_options(const env_output *output, const glint_image *image)
 {
     const size_t values = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    bool fits = true; // in half floats
+    bool fits = true; // half floats can hold all values
     for (size_t i = 0; i < values && fits; i++) {
         fits = image->pixels[i] <= HALF_MAX;
     }
@@ -159,7 +158,7 @@ static glint_write_options write_options(const env_output *output, const glint_i
                                  .envmap = envmap_of(output->path, output->chart.layout)};
 }
 
-// The strip's k-th face, in the order of the six names.
+// Copies face k out of the strip; k counts as in env_output_face_path.
 static glint_status cut_face(const glint_image *strip, int k, glint_image *face, glint_error *error)
 {
     const int edge = strip->width;

@@ -1,4 +1,4 @@
-// Where the commands write environments that they made: one picture or six, in any layout.
+// Writes the environments that commands make: one picture or six faces, in any layout.
 #ifndef GLINT_CLI_COMMON_ENV_OUTPUT_H
 #define GLINT_CLI_COMMON_ENV_OUTPUT_H
 
@@ -8,16 +8,16 @@
 #include "environment/sampler.h"
 #include "render/settings.h"
 
-// What the command line says. Texts are borrowed from argv.
+// The options of the command line. Texts are borrowed from argv.
 typedef struct env_output_request {
-    glint_layout to; // UNKNOWN: as it is
-    int size;        // 0: as fine as it is
+    glint_layout to; // UNKNOWN: the source's layout
+    int size;        // pixels; 0: the source's resolution
     double exposure;
     const char *compression;
 } env_output_request;
 
-// Rows for a request with an env_output_request at `member`; `default_layout` and `default_size`
-// are what the help calls them.
+// Option rows for a request with an env_output_request at `member`. The help shows `default_layout`
+// and `default_size` as the defaults.
 #define ENV_OUTPUT_OPTIONS(member, default_layout, default_size)                                   \
     {GLINT_OPTION_CUSTOM,                                                                          \
      .name = "to",                                                                                 \
@@ -51,24 +51,25 @@ typedef struct env_output {
     const env_output_request *request; // borrowed
     const char *path;                  // borrowed
     bool as_faces;                     // six files
-    glint_chart chart;                 // of what was written
+    glint_chart chart;                 // layout and size of the written picture
 } env_output;
 
-// True for a folder, or a pattern of files that are there or are to be.
+// True if `path` stands for six files: a folder that exists, or a pattern with "%s" that is not
+// itself a file.
 bool env_output_is_set(const char *path);
 
-// The path of the k-th of six faces, in the order of their names: posx.exr in a folder, or by a
-// pattern. malloc'd; NULL without memory.
+// The path of face k, 0 to 5, in the order +X −X +Y −Y +Z −Z: "posx.exr" in a folder, or the
+// pattern with "posx" for "%s". malloc'd; NULL without memory.
 char *env_output_face_path(const char *output, int k);
 
-// Looks at where it goes, before any work is done; nothing is made yet. `source` is
-// the layout that is written where none is asked for; FACES of six files, UNKNOWN where it is not
-// known yet. Errors: GLINT_USAGE, GLINT_OUTPUT_FAILED.
+// Checks the destination before any work is done; creates nothing yet. `source` is the layout to
+// write if the request names none: FACES for six files, UNKNOWN if it is not known yet. Errors:
+// GLINT_USAGE, GLINT_OUTPUT_FAILED.
 glint_status env_output_open(const env_output_request *request, const char *path,
                              glint_layout source, env_output *output, glint_error *error);
 
-// Draws what `from` shows, turned, and writes it. Of six files each appears whole or not at all.
-// Errors: GLINT_USAGE (the size), GLINT_OUT_OF_MEMORY, GLINT_OUTPUT_FAILED.
+// Resamples the environment `from`, rotated or mirrored by `turn`, and writes it. Each file appears
+// whole or not at all. Errors: GLINT_USAGE (the size), GLINT_OUT_OF_MEMORY, GLINT_OUTPUT_FAILED.
 glint_status env_output_write(env_output *output, const glint_sampler *from, const glint_turn *turn,
                               glint_error *error);
 

@@ -1,4 +1,4 @@
-// What file names tell of themselves. See file_names.h.
+// Compares file names and reads their extensions. See file_names.h.
 #include "cli/common/file_names.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// The options that commands on a scene share, and loading what they name. See inputs.h.
+// Declares the options of commands on a scene, and loads the inputs that they name. See inputs.h.
 #include "cli/common/inputs.h"
 
 #include "base/clock.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// Writes "cube, faces or latlong" from the layouts there are.
+// Writes a list of all layouts: "cube, faces, latlong".
 static void list_layouts(char *text, size_t capacity)
 {
     size_t length = 0;
@@ -205,7 +205,8 @@ glint_status glint_input_request_finish(glint_input_request *request, glint_erro
     return GLINT_OK;
 }
 
-// Built-in scenes have no variants.
+// Loads a built-in scene and applies the overrides of its materials. Built-in scenes have no
+// variants.
 static glint_status load_built_in(const glint_input_request *request, glint_scene *scene,
                                   glint_error *error)
 {
@@ -244,7 +245,7 @@ static glint_status load_scene(const glint_input_request *request, glint_inputs 
     const glint_status status =
         glint_scene_at(inputs->source, 0, &inputs->scene, &inputs->warnings, error);
     if (!glint_motion_moves_scene(&inputs->motion) && !inputs->motion.moves_cameras) {
-        glint_scene_close(inputs->source); // it holds the file
+        glint_scene_close(inputs->source); // an open source holds the file
         inputs->source = NULL;
         inputs->motion = (glint_motion){0};
     }
@@ -262,7 +263,7 @@ static void say_share(double share, glint_warnings *warnings, size_t number)
     glint_warning_extend(warnings, number, text);
 }
 
-// Adds to warnings about materials how much of the picture they concern.
+// Adds to each warning about a material the share of the picture that the material covers.
 static void say_shares(const glint_scene *scene, const glint_viewpoint *viewpoint,
                        glint_warnings *warnings)
 {
@@ -327,7 +328,7 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
     *inputs = (glint_inputs){0};
     const double begun = glint_progress_elapsed(display);
     if (request->env != NULL) {
-        glint_decoder_start(); // gets ready while the scene is loaded
+        glint_decoder_start(); // the decoder's process starts while the scene loads
     }
     glint_progress_phase(display, "load_scene", "loading the scene");
     TRY(load_scene(request, inputs, error));

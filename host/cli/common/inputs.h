@@ -1,5 +1,5 @@
-// What the commands share that work on a scene: their common options, and loading scene,
-// environment and camera.
+// Loads the scene, environment and camera for the commands that work on a scene; declares their
+// common options.
 #ifndef GLINT_CLI_COMMON_INPUTS_H
 #define GLINT_CLI_COMMON_INPUTS_H
 
@@ -12,8 +12,7 @@
 #include "scene/material_override.h"
 #include "scene/scene.h"
 
-// What the command line says of the inputs and of what is computed from them. Texts are borrowed
-// from argv.
+// The options that select the inputs and the computation. Texts are borrowed from argv.
 typedef struct glint_input_request {
     const char *scene; // the file, or the name of a built-in scene
     bool is_built_in;
@@ -22,28 +21,29 @@ typedef struct glint_input_request {
     const char *animation;
     const char *variant;
     glint_material_overrides overrides;
-    int texture_size;           // texels across at most; 0: textures are as they are
+    int texture_size;           // largest width or height in texels; 0: no limit
     const char *only, *without; // lists of nodes, see scene/subset.h
-    bool is_for_render;         // set by the command: plates and captures are its business
-    bool camera_may_wait; // likewise: of a scene that moves, one that has no direction at time
-                          // 0 is no mistake, and viewpoint.camera.is_lost says so
+    bool is_for_render;         // set by the command: true allows plates and captures
+    // set by the command. True: a moving camera without a direction at time 0 is no error;
+    // viewpoint.camera.is_lost is set instead
+    bool camera_may_wait;
     const char *env;
     glint_layout_request env_as;
-    const char *env_flip; // axes, NULL: none
+    const char *env_flip; // axes to mirror along; NULL: none
     const char *device;
     const char *kernel_dir; // NULL: the embedded kernels
     glint_settings settings;
 } glint_input_request;
 
-// Tables of options for a request whose first member is a glint_input_request. The settings and the
-// kernels' folder follow the size under the same heading.
+// Option tables for a request whose first member is a glint_input_request. The settings and the
+// kernel folder appear under the same heading, after the size.
 extern const glint_option glint_input_options[];
 extern const glint_option glint_view_options[];
 extern const glint_option glint_size_options[];
 extern const glint_option glint_settings_options[];
 extern const glint_option glint_kernel_dir_options[];
 
-// Lifts the limits on what an image file may cost, for the whole process.
+// Lifts the limits on memory and time for decoding image files, for the whole process.
 glint_option_parser glint_parse_allow_large;
 #define GLINT_LARGE_IMAGES_OPTION                                                                  \
     {                                                                                              \
@@ -55,13 +55,14 @@ glint_option_parser glint_parse_allow_large;
             .parse = glint_parse_allow_large                                                       \
     }
 
-// Rows that say how an environment's file is read, for a request with a glint_layout_request at
-// `member`; glint_layout_request_check looks at them together.
+// Parsers for the options about the layout of an environment's file; their rows are
+// GLINT_ENV_AS_OPTIONS. glint_layout_request_check checks that the options go together.
 glint_option_parser glint_parse_layout, glint_parse_circle, glint_parse_distance;
 
-// Axes to mirror along, "xz", into a const char *.
+// Parses axes to mirror along, such as "xz", into a const char *.
 glint_option_parser glint_parse_flip;
 
+// Option rows for a request with a glint_layout_request at `member`.
 #define GLINT_ENV_AS_OPTIONS(member)                                                               \
     {GLINT_OPTION_CUSTOM,                                                                          \
      .name = "env-layout",                                                                         \
@@ -96,10 +97,11 @@ glint_option_parser glint_parse_flip;
             .maximum = 179                                                                         \
     }
 
-// GLINT_USAGE where a ball is described and the layout is none, or twice.
+// Checks that options which describe a ball go with a fitting layout, and that its distance is
+// given only once. Errors: GLINT_USAGE.
 glint_status glint_layout_request_check(const glint_layout_request *request, glint_error *error);
 
-// The heading and the row of glint_size_options, for a command with a size of its own as default.
+// The heading and the row of glint_size_options, for a command with its own default size.
 #define GLINT_SIZE_OPTIONS(default_size)                                                           \
     {GLINT_OPTION_HEADING, .help = "What is computed"},                                            \
     {                                                                                              \
@@ -110,29 +112,31 @@ glint_status glint_layout_request_check(const glint_layout_request *request, gli
 // Fills the request with the defaults.
 void glint_input_request_default(glint_input_request *request);
 
-// Checks what the parser cannot see: options that only make sense together. Errors: GLINT_USAGE;
-// GLINT_BAD_INPUT where --kernel-dir is no folder.
+// Checks options that are only valid together, which the parser cannot do. Errors: GLINT_USAGE;
+// GLINT_BAD_INPUT if --kernel-dir is no folder.
 glint_status glint_input_request_finish(glint_input_request *request, glint_error *error);
 
-// Finds the viewpoint, and takes away the nodes that are not to be there. source: NULL where
-// nothing moves. Errors: as glint_viewpoint_find and glint_scene_remove_nodes.
+// Finds the viewpoint, then removes the nodes that --only and --without exclude. `source` is NULL
+// if nothing moves. Errors: as glint_viewpoint_find and glint_scene_remove_nodes.
 glint_status glint_inputs_stage(const glint_input_request *request,
                                 const glint_scene_source *source, glint_scene *scene,
                                 glint_viewpoint *viewpoint, glint_error *error);
 
-// What was loaded. Zero is valid and empty.
+// The loaded inputs. Zero is valid and empty.
 typedef struct glint_inputs {
     glint_scene scene;
     glint_environment environment;
     glint_viewpoint viewpoint;
-    glint_scene_source *source; // where something moves, else NULL; the scene is that of time 0
-    glint_motion motion;        // its clip's name is the source's
+    // NULL if nothing moves; `scene` is then the only pose, else the pose at time 0
+    glint_scene_source *source;
+    glint_motion motion; // the name of its clip belongs to `source`
     glint_warnings warnings;
     double scene_ms, environment_ms;
 } glint_inputs;
 
-// Loads the scene and the viewpoint; the environment, of which a display (may be NULL) tells.
-// Whatever the outcome, `inputs`, of which all is set by the first, is for glint_inputs_free.
+// Loads the scene and the viewpoint, or the environment. glint_inputs_load_scene overwrites all of
+// `inputs`; call it first. Free `inputs` with glint_inputs_free, also after an error. `display`
+// shows the phase; it may be NULL for the environment.
 glint_status glint_inputs_load_scene(const glint_input_request *request,
                                      glint_progress_display *display, glint_inputs *inputs,
                                      glint_error *error);
@@ -140,7 +144,7 @@ glint_status glint_inputs_load_environment(const glint_input_request *request,
                                            glint_progress_display *display, glint_inputs *inputs,
                                            glint_error *error);
 
-// Both.
+// Loads the scene, then the environment.
 glint_status glint_inputs_load(const glint_input_request *request, glint_progress_display *display,
                                glint_inputs *inputs, glint_error *error);
 void glint_inputs_free(glint_inputs *inputs);

@@ -1,4 +1,4 @@
-// Where a command's --json FILE|- and --stats FILE|- go. See json_output.h.
+// Writes the outputs of --json FILE|- and --stats FILE|-. See json_output.h.
 #include "cli/common/json_output.h"
 
 #include "report/json.h"
@@ -29,7 +29,7 @@ glint_status glint_write_json(const char *path, json_t *root, glint_error *error
 
 glint_status glint_open_lines(const char *path, FILE **file, glint_error *error)
 {
-    // A copy of its own: closing it leaves standard output open.
+    // Duplicate the descriptor, so that fclose leaves standard output open.
     *file = glint_is_stdout(path) ? fdopen(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0), "w")
                                   : fopen(path, "we");
     return *file != NULL ? GLINT_OK

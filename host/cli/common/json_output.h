@@ -1,4 +1,4 @@
-// Where a command's --json FILE|- and --stats FILE|- go.
+// Opens and writes the outputs of --json FILE|- and --stats FILE|-.
 #ifndef GLINT_CLI_COMMON_JSON_OUTPUT_H
 #define GLINT_CLI_COMMON_JSON_OUTPUT_H
 
@@ -8,14 +8,14 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-// True for "-": standard output, which then holds nothing else. NULL is no path.
+// True if `path` is "-": standard output, which then carries no other text. `path` may be NULL.
 bool glint_is_stdout(const char *path);
 
-// Prints the report, or writes the file whole or not at all. Takes the reference. Errors:
-// GLINT_OUTPUT_FAILED.
+// Prints the report to standard output, or writes the whole file or nothing. Takes over the
+// reference to `root`. Errors: GLINT_OUTPUT_FAILED.
 glint_status glint_write_json(const char *path, json_t *root, glint_error *error);
 
-// A file to write lines to, which replaces what stood there; "-" is standard output. For fclose.
+// Opens a file for lines and empties it; "-" is standard output. The caller closes it with fclose.
 // Errors: GLINT_OUTPUT_FAILED.
 glint_status glint_open_lines(const char *path, FILE **file, glint_error *error);
 

@@ -1,4 +1,4 @@
-// Parses a command line by a command's table. The help is in options_help.c.
+// Parses a command line with a command's option table. options_help.c prints the help.
 #include "cli/common/options.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 static const glint_option help_row = {GLINT_OPTION_FLAG, .letter = 'h', .name = "help",
                                       .help = "Print this."};
 
-// The next setting of the row's group.
+// The next setting of the row's group; NULL at the end of the group.
 static const glint_option *next_setting(glint_option_cursor *cursor, const glint_option *row)
 {
     if (!glint_settings_option((glint_settings_group)row->group, cursor->setting++, row->offset,
@@ -45,8 +45,8 @@ const glint_option *glint_option_next(glint_option_cursor *cursor)
     return was_at_end ? NULL : &help_row;
 }
 
-// The option of that letter or, letter 0, of the name of `length` bytes; false where there is
-// none.
+// Finds an option by its letter or, if `letter` is 0, by its name of `length` bytes. False if there
+// is none.
 static bool find(const glint_command *command, char letter, const char *name, size_t length,
                  glint_option *found)
 {
@@ -88,15 +88,15 @@ static glint_status fail_unknown(const glint_command *command, const char *name,
 
 // ---- The words ---------------------------------------------------------------------------------
 
-// A command line under way.
+// The state of parsing a command line.
 typedef struct parsing {
     const glint_command *command;
     void *request;
-    char **next, **end; // what is left of it
+    char **next, **end; // the words that are not parsed yet
     bool help;
 } parsing;
 
-// Takes an option with its value: what stands behind it in its own word, or else the next word.
+// Stores an option. Its value is the rest of its own word or, if that is NULL, the next word.
 static glint_status take(parsing *p, const glint_option *option, const char *value,
                          glint_error *error)
 {
@@ -118,7 +118,7 @@ static glint_status take(parsing *p, const glint_option *option, const char *val
     return glint_option_parse(option, value, destination, error);
 }
 
-// "name", "name=value", without the dashes.
+// Parses "name" or "name=value", without the dashes.
 static glint_status take_long(parsing *p, const char *word, glint_error *error)
 {
     char name[64];
@@ -134,7 +134,8 @@ static glint_status take_long(parsing *p, const char *word, glint_error *error)
                        : take(p, &option, value, error);
 }
 
-// "abc": flags, of which the last may be an option whose value follows, "ofile".
+// Parses "abc": several flags. The last letter may take a value: the rest of the word ("ofile") or
+// the next word.
 static glint_status take_letters(parsing *p, const char *letters, glint_error *error)
 {
     for (; *letters != '\0' && !p->help; letters++) {
@@ -151,13 +152,13 @@ static glint_status take_letters(parsing *p, const char *letters, glint_error *e
     return GLINT_OK;
 }
 
-// A word that begins with a dash.
+// Parses a word that begins with a dash.
 static glint_status take_word(parsing *p, const char *word, glint_error *error)
 {
     return word[1] == '-' ? take_long(p, word + 2, error) : take_letters(p, word + 1, error);
 }
 
-// Moves `count` words at `words` before the `waiting` ones that stand in front of them.
+// Moves `count` words at `words` to the front of the `waiting` words before them.
 static void move_before(char **words, size_t waiting, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -179,7 +180,7 @@ static glint_status check_positionals(const glint_command *command,
         return glint_fail(error, GLINT_USAGE, "unexpected argument '%s' (usage: glint %s %s)",
                           arguments->positionals[most], command->name, command->synopsis);
     }
-    // The first that is not there, or is empty.
+    // Find the first positional argument that is missing or empty.
     int at = 0;
     while (at < count && arguments->positionals[at][0] != '\0') {
         at++;
@@ -198,7 +199,7 @@ glint_status glint_options_parse(const glint_command *command, void *request,
     char **const end = arguments->words + arguments->word_count;
     parsing p = {.command = command, .request = request, .end = end};
     char **word = arguments->words + 1;
-    size_t waiting = 0; // positional arguments, which stand before `word`
+    size_t waiting = 0; // positional arguments found so far; they are kept just before `word`
     bool are_options = true;
     while (word < p.end && are_options && !p.help) {
         if ((*word)[0] != '-' || (*word)[1] == '\0') {
@@ -211,6 +212,7 @@ glint_status glint_options_parse(const glint_command *command, void *request,
         if (are_options) {
             TRY(take_word(&p, *word, error));
         }
+        // Move the option in front of the positional arguments before it.
         move_before(word, waiting, (size_t)(p.next - word));
         word = p.next;
     }

@@ -1,5 +1,4 @@
-// The command line: one parser and one help text, both made from a table that each command
-// declares.
+// Parses the command line and prints help texts. Both work from a table that each command declares.
 #ifndef GLINT_CLI_COMMON_OPTIONS_H
 #define GLINT_CLI_COMMON_OPTIONS_H
 
@@ -10,53 +9,56 @@
 #include <stddef.h>
 #include <stdio.h>
 
-// What the parser found besides the options.
+// The words of the command line, and the parser's findings besides the options.
 typedef struct glint_arguments {
-    bool help;                // --help was given: nothing else was looked at
+    bool help;                // --help was given; the parser stopped there
     char *const *positionals; // borrowed from argv, in the order of the command line
     int positional_count;
-    char **words;   // all of the command line, from the command's name on; borrowed. Options stand
-    int word_count; // before the positional arguments
+    // all words from the command's name on, options first; borrowed
+    char **words;
+    int word_count; // number of `words`
 } glint_arguments;
 
+// Declares a command to main.c, the parser and the help.
 typedef struct glint_command {
-    const char *name;                  // "render"
-    const char *summary;               // for the list of commands, under 60 columns
-    const char *synopsis;              // what follows the name: "SCENE -o OUT [options]"
-    const char *description;           // paragraphs, wrapped by the help; '\n' separates them
-    const char *examples;              // lines, printed as they are; NULL: none
-    const glint_option *const *groups; // tables, NULL at the end
-    const char *positional; // what a positional argument is called: "SCENE"; NULL: none is taken
-    const char *second_positional; // what a second one is called, if two are taken; else NULL
-    bool takes_any_number;         // of `positional`, none too; else exactly those that are named
-    size_t request_size;           // of the struct that the tables' offsets count in
-    void (*set_defaults)(void *request); // on a zeroed request; NULL: zero is the default
+    const char *name;     // "render"
+    const char *summary;  // for the list of commands, less than 60 columns
+    const char *synopsis; // follows the command's name in the usage line: "SCENE -o OUT [options]"
+    const char *description;           // the help wraps it; '\n' separates paragraphs
+    const char *examples;              // complete lines; NULL: none
+    const glint_option *const *groups; // option tables; NULL ends the list
+    // the name of the positional argument in messages: "SCENE"; NULL: the command takes none
+    const char *positional;
+    const char *second_positional; // the name of the second one; NULL: the command takes only one
+    bool takes_any_number;         // true: zero or more `positional`; false: exactly the named ones
+    size_t request_size;           // size of the struct that the offsets in the tables refer to
+    void (*set_defaults)(void *request); // gets a zeroed request; NULL: zero is the default
     glint_status (*run)(void *request, const glint_arguments *arguments, glint_error *error);
 } glint_command;
 
-// A row that stands for a group of the table of settings, for a request with its glint_settings at
-// `member`.
+// A row that stands for a whole group of settings; the request has its glint_settings at `member`.
 #define GLINT_SETTINGS_ROW(which, member)                                                          \
     {                                                                                              \
         GLINT_OPTION_SETTINGS, .group = (which), .offset = (member)                                \
     }
 
-// Goes through a command's rows, those of settings in their places, and --help as the last one.
+// An iterator over a command's option rows: settings in their places, --help as the last row.
 typedef struct glint_option_cursor {
     const glint_option *const *table;
     size_t row, setting;
-    glint_option made; // the row that is returned, where it stands in no table of the command's
+    glint_option made; // storage for a returned row that is in no table of the command
     char fallback[GLINT_SETTING_TEXT];
     bool is_at_end;
 } glint_option_cursor;
 
-// The next row, which is good until the next call; NULL at the end.
+// The next row, valid until the next call; NULL at the end.
 const glint_option *glint_option_next(glint_option_cursor *cursor);
 
-// Parses arguments->words (word_count of them, the command's name first) into `request`, which
-// holds the defaults already, and fills the rest of *arguments. Options may stand before and after
-// the positional arguments; "--" ends them. The words are sorted: options first. Names are not
-// abbreviated: what is short today is ambiguous with tomorrow's options. Errors: GLINT_USAGE.
+// Parses arguments->words (word_count words, the command's name first). Fills `request`, which must
+// already hold the defaults, and the rest of *arguments. Options may stand before and after the
+// positional arguments; "--" ends them. Reorders the words: options first. Options cannot be
+// abbreviated: a short form that is unique today may be ambiguous after the next new option.
+// Errors: GLINT_USAGE.
 glint_status glint_options_parse(const glint_command *command, void *request,
                                  glint_arguments *arguments, glint_error *error);
 

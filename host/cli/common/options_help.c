@@ -1,12 +1,12 @@
-// The help text of a command, made from its table.
+// Prints the help text of a command from its option table.
 #include "cli/common/options.h"
 
 #include <string.h>
 
-#define HELP_COLUMN 28 // where the explanations begin
+#define HELP_COLUMN 28 // column of the explanations
 
-// Prints `text` wrapped, its lines from column `indent` on; the cursor stands at `column` already.
-// A '\n' in the text begins a new line.
+// Prints wrapped text that begins at column `indent`. The cursor already stands at `column`. A '\n'
+// in the text begins a new line.
 static void print_wrapped(const char *text, int column, int indent, int columns, FILE *out)
 {
     bool line_is_empty = true;
@@ -39,7 +39,7 @@ static void print_wrapped(const char *text, int column, int indent, int columns,
     fputc('\n', out);
 }
 
-// " In place of --depth, --mend.": the settings with one of the roles.
+// Writes the settings that have one of the roles: " In place of --depth, --mend."
 static size_t list_settings(unsigned roles, char *text, size_t capacity)
 {
     size_t length = 0;
@@ -88,7 +88,7 @@ void glint_options_help(const glint_command *command, int columns, FILE *out)
         if (option->kind == GLINT_OPTION_HEADING) {
             fprintf(out, "\n%s\n", option->help);
         } else {
-            fputs(cursor.is_at_end ? "\n" : "", out); // --help stands apart
+            fputs(cursor.is_at_end ? "\n" : "", out); // a blank line before --help
             print_option(option, columns, out);
         }
     }

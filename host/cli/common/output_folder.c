@@ -1,4 +1,4 @@
-// Folders for output. See output_folder.h.
+// Checks and creates folders for output files. See output_folder.h.
 #include "cli/common/output_folder.h"
 
 #include "image/output_file.h"

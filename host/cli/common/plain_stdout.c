@@ -1,4 +1,4 @@
-// Standard output that cannot drive a terminal. See plain_stdout.h.
+// Filters standard output to plain text. See plain_stdout.h.
 #include "cli/common/plain_stdout.h"
 
 #include "base/plain_text.h"
@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 static struct {
-    char kept[4]; // the beginning of a character that the next write goes on with
+    char kept[4]; // an incomplete character; the next write continues it
     size_t kept_length;
-    int fault; // errno of the first write that failed
+    int fault; // errno of the first failed write
 } output;
 
 static bool write_all(const char *bytes, size_t length)
@@ -31,7 +31,8 @@ static bool write_all(const char *bytes, size_t length)
     return true;
 }
 
-// Copies the plain part of from[length]; what is left at the end begins a character.
+// Copies from[length] to `to` with '?' for what is not plain. Returns the bytes written. *left is
+// the length of an incomplete character at the end.
 static size_t copy_plain(const char *from, size_t length, char *to, size_t *left)
 {
     size_t written = 0;
@@ -67,7 +68,7 @@ static ssize_t write_plain(void *unused, const char *bytes, size_t length)
         const size_t written = copy_plain(joined, total, plain, &output.kept_length);
         memcpy(output.kept, joined + total - output.kept_length, output.kept_length);
         if (!write_all(plain, written)) {
-            return 0; // stdio's sign of an error
+            return 0; // stdio takes 0 as an error
         }
         done += now;
     }

@@ -1,4 +1,4 @@
-// The bar, the plain lines and the JSON lines of progress. See progress.h.
+// Shows progress as a bar, as plain lines or as JSON lines. See progress.h.
 #include "cli/common/progress.h"
 
 #include "base/clock.h"
@@ -16,8 +16,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#define BAR_INTERVAL 100.0   // milliseconds: ten redraws a second are as many as anybody sees
-#define LINE_INTERVAL 5000.0 // few enough lines for the log of a farm
+#define BAR_INTERVAL 100.0   // milliseconds: nobody sees more than ten redraws a second
+#define LINE_INTERVAL 5000.0 // keeps the logs of a farm short
 #define JSON_INTERVAL 250.0
 #define LINE_CAPACITY 256
 
@@ -79,19 +79,19 @@ void glint_progress_clear(glint_progress_display *display)
     }
 }
 
-// One write a line: another process's output may come between lines, not into them.
+// Writes the line with one call: output of another process may come between lines, not inside one.
 static void draw_line(glint_progress_display *display, const char *text)
 {
     char plain[512];
     snprintf(plain, sizeof plain, "%s", text);
     glint_make_plain(plain);
-    // The last column stays free: some terminals go to the next line when it is written.
+    // Leave the last column free: some terminals wrap as soon as it is written.
     fprintf(stderr, "\r%.*s\033[K", terminal_columns() - 1, plain);
     fflush(stderr);
     display->line_is_drawn = true;
 }
 
-// One line, one write. Takes the reference.
+// Writes the event as one line with one call. Takes over the reference.
 static void print_event(const glint_progress_display *display, json_t *event)
 {
     char *text = event != NULL ? glint_json_dump(event, JSON_REAL_PRECISION(9)) : NULL;
@@ -119,7 +119,7 @@ void glint_progress_phase(glint_progress_display *display, const char *name, con
         glint_json_put_real(event, "ms", glint_progress_elapsed(display));
         print_event(display, event);
     }
-    // Plain lines begin with the frame: an error before that is the only line there is.
+    // Plain mode is silent before the frame: an early error is then the only line.
 }
 
 void glint_progress_render(glint_progress_display *display, uint64_t frames, double rays,
@@ -169,19 +169,20 @@ static void draw_bar(glint_progress_display *display, double share, const char *
     draw_line(display, line);
 }
 
-// How far the work is, in frames.
+// Progress and rate of the work.
 typedef struct stand {
-    double share;        // of all
-    double frames_a_ms;  // those that were traced, and the one that is
-    double seconds_left; // not finite before anything is known
+    double share;        // of all frames, [0, 1]
+    double frames_a_ms;  // frames traced per millisecond, with the current one in part
+    double seconds_left; // not finite until something is known
 } stand;
 
+// Computes progress from the counters; `frame_share` is the finished part of the current frame.
 static stand stand_of(const glint_progress_display *display, double frame_share)
 {
     const double frames = display->frames > 0 ? (double)display->frames : 1;
     const double past = (double)display->past + frame_share;
     const double traced = (double)display->traced + frame_share;
-    // Of the files that stand, as large a share may be skipped as of those that were looked at.
+    // Of the existing files, assume that the share skipped so far will also be skipped in future.
     const double looked_at = (double)(display->skipped + display->again);
     const double standing = fmax(0, (double)display->standing - looked_at);
     const double skipping = standing * ((double)display->skipped + 1) / (looked_at + 1);

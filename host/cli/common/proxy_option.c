@@ -1,10 +1,10 @@
-// --proxy. See proxy_option.h.
+// Parses --proxy and makes the proxy. See proxy_option.h.
 #include "cli/common/proxy_option.h"
 
 #include <math.h>
 #include <string.h>
 
-// Metres: the kernels square distances, in units as small as the scene.
+// Metres. The kernels square distances, in units that may be as small as the scene.
 #define FARTHEST 1e9
 
 static bool read_lengths(const char *text, double *numbers, int count)

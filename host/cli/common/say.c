@@ -1,4 +1,4 @@
-// Messages on stderr. See say.h.
+// Prints messages on stderr. See say.h.
 #include "cli/common/say.h"
 
 #include "base/plain_text.h"
@@ -18,7 +18,7 @@ void glint_say(const char *format, ...)
     fprintf(stderr, "glint: %s\n", text);
 }
 
-// Several lines, each made plain.
+// Prints several lines, each made plain.
 static void print_lines(char *text)
 {
     for (char *line; (line = strsep(&text, "\n")) != NULL;) {

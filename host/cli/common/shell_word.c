@@ -1,10 +1,10 @@
-// Words for shells. See shell_word.h.
+// Quotes words for shells. See shell_word.h.
 #include "cli/common/shell_word.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// What a POSIX shell takes for itself, in an argument.
+// True if a POSIX shell takes the word literally without quotes.
 static bool is_plain(const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"

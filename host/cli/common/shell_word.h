@@ -1,4 +1,4 @@
-// Words of a command line, as a shell reads them back.
+// Quotes the words of a command line, so that a shell reads them back unchanged.
 #ifndef GLINT_CLI_COMMON_SHELL_WORD_H
 #define GLINT_CLI_COMMON_SHELL_WORD_H
 
@@ -6,11 +6,10 @@
 
 #include <stdio.h>
 
-// The word, in quotes where it needs them.
+// Writes the word, quoted if necessary.
 void glint_put_shell_word(const char *word, FILE *out);
 
-// "glint NAME WORD …", of the command that was called with these arguments; malloc'd, NULL if
-// memory ran out.
+// The command line "glint NAME WORD …" that has these arguments. malloc'd; NULL without memory.
 char *glint_command_line(const glint_arguments *arguments);
 
 #endif

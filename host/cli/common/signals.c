@@ -1,8 +1,8 @@
-// SIGINT and SIGTERM: stop promptly, leave nothing half-written. See signals.h.
+// Stops the program on SIGINT and SIGTERM without half-written files. See signals.h.
 //
-// One thread waits for the two signals. All others block them, those of libraries and of child
-// processes too: a thread inherits what its creator blocks, and main installs this first. So
-// nothing here runs in a signal handler.
+// One thread waits for the two signals, so no code runs in a signal handler. All other threads
+// block them, even in libraries and child processes: a thread inherits the mask of its creator, and
+// main installs this first.
 #include "cli/common/signals.h"
 
 #include "base/status.h"
@@ -16,7 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PATIENCE 2 // seconds that cooperative work has to heed a signal
+#define PATIENCE 2 // seconds that cooperative work has to react to a signal
 
 static atomic_int received_signal;
 static atomic_bool work_is_cooperative;
@@ -39,7 +39,7 @@ static void *wait_for_signal(void *unused)
     sigwait(&stopping, &first);
     if (atomic_load(&work_is_cooperative)) {
         atomic_store(&received_signal, first);
-        // A second signal, or the end of patience, ends what does not heed the first.
+        // End the process on a second signal or after the time limit, if the work does not react.
         while (sigtimedwait(&stopping, NULL, &patience) < 0 && errno == EINTR) {
         }
     }
@@ -52,18 +52,18 @@ void glint_signals_install(void)
     const sigset_t stopping = stopping_signals();
     struct sigaction action = {.sa_handler = SIG_DFL};
     sigemptyset(&action.sa_mask);
-    // Also where the parent had them ignored: a shell does that to the background jobs of a script,
-    // and a stop that is asked for by name is meant.
+    // Reset the handlers even if the parent ignores the signals. Shells do so for background jobs
+    // of a script, but a signal sent to glint by name is meant.
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     pthread_sigmask(SIG_BLOCK, &stopping, NULL);
     pthread_t waiting;
     if (pthread_create(&waiting, NULL, wait_for_signal, NULL) == 0) {
         pthread_detach(waiting);
-    } else { // a signal then ends the process; the next run removes its temporaries
+    } else { // fallback: a signal ends the process, and the next run removes its temporaries
         pthread_sigmask(SIG_UNBLOCK, &stopping, NULL);
     }
-    // A reader that leaves and a file that grows past the limit are seen in the result of writing.
+    // Ignore signals about a closed pipe or a full file: the result of write() reports these.
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
     sigaction(SIGXFSZ, &action, NULL);

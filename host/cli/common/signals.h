@@ -1,19 +1,21 @@
-// Signals that stop the program: promptly, and with nothing half-written.
+// Stops the program on SIGINT and SIGTERM: promptly, and without half-written files.
 #ifndef GLINT_CLI_COMMON_SIGNALS_H
 #define GLINT_CLI_COMMON_SIGNALS_H
 
 #include <stdbool.h>
 
-// SIGINT and SIGTERM. To be called first, while there is no other thread: it blocks both signals in
-// all threads but one of its own. Until work is cooperative a signal removes the temporaries of
-// output files and ends the process at once, with 130 or 143. While it is, the first signal is
-// remembered only: whoever works sees glint_stop_requested, cleans up and returns
-// GLINT_INTERRUPTED; two seconds later, or on a second signal, the process ends all the same.
+// Starts the thread that handles SIGINT and SIGTERM. Call it first, while there is no other thread:
+// it blocks both signals in every other thread.
+//
+// By default, a signal removes the temporary output files and ends the process at once, with status
+// 130 or 143. Cooperative work gets a chance to clean up: the first signal only sets
+// glint_stop_requested. The work then cleans up and returns GLINT_INTERRUPTED. Two seconds later,
+// or on a second signal, the process ends anyway.
 void glint_signals_install(void);
 void glint_signals_cooperate(bool cooperative);
 bool glint_stop_requested(void);
 
-// 130 or 143 by the signal that came; 130 where none did.
+// 130 (SIGINT) or 143 (SIGTERM), by the received signal; 130 without a signal.
 int glint_stop_status(void);
 
 #endif

@@ -1,4 +1,4 @@
-// --exposure and --tone. See tone_options.h.
+// Warns of --exposure and --tone where they have no effect. See tone_options.h.
 #include "cli/common/tone_options.h"
 
 #include "image/image_io.h"

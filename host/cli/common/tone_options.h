@@ -1,4 +1,4 @@
-// --exposure and --tone: how files with 8 bits a channel show light.
+// Declares --exposure and --tone, the tone mapping of files with 8 bits per channel.
 #ifndef GLINT_CLI_COMMON_TONE_OPTIONS_H
 #define GLINT_CLI_COMMON_TONE_OPTIONS_H
 
@@ -6,7 +6,7 @@
 #include "cli/common/options.h"
 #include "image/tone.h"
 
-// A row for a request with a double at `member`.
+// An option row for a request with a double at `member`.
 #define EXPOSURE_OPTION(member)                                                                    \
     {                                                                                              \
         GLINT_OPTION_REAL, .name = "exposure", .argument = "EV",                                   \
@@ -15,7 +15,7 @@
                            .fallback = "0", .offset = (member), .minimum = -100, .maximum = 100    \
     }
 
-// A row for a request with a glint_tone at `member`.
+// An option row for a request with a glint_tone at `member`.
 #define TONE_OPTION(member)                                                                        \
     {                                                                                              \
         GLINT_OPTION_CHOICE,                                                                       \
@@ -27,7 +27,7 @@
             .fallback = "none", .offset = (member), .choices = glint_tone_names                    \
     }
 
-// Warns of what does nothing, where the file at `path` stays linear.
+// Warns of options that have no effect because the file at `path` stays linear.
 void tone_options_warn(const char *path, double exposure, glint_tone tone,
                        glint_warnings *warnings);
 

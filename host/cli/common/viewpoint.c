@@ -1,4 +1,4 @@
-// Where a scene is seen from. See viewpoint.h.
+// Finds the camera of a scene from the options. See viewpoint.h.
 #include "cli/common/viewpoint.h"
 
 #include "scene/fit.h"
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define RADIANS (GLINT_PI / 180)
-#define DEFAULT_MARGIN 0.05 // of the camera of a file that has none
+#define DEFAULT_MARGIN 0.05 // for the default camera, when the file has none
 
 // ---- The options -------------------------------------------------------------------------------
 
@@ -68,8 +68,8 @@ void glint_viewpoint_measure(const glint_scene *scene, glint_viewpoint *viewpoin
     viewpoint->centre = has_bounds ? glint_vec3_scale(sum, 0.5) : (glint_vec3){0, 0, 0};
 }
 
-// Straight down the far side of the scene is up in the picture, as on a map; straight up the near
-// side is.
+// Looks upright at the target. Looking straight down, the far side of the scene (−z) is up in the
+// picture, as on a map; looking straight up, the near side (+z) is up.
 static bool look_upright(glint_vec3 eye, glint_vec3 target, glint_camera *camera)
 {
     const glint_vec3 beyond = {0, 0, eye.y > target.y ? -1 : 1};

@@ -1,4 +1,4 @@
-// Where a scene is seen from: the options about it, and the camera that they describe.
+// Finds the camera of a scene from the options about the view.
 #ifndef GLINT_CLI_COMMON_VIEWPOINT_H
 #define GLINT_CLI_COMMON_VIEWPOINT_H
 
@@ -9,25 +9,26 @@
 
 #include <stdbool.h>
 
-// An angle, degrees. Zero: not given.
+// An angle in degrees. Zero means not given.
 typedef struct angle_request {
     double degrees;
     bool is_given;
 } angle_request;
 
-// What the command line says. Zero: the first camera, else the default one. Texts are borrowed.
+// The options about the view. Zero: the file's first camera, else the default camera. Texts are
+// borrowed.
 typedef struct glint_view_request {
     const char *camera; // name or index
     place_request eye, look_at, up;
-    double fov; // degrees; 0: the camera's
+    double fov; // degrees; 0: the camera's own angle
     angle_request elevation;
     bool fit;
-    bool turns; // set by the command: frames go round the scene, and all of them must fit
+    bool turns; // set by the command: the camera circles the scene, and every position must fit
 } glint_view_request;
 
 glint_option_parser glint_parse_direction, glint_parse_elevation;
 
-// Rows for a request with a glint_view_request at `member`.
+// Option rows for a request with a glint_view_request at `member`.
 #define GLINT_VIEW_OPTIONS(member)                                                                 \
     {GLINT_OPTION_HEADING, .help = "Camera"},                                                      \
         {GLINT_OPTION_TEXT,                                                                        \
@@ -83,24 +84,25 @@ glint_option_parser glint_parse_direction, glint_parse_elevation;
             .offset = (member) + offsetof(glint_view_request, fit)                                 \
     }
 
-// GLINT_USAGE where options do not go together.
+// Checks that the options go together. Errors: GLINT_USAGE.
 glint_status glint_view_request_check(const glint_view_request *request, glint_error *error);
 
-// Where a scene is seen from. It is found in the whole scene, so that pictures of its parts fit
+// The camera and its framing. Both come from the whole scene, so that pictures of its parts fit
 // together.
 typedef struct glint_viewpoint {
-    glint_camera camera;  // its strings are the scene's
-    glint_vec3 low, high; // the shown bounds (metres, world space); low > high of an empty scene
-    glint_vec3 centre;    // of the bounds: what a turntable turns about
-    double aspect;        // of the frame: its width over its height
-    bool moves;           // some triangles do, over time
+    glint_camera camera; // the scene owns its strings
+    // bounds of the visible scene (metres, world space); low > high if it is empty
+    glint_vec3 low, high;
+    glint_vec3 centre; // middle of the bounds; a turntable turns around it
+    double aspect;     // width / height of the frame
+    bool moves;        // triangles move over time
 } glint_viewpoint;
 
-// Sets the bounds and the centre, before nodes are taken away. aspect and moves must be set.
+// Sets the bounds and the centre. Call it before nodes are removed. aspect and moves must be set.
 void glint_viewpoint_measure(const glint_scene *scene, glint_viewpoint *viewpoint);
 
-// Finds the camera in a scene that has been measured. Errors: as glint_scene_camera; GLINT_USAGE
-// where the options do not suit the scene.
+// Finds the camera in a measured scene. Errors: as glint_scene_camera; GLINT_USAGE if the options
+// do not suit the scene.
 glint_status glint_viewpoint_find(const glint_view_request *request, const glint_scene *scene,
                                   glint_viewpoint *viewpoint, glint_error *error);
 

@@ -1,4 +1,4 @@
-// glint compare: how far a picture is from the one that it should be.
+// Implements glint compare: measures how far a picture is from its reference.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 
@@ -17,17 +17,18 @@
 #include <stdio.h>
 #include <string.h>
 
+// The options of glint compare.
 typedef struct compare_request {
-    const char *image, *reference; // the files
-    const char *output;            // the heat map; NULL: none
+    const char *image, *reference; // paths
+    const char *output;            // path of the heat map; NULL: none
     int heat;                      // a glint_heat; −1: not given
-    const char *json;              // "-" is stdout
+    const char *json;              // "-" is stdout; NULL: none
     glint_bounds bounds;
 } compare_request;
 
 // ---- Options ------------------------------------------------------------------------------------
 
-// The figure that `name` is; GLINT_FIGURE_COUNT where there is none.
+// Finds the figure called `name`; GLINT_FIGURE_COUNT if there is none.
 static glint_figure find_figure(const char *name, size_t length)
 {
     int i = 0;
@@ -51,7 +52,7 @@ static glint_status fail_unknown_figure(const glint_option *option, const char *
                       name);
 }
 
-// METRIC=VALUE into glint_bounds.
+// Parses METRIC=VALUE into glint_bounds.
 static glint_status parse_bound(const glint_option *option, bool from_below, const char *text,
                                 glint_bounds *bounds, glint_error *error)
 {
@@ -79,7 +80,7 @@ static glint_status parse_bound(const glint_option *option, bool from_below, con
                           from_below ? "fail-above" : "fail-below", text);
     }
     bounds->is_set[figure] = true;
-    bounds->limit[figure] = fabs(limit); // -0 is 0
+    bounds->limit[figure] = fabs(limit); // turns -0 into 0
     return GLINT_OK;
 }
 
@@ -127,7 +128,7 @@ static const glint_option *const groups[] = {compare_options, NULL};
 
 // ---- The request --------------------------------------------------------------------------------
 
-// A place for one output that is neither an input nor the other output.
+// Checks that an output can be written and replaces neither input.
 static glint_status check_output(const compare_request *request, const char *option,
                                  const char *path, glint_error *error)
 {
@@ -138,7 +139,7 @@ static glint_status check_output(const compare_request *request, const char *opt
     return glint_output_file_check(path, error);
 }
 
-// All that can be found wrong before anything is read.
+// Checks everything that can be checked before the pictures are read.
 static glint_status check_request(const compare_request *request, glint_error *error)
 {
     const bool writes_json = request->json != NULL && !glint_is_stdout(request->json);
@@ -165,7 +166,7 @@ static glint_status check_request(const compare_request *request, glint_error *e
 
 // ---- The comparison -----------------------------------------------------------------------------
 
-// Everything a run holds. Zero is valid.
+// The data of a comparison. Zero is valid.
 typedef struct compare_work {
     glint_image image, reference;
     glint_metrics metrics;

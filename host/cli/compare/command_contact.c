@@ -1,4 +1,4 @@
-// glint contact: many images on one sheet.
+// Implements glint contact: puts many images on one sheet.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/say.h"
@@ -13,10 +13,11 @@
 #include <math.h>
 #include <stdio.h>
 
+// The options of glint contact.
 typedef struct contact_request {
     const char *output;
-    int columns; // 0: by itself
-    int width;   // of a picture on the sheet
+    int columns; // 0: chosen automatically
+    int width;   // pixels of each picture on the sheet
     double exposure;
     glint_tone tone;
 } contact_request;
@@ -61,7 +62,7 @@ static glint_status check_request(const contact_request *request, char *const *n
     return glint_output_file_check(request->output, error);
 }
 
-// Reads an image; one that cannot be read is said, and no error of the sheet.
+// Reads an image. Prints the error if it cannot be read, and lets the sheet go on.
 static bool read_image(const char *path, glint_image *image)
 {
     glint_error error = {0};
@@ -73,7 +74,7 @@ static bool read_image(const char *path, glint_image *image)
     return is_read;
 }
 
-// The sheet while it is filled.
+// The sheet while it is being filled.
 typedef struct contact_work {
     const contact_request *request;
     char *const *names;
@@ -88,7 +89,7 @@ static void put(contact_work *work, int index, const glint_image *image)
     glint_contact_sheet_put(&work->sheet, index, image, label);
 }
 
-// The shape of the first image that can be read is that of all places. The images before it are
+// Makes the sheet with the aspect ratio of the first readable image. Marks the images before it as
 // missing.
 static glint_status begin_sheet(contact_work *work, const glint_image *first, int index,
                                 glint_error *error)

@@ -1,4 +1,4 @@
-// The result of glint compare for people. See compare_table.h.
+// Prints the result of glint compare as a table. See compare_table.h.
 #include "cli/compare/compare_table.h"
 
 #include <math.h>
@@ -90,7 +90,7 @@ void glint_compare_print(const glint_compare_result *result, FILE *out)
             explain(result, figure, out);
             fprintf(out, "\n");
         } else {
-            fprintf(out, "-\n"); // nothing to say it of
+            fprintf(out, "-\n"); // no pixels were compared
         }
     }
 }

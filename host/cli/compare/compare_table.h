@@ -1,4 +1,4 @@
-// The result of glint compare for people.
+// Prints the result of glint compare as a table for people.
 #ifndef GLINT_CLI_COMPARE_COMPARE_TABLE_H
 #define GLINT_CLI_COMPARE_COMPARE_TABLE_H
 
@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-// A line for each figure: its name, its value, what it means.
+// Prints a line for each figure: name, value and meaning.
 void glint_compare_print(const glint_compare_result *result, FILE *out);
 
 #endif

@@ -1,4 +1,4 @@
-// glint capture: the environment at a place of a scene.
+// Implements glint capture: renders the environment at a place of a scene to a file.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/say.h"
@@ -20,8 +20,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define FACE_EDGE 256 // where no size is given
+#define FACE_EDGE 256 // default edge of a face, pixels
 
+// The options of glint capture.
 typedef struct capture_request {
     glint_input_request inputs; // first: see inputs.h
     env_output_request output;
@@ -30,7 +31,7 @@ typedef struct capture_request {
     const char *frames_text;
     double fps;
     int progress;
-    bool is_sequence; // from here on set by settle
+    bool is_sequence; // settle sets the members from here on
     glint_frame_list frames;
     glint_frame_name name;
 } capture_request;
@@ -66,13 +67,14 @@ static const glint_option capture_options[] = {
 static const glint_option *const groups[] = {
     capture_options, glint_input_options, glint_settings_options, glint_kernel_dir_options, NULL};
 
-// Everything between reading and writing. Zero is valid.
+// The state of a capture. Zero is valid.
 typedef struct capture {
     const capture_request *request;
     glint_progress_display display;
-    glint_inputs inputs; // the scene without what is taken away, once `at` is found
-    bool stands;         // it is that of `time`
-    double time;         // seconds
+    // once `at` is found, the scene lacks the nodes of --around
+    glint_inputs inputs;
+    bool stands; // the scene is the one at `time`
+    double time; // seconds
     glint_vec3 at;
     glint_device *device;
     glint_renderer *renderer;
@@ -92,7 +94,7 @@ static glint_status find_place(capture *work, glint_error *error)
     return glint_scene_remove_nodes(scene, request->around, error);
 }
 
-// Brings a scene that moves to a time, and gives it to the renderer, if there is one.
+// Moves an animated scene to `time`, and gives it to the renderer if there is one.
 static glint_status set_time(capture *work, double time, glint_error *error)
 {
     glint_inputs *inputs = &work->inputs;
@@ -149,7 +151,8 @@ static glint_status render(capture *work, const char *path, glint_cube *cube, gl
     return status;
 }
 
-// The scene and the place of the first frame that has one: the others are bad frames, or all are.
+// Finds the first frame whose scene and place are good. Later the bad frames fail alone; if all are
+// bad, returns the last error.
 static glint_status find_first(capture *work, glint_error *error)
 {
     const capture_request *request = work->request;
@@ -228,7 +231,7 @@ static glint_status check_settings(const glint_settings *settings, glint_error *
     return GLINT_OK;
 }
 
-// What is rendered is as fine as what is written.
+// Completes the request. The rendered views get the resolution of the output.
 static glint_status settle(capture_request *request, const char *path, glint_error *error)
 {
     env_output_request *output = &request->output;
@@ -303,7 +306,7 @@ static glint_status capture_frames(capture *work, glint_error *error)
         if (glint_status_is_of_machine(status) || status == GLINT_INTERRUPTED) {
             return status;
         }
-        if (status != GLINT_OK) { // one bad frame
+        if (status != GLINT_OK) { // continue with the next frame
             glint_say("frame %d: %s", frame, error->message);
             glint_error_free(error);
             *error = (glint_error){0};
@@ -317,8 +320,8 @@ static glint_status capture_frames(capture *work, glint_error *error)
                                     (unsigned long long)request->frames.count, first_failed);
 }
 
-// Looks at where the files go, before any work is done: the first in all respects, the others to
-// see that they replace no input.
+// Checks an output before any work is done. The first output gets a full check. The others are only
+// compared with the inputs, which they must not replace.
 static glint_status check_output(const capture_request *request, int frame, bool is_first,
                                  glint_error *error)
 {
@@ -385,7 +388,8 @@ static void set_defaults(void *request)
 {
     glint_input_request_default(&((capture_request *)request)->inputs);
     ((capture_request *)request)->fps = 24;
-    ((capture_request *)request)->inputs.camera_may_wait = true; // nothing is seen through it
+    // A capture does not look through the camera
+    ((capture_request *)request)->inputs.camera_may_wait = true;
 }
 
 const glint_command glint_command_capture = {

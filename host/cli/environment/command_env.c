@@ -1,4 +1,4 @@
-// glint env: environments from one layout to another.
+// Implements glint env: converts environments from one layout to another.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/say.h"
@@ -17,8 +17,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define AXES_EDGE 512 // of --probe, where no size is given
+#define AXES_EDGE 512 // smallest edge of the cube for --probe, pixels
 
+// The options of glint env.
 typedef struct env_request {
     glint_layout_request env_as;
     env_output_request output;
@@ -50,11 +51,11 @@ static const glint_option env_options[] = {
 
 static const glint_option *const groups[] = {env_options, NULL};
 
-// Everything between reading and writing. Zero is valid.
+// The state of a conversion. Zero is valid.
 typedef struct conversion {
     const env_request *request;
     const char *input; // NULL: --probe or --studio
-    const char *path;  // of what is written
+    const char *path;  // output
     env_output output;
     glint_source source;
     glint_cube axes;
@@ -86,7 +87,7 @@ static glint_status load(conversion *work, glint_error *error)
 
 // ---- The request --------------------------------------------------------------------------------
 
-// Whether one of the six files that would be written is what is read: the input, or one of its six.
+// True if one of the six output files is the input or one of the input's six files.
 static bool is_read_too(const conversion *work)
 {
     glint_face_files read = {0};

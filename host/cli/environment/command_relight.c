@@ -1,4 +1,5 @@
-// glint relight: frames under another environment, from the directions that were kept of them.
+// Implements glint relight: lights a frame with another environment, from the directions that the
+// frame kept.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/say.h"
@@ -15,13 +16,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#define DROPPED_WORTH_SAYING 1e-4 // share of all weight
+#define DROPPED_WORTH_SAYING 1e-4 // share of the light's total weight
 
+// The options of glint relight.
 typedef struct relight_request {
-    glint_input_request inputs; // first, for the shared rows' offsets; of it the environment
+    // first, for the offsets of shared rows; only the environment is used
+    glint_input_request inputs;
     const char *output;
     const char *compression;
-    int exr_type; // index of the choices
+    int exr_type; // index into the choices: half, float
     double exposure;
     glint_tone tone;
     int progress;
@@ -110,6 +113,7 @@ static glint_status light(const relight_request *request, const char *path, glin
     glint_image image = {0};
     glint_progress_begin(&display, (glint_progress_mode)request->progress);
     glint_progress_phase(&display, "read", "reading the directions");
+    // Read the directions and the environment.
     const double begun = glint_now_ms();
     double clock = begun;
     glint_status status;
@@ -128,6 +132,7 @@ static glint_status light(const relight_request *request, const char *path, glin
     tone_options_warn(request->output, request->exposure, request->tone, &inputs->warnings);
     glint_say_warnings(&inputs->warnings, 0);
     warn_of_dropped(path, terms);
+    // Light the frame.
     TRY_OR(cleanup, status,
            glint_terms_relight(terms, &inputs->environment, request->inputs.settings.env_rotate,
                                &image, error));
@@ -136,6 +141,7 @@ static glint_status light(const relight_request *request, const char *path, glin
     if (nonfinite > 0) {
         glint_say("warning: %zu pixels are not finite", nonfinite);
     }
+    // Write the image.
     const glint_write_options options = write_options(request);
     TRY_OR(cleanup, status, glint_image_write(request->output, &image, &options, error));
     if (display.mode != GLINT_PROGRESS_NONE && display.mode != GLINT_PROGRESS_JSON) {

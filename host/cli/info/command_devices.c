@@ -1,4 +1,4 @@
-// glint devices: the OpenCL devices there are.
+// Implements glint devices: lists the OpenCL devices.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 
@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// The options of glint devices.
 typedef struct devices_request {
     bool json;
 } devices_request;

@@ -1,4 +1,5 @@
-// glint info: what a scene holds, and what would be compiled for it, and why. Compiles nothing.
+// Implements glint info: prints what a scene holds, and which kernel features it needs and why.
+// Compiles nothing.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 
@@ -12,10 +13,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define LIST_MAX 20 // entries of a list that are printed; --json has all
+#define LIST_MAX 20 // printed entries of a list; --json has all
 
+// The options of glint info.
 typedef struct info_request {
-    glint_input_request inputs; // first: the shared tables' offsets count from here
+    glint_input_request inputs; // first: the offsets in the shared tables refer to it
     bool json;
 } info_request;
 
@@ -30,7 +32,7 @@ static const glint_option *const groups[] = {output_options,         glint_input
                                              glint_view_options,     glint_size_options,
                                              glint_settings_options, NULL};
 
-// Everything a run holds. Zero is valid.
+// The data of a run. Zero is valid.
 typedef struct info_work {
     glint_inputs inputs;
     glint_topology topology;
@@ -168,7 +170,7 @@ static void print_maps(const glint_material *material)
     }
 }
 
-// What extensions add to glass and to what reflects.
+// Prints the material extensions of glass and of reflecting surfaces.
 static void print_layers(const glint_material *material)
 {
     const glint_lobes lobes = glint_material_lobes(material);
@@ -426,8 +428,8 @@ static void print_text(const glint_subject *subject, const glint_view_request *v
     }
 }
 
-// The plan, where there is a device. That there is none is part of the answer, unless one was asked
-// for.
+// Opens the device and makes the plan. A missing device is part of the output, except if --device
+// names one.
 static glint_status make_plan(const info_request *request, info_work *work, glint_error *error)
 {
     glint_status status =

@@ -1,4 +1,4 @@
-// Scenes loaded ahead. See ahead.h.
+// Loads scenes ahead on a thread. See ahead.h.
 #include "cli/render/ahead.h"
 
 #include "base/clock.h"

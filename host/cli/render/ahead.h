@@ -1,5 +1,5 @@
-// A moving scene's next frame, loaded and made ready on a thread of its own while the device traces
-// the one before.
+// Loads and prepares the next frame of a moving scene on its own thread, while the device traces
+// the current frame.
 #ifndef GLINT_CLI_RENDER_AHEAD_H
 #define GLINT_CLI_RENDER_AHEAD_H
 
@@ -11,44 +11,44 @@
 #include <pthread.h>
 #include <stdbool.h>
 
-// A scene at a time, and what has been done for it.
+// A scene at one time, and how far its preparation is.
 typedef struct render_pose {
     double time;       // seconds of the animation
     glint_scene scene; // owned
     glint_viewpoint viewpoint;
     glint_fingerprint is; // of the scene
-    bool is_loaded;       // the three are there
-    bool is_prepared;     // glint_renderer_prepare was through with it
-    double ms;            // that all this took
+    bool is_loaded;       // `scene`, `viewpoint` and `is` are set
+    bool is_prepared;     // glint_renderer_prepare has succeeded
+    double ms;            // time that all of this took
 } render_pose;
 
-// Loads what of the scene is asked for as it is at pose->time, with its fingerprint. Errors: as
+// Loads the requested part of the scene at pose->time, and its fingerprint. Errors: as
 // glint_scene_at and glint_inputs_stage; pose->scene is then empty.
 glint_status render_pose_load(const glint_input_request *request, glint_scene_source *source,
                               render_pose *pose, glint_error *error);
 
-// Zero is valid: nothing is under way. All but the source, the renderer and what it shows is the
-// thread's while it is.
+// State of loading ahead. Zero is valid: the thread is not running. While it runs, it owns all
+// members except `source`, `renderer` and `shown`.
 typedef struct render_ahead {
     const glint_input_request *request; // borrowed
     glint_scene_source *source;         // borrowed
     glint_renderer *renderer;           // borrowed
     glint_fingerprint shown;            // of the scene that the renderer shows
-    bool with_tree;                     // not only the scene
+    bool with_tree;                     // true: also prepare the renderer
     render_pose pose;
     pthread_t thread;
     bool is_under_way;
 } render_ahead;
 
-// Begins on the scene at a time: loads it and, with ahead->with_tree, prepares the renderer for it,
-// unless that shows the same; does nothing while another is under way. Request, source and renderer
-// must be set; they stay borrowed until render_ahead_take, and until then the renderer is given no
-// other scene.
+// Starts the thread for the scene at `time`. It loads the scene. With ahead->with_tree it also
+// prepares the renderer, unless the renderer shows the same scene already. Does nothing if the
+// thread is running. Request, source and renderer must be set and stay borrowed until
+// render_ahead_take. Until then, the caller gives the renderer no other scene.
 void render_ahead_begin(render_ahead *ahead, double time);
 
-// Waits, and hands over what was loaded; whatever the outcome nothing is under way any more. False,
-// with *pose unchanged, where nothing was or it did not come about: what fails ahead is to be tried
-// again in its turn, for what it has to say.
+// Waits for the thread and hands over its scene. The thread is never running afterwards. False,
+// with *pose unchanged, if there was no thread, or it failed or loaded another time. After a
+// failure the caller loads the scene again to get the error message.
 bool render_ahead_take(render_ahead *ahead, double time, render_pose *pose);
 
 #endif

@@ -1,4 +1,4 @@
-// What a camera is called in the names of files. See camera_names.h.
+// Turns cameras into parts of file names. See camera_names.h.
 #include "cli/render/camera_names.h"
 
 #include "base/memory.h"
@@ -12,10 +12,11 @@
 #include <string.h>
 #include <strings.h>
 
-#define NAME_BYTES 64 // of a camera, in a file's name
+#define NAME_BYTES 64 // maximum length of a camera's name in a file name
 
-// Letters and digits of any language, '.', '-' and '_'. Others could lead to another folder, be the
-// place of a frame's number, or need quotes in a shell.
+// Keeps letters and digits of any language, '.', '-' and '_'; replaces the rest by '_'. Other
+// characters could name another folder, look like the place of a frame number, or need quotes in a
+// shell.
 static char *name_in_file(const char *name)
 {
     char *text = strdup(name);
@@ -57,7 +58,8 @@ static int by_name(const void *a, const void *b)
     return strcasecmp(*first->name, *second->name);
 }
 
-// Calls cameras whose names are another's, too, by their index. *count_doubles: how many they were.
+// Replaces names that several cameras share by the index of each camera. *count_doubles is the
+// number of replaced names.
 static glint_status rename_doubles(named_camera *sorted, size_t count, size_t *count_doubles,
                                    glint_error *error)
 {
@@ -95,7 +97,7 @@ glint_status render_camera_names(const glint_camera *cameras, size_t count, char
     for (size_t i = 0; i < count; i++) {
         sorted[i] = (named_camera){&names[i], i};
     }
-    // An index may be another camera's name: that one is then called by its index, too.
+    // An index may equal another camera's own name. Repeat until all names differ.
     glint_status status;
     size_t doubles;
     do {

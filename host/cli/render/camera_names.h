@@ -1,4 +1,4 @@
-// What a camera is called in the names of files.
+// Turns cameras into parts of file names.
 #ifndef GLINT_CLI_RENDER_CAMERA_NAMES_H
 #define GLINT_CLI_RENDER_CAMERA_NAMES_H
 
@@ -7,14 +7,14 @@
 
 #include <stddef.h>
 
-// The part of a file's name that stands for each of `count` cameras, into names[count], malloc'd.
-// They are different whatever the file system does with capitals. A camera without a name of its
-// own is called by its index. Errors: GLINT_OUT_OF_MEMORY; the names so far are then set.
+// Sets names[count] to one file name part for each camera, malloc'd. The parts differ even on file
+// systems that ignore case. A camera without its own name gets its index. Errors:
+// GLINT_OUT_OF_MEMORY; the finished names are then set.
 glint_status render_camera_names(const glint_camera *cameras, size_t count, char **names,
                                  glint_error *error);
 
-// The path with a camera's name before the frame number's place or, without one, before the
-// extension. malloc'd; NULL without memory.
+// Inserts a camera's name into the path: before the place of the frame number or, without one,
+// before the extension. malloc'd; NULL without memory.
 char *render_camera_path(const char *path, const char *name);
 
 #endif

@@ -1,4 +1,4 @@
-// Captured environments. See capture.h.
+// Captures environments from the scene. See capture.h.
 #include "cli/render/capture.h"
 
 #include "base/clock.h"
@@ -11,13 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The scene around what is lit, at the stage's time.
+// Loads the whole scene at the stage's time; render_capture_prepare then removes the lit nodes.
 static glint_status load_scene(const render_stage *stage, glint_progress_display *display,
                                glint_scene *scene, glint_error *error)
 {
     glint_input_request request = stage->request->inputs;
     request.only = NULL;
-    request.camera_may_wait = true; // nothing is seen through it
+    request.camera_may_wait = true; // a capture does not look through the camera
     request.view = (glint_view_request){0};
     if (stage->inputs.source != NULL) {
         glint_viewpoint unused;
@@ -34,7 +34,7 @@ static glint_status load_scene(const render_stage *stage, glint_progress_display
 
 static glint_fingerprint fingerprint(const render_capture *capture, const render_request *request)
 {
-    // What is around tells the proxy's bounds.
+    // The bounds of the proxy follow from the captured scene, which is part of the fingerprint.
     const glint_fingerprint parts[] = {capture->behind_is, capture->scene_is};
     const double *n = request->proxy.numbers;
     char text[400];
@@ -68,7 +68,7 @@ glint_status render_capture_prepare(render_capture *capture, const render_stage 
     return GLINT_OK;
 }
 
-// The renderer of the views, showing the scene around.
+// Makes the renderer of the six views, if necessary, and gives it the surrounding scene.
 static glint_status prepare_renderer(render_capture *capture, const render_request *request,
                                      glint_device *device, glint_error *error)
 {
@@ -133,7 +133,7 @@ glint_status render_capture_take(render_capture *capture, const render_request *
                                               .proxy = capture->proxy,
                                               .radiance = cube};
     inputs->environment_ms += glint_now_ms() - begun;
-    if (inputs->source == NULL) { // that was the only one
+    if (inputs->source == NULL) { // nothing moves: there is no second capture
         glint_renderer_free(capture->renderer);
         capture->renderer = NULL;
         glint_scene_free(&capture->scene);

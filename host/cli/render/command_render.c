@@ -1,4 +1,4 @@
-// glint render: a scene and an environment become frames.
+// Implements glint render: it renders a scene in an environment to frames.
 #include "cli/commands.h"
 #include "cli/common/json_output.h"
 #include "cli/common/options.h"
@@ -13,7 +13,7 @@
 
 // ---- Statistics --------------------------------------------------------------------------------
 
-// What is known before the first frame, and of a single one after it.
+// Collects the statistics: of the run before the first frame, or of a single frame after it.
 static glint_stats stats_of(const render_run *run, const glint_subject *subject)
 {
     const glint_inputs *inputs = &run->shot.stage.inputs;
@@ -95,14 +95,14 @@ static glint_status check_strict(const render_request *request, const glint_warn
                             request->inputs.scene, count, count == 1 ? "" : "s");
 }
 
-// Loads, and settles which frames there are.
+// Loads the scene and decides which frames to render.
 static glint_status load(render_run *run, render_request *request, glint_error *error)
 {
     glint_warnings *warnings = &run->shot.stage.inputs.warnings;
     glint_status status = render_shot_load(&run->shot, request, &run->display, error);
     glint_progress_clear(&run->display);
     TRY(status);
-    // Those of loading first: they say why nothing moves, where nothing does.
+    // Print the warnings of loading first: they say why nothing moves.
     glint_say_warnings(warnings, 0);
     const size_t said = warnings->count;
     TRY(render_request_settle(request, &run->shot.stage.inputs.motion, warnings, error));
@@ -112,7 +112,7 @@ static glint_status load(render_run *run, render_request *request, glint_error *
     return check_strict(request, warnings, error);
 }
 
-// A frame failing does not take the statistics of the others away, nor does a stop.
+// Renders the frames and writes the statistics, even if a frame fails or the user stops the run.
 static glint_status render(render_run *run, glint_error *error)
 {
     glint_warnings *warnings = &run->shot.stage.inputs.warnings;
@@ -168,7 +168,7 @@ static glint_status prepare_and_render(render_run *run, glint_error *error)
         status = render(run, error);
     }
     if (is_new) {
-        rmdir(request->folder); // where no frame came into it
+        rmdir(request->folder); // removes it only if it stayed empty
     }
     return status;
 }

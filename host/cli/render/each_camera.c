@@ -1,4 +1,4 @@
-// --camera all. See each_camera.h.
+// Implements --camera all. See each_camera.h.
 #include "cli/render/each_camera.h"
 
 #include "base/memory.h"
@@ -12,9 +12,9 @@
 
 // ---- Cameras -----------------------------------------------------------------------------------
 
-// What is known of them before the first is rendered. Zero is valid and empty.
+// The cameras of the file and the parts of file names for them. Zero is valid and empty.
 typedef struct camera_list {
-    glint_scene scene; // holds the cameras alone
+    glint_scene scene; // holds only the cameras
     char **names;
 } camera_list;
 
@@ -65,9 +65,9 @@ static glint_status list_cameras(const glint_input_request *request, camera_list
 
 // ---- One of them -------------------------------------------------------------------------------
 
-// A request with the names of one camera's files. Zero is valid.
+// A request with the file names for one camera. Zero is valid.
 typedef struct camera_request {
-    render_request one; // render's to free
+    render_request one; // `render` frees it
     char *output, *stats;
     char index[24];
 } camera_request;
@@ -155,7 +155,7 @@ glint_status render_each_camera(const render_request *request, render_function *
                                 glint_error *error)
 {
     render_request checked = *request;
-    TRY(check_only(&checked, error)); // before anything is read
+    TRY(check_only(&checked, error)); // fail early, before any file is read
     camera_list list = {0};
     glint_status status = list_cameras(&request->inputs, &list, error);
     if (status == GLINT_OK) {

@@ -1,4 +1,4 @@
-// The frames of a run. See frames.h.
+// Chooses the next frame and records outcomes. See frames.h.
 #include "cli/render/frames.h"
 
 #include "cli/common/say.h"
@@ -51,7 +51,8 @@ glint_sequence_next render_frames_next(render_frames *frames, int *frame, bool *
 
 // ---- What became of them -----------------------------------------------------------------------
 
-// What ends the run, unless something has before. Takes the error.
+// Ends the run with this error, unless an earlier error ended it. Takes over the error if it is
+// used.
 static void end_by(render_frames *frames, glint_error *error)
 {
     if (frames->failure.code == GLINT_OK) {
@@ -60,7 +61,7 @@ static void end_by(render_frames *frames, glint_error *error)
     }
 }
 
-// Logs a frame that is through and, of a sequence, shows it.
+// Logs a finished frame; shows it if it is part of a sequence.
 static void tell(render_frames *frames, const glint_stats_frame *facts, glint_frame_outcome outcome)
 {
     glint_stats_frame named = *facts;
@@ -69,7 +70,7 @@ static void tell(render_frames *frames, const glint_stats_frame *facts, glint_fr
     if (frames->log != NULL && glint_stats_log_frame(frames->log, &named, &error) != GLINT_OK) {
         end_by(frames, &error);
         glint_error_free(&error);
-        glint_stats_log_close(frames->log); // nothing comes behind a line that is not whole
+        glint_stats_log_close(frames->log); // a broken line must stay the last one
         frames->log = NULL;
     }
     const glint_progress_frame shown = {.number = facts->number,
@@ -121,7 +122,7 @@ static bool remember_damaged(render_damaged *damaged, int frame)
     return true;
 }
 
-// Its file was read to its end, or not.
+// Judges an existing file after a writer has read it to its end, or failed to.
 static void judge_standing(render_frames *frames, glint_sequence_frame *frame, const char *path)
 {
     const render_parcel *parcel = frame->own;
@@ -138,6 +139,7 @@ static void judge_standing(render_frames *frames, glint_sequence_frame *frame, c
     }
 }
 
+// Records a frame that a writer has written or failed to write.
 static void judge_written(render_frames *frames, glint_sequence_frame *frame, const char *path)
 {
     const render_request *request = frames->request;
@@ -149,17 +151,20 @@ static void judge_written(render_frames *frames, glint_sequence_frame *frame, co
         .build_ms = parcel != NULL ? parcel->build_ms : 0,
         .trace_ms = frame->trace_ms,
         .write_ms = frame->write_ms};
+    // Add it to the totals.
     if (is_written) {
         render_totals_add(&frames->totals, &rendered);
         frames->last = frame->report;
     } else {
         render_totals_add_failed(&frames->totals, frame->number);
     }
+    // Decide whether the error ends the run. If not, report it now.
     const bool is_end = !is_written && !render_writer_concerns_one_frame(request, frame, path);
     if (!is_written && !is_end) {
         glint_progress_clear(frames->display);
         glint_say_error(&frame->error);
     }
+    // Log the frame.
     const glint_stats_frame facts = {.number = frame->number,
                                      .file = path,
                                      .error = is_written ? NULL : frame->error.message,

@@ -1,9 +1,9 @@
-// Environments of frames. See light.h.
+// Loads the environments of frames. See light.h.
 #include "cli/render/light.h"
 
 #include <stdlib.h>
 
-// A file's; captures have theirs.
+// Sets the proxy of an environment from a file. A capture sets its own proxy.
 static glint_status set_proxy(const render_request *request, glint_inputs *inputs,
                               glint_error *error)
 {

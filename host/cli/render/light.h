@@ -1,36 +1,37 @@
-// What lights a run's frames: one environment for all, a file for each, or one that is captured
-// from the scene.
+// Loads the environment of a run's frames: one file for all, one file per frame, or a capture of
+// the scene.
 #ifndef GLINT_CLI_RENDER_LIGHT_H
 #define GLINT_CLI_RENDER_LIGHT_H
 
 #include "cli/render/capture.h"
 #include "cli/render/stage.h"
 
-// Zero is valid. The environment itself is the stage's (inputs.environment).
+// The light of a run. Zero is valid. The stage holds the environment itself (inputs.environment).
 typedef struct render_light {
-    glint_fingerprint is;     // of what the frame is to have
-    glint_fingerprint loaded; // of what there is; a capture is made when a frame is to be rendered
-    bool has_file;            // of frame `frame`: what there is is its file's
+    glint_fingerprint is; // fingerprint of the environment that the frame needs
+    // fingerprint of the stage's environment; a capture is rendered only when a frame needs it
+    glint_fingerprint loaded;
+    bool has_file; // the stage holds the file of frame `frame`
     int frame;
     render_capture capture;
 } render_light;
 
-// Loads what all frames share. Errors: as glint_inputs_load_environment.
+// Loads the environment that all frames share. Errors: as glint_inputs_load_environment.
 glint_status render_light_load(render_light *light, render_stage *stage,
                                glint_progress_display *display, glint_error *error);
 
-// Loads what a run would begin with, its environment or that of the frame `first`, for whoever
-// wants to know whether it can. Errors likewise.
+// Loads the first environment of a run: the shared one or the file of frame `first`. It lets a
+// caller check early that the file can be read. Errors: as glint_inputs_load_environment.
 glint_status render_light_try(const render_request *request, int first,
                               glint_progress_display *display, glint_inputs *inputs,
                               glint_error *error);
 
-// Finds what is to light a frame, at which the stage stands; its file is loaded, a capture is
-// only prepared. A display (NULL once frames are rendered) tells. Errors: as loading.
+// Finds the light of the frame at which the stage stands: loads its file, or prepares a capture.
+// `display` (NULL once frames are rendered) shows the phase. Errors: as loading.
 glint_status render_light_set(render_light *light, render_stage *stage, int frame,
                               glint_progress_display *display, glint_error *error);
 
-// Makes that the stage's environment. Errors: as rendering.
+// Makes this light the stage's environment; renders a prepared capture. Errors: as rendering.
 glint_status render_light_make(render_light *light, render_stage *stage, glint_device *device,
                                glint_error *error);
 

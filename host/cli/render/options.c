@@ -1,4 +1,4 @@
-// The options of glint render. See request.h.
+// Declares the options of glint render. See request.h.
 #include "cli/render/request.h"
 
 #include "cli/common/progress.h"

@@ -1,4 +1,4 @@
-// Plates. See plate.h.
+// Reads plates and puts them behind frames. See plate.h.
 #include "cli/render/plate.h"
 
 #include <stdlib.h>

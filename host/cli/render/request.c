@@ -1,4 +1,4 @@
-// What is checked of glint render's options. See request.h.
+// Checks and completes the options of glint render. See request.h.
 #include "cli/render/request.h"
 
 #include "cli/common/file_names.h"
@@ -14,11 +14,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#define CAPTURE_SIZE 512 // of a view, where none is given
+#define CAPTURE_SIZE 512 // default edge of a captured view, pixels
 
 glint_write_options render_write_options(const render_request *request)
 {
-    // Where it decides no pixels, fingerprints must not hold it.
+    // Leave out a tone curve that no file uses, so that it does not change fingerprints.
     const bool is_mapped = request->preview || !glint_image_stays_linear(request->output);
     return (glint_write_options){.exr_float = request->exr_type == 1,
                                  .compression = request->compression,
@@ -28,7 +28,7 @@ glint_write_options render_write_options(const render_request *request)
 
 // ---- Checks ------------------------------------------------------------------------------------
 
-// The preview's path is the image's with another extension.
+// Makes the preview's path: the path of the image with the extension ".png".
 static glint_status name_preview(render_request *request, glint_error *error)
 {
     if (!request->preview) {
@@ -42,8 +42,8 @@ static glint_status name_preview(render_request *request, glint_error *error)
     return glint_frame_name_parse(request->preview_path, &request->preview_name, error);
 }
 
-// The frame whose file would have that path, if there is one: the path's last part without what
-// stands before and behind the number's place.
+// Finds the frame whose file would have the path's last part: reads the number between the parts of
+// the name before and behind it. False if the path does not match.
 static bool number_of(const glint_frame_name *name, const char *path, int *frame)
 {
     const char *slash = strrchr(name->path, '/');
@@ -81,7 +81,7 @@ static bool is_frame(const render_request *request, const glint_frame_name *name
     return same;
 }
 
-// Whether `path`, or the file that it leads to, is one that files of that name replace.
+// True if a file of this name would replace `path` or the target of its link.
 static bool is_named(const render_request *request, const glint_frame_name *name, const char *path)
 {
     if (path == NULL || name->length == 0) {
@@ -99,7 +99,7 @@ static bool is_output(const render_request *request, const char *path)
            is_named(request, &request->preview_name, path);
 }
 
-// An output that would replace an input.
+// Fails if an output would replace this input.
 static glint_status check_input(const render_request *request, const char *input,
                                 glint_error *error)
 {
@@ -131,7 +131,7 @@ static glint_status check_input_of_frames(const render_request *request,
     return status;
 }
 
-// An output that would replace an input, or another output.
+// Fails if an output would replace an input or another output.
 static glint_status check_distinct(const render_request *request, glint_error *error)
 {
     TRY(check_input(request, request->inputs.scene, error));
@@ -183,19 +183,20 @@ static glint_status check_format(const render_request *request, glint_error *err
     return GLINT_OK;
 }
 
-// What lights the frames: a file, one for each, or what is around a node.
+// Finds the source of light: one file, one file per frame, or a capture around a node.
 static glint_status find_light(render_request *request, glint_error *error)
 {
     static const char capture[] = "capture:";
     glint_input_request *inputs = &request->inputs;
     const char *env = inputs->env;
+    // A capture around a node.
     if (env != NULL && strncmp(env, capture, sizeof capture - 1) == 0) {
         request->capture = env + sizeof capture - 1;
         inputs->env = request->surroundings;
         inputs->only = inputs->only != NULL ? inputs->only : request->capture;
         request->capture_size = request->capture_size != 0 ? request->capture_size : CAPTURE_SIZE;
         request->capture_rotate = inputs->settings.env_rotate;
-        inputs->settings.env_rotate = 0; // the capture is turned already
+        inputs->settings.env_rotate = 0; // the capture contains the rotation already
         if (inputs->env_as.layout != GLINT_LAYOUT_UNKNOWN && inputs->env == NULL) {
             return glint_fail(error, GLINT_USAGE,
                               "--env-layout: it says how a file is read, but no --surroundings are "
@@ -215,13 +216,14 @@ static glint_status find_light(render_request *request, glint_error *error)
         return glint_fail(error, GLINT_USAGE,
                           "--env-layout: it says how a file is read, but no --env is given");
     }
+    // One file, or a pattern with the frame's number.
     if (env == NULL || access(env, F_OK) == 0) {
-        return GLINT_OK; // a name may hold anything
+        return GLINT_OK; // an existing file may have any name
     }
     return glint_frame_name_parse(env, &request->env_name, error);
 }
 
-// How far away the environment is, and where it was seen from.
+// Checks the options for the distance of the environment and the place where it was seen from.
 static glint_status find_proxy(render_request *request, glint_error *error)
 {
     const bool has_proxy = request->proxy.kind != PROXY_NONE;
@@ -239,7 +241,7 @@ static glint_status find_proxy(render_request *request, glint_error *error)
     return GLINT_OK;
 }
 
-// It decides about what these would say.
+// --max-error chooses precision, depth and weight itself: it excludes the options for them.
 static glint_status check_max_error(render_request *request, glint_error *error)
 {
     const glint_setting *own =
@@ -262,7 +264,7 @@ static glint_status find_plate(render_request *request, glint_error *error)
                : glint_frame_name_parse(plate, &request->plate_name, error);
 }
 
-// Which frames there are, and what their files are called.
+// Finds which frames to render and how their files are named.
 static glint_status find_frames(render_request *request, glint_error *error)
 {
     TRY(glint_frame_name_parse(request->output, &request->name, error));
@@ -286,7 +288,8 @@ static glint_status find_frames(render_request *request, glint_error *error)
     return GLINT_OK;
 }
 
-// The folder of a sequence may have to be made. A frame that cannot be replaced is one bad frame.
+// Checks where the output goes. A sequence may need a new folder. One file that cannot be replaced
+// fails only its own frame.
 static glint_status check_place(render_request *request, glint_error *error)
 {
     request->folder = glint_folder_of(request->output);
@@ -337,8 +340,8 @@ double render_request_time(const render_request *request, int frame)
     return (frame - 1) / request->fps;
 }
 
-// The first frame at or beyond the end of a clip, as a whole number. Keys are floats: a time that
-// is n frames is a little more or less than that.
+// The number of the first frame at or after the end of a clip. Key times are floats: a time of
+// exactly n frames may come out slightly larger or smaller than n.
 static double last_frame(const render_request *request, double duration)
 {
     const double frames = duration * request->fps;
@@ -387,7 +390,7 @@ void render_request_free(render_request *request)
     free(request->folder);
 }
 
-// What the chosen format cannot keep.
+// Warns of what the chosen format cannot keep.
 static void warn_of_format(const render_request *request, glint_warnings *warnings)
 {
     const char *output = request->output;

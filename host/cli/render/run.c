@@ -1,4 +1,4 @@
-// The frames of a run. See run.h.
+// Renders the frames of a run. See run.h.
 #include "cli/render/run.h"
 
 #include "base/clock.h"
@@ -22,8 +22,8 @@ static glint_status begin_with(render_run *run, int frame, glint_error *error)
     return render_tracer_begin(&run->tracer, shot, error);
 }
 
-// Whether the next frame may fare better: its scene, its plate and its environment may be good
-// ones.
+// True if the next frame may still succeed: the error may come from this frame's own scene, plate
+// or environment.
 static bool is_one_frames(const render_run *run, glint_status status)
 {
     const bool has_own_light = run->request->env_name.length > 0 || run->request->capture != NULL;
@@ -36,8 +36,8 @@ glint_status render_run_prepare(render_run *run, glint_error *error)
     glint_error first_error = {0};
     glint_status status = GLINT_OK;
     int frame;
-    // What is bad of one frame makes one bad frame, and next_frame says so: the renderer begins
-    // with the first that is good. Where none is, the first says why.
+    // Start the renderer with the first good frame. next_frame reports the bad frames before it. If
+    // no frame is good, return the error of the first one.
     while (glint_frame_next(&first, &frame)) {
         status = begin_with(run, frame, error);
         if (!is_one_frames(run, status)) {
@@ -60,7 +60,8 @@ glint_status render_run_prepare(render_run *run, glint_error *error)
 
 // ---- The next frame ----------------------------------------------------------------------------
 
-// Whether the file of the frame at which the shot stands is that frame, if it is whole.
+// True if the frame's file exists and its fingerprint matches. A writer still checks that it is
+// whole.
 static bool stands(render_run *run, int frame, const char *path)
 {
     if (!run->request->skip_existing || access(path, F_OK) != 0) {
@@ -76,6 +77,7 @@ static bool stands(render_run *run, int frame, const char *path)
     return why == NULL;
 }
 
+// Starts loading the next frame's scene, if there is a next frame.
 static void look_ahead(render_run *run)
 {
     glint_frame_cursor after = run->frames.cursor;
@@ -89,7 +91,7 @@ static void look_ahead(render_run *run)
     free(path);
 }
 
-// Brings shot and renderer to a frame; or finds that its file is there, and need only be read.
+// Moves the shot and the renderer to a frame. If the frame's file is there, a writer only reads it.
 static glint_status reach(render_run *run, glint_sequence_frame *frame, const char *path,
                           bool is_again, glint_error *error)
 {
@@ -122,7 +124,8 @@ static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame
     char *path = glint_frame_name_make(&run->request->name, frame->number);
     const glint_status status = path != NULL ? reach(run, frame, path, is_again, &error)
                                              : glint_fail_memory(&error, "a file name");
-    if (status != GLINT_OK && status != GLINT_INTERRUPTED) { // while a capture was rendered
+    // An interrupted capture is no failed frame
+    if (status != GLINT_OK && status != GLINT_INTERRUPTED) {
         render_frames_miss(&run->frames, frame->number, path, run->build_ms, &error);
     }
     glint_error_free(&error);
@@ -188,19 +191,19 @@ static void begin_display(render_run *run)
     snprintf(text, sizeof text, "rendering %s%dx%d on %s (%s)", count, settings->width,
              settings->height, subject.device->name, plan);
     const double samples = (double)settings->samples_per_axis * settings->samples_per_axis;
-    run->shot.display = NULL; // from here on it shows frames
+    run->shot.display = NULL; // from now on the display shows only frames
     glint_progress_render(&run->display, request->is_sequence ? run->frames.count : 0,
                           samples * settings->width * settings->height, text);
     glint_progress_standing(&run->display, render_frames_standing(&run->frames));
 }
 
-// What all frames share.
+// Computes the fingerprint of the settings that all frames share.
 static glint_status find_fingerprint(render_run *run, glint_error *error)
 {
     const render_request *request = run->request;
     glint_subject subject = render_tracer_subject(&run->tracer, &run->shot);
     if (request->env_name.length > 0 || request->capture != NULL || request->max_error > 0) {
-        subject.plan = NULL; // it is one frame's
+        subject.plan = NULL; // the plan may differ between frames
     }
     const glint_write_options options = render_write_options(request);
     return glint_fingerprint_run(&subject, request->output, &options, &run->shot.shared, error);
@@ -212,7 +215,7 @@ static size_t count_writers(const render_run *run)
     const glint_settings *settings = &request->inputs.settings;
     const double values = 4 + (request->plate != NULL ? 4 : 0) +
                           (double)glint_layers_channels(settings->aovs) +
-                          7.0 * settings->terms; // of a pixel
+                          7.0 * settings->terms; // floats per pixel
     const size_t room =
         glint_sequence_writers(values * sizeof(float) * settings->width * settings->height);
     return run->frames.count < room ? (size_t)run->frames.count : room;
@@ -235,15 +238,17 @@ glint_status render_run_frames(render_run *run, glint_error *error)
         .progress = {step, &run->display},
         .context = run,
     };
-    // Frames that are written side by side share the cores.
+    // Share the cores among the writers that run at the same time.
     const int threads = glint_usable_cores() / (int)sequence.writers;
     glint_image_use_threads(threads > 1 ? threads : 1);
+    // Render all frames.
     glint_signals_cooperate(true);
     glint_status status = glint_sequence_run(&sequence, error);
     glint_signals_cooperate(false);
     glint_progress_clear(&run->display);
+    // Decide which error to return.
     if (run->frames.failure.code != GLINT_OK && status != GLINT_OK) {
-        glint_say_error(error); // what came first decides
+        glint_say_error(error); // the earlier error decides the exit status
     }
     if (render_frames_take_failure(&run->frames, error)) {
         return error->code;
@@ -256,7 +261,7 @@ glint_status render_run_frames(render_run *run, glint_error *error)
 
 void render_run_free(render_run *run)
 {
-    render_shot_free(&run->shot); // first: the scene ahead uses the renderer
+    render_shot_free(&run->shot); // first: the thread that loads ahead uses the renderer
     render_frames_free(&run->frames);
     render_tracer_free(&run->tracer);
     *run = (render_run){0};

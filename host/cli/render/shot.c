@@ -1,4 +1,4 @@
-// What a frame shows. See shot.h.
+// Brings together what a frame shows. See shot.h.
 #include "cli/render/shot.h"
 
 #include "base/clock.h"
@@ -11,7 +11,7 @@ glint_status render_shot_load(render_shot *shot, const render_request *request,
     shot->request = request;
     shot->display = display;
     TRY(render_stage_load(&shot->stage, request, display, error));
-    glint_image_load_ahead(); // the scene is good: its frames will be written
+    glint_image_load_ahead(); // the scene is good, so glint will write images
     return render_light_load(&shot->light, &shot->stage, display, error);
 }
 

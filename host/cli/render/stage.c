@@ -1,10 +1,10 @@
-// Scene and camera at a frame's time. See stage.h.
+// Moves scene and camera to a frame's time. See stage.h.
 #include "cli/render/stage.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// The name outlives the scene that it is from.
+// Copies the camera's name, because it must outlive the scene.
 static void keep_camera_name(render_stage *stage)
 {
     const char *name = stage->inputs.viewpoint.camera.name;
@@ -23,12 +23,12 @@ glint_status render_stage_load(render_stage *stage, const render_request *reques
     TRY(glint_fingerprint_scene(&stage->inputs.scene, &stage->is, error));
     const char *path = stage->inputs.scene.path;
     stage->path = path != NULL ? strdup(path) : NULL;
-    stage->stands = !stage->inputs.viewpoint.camera.is_lost; // at time 0
+    stage->stands = !stage->inputs.viewpoint.camera.is_lost; // the scene is at time 0
     keep_camera_name(stage);
     return GLINT_OK;
 }
 
-// Takes the scene of a time, loaded ahead or now, in the place of the one that there is.
+// Replaces the scene by the scene at `time`, which may have been loaded ahead.
 static glint_status take_pose(render_stage *stage, double time, glint_error *error)
 {
     glint_inputs *inputs = &stage->inputs;

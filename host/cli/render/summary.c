@@ -1,9 +1,9 @@
-// What is said of a run at its end. See summary.h.
+// Prints the summary of a run. See summary.h.
 #include "cli/render/summary.h"
 
 #include "cli/common/say.h"
 
-#define TRUNCATION_WORTH_SAYING 5e-3 // share of all weight
+#define TRUNCATION_WORTH_SAYING 5e-3 // share of the light's total weight
 
 static const char *truncation_advice(const glint_truncation *truncation, glint_shading shading)
 {
@@ -29,7 +29,7 @@ void render_summary_warn(const render_run *run, glint_warnings *warnings)
         glint_warn(warnings, "solids nest too deep: %llu paths forgot one that they were in",
                    (unsigned long long)truncation->media_overflows);
     }
-    // Where an error is kept that has been weighed.
+    // With --max-error the error is known and bounded: no warning is needed.
     if (run->request->max_error == 0 &&
         glint_truncation_total(truncation) > TRUNCATION_WORTH_SAYING) {
         glint_warn(warnings,

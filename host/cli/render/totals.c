@@ -1,4 +1,4 @@
-// What came of frames, added up. See totals.h.
+// Adds up the figures of frames. See totals.h.
 #include "cli/render/totals.h"
 
 #include <math.h>

@@ -1,31 +1,32 @@
-// What came of a run's frames, added up.
+// Adds up the figures of a run's frames.
 #ifndef GLINT_CLI_RENDER_TOTALS_H
 #define GLINT_CLI_RENDER_TOTALS_H
 
 #include "bound/error_bound.h"
 #include "render/frame.h"
 
-// Of several frames.
+// Sum and range of a figure over several frames.
 typedef struct render_spread {
     double sum, least, most;
 } render_spread;
 
-// Zero is valid: no frame is through.
+// The totals of a run. Zero is valid: no frame is finished.
 typedef struct render_totals {
     uint64_t rendered, skipped;
     size_t failed;
     size_t failed_known, failed_capacity;
-    int *failed_frames; // owned; in the order in which they failed, as many as found memory
+    // in the order of failure; incomplete (failed_known < failed) if memory ran short. Owned
+    int *failed_frames;
     glint_ray_counts rays;
-    render_spread error;               // relative RMSE, where --max-error asks for it
-    render_spread choosing;            // milliseconds, likewise
-    render_spread build, trace, write; // milliseconds; build: the scene at its time, its tree;
-                                       // beside the frame before
-    glint_frame_report worst; // the one with the most truncated weight, with the largest of the
-                              // other figures that warnings are about
+    render_spread error;    // relative RMSE, only with --max-error
+    render_spread choosing; // milliseconds, only with --max-error
+    // milliseconds. build: scene and tree of the frame, partly while the frame before is traced
+    render_spread build, trace, write;
+    // the highest truncated weight, and the highest of each other figure that causes warnings
+    glint_frame_report worst;
 } render_totals;
 
-// A frame that was rendered. Milliseconds; `choice` is NULL without --max-error.
+// The figures of one rendered frame. Times are milliseconds; `choice` is NULL without --max-error.
 typedef struct render_rendered {
     const glint_frame_report *report;
     const glint_error_choice *choice;

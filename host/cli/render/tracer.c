@@ -1,4 +1,4 @@
-// Device and renderer of a run. See tracer.h.
+// Opens the device and updates the renderer of a run. See tracer.h.
 #include "cli/render/tracer.h"
 
 static glint_status open_device(render_tracer *tracer, const render_request *request,
@@ -18,7 +18,7 @@ static glint_status open_device(render_tracer *tracer, const render_request *req
                             device->name);
 }
 
-// The environment is the shot's, made and weighed.
+// Makes the shot's environment and tells `bound` about it.
 static glint_status make_light(render_tracer *tracer, render_shot *shot, glint_error *error)
 {
     TRY(render_light_make(&shot->light, &shot->stage, tracer->device, error));
@@ -92,7 +92,7 @@ void render_tracer_look_ahead(render_tracer *tracer, render_shot *shot, int next
     stage->ahead.source = stage->inputs.source;
     stage->ahead.renderer = tracer->renderer;
     stage->ahead.shown = tracer->scene;
-    // Another environment may change the plan.
+    // Do not prepare the renderer if the environment may change: this may change the plan.
     stage->ahead.with_tree = request->env_name.length == 0 && request->capture == NULL && !may_skip;
     render_ahead_begin(&stage->ahead, time);
 }

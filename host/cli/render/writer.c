@@ -1,4 +1,4 @@
-// Frames on their way to their files. See writer.h.
+// Writes frames to their files. See writer.h.
 #include "cli/render/writer.h"
 
 #include "cli/render/plate.h"
@@ -10,7 +10,7 @@
 
 // ---- Packing -----------------------------------------------------------------------------------
 
-// False without memory.
+// Lists the objects and materials for the layers that need them. False without memory.
 static bool add_manifests(const render_shot *shot, render_parcel *made)
 {
     const glint_scene *scene = &shot->stage.inputs.scene;

@@ -1,4 +1,5 @@
-// glint selftest: the hard cases, on any device, judged by closed forms and in double precision.
+// Implements glint selftest: runs the hard cases on any device and judges them by closed forms and
+// in double precision.
 #include "cli/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/say.h"
@@ -20,31 +21,32 @@
 #include <sys/stat.h>
 
 #define CASES_MAX 128
-#define DEFAULT_LIMIT (-1.0) // of a case's time, where none is given
+#define DEFAULT_LIMIT (-1.0) // seconds per case; stands for an option that is not given
 
-// The cases that --case names.
+// The cases chosen with --case.
 typedef struct case_selection {
     bool any;
     bool has[CASES_MAX];
 } case_selection;
 
+// The options of glint selftest.
 typedef struct selftest_request {
     bool list, quick;
     case_selection cases;
     bool fail_fast;
     const char *device;
     const char *kernel_dir;
-    int width;     // see widths
-    int precision; // see precisions
+    int width;     // index into `widths`
+    int precision; // index into the choices of --precision
     double rays;
     int seed;
-    int jobs;       // cases at a time; 0 where it was not said
-    double limit_s; // of a case; 0: none
+    int jobs;       // cases that run at the same time; 0: not given
+    double limit_s; // seconds per case; 0: no limit
     const char *expect;
     const char *junit, *json;
 } selftest_request;
 
-// In the order of the options' choices.
+// Both lists are in the order of the options' choices.
 static const int widths[] = {0, 1, 8, 16};
 enum { ALL_WIDTHS = 4 };
 enum { FLOAT, DOUBLE, ALL_PRECISIONS, UNSAID };
@@ -77,7 +79,7 @@ static glint_status fail_unknown_case(const glint_option *option, const char *na
                       name);
 }
 
-// NAME, or several with commas between them; more each time.
+// Adds the cases of one --case option: a name, or several names separated by commas.
 static glint_status parse_cases(const glint_option *option, const char *text, void *destination,
                                 glint_error *error)
 {
@@ -168,7 +170,7 @@ static void set_defaults(void *context)
     request->rays = 0;
 }
 
-// What was not said depends on what was.
+// Fills in the options that were not given; some defaults depend on other options.
 static void complete(selftest_request *request)
 {
     if (request->precision == UNSAID) {
@@ -211,14 +213,15 @@ static glint_status check_request(const selftest_request *request, glint_error *
 
 // ---- Running -----------------------------------------------------------------------------------
 
+// The state of a self-test: its cases and their results.
 typedef struct selftest_work {
     const selftest_request *request;
     selftest_pool pool;
     selftest_job *jobs;             // owned
-    glint_selftest_result *results; // owned, in the same order
-    size_t count;
-    size_t troubled; // failed or broken, which was not expected
-    size_t expected; // which was
+    glint_selftest_result *results; // owned, in the order of `jobs`
+    size_t count;                   // results taken so far
+    size_t troubled;                // failed or broken, unexpectedly
+    size_t expected;                // failed or broken, as --expect says
     selftest_expectations expectations;
     bool log_printed;
 } selftest_work;
@@ -233,7 +236,7 @@ static bool prints_table(const selftest_work *work)
     return !glint_is_stdout(work->request->json);
 }
 
-// A case failed, and the rest is not wanted any more.
+// With --fail-fast, stops the run after the first failure.
 static bool has_enough(const void *context)
 {
     const selftest_work *work = context;
@@ -250,7 +253,7 @@ static bool is_troubled(const glint_selftest_result *result)
     return has_trouble(result) && !result->expected;
 }
 
-// Marks a failure that the file expects, and warns of a line whose case passes.
+// Marks a failure that the --expect file lists. Warns if a listed case passes.
 static void compare_to_expectations(const selftest_work *work, glint_selftest_result *result)
 {
     const int line = selftest_expectation_of(&work->expectations, result);
@@ -262,6 +265,7 @@ static void compare_to_expectations(const selftest_work *work, glint_selftest_re
     }
 }
 
+// Takes the result of a job: counts it, prints it, and shows the driver's log.
 static glint_status take_result(void *context, selftest_job *job, glint_error *error)
 {
     selftest_work *work = context;
@@ -287,7 +291,8 @@ static glint_status take_result(void *context, selftest_job *job, glint_error *e
         glint_selftest_print(result, stdout);
         fflush(stdout);
     }
-    // A driver that fails at one kernel tends to fail at all: its log is shown once.
+    // Print the log of a driver only once: a driver that fails at one kernel usually fails at all
+    // of them.
     if (trouble.details != NULL && !work->log_printed) {
         glint_say_error(&trouble);
         work->log_printed = true;
@@ -327,7 +332,8 @@ static glint_status run_all(selftest_work *work, glint_error *error)
             continue;
         }
         for (int p = FLOAT; p <= DOUBLE; p++) {
-            // Asked for, double is skipped case by case where the device has none.
+            // Without double precision on the device, "all" leaves it out. An explicit "double"
+            // makes every case skipped.
             const bool wanted = request->precision == ALL_PRECISIONS ? p == FLOAT || has_double
                                                                      : p == request->precision;
             if (wanted) {
@@ -363,7 +369,7 @@ static glint_status write_reports(const selftest_work *work, glint_error *error)
     return GLINT_OK;
 }
 
-// The same case failed at another width or precision.
+// True if the same case failed before, at another width or precision.
 static bool is_named_before(const selftest_work *work, size_t index)
 {
     const char *name = work->results[index].name;
@@ -375,7 +381,7 @@ static bool is_named_before(const selftest_work *work, size_t index)
     return named;
 }
 
-// "3 of 84 cases failed: slivers, drift, prism"
+// Prints the result, or fails with a message such as "3 of 84 cases failed: slivers, drift, prism".
 static glint_status give_verdict(const selftest_work *work, glint_error *error)
 {
     if (work->troubled == 0) {
@@ -437,7 +443,8 @@ cleanup:
     selftest_pool_stop(&work.pool);
     selftest_expectations_free(&work.expectations);
     for (size_t i = 0; work.jobs != NULL && i < work.pool.job_count; i++) {
-        glint_error_free(&work.jobs[i].error); // of those that nobody took
+        // Only jobs whose results were not taken still have an error.
+        glint_error_free(&work.jobs[i].error);
     }
     free(work.jobs);
     free(work.results);

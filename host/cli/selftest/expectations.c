@@ -1,4 +1,4 @@
-// Failures of the self-test that are known. See expectations.h.
+// Reads the list of known self-test failures. See expectations.h.
 #include "cli/selftest/expectations.h"
 
 #include "base/regular_file.h"
@@ -34,7 +34,7 @@ static glint_status find_name(const selftest_expectations *e, const char *word,
     return fail_at(e, found->line, word, "is no case (glint selftest --list has them)", error);
 }
 
-// What follows a name: a precision or a width.
+// Parses a word after a case's name: a precision or a width.
 static glint_status take_word(const selftest_expectations *e, const char *word,
                               selftest_expectation *found, glint_error *error)
 {

@@ -1,4 +1,4 @@
-// The self-test's cases, several at a time. See pool.h.
+// Runs several self-test cases at the same time. See pool.h.
 #include "cli/selftest/pool.h"
 
 typedef struct attendant {
@@ -25,7 +25,7 @@ void selftest_pool_stop(selftest_pool *pool)
     }
 }
 
-// The next job; NULL: there is none.
+// The next job; NULL if there is none left or the run stops.
 static selftest_job *next_job(selftest_pool *pool)
 {
     pthread_mutex_lock(&pool->lock);

@@ -1,4 +1,4 @@
-// The results of a self-test for people. See selftest_table.h.
+// Prints the results of a self-test as a table. See selftest_table.h.
 #include "cli/selftest/selftest_table.h"
 
 #include <string.h>
@@ -6,12 +6,12 @@
 #define CASE_COLUMNS 23
 #define WHAT_COLUMNS 50
 
-// UTF-8 text, filled up with spaces: printf counts bytes.
+// Prints UTF-8 text padded with spaces to `columns`; printf would count bytes.
 static void print_filled(const char *text, int columns, FILE *out)
 {
     int written = 0;
     for (const char *c = text; *c != '\0'; c++) {
-        written += (*c & 0xC0) != 0x80; // not a byte that continues a character
+        written += (*c & 0xC0) != 0x80; // not a continuation byte
     }
     fprintf(out, "%s%*s", text, columns > written ? columns - written : 0, "");
 }

@@ -1,4 +1,4 @@
-// The results of a self-test for people.
+// Prints the results of a self-test as a table for people.
 #ifndef GLINT_CLI_SELFTEST_SELFTEST_TABLE_H
 #define GLINT_CLI_SELFTEST_SELFTEST_TABLE_H
 
@@ -9,10 +9,10 @@
 
 void glint_selftest_print_device(const glint_capabilities *device, FILE *out);
 
-// The heading of the results at one width and precision.
+// Prints the heading for one width and precision.
 void glint_selftest_print_head(const glint_selftest_result *result, FILE *out);
 
-// A line for each measure; below one that fails, what the worst value is.
+// Prints a line per measure. Below a failed measure, describes its worst value.
 void glint_selftest_print(const glint_selftest_result *result, FILE *out);
 
 #endif

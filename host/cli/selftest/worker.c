@@ -1,7 +1,7 @@
-// The self-test's work in a process of its own. See worker.h.
+// Runs self-test cases in a child process. See worker.h.
 //
-// The process is a fork, so that pointers to static texts mean the same on both sides and results
-// travel as they are.
+// The child is a fork. So pointers to static texts are valid in both processes, and results are
+// sent as they are.
 #include "cli/selftest/worker.h"
 
 #include "base/clock.h"
@@ -25,7 +25,8 @@ typedef struct request {
     glint_selftest_options options;
 } request;
 
-// Of the device at first, then of each case; the details follow.
+// The child's answer: first about the device, then about each case. The text of the details
+// follows.
 typedef struct answer {
     glint_status status;
     char message[GLINT_MESSAGE_CAPACITY];
@@ -87,12 +88,12 @@ static void work(const char *device_name, int requests, int answers)
         a.status = glint_selftest_run(wanted.index, &wanted.options, &a.result, &error);
         goes_on = send_answer(answers, &a, &error);
     }
-    _exit(0); // the driver's exit handlers are no case's business
+    _exit(0); // skips the driver's exit handlers: their faults belong to no case
 }
 
 // ---- In the self-test ---------------------------------------------------------------------------
 
-// Passes on what the worker says, and keeps the end of it.
+// Copies the child's stderr to ours, and keeps its end.
 static void hear(selftest_worker *w)
 {
     char text[4096];
@@ -114,7 +115,8 @@ static void hear(selftest_worker *w)
     }
 }
 
-// Reads what the worker sends until `deadline` (ms; 0: none). False: it ended, or is late.
+// Reads `size` bytes from the child until `deadline` (ms; 0: none). False if the child ended or is
+// late.
 static bool receive(selftest_worker *w, void *to, size_t size, double deadline, bool *is_late)
 {
     char *bytes = to;
@@ -171,7 +173,7 @@ static void close_pipes(selftest_worker *w)
     }
 }
 
-// The last line that is not empty.
+// The last line that is not empty. Cuts the newlines at the end of `said`.
 static const char *last_line(char *said)
 {
     size_t end = strlen(said);
@@ -182,14 +184,15 @@ static const char *last_line(char *said)
     return line != NULL ? line + 1 : said;
 }
 
-// Ends the worker, and says how it ended of itself, if it did.
+// Ends the child and describes how it ended by itself or that it was late.
 static void bury(selftest_worker *w, bool is_late, char *text, size_t capacity)
 {
-    kill(w->process, SIGKILL); // what has ended keeps how it did
+    kill(w->process, SIGKILL); // no effect on a child that has already ended
     int how = 0;
     while (waitpid(w->process, &how, 0) < 0 && errno == EINTR) {
     }
-    // All that it said; what the driver started may be there yet, and say nothing.
+    // Read the rest of its stderr. A process that the driver started may still hold the pipe open
+    // without writing.
     struct pollfd said = {.fd = w->words, .events = POLLIN};
     while (w->words >= 0 && poll(&said, 1, LAST_WORDS_MS) > 0) {
         hear(w);
@@ -209,19 +212,22 @@ static void bury(selftest_worker *w, bool is_late, char *text, size_t capacity)
              last, last[0] != '\0' ? ")" : "");
 }
 
-// One at a time: a fork between another's pipes and its end would hold them open.
+// Forks one child at a time: otherwise a second child would inherit the first one's pipes and keep
+// them open.
 static glint_status fork_worker(selftest_worker *w, glint_error *error)
 {
     static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
     int pipes[3][2];
     int made = 0;
     pthread_mutex_lock(&one_at_a_time);
-    // What the driver starts, such as a linker, does not hold them open.
+    // With O_CLOEXEC, programs that the driver starts, such as a linker, do not keep the pipes
+    // open.
     while (made < 3 && pipe2(pipes[made], O_CLOEXEC) == 0) {
         made++;
     }
     const pid_t self = getpid();
     const pid_t process = made == 3 ? fork() : -1;
+    // Set up the child: it ends with its parent, and its stderr goes into the pipe.
     if (process == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (getppid() != self) {
@@ -232,6 +238,7 @@ static glint_status fork_worker(selftest_worker *w, glint_error *error)
         close(pipes[1][0]);
         work(w->device, pipes[0][0], pipes[1][1]);
     }
+    // Close the ends of the pipes that the parent does not use.
     const bool done = process > 0;
     for (int i = 0; i < made; i++) {
         close(pipes[i][i == 0 ? 0 : 1]);
@@ -305,8 +312,8 @@ glint_status selftest_worker_run(selftest_worker *w, size_t index,
 void selftest_worker_stop(selftest_worker *w)
 {
     if (w->process > 0) {
-        // It waits for a case. Another worker may hold its pipe open, so that closing it would not
-        // do.
+        // The child waits for a case. Closing its pipe may not end it, because another child may
+        // hold the pipe open too.
         kill(w->process, SIGKILL);
         close_pipes(w);
         int how;

@@ -1,5 +1,5 @@
-// The self-test's work on a device, in a process of its own: a driver that aborts, crashes, exits
-// or hangs takes that process down alone, and the case that met it is broken.
+// Runs self-test cases in a child process. If the driver aborts, crashes, exits or hangs, only the
+// child ends, and the current case counts as broken.
 #ifndef GLINT_CLI_SELFTEST_WORKER_H
 #define GLINT_CLI_SELFTEST_WORKER_H
 
@@ -11,25 +11,26 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-#define SELFTEST_WORDS 400 // of what a driver said last
+#define SELFTEST_WORDS 400 // bytes kept of the driver's last output
 
-// Zero is no worker.
+// A child process that runs cases. Zero is no worker.
 typedef struct selftest_worker {
-    const char *device; // as glint_device_open takes it; borrowed
-    double limit_s;     // of a case; 0: none
-    pid_t process;      // 0: none runs
+    const char *device; // as glint_device_open expects it; borrowed
+    double limit_s;     // seconds per case; 0: no limit
+    pid_t process;      // 0: no process
+    // Pipes: cases to the child, results from it, and its stderr.
     int requests, answers, words;
-    char said[SELFTEST_WORDS]; // on stderr, the end of it
+    char said[SELFTEST_WORDS]; // end of the child's stderr
     glint_capabilities capabilities;
 } selftest_worker;
 
-// Starts a process that opens the device, and reads its capabilities. No driver may have been
-// loaded by this process before. Errors: as glint_device_open, and GLINT_DEVICE_FAILED where the
-// driver ended the process.
+// Starts a child that opens the device, and reads its capabilities. The parent must not have loaded
+// a driver before. Errors: as glint_device_open; GLINT_DEVICE_FAILED if the driver ended the child.
 glint_status selftest_worker_start(selftest_worker *worker, glint_error *error);
 
-// As glint_selftest_run; options->device is not read. Where the driver ends the process or is over
-// its time, the verdict is GLINT_BROKEN, with its words, and the next case gets a new process.
+// Runs a case like glint_selftest_run; ignores options->device. If the driver ends the child or
+// exceeds the time limit, the verdict is GLINT_BROKEN with the driver's last words. The next case
+// then starts a new child.
 glint_status selftest_worker_run(selftest_worker *worker, size_t index,
                                  const glint_selftest_options *options,
                                  glint_selftest_result *result, glint_error *error);

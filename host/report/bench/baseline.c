@@ -1,4 +1,4 @@
-// Comparing a run of the benchmark with an earlier one. See baseline.h.
+// Compares a run of the benchmark with an earlier run. See baseline.h.
 #include "report/bench/baseline.h"
 
 #include "report/bench/bench_json.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What must be the same for two times to be comparable. The driver's and the program's version, the
-// plan and the kernels may differ: they are what is compared.
+// The members that must be equal to make two times comparable. The versions of driver and program,
+// the plan and the kernels may differ: the comparison is about them.
 static const char *const identity[] = {
     "device.name", "device.compute_units", "settings", "environment.name", "environment.width",
     "camera",      "scene.triangle_count",
@@ -54,14 +54,14 @@ static glint_status check_form(const json_t *root, const char *path, glint_error
     return GLINT_OK;
 }
 
-// A file that leaves a setting out is older than the setting, whose default is how it was then.
+// Adds the settings that an older file lacks. Their defaults are the behaviour of that time.
 static void complete_settings(json_t *root)
 {
     json_t *usual = glint_json_settings(&glint_settings_default);
     json_t *list = json_object_get(root, "scenes");
     for (size_t i = 0; i < json_array_size(list); i++) {
         json_t *settings = json_object_get(json_array_get(list, i), "settings");
-        (void)json_object_update_missing(settings, usual); // fails where they are no object
+        (void)json_object_update_missing(settings, usual); // fails if `settings` is no object
     }
     json_decref(usual);
 }
@@ -79,7 +79,7 @@ glint_status glint_baseline_load(const char *path, json_t **baseline, glint_erro
     return status;
 }
 
-// A value in a message: short, and a word for what is missing.
+// Formats a value for a message: shortened, or "missing".
 static void format_value(const json_t *value, char *text, size_t capacity)
 {
     char *dump = value != NULL ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
@@ -87,7 +87,7 @@ static void format_value(const json_t *value, char *text, size_t capacity)
     free(dump);
 }
 
-// An entry of a baseline.
+// The place of an entry, for messages.
 typedef struct place {
     const char *path, *scene;
 } place;
@@ -103,8 +103,8 @@ static glint_status fail_different(const place *at, const char *what, const json
                       at->path, at->scene, what, there, here);
 }
 
-// `what` is the member's name; where it is an object, the first of its members that differs is
-// named.
+// Fails if the member `what` differs. If it is an object, the message names its first differing
+// member.
 static glint_status check_member(const place *at, const char *what, json_t *now, json_t *before,
                                  glint_error *error)
 {
@@ -135,7 +135,7 @@ static glint_status check_identity(const place *at, const json_t *now, const jso
     return GLINT_OK;
 }
 
-// The times of a frame's launches that a comparison rests on.
+// The times that decide a comparison, milliseconds per frame.
 typedef struct times {
     double median, lower, upper;
 } times;
@@ -147,7 +147,7 @@ static glint_status read_times(const place *at, const json_t *scene, times *resu
     *result =
         (times){glint_json_real_at(kernel, "median"), glint_json_real_at(kernel, "lower_quartile"),
                 glint_json_real_at(kernel, "upper_quartile")};
-    // Written so that NaN is refused.
+    // This form also refuses NaN.
     if (!(result->lower > 0 && result->median >= result->lower &&
           result->upper >= result->median)) {
         return glint_fail(error, GLINT_BAD_INPUT,

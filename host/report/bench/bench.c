@@ -1,9 +1,12 @@
-// Measuring one scene on one device. See bench.h.
+// Measures one scene on one device. See bench.h.
 //
-// In this order: compile times, in children, before this process has loaded a driver; the renderer;
-// the first frame; the check of its picture; warm-up, until three frames in a row agree or a second
-// is over; the frames that count. Every one of these is compared with the first, bit by bit,
-// outside its time.
+// The steps, in this order:
+//   1. compile times, in children, before this process loads a driver
+//   2. the renderer and the first frame
+//   3. the check of the first frame's picture
+//   4. warm-up, until three frames in a row agree or one second is over
+//   5. the measured frames
+// Every later frame is compared with the first, bit by bit; the comparison is not timed.
 #include "report/bench/bench.h"
 
 #include "base/clock.h"
@@ -15,15 +18,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SHOW_MS 100.0 // between two frames that are shown
+#define SHOW_MS 100.0 // least time between two progress messages
 #define WARM_UP_MS 1000.0
-#define WARM_UP_AGREEMENT 1.05 // the longest of three frames over the shortest
+#define WARM_UP_AGREEMENT 1.05 // allowed ratio of the longest to the shortest of three frames
 
 typedef struct frame_time {
     double kernel, readback; // milliseconds
 } frame_time;
 
-// Everything a measurement holds. Zero is valid.
+// The state of a measurement. Zero is valid.
 typedef struct bench_run {
     const glint_bench_inputs *inputs;
     const glint_bench_options *options;
@@ -31,7 +34,7 @@ typedef struct bench_run {
     glint_device *device;
     glint_renderer *renderer;
     glint_image first, again;
-    frame_time *times; // of the frames that count
+    frame_time *times; // of the measured frames
     size_t count, capacity;
     glint_bench_result *result;
 } bench_run;
@@ -52,7 +55,7 @@ static void show(const bench_run *run, const char *format, ...)
     run->watcher.show(run->watcher.context, text);
 }
 
-// For glint_progress: nobody sees how far a frame is, but it can be stopped.
+// Callback for glint_progress: shows nothing, but lets the user stop a frame.
 static bool step(void *context, uint64_t done, uint64_t total)
 {
     (void)done;
@@ -93,7 +96,7 @@ static glint_status render_first(bench_run *run, glint_error *error)
         glint_renderer_frame(&(glint_frame_request){run->renderer, run->inputs->camera, &progress,
                                                     &run->first, &result->report},
                              error);
-    result->plan = *glint_renderer_plan(run->renderer); // as it suits the camera
+    result->plan = *glint_renderer_plan(run->renderer); // after it has been adapted to the camera
     result->phases = *glint_renderer_phases(run->renderer);
     result->first_frame_ms = result->report.kernel_ms + result->report.readback_ms;
     result->peak_resident_bytes = glint_peak_resident_bytes();
@@ -123,7 +126,7 @@ static glint_status check(bench_run *run, glint_error *error)
     return glint_bench_check_picture(&judge, &run->first, check, error);
 }
 
-// One frame more, which is compared with the first.
+// Renders one more frame and compares it with the first.
 static glint_status repeat(bench_run *run, glint_frame_report *report, glint_error *error)
 {
     glint_image *image = &run->again;
@@ -222,8 +225,8 @@ static glint_status summarize(bench_run *run, glint_error *error)
     return GLINT_OK;
 }
 
-// The same input gives the same bits: a device on which it does not has made a mistake in one of
-// them.
+// Fails the check if any frame differs from the first. Equal inputs must give equal bits, so a
+// difference means that the device made a mistake.
 static void judge_steadiness(bench_run *run)
 {
     glint_bench_result *result = run->result;

@@ -1,20 +1,23 @@
-// Whether the picture that is measured is right. See bench.h.
+// Checks the measured picture against a reference in double precision. See bench.h.
 //
-// The reference is the same picture in double precision, of float texels, by the kernels that are
-// built in, whatever kernels are measured. Where light bounces several times between curved
-// surfaces, each bounce multiplies an error by ten or more, and after six or so nothing is left of
-// a float's digits: such a pixel differs from the reference in any single-precision renderer, by no
-// fault of its own. It is found by asking double precision itself: the reference is rendered once
-// more with the eye moved by SHIFT of the scene, sixteen times the rounding of a stored coordinate.
-// A pixel that changes thereby by STABLE or more is ill-conditioned, and only the others are
-// judged: a tenth of a visible difference from sixteen times the rounding leaves a float room to
-// spare.
+// The reference is the same picture in double precision with float texels. It always uses the
+// built-in kernels, even if other kernels are measured.
 //
-// Some ill-conditioned pixels come out unchanged by chance, and are judged. Measured, of 3 to 24%
-// of pixels that were ill-conditioned (scenes of glass, 320 × 180 to 1280 × 720): 0.3 to 2.6%. So a
-// share of HIDDEN of the ill-conditioned may differ visibly among the judged; and a share of
-// FLIPPED of all pixels may, rays within rounding of an edge (measured: up to 2e-5). The judged
-// pixels' relative RMSE may be what these make if each is off by the mean.
+// Some pixels are ill-conditioned. Each bounce between curved surfaces multiplies an error by ten
+// or more. After about six bounces no digit of a float is left. Such a pixel differs from the
+// reference in any single-precision renderer.
+//
+// To find these pixels, the reference is rendered a second time with the eye moved by SHIFT of the
+// scene. SHIFT is sixteen times the rounding error of a stored coordinate. A pixel that changes by
+// STABLE or more is ill-conditioned, and only the others are judged. STABLE is a tenth of a visible
+// difference, for sixteen times the rounding error: this leaves a float enough room.
+//
+// Some ill-conditioned pixels do not change by chance, and are judged. Measured in scenes of glass
+// (320 × 180 to 1280 × 720): if 3 to 24% of the pixels were ill-conditioned, 0.3 to 2.6% of these
+// were judged. So HIDDEN times the number of ill-conditioned pixels may differ visibly among the
+// judged pixels. Rays within rounding of an edge add a share of FLIPPED of all pixels (measured: up
+// to 2e-5). The allowed relative RMSE of the judged pixels follows: all these pixels may be wrong
+// by the mean.
 #include "report/bench/bench.h"
 
 #include "base/memory.h"
@@ -27,7 +30,7 @@
 #define STABLE (GLINT_METRICS_VISIBLE / 10)
 #define HIDDEN 0.05
 #define FLIPPED 5e-4
-#define LEAST_JUDGED 0.1 // share of the pixels: fewer say nothing of the picture
+#define LEAST_JUDGED 0.1 // minimum share of judged pixels; fewer say nothing about the picture
 
 static void decide(glint_bench_check *check)
 {
@@ -35,7 +38,7 @@ static void decide(glint_bench_check *check)
     double differing = (double)judged->differing / (double)judged->compared;
     double most_rmse = sqrt(check->most_differing);
     check->outcome = GLINT_CHECK_FAILED;
-    // Written so that NaN fails.
+    // These forms also fail NaN.
     if (check->error.nonfinite > 0) {
         snprintf(check->reason, sizeof check->reason, "%llu pixels are not finite",
                  (unsigned long long)check->error.nonfinite);
@@ -60,7 +63,7 @@ static void decide(glint_bench_check *check)
     }
 }
 
-// The eye moved sideways and up; by which way is of no importance, as long as it is neither axis.
+// Moves the eye sideways and up. Any direction will do that is not along one of the two axes.
 static glint_camera moved(const glint_camera *camera, double unit)
 {
     double shift = SHIFT * (unit > 0 ? unit : 1);
@@ -70,7 +73,7 @@ static glint_camera moved(const glint_camera *camera, double unit)
     return result;
 }
 
-// The reference, and the same from the moved eye.
+// Renders the reference, and again from the moved eye.
 static glint_status render_references(const glint_bench_judge *judge, glint_image references[2],
                                       glint_error *error)
 {
@@ -80,7 +83,8 @@ static glint_status render_references(const glint_bench_judge *judge, glint_imag
     settings.texels = GLINT_TEXELS_FLOAT;
     settings.kernel_width = 0;
     settings.tile_packets = 0;
-    settings.depth = settings.depth == 0 ? GLINT_DEPTH_MAX : settings.depth; // nothing is proved
+    // "auto" may rely on proofs; the reference relies on none
+    settings.depth = settings.depth == 0 ? GLINT_DEPTH_MAX : settings.depth;
     const glint_renderer_inputs exact = {
         .device = judge->device,
         .scene = inputs->scene,

@@ -1,11 +1,14 @@
-// How long the kernels take to compile, cold and warm. See bench.h.
+// Measures how long the kernels take to compile, cold and warm. See bench.h.
 //
-// A figure is only cold if no cache of any driver holds the kernels. Two things see to that: a
-// number that nobody has used before goes into the build options, which are a part of every cache's
-// key; and in the children that compile, the variables that name the drivers' caches point to an
-// empty folder, so that such builds do not pile up in the user's. The warm figure is the same build
-// in a second child, with the same number and the same folder, now full. A driver whose cache none
-// of the variables moves is measured rightly, too, and keeps one build more.
+// A compile time is cold only if no driver's cache holds the kernels. Two measures ensure this:
+//   - The build options contain a new random number, and every cache's key includes the build
+//   options.
+//   - In the compiling children, the environment variables of the drivers' caches name an empty
+//   folder.
+//     So these builds do not pile up in the user's caches.
+// A second child repeats the build for the warm time, with the same number and the same folder,
+// which is now filled. A driver that ignores all the variables is still measured correctly; its
+// cache keeps one more build.
 #include "report/bench/bench.h"
 
 #include "base/child.h"
@@ -18,7 +21,8 @@
 #include <string.h>
 #include <sys/random.h>
 
-// Of PoCL, NVIDIA, Intel, AMD and Mesa; the last serves those that keep to the XDG specification.
+// Cache variables of PoCL, NVIDIA, Intel, AMD and Mesa. The last one is for drivers that follow the
+// XDG specification.
 static const char *const cache_variables[] = {
     "POCL_CACHE_DIR",      "CUDA_CACHE_PATH",       "NEO_CACHE_DIR",
     "AMD_COMGR_CACHE_DIR", "MESA_SHADER_CACHE_DIR", "XDG_CACHE_HOME",
@@ -26,7 +30,7 @@ static const char *const cache_variables[] = {
 
 typedef struct timed_build {
     const glint_bench_inputs *inputs;
-    glint_settings settings; // with a build tag
+    glint_settings settings; // with a new build tag
     const char *folder;
 } timed_build;
 
@@ -51,7 +55,7 @@ cleanup:
     return status;
 }
 
-// In the child.
+// Runs in the child: builds the kernels and reports the time.
 static glint_status work(void *context, char **text, glint_error *error)
 {
     const timed_build *build = context;

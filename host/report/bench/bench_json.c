@@ -1,4 +1,4 @@
-// What `glint bench --json` writes. See bench_json.h.
+// Writes the JSON of glint bench --json. See bench_json.h.
 #include "report/bench/bench_json.h"
 
 #include "report/frame/stats.h"
@@ -18,7 +18,7 @@ static json_t *milliseconds_object(const glint_bench_scene *scene, const glint_b
     glint_json_put_real(object, "upload", phases->upload);
     glint_json_put_real(object, "kernel_build_cold", result->compile.cold);
     glint_json_put_real(object, "kernel_build_warm", result->compile.warm);
-    // The speed of a wrong picture is nobody's business.
+    // Do not report the speed of a wrong picture.
     bool is_wrong = result->check.outcome == GLINT_CHECK_FAILED;
     glint_json_put_real(object, "first_frame", is_wrong ? NAN : result->first_frame_ms);
     return object;
@@ -49,7 +49,7 @@ static json_t *rates_object(const glint_bench_result *result)
         {"transmitted", rays->transmitted},   {"shadow", rays->shadow},
         {"all", glint_ray_counts_all(rays)},
     };
-    // Rays in 1e6 over milliseconds in 1e-3.
+    // 1e6 rays per second = rays / (1e3 × milliseconds).
     double scale = 1e-3 / result->kernel.median;
     json_t *object = json_object();
     for (size_t i = 0; i < sizeof classes / sizeof *classes; i++) {

@@ -1,4 +1,4 @@
-// Signs of 5 × 7 dots. See bitmap_font.h.
+// Draws labels with a font of 5 × 7 dots. See bitmap_font.h.
 #include "report/compare/bitmap_font.h"
 
 #include <ctype.h>
@@ -63,7 +63,7 @@ bool glint_font_dot(char sign, int x, int y)
             return ((unsigned)glyphs[i].rows[y] >> (GLINT_FONT_WIDTH - 1 - x) & 1U) != 0;
         }
     }
-    // Of the capitals only N is there.
+    // The table has only one capital, N.
     return isupper((unsigned char)sign) && glint_font_dot((char)tolower(sign), x, y);
 }
 

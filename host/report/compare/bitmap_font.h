@@ -1,4 +1,4 @@
-// Signs of 5 × 7 dots for labels in pictures: no font files, which a fresh machine may lack.
+// Draws labels with a built-in font of 5 × 7 dots: a new machine may have no font files.
 #ifndef GLINT_REPORT_COMPARE_BITMAP_FONT_H
 #define GLINT_REPORT_COMPARE_BITMAP_FONT_H
 
@@ -6,19 +6,20 @@
 
 #include <stdbool.h>
 
-// In dots. A sign stands at the left of its advance.
+// Sizes in dots. A glyph stands at the left of its advance.
 enum { GLINT_FONT_WIDTH = 5, GLINT_FONT_ADVANCE = 6, GLINT_FONT_HEIGHT = 7 };
 
-// Whether the sign has a dot at (x, y), from its top left: 0 ≤ x < GLINT_FONT_WIDTH, 0 ≤ y <
-// GLINT_FONT_HEIGHT. Signs: digits, letters (capitals other than N look as small ones do) and
-// . , + - _ /; any other is blank.
+// True if the glyph has a dot at (x, y), counted from its top left: 0 ≤ x < GLINT_FONT_WIDTH, 0 ≤ y
+// < GLINT_FONT_HEIGHT. The font has digits, letters and . , + - _ /; all else is blank. Capitals
+// except N look like small letters.
 bool glint_font_dot(char sign, int x, int y);
 
-// Fills columns box[0] to box[0] + box[2], rows box[1] to box[1] + box[3], their ends excluded, of
-// an image of three channels with a colour (linear). The box lies within the image.
+// Fills a box with a linear colour: columns from box[0], box[2] of them, and rows from box[1],
+// box[3] of them. The image has three channels, and the box must lie within it.
 void glint_font_fill(glint_image *image, const int box[4], const float color[3]);
 
-// Writes a text with its top left at `at`, a dot being unit × unit pixels; likewise within.
+// Draws a text with its top left at `at`; a dot is unit × unit pixels. The text must lie within the
+// image.
 void glint_font_draw(glint_image *image, const int at[2], int unit, const char *text,
                      const float color[3]);
 

@@ -1,4 +1,4 @@
-// What `glint compare --json` writes. See compare_json.h.
+// Writes the JSON of glint compare --json. See compare_json.h.
 #include "report/compare/compare_json.h"
 
 static json_t *file_object(const glint_compared_file *file, const glint_defects *defects)
@@ -21,7 +21,7 @@ static json_t *components(const float rgb[3])
     return list;
 }
 
-// Null where all that was compared is equal.
+// The pixel with the largest difference; null if all compared pixels are equal.
 static json_t *worst_object(const glint_metrics *metrics)
 {
     if (metrics->largest == 0) {

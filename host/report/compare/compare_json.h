@@ -1,4 +1,4 @@
-// What `glint compare --json` writes; docs/compare.md lists its members.
+// Writes the JSON of glint compare --json; docs/compare.md lists its members.
 #ifndef GLINT_REPORT_COMPARE_COMPARE_JSON_H
 #define GLINT_REPORT_COMPARE_COMPARE_JSON_H
 
@@ -6,7 +6,7 @@
 #include "report/compare/figures.h"
 #include "report/json.h"
 
-// Changes whenever a reader of the last one would misread a file.
+// Changes when a reader of the previous schema would misread a file.
 #define GLINT_COMPARE_SCHEMA 1
 
 typedef struct glint_compared_file {
@@ -14,14 +14,14 @@ typedef struct glint_compared_file {
     const glint_image *image;
 } glint_compared_file;
 
-// All borrowed.
+// The result of a comparison. All borrowed.
 typedef struct glint_compare_result {
     glint_compared_file image, reference;
     const glint_metrics *metrics;
     const glint_bounds *bounds;
 } glint_compare_result;
 
-// A new reference.
+// The result as JSON, a new reference.
 json_t *glint_compare_json(const glint_compare_result *result);
 
 #endif

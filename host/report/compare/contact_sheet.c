@@ -1,4 +1,4 @@
-// Contact sheets. See contact_sheet.h.
+// Draws contact sheets. See contact_sheet.h.
 #include "report/compare/contact_sheet.h"
 
 #include "report/compare/bitmap_font.h"
@@ -57,7 +57,7 @@ void glint_contact_sheet_free(glint_contact_sheet *sheet)
 
 // ---- A picture ---------------------------------------------------------------------------------
 
-// What a pixel is, over the grey. False where it is not finite.
+// The colour of a pixel over grey. False if it is not finite.
 static bool shown(const glint_image *picture, int x, int y, double color[3])
 {
     const float *p = glint_image_pixel(picture, x, y);
@@ -69,13 +69,14 @@ static bool shown(const glint_image *picture, int x, int y, double color[3])
     return isfinite(color[0] + color[1] + color[2]);
 }
 
-// The part of [from, to] that lies within pixel i.
+// The length of the part of [from, to] that lies within pixel i.
 static double overlap(double from, double to, int i)
 {
     return fmin(to, i + 1) - fmax(from, i);
 }
 
-// The mean over a rectangle of the picture, in its pixels.
+// The mean colour of a rectangle of the picture, in pixel units; magenta if any pixel is not
+// finite.
 static void mean(const glint_image *picture, const double low[2], const double high[2],
                  float color[3])
 {
@@ -101,7 +102,7 @@ static void mean(const glint_image *picture, const double low[2], const double h
     }
 }
 
-// As large as fits, in the middle of its place at (left, top).
+// Draws the picture as large as fits, centred in its place at (left, top).
 static void draw_picture(glint_contact_sheet *sheet, int left, int top, const glint_image *picture)
 {
     const double scale =
@@ -143,7 +144,8 @@ void glint_contact_sheet_put(glint_contact_sheet *sheet, int index, const glint_
         draw_cross(sheet, left, top);
     }
     char text[64];
-    const int room = (sheet->width / UNIT + 1) / GLINT_FONT_ADVANCE; // of signs
+    // Number of characters that fit.
+    const int room = (sheet->width / UNIT + 1) / GLINT_FONT_ADVANCE;
     const size_t length = strlen(label);
     const size_t shown_length = length < (size_t)room ? length : (size_t)room;
     if (shown_length < sizeof text) {

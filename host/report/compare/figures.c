@@ -1,4 +1,4 @@
-// Error figures by name, and bounds on them. See figures.h.
+// Names the error figures, and checks bounds on them. See figures.h.
 #include "report/compare/figures.h"
 
 #include <stdio.h>
@@ -54,7 +54,7 @@ void glint_bounds_complete(glint_bounds *bounds)
     const bool any = glint_bounds_any(bounds);
     const glint_figure implied[] = {GLINT_FIGURE_NAN, GLINT_FIGURE_INFINITE};
     for (int i = 0; any && i < 2; i++) {
-        // A limit that is not set is 0 already.
+        // The limit is 0 already if it was not set.
         bounds->is_set[implied[i]] = true;
     }
 }
@@ -63,12 +63,12 @@ bool glint_bound_is_kept(const glint_bounds *bounds, glint_figure figure,
                          const glint_metrics *metrics)
 {
     const double value = glint_figure_value(figure, metrics), limit = bounds->limit[figure];
-    // Comparisons that NaN fails.
+    // NaN fails both comparisons.
     const bool kept = glint_figure_is_better_high(figure) ? value >= limit : value <= limit;
     return kept && metrics->compared > 0;
 }
 
-// "rmse 0.0123 is above 0.01", with all digits where six do not tell the two apart.
+// Writes "rmse 0.0123 is above 0.01", with all digits if six digits are equal.
 static void describe(glint_figure figure, double value, double limit, char *text, size_t capacity)
 {
     const char *side = glint_figure_is_better_high(figure) ? "below" : "above";

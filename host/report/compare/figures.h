@@ -1,4 +1,4 @@
-// The error figures under the names that people give them bounds by, and these bounds.
+// Names the error figures of a comparison, and checks bounds on them.
 #ifndef GLINT_REPORT_COMPARE_FIGURES_H
 #define GLINT_REPORT_COMPARE_FIGURES_H
 
@@ -16,7 +16,7 @@ typedef enum glint_figure {
     GLINT_FIGURE_PSNR,
     GLINT_FIGURE_DIFFERING, // share of the compared pixels that differ visibly
     GLINT_FIGURE_NAN,       // pixels with a NaN in either picture
-    GLINT_FIGURE_INFINITE,  // the same with an infinity
+    GLINT_FIGURE_INFINITE,  // pixels with an infinity in either picture
     GLINT_FIGURE_ALPHA,
     GLINT_FIGURE_COUNT,
 } glint_figure;
@@ -24,12 +24,12 @@ typedef enum glint_figure {
 // "rmse", "relative-rmse", …; NULL at the end.
 extern const char *const glint_figure_names[GLINT_FIGURE_COUNT + 1];
 
-// Of psnr alone, which is bounded from below.
+// True only for psnr: a larger value is better, so its bound is a minimum.
 bool glint_figure_is_better_high(glint_figure figure);
 
 double glint_figure_value(glint_figure figure, const glint_metrics *metrics);
 
-// Zero is valid: no bounds. A limit belongs to the figure: the least for psnr, else the most.
+// Bounds on figures. Zero is valid: no bounds. The limit is a minimum for psnr, else a maximum.
 typedef struct glint_bounds {
     bool is_set[GLINT_FIGURE_COUNT];
     double limit[GLINT_FIGURE_COUNT];
@@ -37,17 +37,17 @@ typedef struct glint_bounds {
 
 bool glint_bounds_any(const glint_bounds *bounds);
 
-// Where any bound is set, nan and infinite become 0 unless they are set: pixels that are left out
-// of the other figures must not pass unseen.
+// If any bound is set, bounds nan and infinite by 0 unless they have a bound. The other figures
+// skip these pixels, so this keeps them from being overlooked.
 void glint_bounds_complete(glint_bounds *bounds);
 
-// Whether the figure keeps its bound, which is set. NaN keeps none, and nothing does where no pixel
-// was compared.
+// True if the figure keeps its bound, which must be set. NaN keeps no bound. If no pixel was
+// compared, no bound is kept.
 bool glint_bound_is_kept(const glint_bounds *bounds, glint_figure figure,
                          const glint_metrics *metrics);
 
-// GLINT_MISMATCH where a bound is not kept, with every such figure in the message: "IMAGE: rmse 0.2
-// is above 0.1, … (REFERENCE)". The names are for the message.
+// Checks all bounds. Returns GLINT_MISMATCH if one is broken; the message lists all broken ones:
+// "IMAGE: rmse 0.2 is above 0.1, … (REFERENCE)". The names are only for the message.
 glint_status glint_bounds_check(const glint_bounds *bounds, const glint_metrics *metrics,
                                 const char *image, const char *reference, glint_error *error);
 

@@ -1,4 +1,4 @@
-// Where a picture differs from the one that it should be. See heat_map.h.
+// Paints where a picture differs from its reference. See heat_map.h.
 #include "report/compare/heat_map.h"
 
 #include "image/metrics.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// The exponent of the scale's upper end.
+// The exponent of the upper end of the scale.
 static int top_of(glint_heat heat, double mean)
 {
     return heat == GLINT_HEAT_ABSOLUTE && mean != 0 ? (int)ceil(log10(fabs(mean))) : 0;

@@ -1,4 +1,4 @@
-// The colours of a heat map and its scale. See heat_scale.h.
+// Defines the colours of a heat map and draws its scale. See heat_scale.h.
 #include "report/compare/heat_scale.h"
 
 #include "image/color.h"
@@ -23,12 +23,12 @@ double glint_heat_place(double difference, int top)
     return fmin(1, fmax(0, place));
 }
 
-// Green's formula with these parameters: all components stay within [0, 1] for fractions
-// from DARKEST to BRIGHTEST.
-#define START 0.25       // the hue at fraction 0, in thirds of the circle from blue
-#define ROTATIONS (-0.7) // from there through green to yellow and red
-#define HUE 1.5          // how far from grey
-#define DARKEST 0.2      // of the scale's ends, so that equal pixels are darker
+// Parameters of Green's formula. With them all components stay within [0, 1] for fractions from
+// DARKEST to BRIGHTEST.
+#define START 0.25       // hue at fraction 0, in thirds of the colour circle, from blue
+#define ROTATIONS (-0.7) // turns from there through green to yellow and red
+#define HUE 1.5          // saturation
+#define DARKEST 0.2      // lower end of the scale; equal pixels are darker
 #define BRIGHTEST 0.98
 
 void glint_heat_color(double place, float linear[3])
@@ -49,13 +49,13 @@ void glint_heat_color(double place, float linear[3])
 
 // ---- Where things stand -------------------------------------------------------------------------
 
-// In units. A label under the bar is five signs at most ("1e-45"), half of which stand out on
-// either side.
+// In units of `unit` pixels. A label under the bar has at most five characters ("1e-45"); half of
+// it may stand out at either end.
 enum {
     MARGIN = 6,
     GAP = 4,
-    MARKER = 4, // the triangle's height
-    BAR = 9,    // the bar's height
+    MARKER = 4, // height of the triangle
+    BAR = 9,    // height of the bar
     TICK = 3,
     LABEL = 5 * GLINT_FONT_ADVANCE,
     NOT_FINITE = 7 * GLINT_FONT_ADVANCE, // "NaN/inf"
@@ -65,8 +65,9 @@ enum {
     BAR_Y = TITLE_Y + GLINT_FONT_HEIGHT + GAP + MARKER,
     LABEL_Y = BAR_Y + BAR + TICK + 1,
     STRIP = LABEL_Y + GLINT_FONT_HEIGHT + MARGIN,
-    NARROWEST = 312,     // the longest title, and LABEL for each decade
-    UNIT_FOR_WIDTH = 640 // one more for each of these pixels: readable where a large map is shrunk
+    NARROWEST = 312, // the longest title, and LABEL for each decade
+    // pixels of width per unit, so that text stays readable in a large map that is shown smaller
+    UNIT_FOR_WIDTH = 640
 };
 
 glint_heat_layout glint_heat_layout_for(int width, int height)
@@ -89,7 +90,7 @@ glint_heat_layout glint_heat_layout_for(int width, int height)
 
 // ---- Drawing ------------------------------------------------------------------------------------
 
-// Under the bar, its middle at x.
+// Draws a label under the bar, centred at x.
 static void draw_label(const glint_heat_layout *layout, int x, const char *text, glint_image *map)
 {
     const int width = ((int)strlen(text) * GLINT_FONT_ADVANCE - 1) * layout->unit;
@@ -103,7 +104,7 @@ static void draw_box(const glint_heat_layout *layout, int x, const float color[3
     const int side = layout->bar_height, unit = layout->unit;
     const int frame[4] = {x - unit, layout->bar_y - unit, side + 2 * unit, side + 2 * unit};
     const int box[4] = {x, layout->bar_y, side, side};
-    glint_font_fill(map, frame, ink); // black would be lost on the dark background
+    glint_font_fill(map, frame, ink); // without a frame, black would be lost on the dark background
     glint_font_fill(map, box, color);
     draw_label(layout, x + side / 2, text, map);
 }
@@ -129,7 +130,7 @@ static void draw_bar(const glint_heat_legend *legend, const glint_heat_layout *l
     }
 }
 
-// A triangle that points down at the worst value.
+// Draws a triangle that points down at the largest difference.
 static void draw_marker(const glint_heat_legend *legend, const glint_heat_layout *layout,
                         glint_image *map)
 {

@@ -1,4 +1,4 @@
-// Figures as JSON: of a row of measurements, and of a picture's errors. See json.h.
+// Writes figures as JSON: the summary of measurements, and the errors of a picture. See json.h.
 #include "report/json.h"
 
 #include <math.h>

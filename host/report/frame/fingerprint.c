@@ -1,4 +1,4 @@
-// What decides a frame's pixels. See fingerprint.h.
+// Computes fingerprints of frames. See fingerprint.h.
 #include "report/frame/fingerprint.h"
 
 #include "base/regular_file.h"
@@ -13,13 +13,13 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Where files say what they say of themselves: headers come first, but for TIFF's, which may stand
-// behind the pixels.
+// Bytes at the beginning and the end of a file that may hold its metadata. Headers come first,
+// except TIFF's, which may come after the pixels.
 #define SEARCHED 65536
 
 // ---- What frames share -------------------------------------------------------------------------
 
-// Numbers as texts, so that neither padding nor the order of bytes matters.
+// Adds numbers as texts, so that neither padding nor byte order matters.
 static void add_text(XXH3_state_t *state, const char *text)
 {
     XXH3_128bits_update(state, text, strlen(text) + 1);
@@ -40,7 +40,7 @@ static void add_vector(XXH3_state_t *state, glint_vec3 v)
     add_numbers(state, numbers, 3);
 }
 
-// Arrays of float and of integers, as they lie in memory, with their length before them.
+// Adds an array of floats or integers as it lies in memory, after its length.
 static void add_array(XXH3_state_t *state, const void *array, size_t size, size_t count)
 {
     const double bytes = array != NULL ? (double)size * (double)count : -1;
@@ -111,7 +111,7 @@ static void add_material(XXH3_state_t *state, const glint_material *m)
     }
 }
 
-// By what layers and manifests name it.
+// Adds what layers and manifests show of an instance: numbers and names.
 static void add_instance(XXH3_state_t *state, const glint_scene *scene,
                          const glint_instance *instance)
 {
@@ -135,7 +135,7 @@ static void add_scene(XXH3_state_t *state, const glint_scene *scene)
 {
     add_vector(state, scene->origin);
     add_numbers(state, &scene->unit, 1);
-    const double moves = scene->moves ? 1 : 0; // which the plan heeds
+    const double moves = scene->moves ? 1 : 0; // the plan depends on it
     add_numbers(state, &moves, 1);
     add_array(state, scene->positions, 9 * sizeof *scene->positions, scene->triangle_count);
     if (scene->parts.count > 0) {
@@ -185,7 +185,7 @@ static void add_settings(XXH3_state_t *state, const glint_settings *settings)
     }
 }
 
-// What decides about settings frame by frame.
+// Adds --max-error, which chooses settings for each frame.
 static void add_max_error(XXH3_state_t *state, double max_error)
 {
     if (max_error > 0) {
@@ -194,7 +194,8 @@ static void add_max_error(XXH3_state_t *state, double max_error)
     }
 }
 
-// What else decides bits: widths and tiles do not, and texels are chosen for the environment.
+// Adds the kind of texels. Widths and tiles do not change any bits, so they are left out. Without a
+// plan, the kind depends on the environment: adds the setting.
 static void add_texels(XXH3_state_t *state, const glint_subject *subject)
 {
     const double kind = subject->plan != NULL ? (subject->plan->half_texels ? 1 : 0)
@@ -209,7 +210,8 @@ static void add_encoding(XXH3_state_t *state, const char *path, const glint_writ
     add_text(state, options->compression != NULL ? options->compression : "");
     const double numbers[] = {options->exr_float ? 1 : 0, (double)options->exposure};
     add_numbers(state, numbers, 2);
-    if (options->tone != GLINT_TONE_NONE) { // by name: older fingerprints stay valid
+    // By name, so that fingerprints from before --tone stay valid
+    if (options->tone != GLINT_TONE_NONE) {
         add_text(state, "tone");
         add_text(state, glint_tone_names[options->tone]);
     }
@@ -337,7 +339,8 @@ void glint_fingerprint_frame(const glint_fingerprint *parts, size_t count,
 
 // ---- In files ----------------------------------------------------------------------------------
 
-// The digits behind the name, up to a few bytes of each format's own further on.
+// Finds the fingerprint's digits after its name. Each format may put a few bytes of its own between
+// them.
 static bool find_in(const char *bytes, size_t size, char text[GLINT_FINGERPRINT_TEXT])
 {
     enum { NAME = sizeof GLINT_FINGERPRINT_NAME - 1, BETWEEN = 16, DIGITS = 32 };

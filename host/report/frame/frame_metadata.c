@@ -1,11 +1,11 @@
-// What a frame's file says of itself. See frame_metadata.h.
+// Collects the metadata of a frame's file. See frame_metadata.h.
 #include "report/frame/frame_metadata.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
-// The camera's axes as columns, and what moves the eye to the origin: p' = p M.
+// The matrix with the camera's axes as columns; its last row moves the eye to the origin: p' = p M.
 static glint_mat4 world_to_camera(const glint_camera *camera)
 {
     glint_vec3 forward = glint_vec3_scale(camera->back, -1);
@@ -37,8 +37,9 @@ void glint_world_to_camera(const glint_camera *camera, float matrix[16])
 
 void glint_world_to_ndc(const glint_camera *camera, double aspect, float matrix[16])
 {
-    // In camera space the image's lower right corner is at (aspect, −1) × half, at z = 1 where it
-    // is perspective; x and y go to [0, 1] with ½ w added, so that the division by w keeps it.
+    // In camera space, the lower right corner of the image is at (aspect, −1) × half, for
+    // perspective at z = 1. x and y go to [0, 1]. For this, 0.5 w is added to both, so that the
+    // division by w keeps it.
     double half = camera->orthographic ? camera->ymag : tan(camera->yfov / 2);
     glint_mat4 projection = {
         {{0.5 / (half * aspect), 0, 0, 0}, {0, -0.5 / half, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
@@ -86,7 +87,8 @@ void glint_frame_metadata_add_real(glint_frame_metadata *metadata, const char *n
     }
 }
 
-// capDate and utcOffset of the standard: local time, and the seconds to add to it to get UTC.
+// Adds capDate and utcOffset of the standard: the local time, and the seconds that lead from it to
+// UTC.
 static void add_time(glint_frame_metadata *metadata)
 {
     time_t seconds = time(NULL);
@@ -99,7 +101,7 @@ static void add_time(glint_frame_metadata *metadata)
     glint_frame_metadata_add_real(metadata, "utcOffset", 0 - (double)local.tm_gmtoff);
 }
 
-// How far away the environment was taken to be, in metres of world space.
+// Adds the proxy of the environment, in metres of world space.
 static void add_proxy(glint_frame_metadata *metadata, const glint_proxy *proxy)
 {
     const glint_vec3 low = glint_vec3_subtract(proxy->middle, proxy->half_extent);
@@ -118,7 +120,7 @@ static void add_proxy(glint_frame_metadata *metadata, const glint_proxy *proxy)
     glint_frame_metadata_add_text(metadata, "glint:proxy", text);
 }
 
-// Those that the table names for files, where they are not at their defaults.
+// Adds the settings that the table marks for files, if they differ from their defaults.
 static void add_settings(glint_frame_metadata *metadata, const glint_settings *settings)
 {
     size_t texts = 0;

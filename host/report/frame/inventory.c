@@ -1,4 +1,4 @@
-// The inventory of a scene and of the devices as JSON. See inventory.h.
+// Prints the inventory of a scene and of the devices as JSON. See inventory.h.
 #include "report/frame/inventory.h"
 
 #include "kernels/layout.h"
@@ -23,7 +23,7 @@ size_t glint_inventory_device_bytes(const glint_subject *subject)
     return bytes;
 }
 
-// null where nothing moves.
+// The animation as JSON; null if nothing moves.
 static json_t *animation_object(const glint_motion *motion)
 {
     if (motion == NULL || !(glint_motion_moves_scene(motion) || motion->moves_cameras)) {

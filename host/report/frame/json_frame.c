@@ -1,4 +1,4 @@
-// What a frame counted, as JSON. See json.h.
+// Writes the counts of a frame as JSON. See json.h.
 #include "report/json.h"
 
 json_t *glint_json_rays(const glint_ray_counts *rays)

@@ -1,4 +1,4 @@
-// The parts of a report as JSON: device, plan, tree, environment, scene. See json.h.
+// Writes device, plan, tree, environment and scene as JSON. See json.h.
 #include "render/settings_table.h"
 #include "report/json.h"
 
@@ -142,7 +142,7 @@ json_t *glint_json_camera(const glint_camera *camera)
     return object;
 }
 
-// A number as such, what is no number as the word that the option takes.
+// The value of a setting: a number if it is one, else the word that the option takes.
 static json_t *setting_value(const glint_setting *setting, const glint_settings *settings)
 {
     char text[GLINT_SETTING_TEXT];
@@ -241,7 +241,8 @@ static json_t *topology_object(const glint_topology *topology)
     return object;
 }
 
-// Pairs of solids by their instances, that which is there where both are first.
+// Pairs of touching or overlapping solids, by the indices of their instances. "there" is the solid
+// that fills their common space.
 static json_t *contacts_list(const glint_solids *solids)
 {
     json_t *list = json_array();
@@ -275,9 +276,9 @@ static json_t *light_object(const glint_punctual_light *light)
     glint_json_put_text(object, "type", glint_punctual_kind_name(light->kind));
     glint_json_put(object, "position", vector(light->position));
     glint_json_put(object, "direction", vector(light->direction));
-    // Candela, of a directional light lux.
+    // In candela; in lux for a directional light.
     glint_json_put(object, "intensity", triple(light->color[0], light->color[1], light->color[2]));
-    glint_json_put_real(object, "range", light->range); // null: no end
+    glint_json_put_real(object, "range", light->range); // null: unlimited
     if (light->kind == GLINT_PUNCTUAL_SPOT) {
         glint_json_put_real(object, "inner_cone_degrees", light->inner_angle * 180 / GLINT_PI);
         glint_json_put_real(object, "outer_cone_degrees", light->outer_angle * 180 / GLINT_PI);
@@ -285,7 +286,7 @@ static json_t *light_object(const glint_punctual_light *light)
     return object;
 }
 
-// null: the file's plain materials, and "" for a variant without a name.
+// The name of a variant. null: the plain materials of the file; "": a variant without a name.
 static json_t *variant_name(const glint_scene *scene, int variant)
 {
     if (variant < 0) {
@@ -324,7 +325,7 @@ static void put_lists(json_t *object, const glint_scene *scene)
     glint_json_put(object, "lights", lights);
 }
 
-// What the command line made of the materials, as it said it.
+// The overrides of the materials, as written on the command line.
 static json_t *overrides_list(const glint_material_overrides *overrides)
 {
     json_t *list = json_array();

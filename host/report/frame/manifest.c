@@ -1,4 +1,4 @@
-// Manifests of layers. See manifest.h.
+// Writes the manifests of layers. See manifest.h.
 #include "report/frame/manifest.h"
 
 #include "report/json.h"

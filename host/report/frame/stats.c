@@ -1,4 +1,4 @@
-// The --stats file. See stats.h.
+// Writes the --stats file. See stats.h.
 #include "report/frame/stats.h"
 
 #include "report/json.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What was done once, before the first frame.
+// The times of the steps before the first frame.
 static json_t *preparation_object(const glint_stats *stats)
 {
     const glint_phases *phases = stats->phases;
@@ -27,7 +27,7 @@ static json_t *preparation_object(const glint_stats *stats)
 
 static json_t *rates_object(const glint_ray_counts *rays, double ms)
 {
-    // Rays in 1e6 over milliseconds in 1e-3: a time of 0 gives null.
+    // 1e6 rays per second = rays / (1e3 × milliseconds). A time of 0 gives null.
     const double scale = 1e-3 / ms;
     json_t *object = json_object();
     glint_json_put_real(object, "primary", (double)rays->primary * scale);
@@ -123,7 +123,7 @@ struct glint_stats_log {
     char *path;
 };
 
-// Takes the reference.
+// Writes the object as a line. Takes over the reference.
 static glint_status add_line(glint_stats_log *log, json_t *object, glint_error *error)
 {
     char *text = object != NULL ? glint_json_dump(object, JSON_REAL_PRECISION(9)) : NULL;

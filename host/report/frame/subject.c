@@ -1,4 +1,4 @@
-// Words for what a report is about. See subject.h.
+// Names the kinds of materials. See subject.h.
 #include "report/frame/subject.h"
 
 const char *glint_material_kind(const glint_material *material)

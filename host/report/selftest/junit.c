@@ -1,5 +1,5 @@
-// JUnit's XML. See junit.h. So little of XML is needed, elements and escaped texts, that a library
-// for it would be one more package to install and save a dozen lines.
+// Writes JUnit XML. See junit.h. It needs only elements and escaped texts: a library would save a
+// dozen lines, but would be one more package to install.
 #include "report/selftest/junit.h"
 
 #include "image/output_file.h"
@@ -41,7 +41,7 @@ static void put_measures(FILE *out, const glint_selftest_result *r)
     }
 }
 
-// Why a case did not pass, in an element of its own.
+// Writes an element that says why a case did not pass.
 static void put_trouble(FILE *out, const glint_selftest_result *r)
 {
     const glint_measure *worst = glint_selftest_worst(r);

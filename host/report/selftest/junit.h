@@ -1,4 +1,4 @@
-// The results of a self-test as JUnit's XML, which continuous integration reads: a suite for each
+// Writes the results of a self-test as JUnit XML for continuous integration: a suite for each
 // precision and width, a test case for each case.
 #ifndef GLINT_REPORT_SELFTEST_JUNIT_H
 #define GLINT_REPORT_SELFTEST_JUNIT_H

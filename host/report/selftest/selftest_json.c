@@ -1,4 +1,4 @@
-// What `glint selftest --json` writes. See selftest_json.h.
+// Writes the JSON of glint selftest --json. See selftest_json.h.
 #include "report/selftest/selftest_json.h"
 
 static json_t *measure_json(const glint_measure *m)

@@ -1,4 +1,4 @@
-// Pictures as data URIs. See data_uri.h.
+// Encodes pictures as data URIs. See data_uri.h.
 #include "report/speed_error/data_uri.h"
 
 #include "base/memory.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Writes the characters of three bytes, of which `count` are there (RFC 4648).
+// Encodes `count` bytes, 1 to 3, as four characters of base64 (RFC 4648).
 static void encode(const uint8_t *bytes, size_t count, char text[4])
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -1,4 +1,4 @@
-// Pictures within a page: data URIs.
+// Encodes pictures as data URIs, which a page can contain.
 #ifndef GLINT_REPORT_SPEED_ERROR_DATA_URI_H
 #define GLINT_REPORT_SPEED_ERROR_DATA_URI_H
 
@@ -6,12 +6,12 @@
 #include "image/image.h"
 
 typedef enum glint_data_format {
-    GLINT_DATA_PNG,  // for few colours and sharp edges
-    GLINT_DATA_JPEG, // for pictures
+    GLINT_DATA_PNG,  // lossless, for few colours and sharp edges
+    GLINT_DATA_JPEG, // lossy, for pictures
 } glint_data_format;
 
-// "data:image/png;base64,…" of a linear image, malloc'd. Errors: GLINT_OUTPUT_FAILED where it
-// cannot be encoded, GLINT_OUT_OF_MEMORY.
+// Makes "data:image/png;base64,…" (or jpeg) from a linear image, malloc'd. Errors:
+// GLINT_OUTPUT_FAILED if it cannot be encoded, GLINT_OUT_OF_MEMORY.
 glint_status glint_data_uri_make(const glint_image *image, glint_data_format format, char **uri,
                                  glint_error *error);
 

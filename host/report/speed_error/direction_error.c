@@ -1,4 +1,4 @@
-// How far directions are off. See speed_error.h.
+// Measures the error of directions. See speed_error.h.
 #include "report/speed_error/speed_error.h"
 
 #include "base/memory.h"
@@ -19,7 +19,7 @@ static const float *channel(const glint_layers *layers, const char *name)
     return NULL;
 }
 
-// The heaviest terms of a frame's pixels.
+// The channels of each pixel's heaviest term.
 typedef struct heaviest {
     const float *vector[3], *weight[3], *kind;
 } heaviest;
@@ -38,13 +38,14 @@ static bool find(const glint_layers *layers, heaviest *found)
     return all;
 }
 
+// True if the pixel's heaviest term looks up radiance with a positive weight.
 static bool sees_environment(const heaviest *h, size_t pixel)
 {
     return h->kind[pixel] == 0 &&
            (h->weight[0][pixel] > 0 || h->weight[1][pixel] > 0 || h->weight[2][pixel] > 0);
 }
 
-// In degrees, by the arc tangent, which keeps its digits where the angle is small.
+// The angle in degrees. The arc tangent keeps its digits for small angles.
 static double angle_between(const heaviest *a, const heaviest *b, size_t pixel)
 {
     glint_vec3 v[2];

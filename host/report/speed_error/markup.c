@@ -1,4 +1,4 @@
-// Escaped texts. See markup.h.
+// Escapes texts for XML and HTML. See markup.h.
 #include "report/speed_error/markup.h"
 
 #include "report/json.h"

@@ -1,21 +1,21 @@
-// Errors against times. See page_plot.h.
+// Draws a plot of errors against times. See page_plot.h.
 #include "report/speed_error/page_plot.h"
 
 #include "report/speed_error/markup.h"
 
 #include <math.h>
 
-// The picture, in its own units, and where the axes stand in it.
+// The size of the picture in its own units, and the places of the axes.
 #define WIDTH 760.0
 #define HEIGHT 440.0
 #define LEFT 70.0
 #define RIGHT 740.0
 #define TOP 20.0
 #define BOTTOM 360.0
-#define ZERO 385.0 // the line of those without an error
+#define ZERO 385.0 // the line for errors of 0
 
 typedef struct range {
-    double low, high; // logarithms to the base of ten
+    double low, high; // decimal logarithms
 } range;
 
 typedef struct plot {
@@ -35,8 +35,8 @@ static void include(range *r, double value)
     r->high = fmax(r->high, log10(value));
 }
 
-// The next number below (direction −1) or above (1) that an axis may end at: whole decades, or the
-// 1, 2 and 5 of each where there is less to show.
+// Rounds a logarithm down (direction −1) or up (1) to a place where an axis may end. This is a
+// whole decade; if `whole` is false, also 2 or 5 within a decade.
 static double round_end(double value, int direction, bool whole)
 {
     static const double steps[] = {0, 0.30103, 0.69897, 1};
@@ -51,7 +51,7 @@ static double round_end(double value, int direction, bool whole)
 
 static void finish_range(range *r, bool whole)
 {
-    if (!(r->low <= r->high)) { // there was nothing
+    if (!(r->low <= r->high)) { // no points
         *r = (range){-1, 1};
     }
     const bool is_narrow = r->high - r->low < 1.5;
@@ -122,7 +122,7 @@ static void draw_axes(const plot *p)
             (TOP + BOTTOM) / 2);
 }
 
-// The optimal points from left to right, each by a step down from the one before.
+// Draws a stepped line through the optimal points from left to right.
 static void draw_front(const plot *p, const glint_plot_point *points, size_t count)
 {
     double last = -INFINITY;
@@ -150,7 +150,7 @@ static void draw_front(const plot *p, const glint_plot_point *points, size_t cou
         y_before = y;
         last = next->ms;
     }
-    if (*command == 'M') { // there is none, and a path must begin somewhere
+    if (*command == 'M') { // no optimal points, but a path must begin somewhere
         fprintf(p->out, "M%.1f %.1f", LEFT, BOTTOM);
     }
     fputs("\"/>\n", p->out);
@@ -195,7 +195,7 @@ void glint_page_plot(const glint_plot_point *points, size_t count, FILE *out)
             WIDTH, HEIGHT);
     draw_axes(&p);
     draw_front(&p, points, count);
-    for (int optimal = 0; optimal <= 1; optimal++) { // these above the others
+    for (int optimal = 0; optimal <= 1; optimal++) { // optimal points last, above the others
         for (size_t i = 0; i < count; i++) {
             if (is_shown(&points[i]) && points[i].is_optimal == (optimal == 1)) {
                 draw_point(&p, &points[i], i + 1);

@@ -1,4 +1,4 @@
-// The page's style sheet. See page_style.h.
+// Holds the page's style sheet. See page_style.h.
 #include "report/speed_error/page_style.h"
 
 const char glint_page_style[] =

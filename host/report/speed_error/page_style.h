@@ -1,4 +1,5 @@
-// What the page looks like: on a screen, light or dark as its reader has it, and on paper.
+// Declares the style sheet of the page: for light and dark screens, as the reader prefers, and for
+// paper.
 #ifndef GLINT_REPORT_SPEED_ERROR_PAGE_STYLE_H
 #define GLINT_REPORT_SPEED_ERROR_PAGE_STYLE_H
 

@@ -1,8 +1,11 @@
-// Speed against error. See speed_error.h.
+// Measures speed against error. See speed_error.h.
 //
-// In this order: the reference; each rung's first frame and its errors; the errors of its
-// directions, by kernels of their own that keep them; the frames that are timed, one of every rung
-// in turn, so that a machine that slows down slows all of them; the error of sampling.
+// The steps, in this order:
+//   1. the reference
+//   2. each rung's first frame and its errors
+//   3. the errors of each rung's directions, with separate kernels that keep the directions
+//   4. the timed frames, one of every rung in turn: a machine that slows down slows all rungs
+//   5. the error of sampling
 #include "report/speed_error/speed_error.h"
 
 #include "base/clock.h"
@@ -14,9 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REFERENCE GLINT_RUNGS_MAX // its place among the renderers
+#define REFERENCE GLINT_RUNGS_MAX // index of the reference among the renderers
 #define RENDERERS (GLINT_RUNGS_MAX + 1)
-#define TRUTH_SAMPLES 8 // times as many on each axis
+#define TRUTH_SAMPLES 8 // factor of samples on each axis
 #define LEAST_ROUNDS 5
 
 typedef struct times {
@@ -24,7 +27,7 @@ typedef struct times {
     size_t count, capacity;
 } times;
 
-// Everything a measurement holds. Zero is valid.
+// The state of a measurement. Zero is valid.
 typedef struct run {
     const glint_bench_inputs *inputs;
     const glint_speed_error_options *options;
@@ -32,8 +35,8 @@ typedef struct run {
     glint_speed_error_result *result;
     glint_device *device;
     glint_ladder ladder;
-    glint_renderer *shared;         // by all whose settings are variations of the scene's defaults
-    glint_renderer *own[RENDERERS]; // of the others
+    glint_renderer *shared;         // for all settings that are variations of the scene's settings
+    glint_renderer *own[RENDERERS]; // for other settings; NULL until needed
     times times[RENDERERS];
     glint_image reference, again;
     glint_layers reference_layers;
@@ -69,8 +72,8 @@ static glint_status render(run *r, glint_renderer *renderer, glint_image *image,
         &(glint_frame_request){renderer, r->inputs->camera, &progress, image, report}, error);
 }
 
-// The one that renders with these settings: the shared one, or one of their own, which is then made
-// if there is none yet.
+// Finds the renderer for these settings. Variations use the shared renderer; for other settings,
+// *own is created if it is NULL.
 static glint_status provide(run *r, const glint_settings *settings, glint_renderer **own,
                             glint_renderer **renderer, glint_error *error)
 {
@@ -115,7 +118,7 @@ static glint_status make_ladder(run *r, glint_error *error)
 
 // ---- The reference -----------------------------------------------------------------------------
 
-// How far the reference is from itself with other weights or another depth.
+// Measures how much the reference changes with another depth or other weights.
 static glint_status find_change(run *r, int times_depth, double times_weight, glint_metrics *change,
                                 glint_error *error)
 {
@@ -151,7 +154,8 @@ static glint_status render_reference(run *r, glint_error *error)
 
 // ---- Errors ------------------------------------------------------------------------------------
 
-// What of the phases was for these settings: kernels may have been compiled for others before.
+// The part of the phases that belongs to these settings: earlier rungs may have compiled kernels in
+// the shared renderer.
 static glint_phases phases_since(const run *r, const glint_phases *before,
                                  const glint_renderer *renderer)
 {
@@ -165,6 +169,7 @@ static glint_phases phases_since(const run *r, const glint_phases *before,
     return phases;
 }
 
+// Renders a rung's first frame and measures its error.
 static glint_status judge_rung(run *r, size_t which, glint_error *error)
 {
     glint_rung_result *rung = &r->result->rungs[which];
@@ -195,7 +200,7 @@ cleanup:
     return status;
 }
 
-// The heaviest direction of each pixel, and the triangle that it shows.
+// Renders the heaviest direction of each pixel, and the triangle that the pixel shows.
 static glint_status render_directions(run *r, const glint_settings *settings, glint_layers *layers,
                                       glint_error *error)
 {
@@ -222,7 +227,8 @@ static size_t pixel_count(const run *r)
 
 static uint64_t count_wrong_hits(const run *r, const glint_layers *layers)
 {
-    const float *triangles = layers->channels[0].values; // the only layer, before the terms
+    // The only layer; it comes before the terms
+    const float *triangles = layers->channels[0].values;
     const float *right = r->reference_layers.channels[0].values;
     uint64_t wrong = 0;
     for (size_t i = 0; i < pixel_count(r); i++) {
@@ -281,7 +287,7 @@ static glint_status keep_time(times *t, double ms, glint_error *error)
     return GLINT_OK;
 }
 
-// A frame of a rung, or of the reference.
+// Times one frame of a rung or of the reference.
 static glint_status time_frame(run *r, size_t which, glint_error *error)
 {
     const glint_rung *rung = which == REFERENCE ? &r->ladder.reference : &r->ladder.rungs[which];
@@ -292,8 +298,7 @@ static glint_status time_frame(run *r, size_t which, glint_error *error)
     return keep_time(&r->times[which], report.kernel_ms, error);
 }
 
-// Whether there is another round after `done`, of which `measured` took so many milliseconds in
-// all.
+// True if another round is needed after `done` rounds, which took `measured` milliseconds in all.
 static bool wants_more(const run *r, size_t done, size_t renderers, double measured)
 {
     const glint_speed_error_options *options = r->options;
@@ -325,7 +330,8 @@ cleanup:
     return status;
 }
 
-// Of the whole picture: what is not finite is left out of the RMSE.
+// The error of the whole picture: NaN if any pixel is not finite, because the RMSE leaves such
+// pixels out.
 static double error_of(const glint_rung_result *rung)
 {
     return rung->error.nonfinite > 0 ? (double)NAN : rung->error.relative_rmse;
@@ -367,7 +373,7 @@ static glint_status render_samples(run *r, const glint_settings *settings, glint
     const int frames = t != NULL ? 4 : 1;
     for (int i = 0; i < frames; i++) {
         TRY_OR(cleanup, status, render(r, renderer, image, &report, error));
-        if (i > 0) { // the first warms up
+        if (i > 0) { // the first frame warms up
             TRY_OR(cleanup, status, keep_time(t, report.kernel_ms, error));
         }
     }
@@ -384,7 +390,7 @@ static glint_settings with_samples(const run *r, int axis, bool is_mip)
     return settings;
 }
 
-// Times and judges `axis` × `axis` samples a pixel, with the filter that *row names.
+// Times and judges `axis` × `axis` samples per pixel, with the filter of *row.
 static glint_status judge_samples(run *r, int axis, const glint_image *truth,
                                   glint_sampling_result *row, glint_error *error)
 {
@@ -401,6 +407,8 @@ cleanup:
     return status;
 }
 
+// Measures the error of sampling: compares few samples with TRUTH_SAMPLES times as many on each
+// axis.
 static glint_status judge_sampling(run *r, glint_error *error)
 {
     static const struct {

@@ -1,8 +1,8 @@
-// Speed against error: every rung of a scene's ladder timed, and its picture held against the
-// reference's. docs/speed_error.md explains what comes of it.
+// Measures speed against error: times every rung of a scene's ladder and compares its picture with
+// a reference. docs/speed_error.md explains the results.
 //
-// The reference has the frame's own samples, so that what is measured is the error of model and
-// arithmetic; the error of sampling is told apart, of the default rung with more and more samples.
+// The reference has the same samples as the frame. So these errors come from model and arithmetic
+// alone. The error of sampling is measured separately: the default rung with more and more samples.
 #ifndef GLINT_REPORT_SPEED_ERROR_SPEED_ERROR_H
 #define GLINT_REPORT_SPEED_ERROR_SPEED_ERROR_H
 
@@ -13,68 +13,74 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// How far the directions are off along which pixels see the environment: of those pixels whose
-// heaviest look-up is one of radiance in both pictures, the angles between the two. Degrees.
+// The error of the directions along which pixels see the environment, in degrees: the angle between
+// the pixel's heaviest direction in both pictures. A pixel counts if its heaviest term is a look-up
+// of radiance in both.
 typedef struct glint_direction_error {
     uint64_t compared; // pixels
     double mean, p99, largest;
-    uint64_t lost; // pixels that have such a look-up in one of the pictures alone
+    uint64_t lost; // pixels whose heaviest term is such a look-up in only one of the pictures
 } glint_direction_error;
 
+// The results of one rung.
 typedef struct glint_rung_result {
     glint_rung rung;
     glint_plan plan;
-    glint_phases phases;  // before the first frame; what it shares with others counts in each, but
-                          // kernels, irradiance and uploads where they were made
-    glint_summary kernel; // of its frames, milliseconds, in turns with all the others'
+    // times before the first frame. Times of shared steps count in every rung; kernels, irradiance
+    // and uploads count only in the rung that needed them first
+    glint_phases phases;
+    glint_summary kernel; // milliseconds per frame; all rungs take turns
     glint_ray_counts rays;
     glint_truncation truncation;
-    glint_metrics error; // against the reference
-    bool has_directions; // else the next two are zero: vertices were shaded
+    glint_metrics error; // compared with the reference
+    bool has_directions; // false: vertices were shaded; the next two members are zero
     glint_direction_error directions;
-    uint64_t wrong_hits; // pixels whose primary ray, of the one in the middle, meets another
-                         // triangle than the reference's
-    int dominated_by; // a rung that is no slower and errs no more, one of them better; −1: none
-    glint_image picture, heat; // where pictures are wanted, else empty
+    // pixels whose middle primary ray meets another triangle than in the reference
+    uint64_t wrong_hits;
+    // a rung that is not slower and has no larger error, and is better in one of the two; −1: none
+    int dominated_by;
+    glint_image picture, heat; // empty without options.pictures
 } glint_rung_result;
 
-// The default rung with other numbers of samples a pixel, against very many.
+// The default rung with another number of samples per pixel, compared with very many samples.
 typedef struct glint_sampling_result {
     int samples;
-    bool is_mip; // the filter
+    bool is_mip; // true: mip filter; false: bilinear
     glint_summary kernel;
     glint_metrics error;
 } glint_sampling_result;
 
 #define GLINT_SAMPLING_ROWS 4
 
+// The results of a scene.
 typedef struct glint_speed_error_result {
     glint_capabilities device;
     glint_bvh_report bvh;
     glint_rung reference;
     glint_plan reference_plan;
-    glint_summary reference_kernel; // of its frames, in turns with the rungs'
+    glint_summary reference_kernel; // milliseconds per frame, in turns with the rungs
     glint_truncation reference_truncation;
-    // What becomes of it where branches end at four times the weight, and where paths go twice as
-    // deep: about what its own weights and depth are good for.
+    // How much the reference changes if branches end at four times the weight, and if paths go
+    // twice as deep. This shows about how accurate its own weights and depth are.
     glint_metrics change_by_weights, change_by_depth;
-    glint_image reference_picture; // where pictures are wanted
+    glint_image reference_picture; // empty without options.pictures
     size_t count;
     glint_rung_result rungs[GLINT_RUNGS_MAX];
-    int sampling_truth; // samples a pixel of what the next are held against; 0: left out
+    int sampling_truth; // samples per pixel of the reference for `sampling`; 0: not measured
     glint_sampling_result sampling[GLINT_SAMPLING_ROWS];
 } glint_speed_error_result;
 
+// What to measure, and for how long.
 typedef struct glint_speed_error_options {
-    double seconds;   // a rung's share of the time that is measured
-    int rounds;       // 0: by the time; else so many frames of each rung
-    bool pictures;    // keep them
-    bool no_sampling; // leave its rows out
+    double seconds;   // measuring time per rung
+    int rounds;       // frames of each rung; 0: `seconds` decides
+    bool pictures;    // true: keep the pictures
+    bool no_sampling; // true: do not measure the error of sampling
 } glint_speed_error_options;
 
-// Measures. The settings are as glint_ladder_make wants them, with the bilinear filter and no
-// layers; the device must have double precision. `result` is the caller's to free, whatever comes
-// of it. Errors: as rendering gives; GLINT_DEVICE_FAILED without double precision;
+// Measures a scene. The settings must suit glint_ladder_make, with the bilinear filter and without
+// layers. The device must have double precision. Free `result` with glint_speed_error_free, also
+// after an error. Errors: as rendering; GLINT_DEVICE_FAILED without double precision;
 // GLINT_INTERRUPTED.
 glint_status glint_speed_error_measure(const glint_bench_inputs *inputs,
                                        const glint_speed_error_options *options,
@@ -82,12 +88,12 @@ glint_status glint_speed_error_measure(const glint_bench_inputs *inputs,
                                        glint_speed_error_result *result, glint_error *error);
 void glint_speed_error_free(glint_speed_error_result *result);
 
-// Sets `dominated_by` of each rung, by medians and relative RMSE: of several that dominate it the
-// fastest. A rung whose error is NaN, or with pixels that are not finite, is dominated by any that
-// has neither.
+// Sets `dominated_by` of each rung, by medians and relative RMSE. If several rungs dominate it,
+// takes the fastest. A rung whose error is NaN, or with pixels that are not finite, is dominated by
+// every rung without these faults.
 void glint_speed_error_compare(glint_rung_result *rungs, size_t count);
 
-// How far the heaviest directions differ of two frames that were rendered with terms = 1.
+// Compares the heaviest directions of two frames, both rendered with terms = 1.
 glint_status glint_direction_error_find(const glint_layers *layers, const glint_layers *reference,
                                         size_t pixel_count, glint_direction_error *result,
                                         glint_error *error);

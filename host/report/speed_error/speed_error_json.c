@@ -1,4 +1,4 @@
-// What `glint bench --error --json` writes. See speed_error_json.h.
+// Writes the JSON of glint bench --error --json. See speed_error_json.h.
 #include "report/speed_error/speed_error_json.h"
 
 #include "report/frame/fingerprint.h"
@@ -137,7 +137,8 @@ static void put_fingerprint(json_t *object, const glint_fingerprint *fingerprint
     glint_json_put_text(object, "fingerprint", text);
 }
 
-// Scene and environment, with what tells them from others.
+// Puts scene, environment, camera and settings, with fingerprints that identify scene and
+// environment.
 static glint_status put_subject(json_t *entry, const glint_subject *subject, glint_error *error)
 {
     glint_fingerprint scene_is = {0}, environment_is = {0};

@@ -1,4 +1,4 @@
-// Speed against error as a page. See speed_error_page.h.
+// Writes the page of speed against error. See speed_error_page.h.
 #include "report/speed_error/speed_error_page.h"
 
 #include "image/output_file.h"
@@ -93,7 +93,7 @@ static void put_plot(const json_t *scene, size_t number, FILE *out)
 
 // ---- Tables ------------------------------------------------------------------------------------
 
-// With four digits, and without an exponent where there are more.
+// Writes four digits, or all digits of the whole number if it has more; never an exponent.
 static void put_ms(FILE *out, double ms)
 {
     fprintf(out, ms < 9999.5 ? "%.4g" : "%.0f", ms);
@@ -172,7 +172,7 @@ static void put_sampling(const json_t *scene, FILE *out)
 
 // ---- Pictures ----------------------------------------------------------------------------------
 
-// The reference's picture, which stands in the page once and is drawn beside each rung's.
+// Puts the reference's picture into the page once; each rung shows it by a link.
 static void define_reference(const json_t *scene, size_t number, FILE *out)
 {
     const long long width = count_at(scene, "settings.width");
