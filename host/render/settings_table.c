@@ -1,4 +1,4 @@
-// The rows, and what their values are as text. See settings_table.h.
+// Defines the rows of the table, and converts values to and from text. See settings_table.h.
 #include "render/settings_table.h"
 
 #include <assert.h>
@@ -8,7 +8,7 @@
 
 #define SAMPLES_MAX (GLINT_SAMPLES_PER_AXIS_MAX * GLINT_SAMPLES_PER_AXIS_MAX)
 
-// ---- Values with a form of their own -----------------------------------------------------------
+// ---- Values with custom text -------------------------------------------------------------------
 
 static glint_status parse_samples(const glint_option *option, const char *text, void *destination,
                                   glint_error *error)
@@ -33,7 +33,7 @@ static void print_samples(const glint_settings *settings, char text[GLINT_SETTIN
     snprintf(text, GLINT_SETTING_TEXT, "%lld", root > 0 ? root * root : root);
 }
 
-// With as few digits as give the same number again.
+// Prints with the fewest digits that give the same number again.
 static void print_real(double number, char text[GLINT_SETTING_TEXT])
 {
     int digits = 6;
@@ -42,7 +42,7 @@ static void print_real(double number, char text[GLINT_SETTING_TEXT])
     } while (digits++ < 17 && strtod(text, NULL) != number);
 }
 
-// "0.2,0.2,0.25": radiance R, G, B. False where the text is anything else.
+// Parses "0.2,0.2,0.25": radiance R, G, B. Returns false for any other text.
 static bool parse_backdrop(const char *text, double backdrop[4])
 {
     double color[3];
@@ -54,7 +54,8 @@ static bool parse_backdrop(const char *text, double backdrop[4])
     return true;
 }
 
-// "env", "transparent", a colour, or the file of a plate, which has a point or a slash.
+// Parses "env", "transparent", a colour, or the file of a plate, whose name contains a point or a
+// slash.
 static glint_status parse_background(const glint_option *option, const char *text,
                                      void *destination, glint_error *error)
 {
@@ -106,7 +107,7 @@ static void print_aovs(const glint_settings *settings, char text[GLINT_SETTING_T
 
 // ---- The table ---------------------------------------------------------------------------------
 
-// What is not named is 0: auto, float, exact, none.
+// Members without a value are 0: auto, float, exact, none.
 const glint_settings glint_settings_default = {
     .width = 1280,
     .height = 720,
@@ -136,7 +137,7 @@ static const char *const shadings[] = {[GLINT_SHADING_PIXEL] = "pixel",
 // Width and height are one value, int[2].
 static_assert(OF(height) == OF(width) + sizeof(int), "the height follows the width");
 
-// In the order of reports and helps. Choices are in the order of their enums.
+// In the order of reports and help texts. Choices are in the order of their enums.
 const glint_setting glint_setting_table[] = {
     {GLINT_SETTINGS_OF_SIZE, .offset = OF(width), .size = 2 * sizeof(int),
      .type = GLINT_SETTING_INT, .fingerprint = 1,
@@ -151,24 +152,23 @@ const glint_setting glint_setting_table[] = {
     {GLINT_SETTINGS_OF_FRAME, MEMBER(depth), .fingerprint = 4, .key = "depth",
      .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_INT, .name = "depth", .argument = "N|auto",
-                .help = "How many surfaces a light path meets before it takes the environment "
-                        "along its direction: 1 is environment mapping, 2 is in and out of glass. "
-                        "auto goes on until --min-weight ends every path, 64 at most, and no "
-                        "further than it is proved that anything is met.",
+                .help = "Number of surfaces that a path meets before it takes the environment "
+                        "along its direction. 1 is environment mapping, 2 goes into glass and out. "
+                        "auto follows paths until --min-weight ends them, over at most 64 "
+                        "surfaces. It stops earlier if glint proves that paths meet nothing more.",
                 .minimum = 1, .maximum = 65535, .zero = "auto"}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(min_weight), .fingerprint = 5, .key = "min_weight",
      .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_REAL, .name = "min-weight", .argument = "W",
-                .help = "A branch whose weight falls under this takes the environment at once; 0 "
-                        "follows every branch to --depth.",
+                .help = "A branch with a weight below W takes the environment at once. 0 follows "
+                        "every branch to --depth.",
                 .fallback = "1/1024", .minimum = 0, .maximum = 1}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(transparent), .fingerprint = 6, .key = "background",
      .no_capture = "an environment has no holes", .print = print_background,
      .option = {GLINT_OPTION_CUSTOM, .name = "background", .argument = "KIND|R,G,B|PLATE",
-                .help = "What is behind the scene: env, the environment; transparent, nothing, and "
-                        "alpha says so; a colour, as linear radiance: 0.18,0.18,0.18; for render "
-                        "also a picture of the frame's size, plate.exr, or one for each frame, "
-                        "plate.####.exr.",
+                .help = "The background: env, the environment; transparent, none, with alpha; a "
+                        "colour in linear radiance, 0.18,0.18,0.18. render also takes a picture of "
+                        "the frame's size, plate.exr, or one for each frame, plate.####.exr.",
                 .parse = parse_background}},
     {GLINT_SETTINGS_OF_ENVIRONMENT, MEMBER(env_rotate), .fingerprint = 7,
      .key = "env_rotate_degrees",
@@ -184,117 +184,117 @@ const glint_setting glint_setting_table[] = {
     {GLINT_SETTINGS_OF_FRAME, MEMBER(mend), .fingerprint = 18, .key = "mend",
      .metadata = "glint:mend", .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_REAL, .name = "mend", .argument = "JUMP",
-                .help = "With --precision float, render pixels again in double that differ from a "
-                        "neighbour by more than this, in parts of the frame's mean, 0.3 say: at "
-                        "edges and folds of glass float shows the other side in a pixel here and "
-                        "there. 0 mends nothing.",
+                .help = "With --precision float, render pixels again in double if they differ from "
+                        "a neighbour by more than JUMP times the mean of the frame (try 0.3). This "
+                        "mends single wrong pixels at edges and folds of glass. 0 mends nothing.",
                 .minimum = 0, .maximum = 1e6}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(fresnel), .fingerprint = 9, .key = "fresnel",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "fresnel", .argument = "KIND",
                 .help = "exact: reflectance depends on the angle. none: metal reflects its base "
-                        "colour, glass only where it reflects all, paint nothing.",
+                        "colour, glass reflects only totally, paint reflects nothing.",
                 .choices = GLINT_CHOICES("exact", "none")}},
-    // Not in the settings' part of the fingerprint: what the plan chooses is, see fingerprint.c.
+    // Not in the settings' part of the fingerprint: the fingerprint holds the plan's choice, see
+    // fingerprint.c.
     {GLINT_SETTINGS_OF_FRAME, MEMBER(texels), .key = "texels",
      .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "texels", .argument = "KIND",
-                .help = "The environment's texels on the device: half is faster and holds values "
-                        "up to 65504; auto takes it where rounding to it does no harm, and float "
-                        "for precision double.",
+                .help = "Texels of the environment on the device: half is faster and holds values "
+                        "up to 65504. auto takes half if the rounding does no harm, and float with "
+                        "--precision double.",
                 .choices = GLINT_CHOICES("auto", "half", "float")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(filter), .fingerprint = 11, .key = "filter",
      .roles = GLINT_SETTING_IS_COMPARED,
      .option = {GLINT_OPTION_CHOICE, .name = "filter", .argument = "KIND",
-                .help = "How the environment is taken along a direction: bilinear, between the "
-                        "four nearest texels; mip, averaged over what a pixel sees of it, so that "
-                        "fine or bright detail does not sparkle in curved mirrors and glass.",
+                .help = "How a look-up reads the environment: bilinear, between the four nearest "
+                        "texels; mip, averaged over the footprint of the pixel, so that small "
+                        "bright details do not sparkle in curved mirrors and glass.",
                 .choices = GLINT_CHOICES("bilinear", "mip")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(anisotropy), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "anisotropy", .roles = GLINT_SETTING_VARIES,
      .option = {GLINT_OPTION_INT, .name = "anisotropy", .argument = "N",
-                .help = "Look-ups of a texture along what a pixel sees of it, at most: more keep "
-                        "floors sharp towards the horizon, and take more time. 1 blurs them.",
+                .help = "Largest number of texture look-ups along the footprint of a pixel. More "
+                        "keep floors sharp towards the horizon and take more time. 1 blurs them.",
                 .minimum = 1, .maximum = 16}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(irradiance), .fingerprint = 13, .key = "irradiance",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,
-     .option = {GLINT_OPTION_CHOICE, .name = "irradiance", .argument = "KIND",
-                .help = "What lights matte paint: exact, a map that is computed of the whole "
-                        "environment; sh, its nine spherical harmonics, which take less time and "
-                        "are off where a light is small.",
-                .choices = GLINT_CHOICES("exact", "sh")}},
+     .option =
+         {GLINT_OPTION_CHOICE, .name = "irradiance", .argument = "KIND",
+          .help =
+              "The light on matte paint: exact, a map computed from the whole environment; sh, its "
+              "nine spherical harmonics, which are faster, and inexact where a light is small.",
+          .choices = GLINT_CHOICES("exact", "sh")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(lights), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "lights",
      .option = {GLINT_OPTION_CHOICE, .name = "lights", .argument = "KIND",
-                .help = "Whether the point, spot and directional lights of the file shine: file or "
-                        "none. Matte paint shows their light and shadows.",
+                .help = "The point, spot and directional lights of the file: file uses them, none "
+                        "leaves them out. Matte paint shows their light and shadows.",
                 .choices = GLINT_CHOICES("file", "none")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(roughness), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "roughness", .roles = GLINT_SETTING_VARIES | GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "roughness", .argument = "KIND",
-                .help = "How rough surfaces look: fast, metal and paint are right to about 0.01; "
-                        "exact, to about 0.003, in some three times the time; smooth, metal is "
-                        "like a mirror, paint reflects nothing, glass is clear.",
+                .help = "Quality of rough surfaces: fast, metal and paint are right to about 0.01; "
+                        "exact, to about 0.003, in some three times the time; smooth, metal is a "
+                        "mirror, paint reflects nothing, glass is clear.",
                 .choices = GLINT_CHOICES("fast", "exact", "smooth")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(scattering), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "scattering",
      .option = {GLINT_OPTION_CHOICE, .name = "scattering", .argument = "KIND",
-                .help =
-                    "How often the microfacets of rough surfaces reflect light: single, once, as "
-                    "glTF has it, so rough metal is darker than smooth; multiple, until it "
-                    "leaves, so white metal reflects all.",
+                .help = "Reflections between the microfacets of rough surfaces: single, once, as "
+                        "in glTF, which darkens rough metal; multiple, until the light leaves, so "
+                        "white metal reflects all of it.",
                 .choices = GLINT_CHOICES("single", "multiple")}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(facets), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "facets", .roles = GLINT_SETTING_VARIES,
      .option = {GLINT_OPTION_INT, .name = "facets", .argument = "N",
-                .help = "Directions that a pixel takes where it meets rough glass: more take more "
-                        "time, and show fewer of the single directions. --max-error does not "
-                        "choose them.",
+                .help = "Directions for each pixel that shows rough glass. More directions take "
+                        "more time and show fewer single images. --max-error does not choose them.",
                 .minimum = 1, .maximum = GLINT_FACETS_MAX}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(wavelengths), .fingerprint = GLINT_FINGERPRINT_BY_NAME,
      .key = "wavelengths",
-     .option = {GLINT_OPTION_INT, .name = "wavelengths", .argument = "N",
-                .help = "Wavelengths that a pixel takes where it meets glass that disperses light: "
-                        "3 are one each for red, green and blue; more turn fringes into rainbows, "
-                        "and take more time; 1 shows no dispersion.",
-                .minimum = 1, .maximum = GLINT_WAVELENGTHS_MAX}},
+     .option =
+         {GLINT_OPTION_INT, .name = "wavelengths", .argument = "N",
+          .help =
+              "Wavelengths for each pixel that shows dispersing glass: 3 are red, green and blue. "
+              "More turn fringes into rainbows and take more time. 1 shows no dispersion.",
+          .minimum = 1, .maximum = GLINT_WAVELENGTHS_MAX}},
     {GLINT_SETTINGS_OF_FRAME, MEMBER(shading), .fingerprint = 15, .key = "shading",
      .no_capture = "a capture shows what surfaces see of each other, which vertices do not",
      .roles = GLINT_SETTING_WEIGHS_ERRORS,
      .option = {GLINT_OPTION_CHOICE, .name = "shading", .argument = "RATE",
-                .help = "Where the environment is looked up: pixel, at what each pixel's rays "
-                        "meet; vertex-direction, along directions that are found at the "
-                        "triangles' vertices and interpolated; vertex-color, at the vertices, "
-                        "whose colours are interpolated. At vertices surfaces see nothing but the "
-                        "environment.",
+                .help = "Where the environment is looked up: pixel, at the surface of each pixel; "
+                        "vertex-direction, along directions that are computed at vertices and "
+                        "interpolated; vertex-color, at vertices, with interpolated colours. With "
+                        "shading at vertices surfaces see only the environment.",
                 .choices = shadings}},
     {GLINT_SETTINGS_OF_DEVICE, MEMBER(kernel_width), .key = "kernel_width",
      .option = {GLINT_OPTION_ONE_OF, .name = "kernel-width", .argument = "LANES",
-                .help = "Rays that the kernel works on at once, for measurements: 1, 8 or 16.",
+                .help = "Rays in a packet, for measurements: 1, 8 or 16.",
                 .fallback = "chosen for the device", .zero = "auto",
                 .choices = GLINT_CHOICES("1", "8", "16")}},
     {GLINT_SETTINGS_OF_DEVICE, MEMBER(tile_packets), .key = "kernel_tile",
      .option = {GLINT_OPTION_ONE_OF, .name = "kernel-tile", .argument = "PACKETS",
-                .help = "Packets whose primary rays the kernel traces together, for measurements: "
-                        "1 or 16.",
+                .help =
+                    "Packets whose primary rays are traced together, for measurements: 1 or 16.",
                 .fallback = "chosen for the device", .zero = "auto",
                 .choices = GLINT_CHOICES("1", "16")}},
     {GLINT_SETTINGS_OF_LAYERS, MEMBER(aovs), .fingerprint = 12, .roles = GLINT_SETTING_VARIES,
      .print = print_aovs,
-     .option = {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
-                .help = "Further channels of the EXR, with commas between them, or all. What the "
-                        "primary ray meets: Z (metres along the axis of view), normal (world "
-                        "space), albedo (base colour), object and material (indices in the file), "
-                        "triangle. What became of the paths: surfaces (that the longest met), tir "
-                        "(total reflections), truncated (weight that was not traced to its end), "
-                        "face (of the environment, where the heaviest look-up fell). With several "
-                        "samples surfaces is the maximum, tir and truncated are means, the others "
-                        "are of the sample in the middle.",
-                .parse = parse_aovs}},
+     .option =
+         {GLINT_OPTION_CUSTOM, .name = "aov", .argument = "LIST",
+          .help = "Extra channels of the EXR, separated by commas, or all. Of the surface that the "
+                  "primary ray meets: Z (metres along the axis of view), normal (world space), "
+                  "albedo (base colour), object and material (indices in the file), triangle. Of "
+                  "the paths: surfaces (that the longest path met), tir (total reflections), "
+                  "truncated (weight of paths that were cut off), face (of the environment, for "
+                  "the heaviest look-up). With several samples surfaces is the maximum, tir and "
+                  "truncated are means, and the others belong to the middle sample.",
+          .parse = parse_aovs}},
     {GLINT_SETTINGS_OF_LAYERS, MEMBER(terms), .fingerprint = 14, .roles = GLINT_SETTING_VARIES,
      .option = {GLINT_OPTION_INT, .name = "directions", .argument = "K",
-                .help = "Keep of each pixel the K heaviest directions that its paths leave along, "
-                        "with their weights, as further channels of the EXR: for glint relight.",
+                .help =
+                    "Keep the K heaviest directions along which the paths of each pixel leave, "
+                    "with their weights, as extra channels of the EXR. glint relight reads them.",
                 .minimum = 1, .maximum = GLINT_TERMS_MAX}},
     {GLINT_SETTINGS_INTERNAL, MEMBER(output), .fingerprint = 10,
      .option = {GLINT_OPTION_CHOICE, .choices = GLINT_CHOICES("colours", "hits")}},
@@ -324,7 +324,7 @@ const glint_exclusion glint_exclusion_table[] = {
     {OF(proxy), OF(filter), "takes more than points, for which alone rays find a proxy"},
     {OF(proxy), OF(terms), "keeps directions, and places are what a proxy needs"},
     {OF(proxy), OF(shading), "shades vertices, and pixels are what a proxy is found for"},
-    // Double precision is what single precision is mended with.
+    // Mending replaces single precision with double precision.
     {OF(mend), OF(precision), "has nothing to mend"},
     {OF(mend), OF(shading), "has nothing to mend"},
     {OF(mend), OF(output), "have nothing to mend"},
@@ -337,7 +337,7 @@ const char *glint_shading_name(glint_shading shading)
     return shadings[shading];
 }
 
-// ---- Reading it --------------------------------------------------------------------------------
+// ---- Reading the table -------------------------------------------------------------------------
 
 const glint_setting *glint_setting_at(size_t offset)
 {
@@ -353,7 +353,8 @@ size_t glint_setting_destination(const glint_setting *setting)
     return setting->option.kind == GLINT_OPTION_CUSTOM ? 0 : setting->offset;
 }
 
-// A default out of the range, as 0 directions are, is to leave the option out.
+// False if the default is out of range, as 0 directions are: leaving the option out then gives the
+// default.
 static bool has_a_default(const glint_setting *setting)
 {
     const glint_option *option = &setting->option;
@@ -416,7 +417,7 @@ double glint_setting_number(const glint_setting *setting, const glint_settings *
 bool glint_setting_differs(const glint_setting *setting, const glint_settings *a,
                            const glint_settings *b)
 {
-    bool differs = false; // as numbers: 0 is −0, and NaN is no value's equal
+    bool differs = false; // compared as numbers: 0 equals −0, NaN equals nothing
     for (size_t i = 0; i < glint_setting_number_count(setting); i++) {
         differs |= glint_setting_number(setting, a, i) != glint_setting_number(setting, b, i);
     }

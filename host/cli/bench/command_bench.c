@@ -56,17 +56,15 @@ static const glint_option bench_options[] = {
      .help = "Measure N frames instead, however long they take.",
      .offset = offsetof(bench_request, rounds), .minimum = 1, .maximum = 1e6},
     {GLINT_OPTION_FLAG, .name = "no-check",
-     .help = "Do not compare the picture with double precision first; for series in which that was "
-             "done.",
+     .help = "Do not compare the picture with double precision first. For series in which an "
+             "earlier run compared it.",
      .offset = offsetof(bench_request, no_check)},
     {GLINT_OPTION_FLAG, .name = "error",
-     .help =
-         "Speed against error: render each scene in up to a dozen ways, from colours at vertices "
-         "to double precision, and show what each takes and by how much it is off.",
+     .help = "Render each scene in up to a dozen ways, from colours at vertices to double "
+             "precision, and show the time of each way beside its error.",
      .offset = offsetof(bench_request, error)},
     {GLINT_OPTION_FLAG, .name = "no-sampling",
-     .help = "With --error, leave out what more samples a pixel give, which takes the time of some "
-             "hundred and fifty frames.",
+     .help = "With --error, leave out more samples a pixel. They take as long as some 150 frames.",
      .offset = offsetof(bench_request, no_sampling)},
     {GLINT_OPTION_FLAG, .name = "list", .help = "List the built-in scenes and do nothing else.",
      .offset = offsetof(bench_request, list)},
@@ -82,8 +80,8 @@ static const glint_option bench_options[] = {
      .help = "Compare with the JSON of an earlier run on the same device, with the same settings.",
      .offset = offsetof(bench_request, baseline)},
     {GLINT_OPTION_REAL, .name = "margin", .argument = "PERCENT",
-     .help = "A scene is slower where its median is more than this above the baseline's and the "
-             "middle halves of both rows of times are apart.",
+     .help = "Per cent. A scene is slower if its median is more than the margin above the "
+             "baseline, and the middle halves of both series do not overlap.",
      .fallback = "10", .offset = offsetof(bench_request, margin), .minimum = 0, .maximum = 1e6},
     GLINT_OPTION_END,
 };
@@ -565,12 +563,11 @@ const glint_command glint_command_bench = {
     .name = "bench",
     .summary = "measure how fast scenes are rendered, and how right",
     .synopsis = "[SCENE…] [options]",
-    .description =
-        "Measures the phases, the frames and the rays a second of each scene: a glTF file or one "
-        "that is built in (--list); without any, all that are built in. The picture is first "
-        "compared with double precision; one that is wrong has no speed, and gives exit status 7. "
-        "A frame's time is a median, with quartiles and range beside. With --error each scene is "
-        "rendered in many ways, and what each costs stands beside its error.",
+    .description = "Measures phases, frames and rays a second of each scene: glTF files, or "
+                   "built-in scenes (--list; the default is all of them). It first compares the "
+                   "picture with double precision. A wrong picture gets no figures, and the exit "
+                   "status is 7. The time of a frame is a median, with quartiles and range. "
+                   "--error renders each scene in many ways and shows time beside error.",
     .examples = "  glint bench\n"
                 "  glint bench mirror --json before.json\n"
                 "  glint bench mirror --baseline before.json --margin 5\n"

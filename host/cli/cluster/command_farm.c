@@ -29,11 +29,12 @@ typedef struct farm_request {
 static const glint_option slurm_options[] = {
     {GLINT_OPTION_HEADING, .help = "glint farm slurm"},
     {GLINT_OPTION_INT, .name = "parts", .argument = "N",
-     .help = "Jobs to split the sequence into: each loads the scene and compiles its kernels once, "
-             "and renders every N-th frame.",
+     .help = "Number of jobs. Each loads the scene, compiles its kernels once, and renders every "
+             "N-th frame.",
      .fallback = "8, or as many as there are frames", .offset = offsetof(farm_request, parts),
      .minimum = 1, .maximum = GLINT_FARM_PARTS_MAX},
-    {GLINT_OPTION_INT, .name = "at-once", .argument = "N", .help = "Parts that run at once.",
+    {GLINT_OPTION_INT, .name = "at-once", .argument = "N",
+     .help = "Number of parts that run at the same time.",
      .fallback = "as many as the cluster gives", .offset = offsetof(farm_request, at_once),
      .minimum = 1, .maximum = GLINT_FARM_PARTS_MAX},
     {GLINT_OPTION_INT, .name = "cpus", .argument = "N", .help = "Cores of each part.",
@@ -52,8 +53,8 @@ static const glint_option slurm_options[] = {
              "core.",
      .offset = offsetof(farm_request, report_further)},
     {GLINT_OPTION_INT, .name = "retries", .argument = "N",
-     .help = "How often a part goes back into the queue that was killed or whose device failed. "
-             "(Slurm itself puts those back that lost their node.)",
+     .help = "How often glint puts a part back into the queue after it was killed or its device "
+             "failed. (Slurm itself puts back parts that lost their node.)",
      .fallback = "3", .offset = offsetof(farm_request, retries), .minimum = 0, .maximum = 1000},
     {GLINT_OPTION_TEXT, .name = "name", .argument = "NAME", .help = "Name of the job.",
      .fallback = "the frames'", .offset = offsetof(farm_request, name)},
@@ -67,8 +68,8 @@ static const glint_option slurm_options[] = {
      .help = "Print the parts' script to stdout; make and submit nothing.",
      .offset = offsetof(farm_request, dry_run)},
     {GLINT_OPTION_FLAG, .name = "wait",
-     .help = "Return when all parts have ended, with the report on stdout; exit status 6 if frames "
-             "are missing.",
+     .help = "Wait until all parts have ended, then print the report. The exit status is 6 if "
+             "frames are missing.",
      .offset = offsetof(farm_request, wait)},
     {GLINT_OPTION_HEADING, .help = "glint farm report"},
     {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE",
@@ -534,11 +535,10 @@ const glint_command glint_command_farm = {
     .synopsis = "slurm [options] -- SCENE -o OUT [options of glint render]\n"
                 "       glint farm report DIR [--job N] [--json FILE]",
     .description =
-        "slurm submits a sequence to Slurm as an array job: each part renders its frames with "
-        "--skip-existing, so that whatever ended it, a part goes on where it stopped. A last job "
-        "sums up what they did. stdout gets the job's number. The scene is loaded first, here: "
-        "mistakes are found before anything is submitted.\n"
-        "report sums up a job's folder, at any time.",
+        "slurm submits a sequence to Slurm as an array job. Each part renders its frames with "
+        "--skip-existing, so a part continues where it stopped. A last job writes the report. "
+        "stdout gets the job's number. glint loads the scene before it submits, to find mistakes "
+        "early.\nreport sums up a job's folder, at any time.",
     .examples = "  glint farm slurm --parts 16 --cpus 8 --time 1:00:00 -- \\\n"
                 "      jewel.glb --turntable 240 --size 1920x1080 -o out/jewel.####.exr\n"
                 "  glint farm slurm --sbatch '--gres=gpu:1' --wait -- walk.glb -o walk.####.exr\n"

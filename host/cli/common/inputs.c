@@ -109,44 +109,43 @@ glint_status glint_parse_allow_large(const glint_option *option, const char *tex
 const glint_option glint_input_options[] = {
     {GLINT_OPTION_HEADING, .help = "Scene and environment"},
     {GLINT_OPTION_TEXT, .name = "env", .argument = "FILE",
-     .help =
-         "The environment: an image (exr, hdr, png, tiff, dds, jpeg, webp), a folder that holds "
-         "six "
-         "faces, or a pattern with %s in the place of the face's name. For render also one for "
-         "each frame, ball.####.exr, or capture:NODE: the node alone, lit by what is around it.",
+     .help = "The environment: an image (exr, hdr, png, tiff, dds, jpeg, webp), a folder with six "
+             "faces, or a pattern with %s for the face's name. render also takes one file for each "
+             "frame, ball.####.exr, and capture:NODE, which renders the node alone, lit by its "
+             "surroundings.",
      .fallback = "a built-in studio", .offset = OFFSET(env)},
     GLINT_ENV_AS_OPTIONS(OFFSET(env_as)),
     {GLINT_OPTION_CUSTOM, .name = "env-flip", .argument = "AXES",
-     .help = "Mirror the environment first: x exchanges left and right, y above and below, z front "
-             "and back.",
+     .help = "Mirror the environment: x exchanges left and right, y above and below, z front and "
+             "back. This happens before --env-rotate.",
      .offset = OFFSET(env_flip), .parse = glint_parse_flip},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_ENVIRONMENT, OFFSET(settings)),
     {GLINT_OPTION_TEXT, .name = "animation", .argument = "NAME|INDEX",
-     .help = "Which of the file's animations; all at once, or none: everything as its nodes say.",
+     .help = "The animation to play. all plays all animations at once, none plays none.",
      .fallback = "the first", .offset = OFFSET(animation)},
     {GLINT_OPTION_TEXT, .name = "scene", .argument = "NAME|INDEX",
-     .help = "Which of the file's glTF scenes.", .fallback = "the file's default",
+     .help = "The glTF scene to render.", .fallback = "the file's default",
      .offset = OFFSET(scene_name)},
     {GLINT_OPTION_TEXT, .name = "variant", .argument = "NAME|INDEX",
-     .help = "Which of the file's variants of its materials (KHR_materials_variants); glint info "
-             "lists them.",
+     .help = "The variant of the file's materials (KHR_materials_variants). glint info lists the "
+             "variants.",
      .fallback = "none: the plain materials", .offset = OFFSET(variant)},
     {GLINT_OPTION_CUSTOM, .name = "material", .argument = "NAME=WHAT",
-     .help = "Make a material of the file into another: Gem=glass,ior=2.42. NAME is its name or "
-             "index, or * for all; WHAT is a preset, or values, or a preset and values behind it. "
-             "Presets: " GLINT_MATERIAL_PRESETS ". Values: " GLINT_MATERIAL_VALUES
-             ". It may be given several times.",
+     .help =
+         "Replace a material of the file: Gem=glass,ior=2.42. NAME is its name or index, or * for "
+         "all materials. WHAT is a preset, values, or a preset and values. "
+         "Presets: " GLINT_MATERIAL_PRESETS ". Values: " GLINT_MATERIAL_VALUES ". Can be repeated.",
      .offset = OFFSET(overrides), .parse = glint_material_override_parse},
     {GLINT_OPTION_INT, .name = "texture-size", .argument = "N",
-     .help = "Reduce textures to N texels across at most: they take less memory, and show less "
-             "from near.",
+     .help =
+         "Reduce textures to at most N texels across. They take less memory and show less detail.",
      .fallback = "as they are", .minimum = 1, .maximum = 32768, .offset = OFFSET(texture_size)},
     {GLINT_OPTION_TEXT, .name = "only", .argument = "NODE,…",
-     .help = "Leave all nodes out but these, with what hangs under them: names or indices, with "
-             "commas between. Cameras and turntables stay those of the whole scene.",
+     .help = "Render only these nodes and the nodes below them: names or indices, separated by "
+             "commas. Cameras and turntables stay those of the whole scene.",
      .offset = OFFSET(only)},
     {GLINT_OPTION_TEXT, .name = "without", .argument = "NODE,…",
-     .help = "Leave these nodes out, likewise.", .offset = OFFSET(without)},
+     .help = "Leave out these nodes and the nodes below them.", .offset = OFFSET(without)},
     GLINT_LARGE_IMAGES_OPTION,
     GLINT_OPTION_END,
 };

@@ -67,34 +67,33 @@ glint_option_parser glint_parse_flip;
     {GLINT_OPTION_CUSTOM,                                                                          \
      .name = "env-layout",                                                                         \
      .argument = "NAME",                                                                           \
-     .help = "How the environment's file holds directions, where that cannot be told: cube "       \
-             "(OpenEXR's strip), faces, hcross, vcross, vstrip, hstrip, latlong, ball (a mirror "  \
-             "ball's picture) or angular (a light probe's).",                                      \
+     .help = "The layout of the environment's file, if glint cannot recognise it: cube "           \
+             "(OpenEXR's strip), faces, hcross, vcross, vstrip, hstrip, latlong, ball (the "       \
+             "picture of a mirror ball) or angular (a light probe).",                              \
      .fallback = "recognised",                                                                     \
      .offset = (member) + offsetof(glint_layout_request, layout),                                  \
      .parse = glint_parse_layout},                                                                 \
         {GLINT_OPTION_CUSTOM,                                                                      \
          .name = "ball-circle",                                                                    \
          .argument = "X,Y,R",                                                                      \
-         .help = "Where a ball or an angular map lies in its picture: the centre, from the top "   \
-                 "left, and the radius, in pixels.",                                               \
+         .help = "The circle of the ball or angular map in its picture: centre from the top "      \
+                 "left, and radius, in pixels.",                                                   \
          .fallback = "the circle that fills the picture's middle",                                 \
          .offset = (member) + offsetof(glint_layout_request, circle),                              \
          .parse = glint_parse_circle},                                                             \
         {GLINT_OPTION_CUSTOM,                                                                      \
          .name = "ball-distance",                                                                  \
          .argument = "RADII",                                                                      \
-         .help = "How far the camera stood from the ball's centre, in radii of the ball.",         \
+         .help = "Distance of the camera from the centre of the ball, in radii of the ball.",      \
          .fallback = "far away: all of its rays are parallel",                                     \
          .offset = (member) + offsetof(glint_layout_request, ball_distance),                       \
          .parse = glint_parse_distance},                                                           \
     {                                                                                              \
-        GLINT_OPTION_REAL,                                                                         \
-            .name = "ball-fov", .argument = "DEG",                                                 \
-            .help = "The camera's vertical angle of view, of the whole picture, in place of the "  \
-                    "distance, which follows from it and the circle.",                             \
-            .offset = (member) + offsetof(glint_layout_request, ball_fov), .minimum = 0.01,        \
-            .maximum = 179                                                                         \
+        GLINT_OPTION_REAL, .name = "ball-fov", .argument = "DEG",                                  \
+                           .help = "Vertical angle of view of the camera that photographed the "   \
+                                   "ball, for the whole picture. It replaces --ball-distance.",    \
+                           .offset = (member) + offsetof(glint_layout_request, ball_fov),          \
+                           .minimum = 0.01, .maximum = 179                                         \
     }
 
 // Checks that options which describe a ball go with a fitting layout, and that its distance is

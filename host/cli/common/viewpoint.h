@@ -34,21 +34,21 @@ glint_option_parser glint_parse_direction, glint_parse_elevation;
         {GLINT_OPTION_TEXT,                                                                        \
          .name = "camera",                                                                         \
          .argument = "NAME|INDEX",                                                                 \
-         .help = "The camera to see through. For render also all: a file for each of them, with "  \
-                 "the camera's name before the frame's number or the extension (car.front.png).",  \
+         .help = "The camera. render also takes all: one file for each camera, with the camera's " \
+                 "name before the frame's number or the extension (car.front.png).",               \
          .fallback = "the first; without any, one that sees the scene as by --fit",                \
          .offset = (member) + offsetof(glint_view_request, camera)},                               \
         {GLINT_OPTION_CUSTOM,                                                                      \
          .name = "eye",                                                                            \
          .argument = "X,Y,Z",                                                                      \
-         .help = "Where a perspective camera of your own stands, in metres of the scene's world. " \
-                 "It takes the place of the file's cameras.",                                      \
+         .help = "Position of a perspective camera of your own, in metres of the scene's world. "  \
+                 "It replaces the file's cameras.",                                                \
          .offset = (member) + offsetof(glint_view_request, eye),                                   \
          .parse = place_option_parse},                                                             \
         {GLINT_OPTION_CUSTOM,                                                                      \
          .name = "look-at",                                                                        \
          .argument = "X,Y,Z",                                                                      \
-         .help = "With --eye, the place in the picture's middle.",                                 \
+         .help = "With --eye, the point in the middle of the picture.",                            \
          .fallback = "the middle of the scene's bounds",                                           \
          .offset = (member) + offsetof(glint_view_request, look_at),                               \
          .parse = place_option_parse},                                                             \
@@ -70,17 +70,16 @@ glint_option_parser glint_parse_direction, glint_parse_elevation;
         {GLINT_OPTION_CUSTOM,                                                                      \
          .name = "elevation",                                                                      \
          .argument = "DEG",                                                                        \
-         .help = "Put the camera so many degrees above (below 0: below) the middle of the "        \
-                 "scene's bounds, and look at it from there. Compass direction and distance "      \
-                 "stay. For turntables, too.",                                                     \
+         .help = "Place the camera DEG degrees above (negative: below) the middle of the scene's " \
+                 "bounds, and look at the middle. Compass direction and distance stay. Works "     \
+                 "with turntables, too.",                                                          \
          .offset = (member) + offsetof(glint_view_request, elevation),                             \
          .parse = glint_parse_elevation},                                                          \
     {                                                                                              \
         GLINT_OPTION_FLAG,                                                                         \
             .name = "fit",                                                                         \
-            .help = "Move the camera, without turning it, until the scene fills the "              \
-                    "frame and is centred. What moves must fit at any time, and with "             \
-                    "--turntable in any position.",                                                \
+            .help = "Move the camera, without turning it, until the scene fills the frame and is " \
+                    "centred. Animated scenes fit at all times, turntables in all positions.",     \
             .offset = (member) + offsetof(glint_view_request, fit)                                 \
     }
 

@@ -99,12 +99,13 @@ static glint_status parse_below(const glint_option *option, const char *text, vo
 static const glint_option compare_options[] = {
     {GLINT_OPTION_HEADING, .help = "Verdict"},
     {GLINT_OPTION_CUSTOM, .name = "fail-above", .argument = "METRIC=VALUE",
-     .help = "Exit status 7 where the metric is above the value, or not a number. Any number of "
-             "times, once for each of rmse, relative-rmse, mae, p99, max, differing, nan, infinite "
-             "and alpha. Once any bound is given, nan and infinite are 0 unless given too.",
+     .help = "Exit with status 7 if the metric is above the value or not a number. Metrics: rmse, "
+             "relative-rmse, mae, p99, max, differing, nan, infinite, alpha. Can be given once for "
+             "each metric. Any bound also sets nan and infinite to 0, if they have no bound of "
+             "their own.",
      .offset = offsetof(compare_request, bounds), .parse = parse_above},
     {GLINT_OPTION_CUSTOM, .name = "fail-below", .argument = "psnr=VALUE",
-     .help = "The same for psnr, in dB, which is better the higher it is.",
+     .help = "Exit with status 7 if psnr, in dB, is below the value.",
      .offset = offsetof(compare_request, bounds), .parse = parse_below},
     {GLINT_OPTION_HEADING, .help = "Results"},
     {GLINT_OPTION_TEXT, .letter = 'o', .name = "output", .argument = "FILE",
@@ -112,8 +113,8 @@ static const glint_option compare_options[] = {
              "jpg, tiff or hdr; an exr gets the signed differences themselves, as float.",
      .offset = offsetof(compare_request, output)},
     {GLINT_OPTION_CHOICE, .name = "heat", .argument = "MEASURE",
-     .help = "relative shows differences over the reference's component or its mean, whichever is "
-             "larger, absolute shows them as they are.",
+     .help = "relative divides differences by the component of the reference, or by its mean if "
+             "that is larger. absolute shows the differences themselves.",
      .fallback = "relative", .offset = offsetof(compare_request, heat),
      .choices = GLINT_CHOICES("relative", "absolute")},
     {GLINT_OPTION_TEXT, .name = "json", .argument = "FILE|-",
@@ -248,11 +249,10 @@ const glint_command glint_command_compare = {
     .summary = "measure how far a picture is from its reference",
     .synopsis = "IMAGE REFERENCE [options]",
     .description =
-        "Compares two pictures of one size, in linear light, over R, G and B of the pixels that "
-        "are finite in both. Grey counts as R = G = B; where one has no alpha, 1 is taken; pixels "
-        "that an EXR's data window leaves out are 0. Files of 8 bits are rounded to half a step, "
-        "0.0045 of white at most. Exit status 0 however far apart they are, unless a bound is "
-        "given.",
+        "Compares two pictures of the same size in linear light, over R, G and B of the pixels "
+        "that are finite in both. Grey counts as R = G = B. A picture without alpha has alpha 1. "
+        "Pixels outside an EXR's data window are 0. 8-bit files are rounded, by at most half a "
+        "step, 0.0045 of white. The exit status is 0 for any difference, unless a bound is given.",
     .examples = "  glint compare frame.exr reference.exr\n"
                 "  glint compare frame.exr reference.exr -o heat.png\n"
                 "  glint compare new.png old.png --fail-above relative-rmse=0.01 "

@@ -170,10 +170,10 @@ const glint_command glint_command_contact = {
     .summary = "show many images on one sheet",
     .synopsis = "IMAGE… -o SHEET [options]",
     .description =
-        "Makes each image small and puts them in rows, in the order in which they are "
-        "named, with the last number in their name below, or the name. Transparent ones stand over "
-        "grey; a pixel with NaN or infinity in it is magenta; an image that cannot be "
-        "read is a crossed box, and gives exit status 6.",
+        "Reduces the images and puts them in rows, in the order of their names on the command "
+        "line. Below each image stands the last number of its name, or its name. Transparent "
+        "images stand over grey. Pixels with NaN or infinity are magenta. An image that cannot be "
+        "read becomes a crossed box, and the exit status is 6.",
     .examples = "  glint contact turn/*.exr -o sheet.png\n"
                 "  glint contact turn/*.exr --columns 12 --width 160 --exposure 1 -o sheet.jpg\n",
     .groups = groups,

@@ -396,10 +396,9 @@ const glint_command glint_command_capture = {
     .name = "capture",
     .summary = "the environment at a place of a scene",
     .synopsis = "SCENE OUT --at X,Y,Z|--around NODE [options]",
-    .description =
-        "Renders six square views of 90 degrees from a place, which are a cube map of what is seen "
-        "from there, and writes it in any layout: an environment for render --env. Around a node "
-        "the node itself is taken away, so that an object can be lit by its surroundings.",
+    .description = "Renders six square views of 90 degrees from a place of a scene, and writes "
+                   "them as an environment for render --env, in any layout. --around NODE leaves "
+                   "the node itself out, so that its surroundings can light it.",
     .examples = "  glint capture room.glb room.exr --at 0,1.6,0 --size 1024 --samples 16\n"
                 "  glint capture scenes/gallery.gltf faces/ --around diamond --to faces\n"
                 "  glint capture shot.gltf ball.####.exr --around robot --to ball --frames 1-24\n",

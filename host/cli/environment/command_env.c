@@ -193,13 +193,13 @@ const glint_command glint_command_env = {
     .summary = "convert an environment from one layout to another",
     .synopsis = "IN OUT [options]",
     .description =
-        "Reads an environment in any layout (a file, a folder that holds six faces, or a pattern "
-        "with %s in the place of the face's name) and writes it in another. Where a pixel covers "
-        "several of the input's it is their mean; across the edges of faces, the poles and the "
-        "half turn it is interpolated. What a layout leaves open is black.\n"
-        "Lat-long maps and cubes are written to EXR with OpenEXR's envmap attribute, whose pixels "
-        "lie on the edges and poles; everywhere else they lie half a pixel within. EXR holds half "
-        "floats, or floats where a value is above 65504.",
+        "Reads an environment in any layout (a file, a folder with six faces, or a pattern with %s "
+        "for the face's name) and writes it in another layout. A pixel that covers several pixels "
+        "of the input is their mean. Interpolation continues across the edges of faces, the poles "
+        "and ±180 degrees. Directions that a layout does not hold are black.\nLat-long maps and "
+        "cubes in EXR get OpenEXR's envmap attribute; their outermost pixels lie on the edges and "
+        "poles. In all other files they lie half a pixel inside. EXR holds half floats, or floats "
+        "if a value is above 65504.",
     .examples = "  glint env sky.hdr faces/ --to faces --size 512\n"
                 "  glint env ball.jpg sky.exr --env-layout ball --ball-fov 12 --to latlong\n"
                 "  glint env sky.exr sky_turned.exr --env-rotate 90\n"

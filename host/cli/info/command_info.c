@@ -531,9 +531,9 @@ const glint_command glint_command_info = {
     .name = "info",
     .summary = "what a scene holds, and what would be compiled for it",
     .synopsis = "SCENE [options]",
-    .description = "Prints what the scene and the environment hold, and the plan: each feature of "
-                   "the kernels that would be compiled in or left out, and why. Nothing is "
-                   "compiled. Works without an OpenCL device too, then without a plan.",
+    .description = "Prints the contents of the scene and of the environment, and the plan: which "
+                   "features of the kernels would be compiled, and why. It compiles nothing. "
+                   "Without an OpenCL device it prints no plan.",
     .examples = "  glint info scenes/gallery.gltf\n"
                 "  glint info car.glb --env studio.hdr --depth 2 --json\n",
     .groups = groups,

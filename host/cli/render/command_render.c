@@ -220,10 +220,9 @@ const glint_command glint_command_render = {
     .name = "render",
     .summary = "render frames of a glTF scene",
     .synopsis = "SCENE -o OUT [options]",
-    .description =
-        "Renders the glTF scene (.gltf or .glb) as one frame or as a sequence. Metal "
-        "reflects, glass reflects and refracts, paint is lit by the environment; what "
-        "the scene does not need is not compiled. stdout stays empty, but for --stats -.",
+    .description = "Renders the glTF scene (.gltf or .glb) as one frame or as a sequence. Metal "
+                   "reflects, glass reflects and refracts, the environment lights paint. glint "
+                   "compiles only what the scene needs. stdout stays empty, except with --stats -.",
     .examples = "  glint render scenes/gallery.gltf -o gallery.png\n"
                 "  glint render car.glb --env studio.hdr --env-rotate 90 --samples 16 -o car.exr\n"
                 "  glint render jewel.glb --depth 8 --background transparent -o jewel.exr\n"

@@ -38,14 +38,14 @@ static const glint_option output_options[] = {
      .offset = offsetof(render_request, preview)},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_LAYERS, offsetof(render_request, inputs.settings)),
     {GLINT_OPTION_FLAG, .name = "strict",
-     .help =
-         "Render nothing, with exit status 3, where there is a warning before the first frame: of "
-         "what is ignored or approximated in the file, or of solids that touch or overlap.",
+     .help = "Treat warnings as errors. If there is a warning before the first frame (ignored or "
+             "approximated features, solids that touch or overlap), render nothing and exit with "
+             "status 3.",
      .offset = offsetof(render_request, strict)},
     {GLINT_OPTION_TEXT, .name = "stats", .argument = "FILE|-",
-     .help = "Write what the frame took and counted: phases in milliseconds, rays by kind, "
-             "truncated light, the plan and the device. Of a sequence, an object a line: the run, "
-             "each frame as soon as it is through, the total. - is stdout.",
+     .help = "Write measurements as JSON: phases in milliseconds, rays by kind, truncated light, "
+             "plan and device. A sequence gets one object a line: the run, each frame when it is "
+             "done, the total. - is stdout.",
      .offset = offsetof(render_request, stats)},
     {GLINT_OPTION_CHOICE, .name = "progress", .argument = "MODE",
      .help =
@@ -54,8 +54,8 @@ static const glint_option output_options[] = {
      .fallback = "auto", .offset = offsetof(render_request, progress),
      .choices = GLINT_PROGRESS_CHOICES},
     {GLINT_OPTION_INT, .name = "progress-fd", .argument = "N",
-     .help = "Write the objects of --progress json to the open file descriptor N, which then holds "
-             "nothing else: --progress json --progress-fd 3 3>events.",
+     .help = "Write the objects of --progress json to the open file descriptor N instead of "
+             "stderr: --progress json --progress-fd 3 3>events.",
      .fallback = "stderr", .offset = offsetof(render_request, progress_fd), .minimum = 1,
      .maximum = 1e6},
     GLINT_OPTION_END,
@@ -69,15 +69,15 @@ static const glint_option sequence_options[] = {
      .fallback = "with --turntable N, 1-N; else the animation's",
      .offset = offsetof(render_request, frames_text)},
     {GLINT_OPTION_INT, .name = "turntable", .argument = "N",
-     .help = "Turn the camera about the scene's middle, counter-clockwise seen from above, once in "
-             "N frames; frame 1 is the camera as it stands.",
+     .help = "Turn the camera once around the middle of the scene in N frames, counter-clockwise "
+             "seen from above. Frame 1 has the position of the camera itself.",
      .offset = offsetof(render_request, turntable), .minimum = 1, .maximum = GLINT_FRAME_MAX},
     {GLINT_OPTION_REAL, .name = "fps", .argument = "RATE",
      .help = "Frames a second of the animation; frame 1 is its beginning.", .fallback = "24",
      .offset = offsetof(render_request, fps), .minimum = 1e-3, .maximum = 1e5},
     {GLINT_OPTION_FLAG, .name = "skip-existing",
-     .help = "Leave frames alone that are whole and were made from the same scene, environment and "
-             "settings by the same version; render the others.",
+     .help = "Skip frames whose files are whole and come from the same scene, environment, "
+             "settings and version. Render the others.",
      .offset = offsetof(render_request, skip_existing)},
     {GLINT_OPTION_CUSTOM, .name = "shard", .argument = "I/N",
      .help = "Render part I of N of the frames, from 1/N to N/N: every N-th, each in one part.",
@@ -87,9 +87,10 @@ static const glint_option sequence_options[] = {
 
 static const glint_option error_options[] = {
     {GLINT_OPTION_REAL, .name = "max-error", .argument = "E",
-     .help = "Choose precision, depth and least weight frame by frame: the fastest that keep the "
-             "picture within a relative RMSE of E, 0.01 say, of double precision that follows "
-             "light to its end. What was chosen, and its error, stand in the file.",
+     .help = "For each frame, choose the fastest precision, depth and least weight that keep the "
+             "picture within a relative RMSE of E (0.01, for example) of a reference in double "
+             "precision. The file names the choice and its error. Excludes --depth, --min-weight, "
+             "--precision, --mend, --fresnel, --texels, --irradiance, --roughness, --shading.",
      .instead_of = GLINT_SETTING_WEIGHS_ERRORS, .offset = offsetof(render_request, max_error),
      .minimum = 1e-9, .maximum = 10},
     GLINT_OPTION_END,
@@ -97,21 +98,20 @@ static const glint_option error_options[] = {
 
 static const glint_option capture_options[] = {
     {GLINT_OPTION_TEXT, .name = "surroundings", .argument = "FILE",
-     .help = "With --env capture:NODE, which renders a node alone in what is around it: the "
-             "environment behind all that, which --env-layout and its like then describe.",
+     .help = "With --env capture:NODE, the environment behind the surroundings of the node. "
+             "--env-layout and the other options of layouts then describe this file.",
      .fallback = "the built-in studio", .offset = offsetof(render_request, surroundings)},
     {GLINT_OPTION_INT, .name = "capture-size", .argument = "N",
-     .help = "The edge of each of its six views, in pixels.", .fallback = "512",
+     .help = "Edge of each of the six captured views, in pixels.", .fallback = "512",
      .offset = offsetof(render_request, capture_size), .minimum = 1, .maximum = 4096},
     {GLINT_OPTION_CUSTOM, .name = "proxy", .argument = "SHAPE",
-     .help =
-         "Take the environment to be no further away than a shape around the scene, so that it "
-         "looks different from different places: sphere:RADIUS about where it was seen from, a "
-         "box by two corners, x,y,z,x,y,z, in metres, or bounds, the box around what is captured.",
+     .help = "Put the environment at a finite distance, so that it shows parallax: sphere:RADIUS "
+             "around the place where it was captured; a box in metres, x,y,z,x,y,z (two corners); "
+             "or bounds, the box around the captured scene.",
      .fallback = "none: it is infinitely far away", .offset = offsetof(render_request, proxy),
      .parse = proxy_option_parse},
     {GLINT_OPTION_CUSTOM, .name = "env-at", .argument = "X,Y,Z",
-     .help = "With --proxy, where a file's environment was seen from.",
+     .help = "With --proxy, the place where the environment's file was captured.",
      .fallback = "0,0,0; of a capture its own place", .offset = offsetof(render_request, env_at),
      .parse = place_option_parse},
     GLINT_OPTION_END,

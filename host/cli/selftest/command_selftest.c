@@ -109,11 +109,11 @@ static const glint_option selftest_options[] = {
     {GLINT_OPTION_FLAG, .name = "list", .help = "Print the cases, a line each, and run none.",
      .offset = offsetof(selftest_request, list)},
     {GLINT_OPTION_FLAG, .name = "quick",
-     .help = "A minute's choice: cases that between them go through most of the kernels, in float "
-             "and with few rays, unless --case, --precision or --rays say otherwise.",
+     .help = "Run the cases that cover most kernels, in float and with few rays. They take about a "
+             "minute. --case, --precision and --rays override this choice.",
      .offset = offsetof(selftest_request, quick)},
     {GLINT_OPTION_CUSTOM, .name = "case", .argument = "NAME[,NAME…]",
-     .help = "Run these cases alone. Any number of times.", .fallback = "all",
+     .help = "Run only these cases. Can be repeated.", .fallback = "all",
      .offset = offsetof(selftest_request, cases), .parse = parse_cases},
     {GLINT_OPTION_CHOICE, .name = "precision", .argument = "P",
      .help = "float, double, or all: both, double where the device has it.",
@@ -125,17 +125,17 @@ static const glint_option selftest_options[] = {
      .fallback = "auto", .offset = offsetof(selftest_request, width),
      .choices = GLINT_CHOICES("auto", "1", "8", "16", "all")},
     {GLINT_OPTION_REAL, .name = "rays", .argument = "N",
-     .help = "Rays of each case that counts leaks.", .fallback = "262144; with --quick 16384",
+     .help = "Rays for each case that counts leaks.", .fallback = "262144; with --quick 16384",
      .offset = offsetof(selftest_request, rays), .minimum = 1, .maximum = GLINT_SELFTEST_RAYS_MAX},
     {GLINT_OPTION_INT, .name = "seed", .argument = "N",
-     .help = "Draw other rays, angles and places; the bounds stay the same.", .fallback = "0",
+     .help = "Draw other rays, angles and places. The bounds stay the same.", .fallback = "0",
      .offset = offsetof(selftest_request, seed), .minimum = 0, .maximum = 2147483647},
     {GLINT_OPTION_REAL, .name = "case-timeout", .argument = "SECONDS",
-     .help = "A case that takes longer is broken: the driver hangs. 0: no limit.",
+     .help = "Time limit of a case. A slower case is broken: the driver hangs. 0: no limit.",
      .fallback = "900, and none with more rays", .offset = offsetof(selftest_request, limit_s),
      .minimum = 0, .maximum = 1e6},
     {GLINT_OPTION_INT, .name = "jobs", .argument = "N",
-     .help = "Run so many cases at a time, each in a process of its own.",
+     .help = "Number of cases that run at the same time, each in its own process.",
      .fallback = "1; with --quick as many as there are processors, up to 4",
      .offset = offsetof(selftest_request, jobs), .minimum = 1, .maximum = SELFTEST_WORKERS_MAX},
     {GLINT_OPTION_FLAG, .name = "fail-fast", .help = "Stop after the first case that fails.",
@@ -149,8 +149,8 @@ static const glint_option selftest_options[] = {
      .offset = offsetof(selftest_request, kernel_dir)},
     {GLINT_OPTION_HEADING, .help = "Results"},
     {GLINT_OPTION_TEXT, .name = "expect", .argument = "FILE",
-     .help = "Failures that are known do not count: a case a line, and behind it, where it fails "
-             "there alone, float or double, or 1, 8 or 16. Those that pass are named.",
+     .help = "Known failures, which do not count. A line holds the name of a case, and if it fails "
+             "only there: float or double, and 1, 8 or 16. glint names listed cases that pass.",
      .offset = offsetof(selftest_request, expect)},
     {GLINT_OPTION_TEXT, .name = "junit", .argument = "FILE",
      .help = "Write the results as JUnit's XML.", .offset = offsetof(selftest_request, junit)},
@@ -469,11 +469,11 @@ const glint_command glint_command_selftest = {
     .summary = "the numerical hard cases, on any device",
     .synopsis = "[options]",
     .description =
-        "Runs the cases that ray tracers get wrong through the kernels on the device, and judges "
-        "them by closed forms and in double precision: edges and vertices, slivers, self-hits, "
-        "the critical angle, normals that are none, seams of the environment, and more. Every "
-        "measure has a bound that is derived from the rounding error u; one that is exceeded is "
-        "explained, and gives exit status 7. No files are needed.",
+        "Runs hard cases of ray tracing through the kernels on the device: edges and vertices, "
+        "slivers, self-hits, the critical angle, missing normals, seams of the environment, and "
+        "more. Closed forms and double precision judge the results. Every measure has a bound, "
+        "derived from the rounding error u. glint explains each measure that exceeds its bound, "
+        "and exits with status 7. The self-test needs no files.",
     .examples = "  glint selftest\n"
                 "  glint selftest --quick\n"
                 "  glint selftest --device gpu --junit selftest.xml\n"

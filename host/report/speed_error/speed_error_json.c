@@ -164,9 +164,9 @@ glint_status glint_speed_error_scene_json(const glint_bench_scene *scene,
     glint_json_put_text(*entry, "name", scene->name);
     glint_json_put(*entry, "device", glint_json_device(&result->device));
     glint_json_put(*entry, "bvh", glint_json_bvh(&result->bvh));
-    json_t *rungs = json_array();
     glint_status status;
     TRY_OR(cleanup, status, put_reference(*entry, result, error));
+    json_t *rungs = json_array();
     glint_json_put(*entry, "rungs", rungs);
     for (size_t i = 0; i < result->count; i++) {
         TRY_OR(cleanup, status, put_rung(rungs, result, i, error));
