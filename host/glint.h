@@ -1,11 +1,11 @@
-// libglint's one public header: everything that the program, the tests and the bench use.
+// The public header of libglint: everything that the program, the tests and the bench use.
 //
 //   glint_scene, glint_environment     loaded from files            scene/, environment/
-//   glint_device                       an OpenCL device, opened     device/
+//   glint_device                       an open OpenCL device        device/
 //   glint_settings → glint_renderer    planned, compiled, uploaded  render/
 //   glint_image                        rendered, written to a file  image/
 //
-// Functions return a glint_status and fill a glint_error (base/status.h); nothing prints or exits.
+// Functions return a glint_status and fill a glint_error (base/status.h). They never print or exit.
 #ifndef GLINT_H
 #define GLINT_H
 

@@ -1,4 +1,4 @@
-// Where the binary tree lives. See binary_node.h.
+// Allocates the binary tree's memory. See binary_node.h.
 #include "accel/binary_node.h"
 
 #include <stdlib.h>

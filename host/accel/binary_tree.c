@@ -1,6 +1,6 @@
-// Level by level: references are binned and divided in chunks, and whatever is added up over chunks
-// are boxes and counts, so that neither their order nor the number of threads matters. See
-// binary_tree.h.
+// Builds the binary tree level by level: threads bin and divide the references in chunks. Sums over
+// chunks are boxes and counts only. So neither the order of the chunks nor the number of threads
+// changes the tree. See binary_tree.h.
 #include "accel/binary_tree.h"
 
 #include "accel/range.h"
@@ -11,41 +11,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CHUNK ((size_t)2048) // references
-// Ranges for each thread: enough to keep all busy to the end. The tree does not depend on it, as
-// ranges of no more than GLINT_BUNDLED_MIN triangles are always left to one thread.
+#define CHUNK ((size_t)2048) // references of a chunk
+// Ranges per thread, enough to keep all threads busy to the end. The tree does not depend on this
+// number: one thread always builds a range of GLINT_BUNDLED_MIN triangles or fewer.
 #define RANGES_PER_THREAD 8
 
 _Static_assert(CHUNK % GLINT_BUNDLE_MAX == 0, "a bundle would lie across two chunks");
 
-// A range, and what has become of it.
+// A range, and the state of its division.
 typedef struct entry {
     glint_range range;
-    size_t children; // the index of the left child's entry, the right one's follows; 0: not divided
+    size_t children; // index of the left child's entry, the right one follows; 0: not divided
     glint_wide_costs costs;
-    // While the range is being divided:
+    // Used while the range is being divided:
     glint_binning binning;
     glint_split split;
     bool has_split;
 } entry;
 
-// A part of a range, which one thread works on at a time.
+// A part of a range; one thread works on it at a time.
 typedef struct chunk {
     size_t entry, first, count;
-    glint_reference *made; // to its triangles, owned; only while they are being made
+    glint_reference *made; // references to the chunk's triangles, owned; used only at the start
     size_t made_count, made_triangles;
-    size_t left_before, right_before; // references of the chunks before it, on either side
+    size_t left_before, right_before; // references of earlier chunks on each side
     glint_bins bins;
-    glint_box boxes[2]; // at first bounds and middles of its references, then middles of each side
+    glint_box boxes[2]; // bounds and middles of its references; later the middles of each side
 } chunk;
 
 typedef struct builder {
     const glint_bvh_inputs *in;
     glint_reference *references, *spare;
-    size_t range_max; // triangles of a range that one thread divides
+    size_t range_max; // more triangles than this are divided by all threads together
     entry *entries;   // parents before children, level by level
     size_t entry_count, entry_capacity;
-    chunk *chunks; // of the entries that are being divided
+    chunk *chunks; // chunks of the entries that are being divided
     size_t chunk_count;
     glint_binary_tree *tree;
     atomic_bool failed;
@@ -70,7 +70,7 @@ static bool add_entry(builder *b, const glint_range *range)
     return true;
 }
 
-// Cuts the entries from `first` on that are to be divided into chunks.
+// Cuts the entries from `first` on into chunks if they are large enough to be divided.
 static bool make_chunks(builder *b, size_t first)
 {
     size_t count = 0;
@@ -100,8 +100,8 @@ static bool make_chunks(builder *b, size_t first)
 
 // ---- The references ----------------------------------------------------------------------------
 
-// The references to a chunk of triangles, in memory of the chunk's own for now: how many all chunks
-// will make is not known.
+// Makes the references to a chunk of triangles, in the chunk's own memory: the total number of
+// references is not known yet.
 static void make_references(size_t index, void *context)
 {
     builder *b = context;
@@ -133,7 +133,7 @@ static void gather_references(size_t index, void *context)
     c->made = NULL;
 }
 
-// Makes the references of the first entry from what the chunks have made.
+// Joins the references of all chunks into those of the first entry.
 static bool join_chunks(builder *b, glint_range *all)
 {
     all->node->bounds = all->middles = glint_box_empty();
@@ -157,12 +157,12 @@ static bool join_chunks(builder *b, glint_range *all)
     return true;
 }
 
-// The first entry: all triangles.
+// Makes the first entry, which holds all triangles.
 static bool start(builder *b)
 {
     const size_t count = b->in->triangle_count;
     const glint_range all = {.node = &b->tree->root, .count = count, .triangle_count = count};
-    b->range_max = 0; // for once everything is cut into chunks
+    b->range_max = 0; // cut everything into chunks this once
     if (!add_entry(b, &all) || !make_chunks(b, 0)) {
         return false;
     }
@@ -187,7 +187,7 @@ static void bin_chunk(size_t index, void *context)
     glint_bins_fill(&c->bins, &e->binning, e->range.references + c->first, c->count);
 }
 
-// Chooses the split of the entry whose chunks begin at `first` and tells each chunk where its
+// Chooses the split of the entry whose chunks begin at `first`. Tells each chunk where its
 // references go.
 static void choose_split(builder *b, entry *e, size_t first)
 {
@@ -224,7 +224,7 @@ static void divide_chunk(size_t index, void *context)
     }
 }
 
-// Makes the children of an entry whose references are divided.
+// Makes the children of an entry after its references were divided.
 static bool add_children(builder *b, size_t index, size_t first_chunk)
 {
     const entry *e = &b->entries[index];
@@ -299,7 +299,7 @@ static bool divide_upper_levels(builder *b)
 
 static bool build_ranges(builder *b)
 {
-    // One for each range, so that no two threads share one; the upper nodes keep the first.
+    // One arena per range, so that no two threads share one. The upper nodes keep the first arena.
     glint_arena *arenas = glint_allocate(b->entry_count, sizeof *arenas);
     if (arenas == NULL) {
         return false;

@@ -1,4 +1,5 @@
-// Axis-aligned boxes for the builder: vectors of four floats, so that growing a box is two maxima.
+// Axis-aligned boxes for the builder. They are vectors of four floats, so that two maxima grow a
+// box.
 #ifndef GLINT_ACCEL_BOX_H
 #define GLINT_ACCEL_BOX_H
 
@@ -9,16 +10,16 @@
 #include <xmmintrin.h>
 #endif
 
-// x, y, z, and a fourth lane that boxes have no use for.
+// x, y, z, and a fourth lane that boxes do not use.
 typedef float glint_float4 __attribute__((vector_size(16)));
 typedef int32_t glint_int4 __attribute__((vector_size(16)));
 
-// The low corner is stored negated: both corners then grow by a maximum.
+// The low corner is stored negated, so that both corners grow by a maximum.
 typedef struct glint_box {
     glint_float4 low_negated, high;
 } glint_box;
 
-// Lane by lane a > b ? a : b.
+// Returns a > b ? a : b in each lane.
 static inline glint_float4 glint_larger4(glint_float4 a, glint_float4 b)
 {
 #ifdef __SSE__
@@ -42,13 +43,13 @@ static inline glint_box glint_box_union(glint_box a, glint_box b)
     return (glint_box){glint_larger4(a.low_negated, b.low_negated), glint_larger4(a.high, b.high)};
 }
 
-// low + high: twice the centre.
+// Returns low + high, twice the centre.
 static inline glint_float4 glint_box_middle(glint_box b)
 {
     return b.high - b.low_negated;
 }
 
-// A point as a box.
+// Returns a point as a box.
 static inline glint_box glint_box_of(glint_float4 point)
 {
     return (glint_box){-point, point};
@@ -60,7 +61,7 @@ static inline float glint_box_extent(glint_box b)
     return fmaxf(size[0], fmaxf(size[1], size[2]));
 }
 
-// A factor that keeps areas clear of overflow and underflow in a box of this extent.
+// A factor that keeps the areas of boxes of this extent clear of overflow and underflow.
 static inline float glint_box_scale(glint_box b)
 {
     float scale = 1 / glint_box_extent(b);

@@ -1,5 +1,5 @@
-// Builds the wide tree: a binary tree by the surface area heuristic, drawn up as wide nodes, its
-// leaves as clusters. See bvh.h.
+// Builds the wide tree: first a binary tree by the surface area heuristic, then wide nodes from it.
+// The leaves become clusters. See bvh.h.
 #include "accel/bvh.h"
 
 #include "accel/binary_tree.h"
@@ -13,7 +13,7 @@ static double ratio(size_t a, size_t b)
     return b > 0 ? (double)a / (double)b : 0;
 }
 
-// Of the triangles that have an area.
+// Completes the report. `triangle_count` counts the triangles with an area.
 static void finish_report(glint_bvh *bvh, size_t triangle_count)
 {
     const size_t node_bytes = GLINT_NODE_VALUES * (size_t)bvh->width * sizeof(float);
@@ -29,7 +29,7 @@ static void finish_report(glint_bvh *bvh, size_t triangle_count)
     report->bytes_per_triangle = ratio(report->bytes, triangle_count);
 }
 
-// A root whose children no ray meets, for triangles that all have no area.
+// Makes a root whose children no ray meets, for a scene whose triangles all have no area.
 static bool make_empty_root(glint_bvh *bvh)
 {
     const size_t boxes = 6 * (size_t)bvh->width, values = GLINT_NODE_VALUES * (size_t)bvh->width;

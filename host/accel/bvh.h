@@ -1,4 +1,4 @@
-// The bounding volume hierarchy: a wide tree over triangles, in the device's layout.
+// Builds the bounding volume hierarchy: a wide tree over triangles, in the device's layout.
 #ifndef GLINT_ACCEL_BVH_H
 #define GLINT_ACCEL_BVH_H
 
@@ -9,10 +9,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// For each triangle, at most, beside the scene; the tree itself takes half of it.
+// An upper bound of the builder's memory, bytes per triangle, besides the scene. The finished tree
+// takes half of it.
 #define GLINT_BVH_BYTES_WHILE_BUILT 75
 
-// A leaf's triangles as the host sees them; the values are described in kernels/layout.h.
+// A leaf's triangles as the host sees them; kernels/layout.h describes the values.
 typedef struct glint_cluster {
     float positions[3][GLINT_CLUSTER_LANES]; // x, y, z of each vertex
     uint8_t corners[3][GLINT_CLUSTER_LANES]; // first, second, third corner of each triangle
@@ -30,30 +31,31 @@ static inline int32_t glint_cluster_material(const glint_cluster *cluster)
     return cluster->facts >> GLINT_CLUSTER_COUNT_BITS;
 }
 
-// What was built, for `info` and statistics.
+// Facts about a built tree, for `info` and statistics.
 typedef struct glint_bvh_report {
-    size_t triangle_count; // that have an area
+    size_t triangle_count; // triangles with an area
     size_t node_count;
     size_t cluster_count;
-    int depth;        // nodes on the longest way down
-    double sah_cost;  // nodes and clusters that a random ray through the root's box may be expected
-                      // to meet (surface area heuristic)
+    int depth; // nodes on the longest way from the root
+    // The number of nodes and clusters that a random ray through the root's box is expected to meet
+    // (surface area heuristic).
+    double sah_cost;
     double root_area; // half of the surface area of the root's box, stored units squared
     double fill;      // share of the clusters' lanes that hold a triangle
     size_t bytes;     // of all arrays
     double bytes_per_triangle;
-    bool is_refitted; // to triangles that had moved, since it was built
-    int stack_need;   // entries that a traversal may have waiting
+    bool is_refitted; // true after glint_bvh_refit
+    int stack_need;   // entries that a traversal's stack must hold
 } glint_bvh_report;
 
 // Zero is valid: a tree without triangles. All arrays are aligned to 64 bytes.
 typedef struct glint_bvh {
     int width; // children of a node: 8 or 16
     size_t node_count, cluster_count;
-    size_t input_count; // triangles that it was made from, those without area too
-    // [node_count][7 × width] 32-bit values, see kernels/layout.h; node 0 is the root. Boxes are
-    // widened a little beyond their triangles, so that rounding in the tests of boxes and triangles
-    // never leaves a gap between them.
+    size_t input_count; // triangles given to the builder, including those without area
+    // [node_count][7 × width] 32-bit values, see kernels/layout.h; node 0 is the root. Boxes are a
+    // little wider than their triangles. So rounding in the tests of boxes and triangles leaves no
+    // gap (watertight).
     float *nodes;
     glint_cluster *clusters; // [cluster_count]
     float *normals;          // [cluster_count][GLINT_CLUSTER_NORMALS], or NULL without normals
@@ -63,50 +65,50 @@ typedef struct glint_bvh {
 
 // Triangles as a scene holds them. Pointers are borrowed.
 typedef struct glint_bvh_inputs {
-    const float *positions;      // [triangle_count][3 vertices][3], magnitudes below GLINT_FAR
-    const float *told;           // the same from the anchors of parts; NULL: there are no parts
-    const uint32_t *part_of;     // [triangle_count], where there are
-    const float (*anchors)[3];   // of the parts
+    const float *positions;  // [triangle_count][3 vertices][3], magnitudes below GLINT_FAR
+    const float *told;       // positions relative to their parts' anchors; NULL: there are no parts
+    const uint32_t *part_of; // [triangle_count], the part of each triangle; only with parts
+    const float (*anchors)[3];   // the parts' anchors
     const float *normals;        // the same shape as positions, or NULL
     const uint32_t *material_of; // [triangle_count]
     size_t triangle_count;
     int width;      // children of a node: 8 or 16
-    size_t threads; // 0: as many as there are cores; the tree is the same for any number
+    size_t threads; // 0: one per core; the tree is the same for any number
 } glint_bvh_inputs;
 
-// What clusters hold of the triangles' corners.
+// Returns the positions that clusters store: relative to the anchors if there are parts.
 static inline const float *glint_bvh_told(const glint_bvh_inputs *in)
 {
     return in->told != NULL ? in->told : in->positions;
 }
 
-// The anchor that a triangle's corners are told from.
+// Returns the anchor to which a triangle's stored corners are relative.
 static inline const float *glint_bvh_anchor(const glint_bvh_inputs *in, size_t triangle)
 {
     static const float origin[3] = {0, 0, 0};
     return in->told != NULL ? in->anchors[in->part_of[triangle]] : origin;
 }
 
-// Triangles of one group may stand in one cluster: they have one material and one anchor.
+// Returns the triangle's group. A cluster holds triangles of one group: one material, one anchor.
 static inline uint64_t glint_bvh_group(const glint_bvh_inputs *in, size_t triangle)
 {
     const uint64_t part = in->told != NULL ? in->part_of[triangle] : 0;
     return part << 32 | in->material_of[triangle];
 }
 
-// Deterministic: the same input gives the same tree. Triangles without area, whose corners are in
-// line as they are stored (a loader keeps them out, but scenes are made by hand too), are left out:
-// no ray hits them, whatever rounding makes of them. Two triangles of a cluster share a vertex
-// where its position and normal have the same bits. Errors: GLINT_OUT_OF_MEMORY,
-// GLINT_BAD_INPUT (too many triangles for the layout).
+// Builds a tree. The same input gives the same tree. Triangles without area are left out, that is,
+// triangles whose stored corners are in line; so no ray hits them by rounding. A loader drops them,
+// but scenes made by hand may hold some. Two triangles of a cluster share a vertex if its position
+// and normal have the same bits. Errors: GLINT_OUT_OF_MEMORY, GLINT_BAD_INPUT (too many triangles
+// for the layout).
 glint_status glint_bvh_build(const glint_bvh_inputs *inputs, glint_bvh *bvh, glint_error *error);
 void glint_bvh_free(glint_bvh *bvh);
 
-// Fits a tree to the same triangles at other places, which takes a fraction of the time: what rays
-// hit is the same as in a tree that is built anew, but report.sah_cost tells how much longer they
-// take to find it. False where the tree does not serve (another number of triangles, or of those
-// with an area; triangles that shared a vertex came apart; too little memory): it is then to be
-// freed.
+// Fits a tree to the same triangles after they moved. This takes a fraction of the time of a build.
+// Rays hit the same triangles as in a new tree; report.sah_cost tells how much longer they search.
+// Returns false if the tree does not serve: another number of triangles, or of triangles with an
+// area; triangles that shared a vertex came apart; too little memory. The caller then frees the
+// tree.
 bool glint_bvh_refit(const glint_bvh_inputs *inputs, glint_bvh *bvh);
 
 #endif

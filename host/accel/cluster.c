@@ -1,4 +1,4 @@
-// A cluster's arrays. See cluster.h.
+// Fills a cluster's arrays. See cluster.h.
 #include "accel/cluster.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@ _Static_assert(sizeof(glint_cluster) == GLINT_CLUSTER_VALUES * sizeof(float) &&
                    offsetof(glint_cluster, anchor) == GLINT_CLUSTER_ANCHOR * sizeof(float),
                "glint_cluster differs from kernels/layout.h");
 
-// values[axis][lane] of each vertex of the leaf.
+// Writes values[axis][lane] of the vertices of a leaf.
 static void gather(const float *from, const glint_leaf *leaf, float *values)
 {
     for (int lane = 0; lane < GLINT_CLUSTER_LANES; lane++) {

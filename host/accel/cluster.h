@@ -1,4 +1,5 @@
-// Clusters: the tree's leaves. Up to 16 triangles of one material and the vertices that they share.
+// Clusters: the tree's leaves, each of up to 16 triangles of one material and their shared
+// vertices.
 #ifndef GLINT_ACCEL_CLUSTER_H
 #define GLINT_ACCEL_CLUSTER_H
 
@@ -9,14 +10,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Clusters that so many triangles may be expected to make; 1 if they may make one.
+// The least number of clusters that `triangles` triangles make.
 static inline uint32_t glint_clusters_expected(uint32_t triangles)
 {
     return (triangles + GLINT_CLUSTER_LANES - 1) / GLINT_CLUSTER_LANES;
 }
 
-// What a box with so many clusters costs a random ray, in arbitrary units: area times clusters, as
-// all lanes of a cluster are tested at once. Where areas are 0 the clusters alone decide.
+// The expected cost of a box with `clusters` clusters for a random ray, in arbitrary units. It is
+// area times clusters, because all lanes of a cluster are tested at once. For areas of 0 the
+// clusters alone decide.
 static inline float glint_cluster_cost(glint_box box, float scale, float clusters)
 {
     return (glint_box_area(box, scale) + 0x1p-20f) * clusters;

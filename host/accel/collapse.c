@@ -1,6 +1,6 @@
-// The wide tree with the least surface area that a binary tree can be drawn up as, found by dynamic
-// programming from the leaves up (Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal on GPUs
-// Through Compressed Wide BVHs, 2017), and its arrays. See collapse.h.
+// Collapses a binary tree to the wide tree with the least surface area, and writes its arrays.
+// Dynamic programming from the leaves up finds this tree (Ylitie, Karras, Laine, Efficient
+// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, 2017). See collapse.h.
 #include "accel/collapse.h"
 
 #include "accel/cluster.h"
@@ -18,11 +18,11 @@ glint_wide_costs glint_wide_costs_of_leaf(void)
     return (glint_wide_costs){.most = 1};
 }
 
-// The best way to make `trees` trees of two subtrees.
+// The best way to make `trees` wide trees of two subtrees.
 typedef struct sharing {
     double cost;
     uint32_t nodes;
-    uint8_t left; // trees of the left subtree
+    uint8_t left; // number of trees made of the left subtree
 } sharing;
 
 static inline bool is_better(double cost, uint32_t nodes, const sharing *than)
@@ -74,7 +74,7 @@ typedef struct family {
     const glint_binary_node *children[GLINT_WIDTH_MAX];
 } family;
 
-// Adds the roots of the forest of up to `trees` trees that stands for a subtree.
+// Adds the roots of the forest of up to `trees` wide trees that stands for a subtree.
 static void add_trees(family *f, const glint_binary_node *node, int trees)
 {
     if (trees > (int)node->cluster_count) {
@@ -106,13 +106,13 @@ static family family_of(const glint_binary_node *node, int width)
     return f;
 }
 
-// A wide node that is to be written. Its index is its place in the list of them.
+// A wide node to be written. Its index is its place in the list.
 typedef struct wide_node {
-    const glint_binary_node *root; // the binary node that it stands for
-    uint32_t first_inner;          // the index of its first child that is a node; others follow
-    uint32_t first_cluster;        // below it
-    int depth;                     // nodes above
-    int waiting;                   // entries that a traversal may have waiting above
+    const glint_binary_node *root; // the binary node that becomes this wide node
+    uint32_t first_inner;          // index of its first child that is a node; its others follow
+    uint32_t first_cluster;        // index of the first cluster below it
+    int depth;                     // number of nodes above it
+    int waiting;                   // stack entries that a traversal may hold above it
 } wide_node;
 
 typedef struct collapse {
@@ -135,7 +135,7 @@ static void note_node(const wide_node *at, const family *f, double root_area,
     }
 }
 
-// Lists the wide nodes: each is followed, some way behind, by its children, side by side.
+// Lists the wide nodes level by level. The children of a node stand side by side, behind it.
 static void list_nodes(const glint_binary_node *root, int width, wide_node *list,
                        glint_bvh_report *report)
 {
@@ -160,7 +160,7 @@ static void list_nodes(const glint_binary_node *root, int width, wide_node *list
     }
 }
 
-// Writes a node, and the clusters that are its children.
+// Writes a node, and the clusters among its children.
 static void write_node(const collapse *c, size_t index)
 {
     const int width = c->bvh->width;

@@ -1,4 +1,4 @@
-// One thread's part of the tree. See range.h.
+// Builds one thread's part of the tree. See range.h.
 #include "accel/range.h"
 
 #include "accel/treelet.h"
@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-// Sets the bounds, of the references and of their middles, and counts the triangles.
+// Sets the bounds of the references and of their middles; counts the triangles.
 static void measure(glint_range *range)
 {
     range->triangle_count = 0;
@@ -55,12 +55,12 @@ void glint_range_divide(const glint_range *range, const glint_split *split,
     }
 }
 
-// What one thread works with.
+// The working memory of one thread.
 typedef struct worker {
     const glint_bvh_inputs *in;
     glint_arena *arena;
-    glint_bins *bins;                    // of the range that is being divided
-    glint_reference *references, *spare; // [GLINT_BUNDLED_MIN]: the range that was unbundled last
+    glint_bins *bins;                    // bins of the range that is being divided
+    glint_reference *references, *spare; // [GLINT_BUNDLED_MIN]: the range unbundled last
 } worker;
 
 static void split_range(const worker *w, const glint_range *range, glint_binary_node children[2],
@@ -80,7 +80,7 @@ static void split_range(const worker *w, const glint_range *range, glint_binary_
     glint_range_divide(range, &split, to.middles, children, sides);
 }
 
-// One reference for each triangle, from here on down.
+// Makes single references of a range: one for each triangle.
 static glint_range unbundle(const worker *w, const glint_range *range)
 {
     glint_range single = *range;

@@ -1,11 +1,11 @@
-// Making references, bundled and single. See reference.h.
+// Makes references, bundled and single. See reference.h.
 #include "accel/reference.h"
 
 #include "base/vector.h"
 
-// Triangles are bundled if their common box has hardly more area than their own together. Four of a
-// flat patch have just as much; triangles from here and there have many times that. Written so that
-// areas that overflow make no bundle.
+// True if the common box has hardly more area than the triangles' own boxes together. For four
+// triangles of a flat patch both areas are equal; for scattered triangles the common area is many
+// times larger. The comparison is written so that areas that overflow make no bundle.
 static inline bool belong_together(glint_box common, float areas)
 {
     return glint_box_area(common, 1) < 1.25f * areas;
@@ -30,7 +30,7 @@ static inline glint_reference make(glint_box box, size_t first, uint32_t count)
     return box;
 }
 
-// One reference to two triangles, or two.
+// Makes one reference to two triangles, or two references.
 static inline size_t make_pair(const glint_box boxes[2], size_t first, glint_reference *references)
 {
     const glint_box common = glint_box_union(boxes[0], boxes[1]);

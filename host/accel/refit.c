@@ -1,5 +1,5 @@
-// Fits a tree to triangles that have moved: its clusters keep their triangles, its nodes their
-// children, and every box is made anew from the leaves up. See bvh.h.
+// Fits a tree to triangles that have moved. Clusters keep their triangles and nodes their children.
+// Every box is computed anew, from the leaves up. See bvh.h.
 #include "accel/bvh.h"
 
 #include "accel/box.h"
@@ -16,10 +16,10 @@ typedef struct refit {
     const glint_bvh_inputs *in;
     const glint_bvh *bvh;
     glint_box *boxes;     // [cluster_count], then [node_count]
-    atomic_bool has_torn; // some cluster's triangles no longer belong together
+    atomic_bool has_torn; // a cluster's triangles no longer belong together
 } refit;
 
-// Whether each triangle of a cluster still has an area, the cluster's material and one anchor.
+// True if each triangle of a cluster still has an area, the cluster's material and the same anchor.
 static bool is_whole(const glint_bvh_inputs *in, const glint_cluster *cluster,
                      const int32_t *numbers)
 {
@@ -45,8 +45,8 @@ static bool have_same_bits(float a, float b)
     return bits[0] == bits[1];
 }
 
-// Writes values[axis][lane] of each vertex from its triangles. False where two triangles that
-// shared a vertex have come apart; what was written is then of no use.
+// Writes values[axis][lane] of each vertex from its triangles. Returns false if two triangles that
+// shared a vertex came apart; `values` are then undefined.
 static bool gather(const float *from, const glint_cluster *cluster, const int32_t *numbers,
                    float *values)
 {
@@ -65,7 +65,7 @@ static bool gather(const float *from, const glint_cluster *cluster, const int32_
             is_set[lane] = true;
         }
     }
-    // Lanes past the last vertex repeat the first.
+    // Unused lanes repeat the first vertex.
     for (int lane = 1; lane < GLINT_CLUSTER_LANES; lane++) {
         for (int axis = 0; axis < 3 && !is_set[lane]; axis++) {
             values[axis * GLINT_CLUSTER_LANES + lane] = values[axis * GLINT_CLUSTER_LANES];
@@ -109,7 +109,7 @@ static void refit_some(size_t task, void *context)
     }
 }
 
-// A node's children stand behind it, so that the last node comes first.
+// Computes the nodes' boxes. Children stand behind their node, so the loop runs from the last node.
 static void refit_nodes(const refit *r, glint_bvh *bvh)
 {
     const int width = bvh->width;
@@ -121,7 +121,7 @@ static void refit_nodes(const refit *r, glint_bvh *bvh)
         for (int i = 0; i < width; i++) {
             int32_t child;
             memcpy(&child, node + 6 * width + i, sizeof child);
-            if (child == 0) { // there is none; the root is nobody's child
+            if (child == 0) { // no child: the root has index 0 and is nobody's child
                 continue;
             }
             const glint_box box = child < 0 ? r->boxes[~child] : nodes[child];
@@ -152,7 +152,8 @@ bool glint_bvh_refit(const glint_bvh_inputs *in, glint_bvh *bvh)
         in->triangle_count != bvh->input_count || (in->normals != NULL) != (bvh->normals != NULL)) {
         return false;
     }
-    // Those in clusters are looked at there.
+    // The clusters' triangles are checked later. Here: no triangle outside the clusters gained an
+    // area.
     if (bvh->report.triangle_count != in->triangle_count &&
         bvh->report.triangle_count != count_with_area(in)) {
         return false;

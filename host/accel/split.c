@@ -1,11 +1,11 @@
-// Binning, the choice of a split, and partitions. See split.h.
+// Bins references, chooses a split and applies it. See split.h.
 #include "accel/split.h"
 
 #include "accel/cluster.h"
 
 float glint_bin_scale(float extent, int bins)
 {
-    // A little less, so that rounding does not make one bin more.
+    // Slightly less, so that rounding does not give one bin more.
     float scale = (float)bins * (1 - 0x1p-20f) / extent;
     return extent > 0 && isfinite(scale) ? scale : 0;
 }
@@ -67,8 +67,8 @@ static inline void add_reference(glint_bins *bins, const glint_binning *binning,
 void glint_bins_fill(glint_bins *bins, const glint_binning *binning,
                      const glint_reference *references, size_t count)
 {
-    // Every other reference goes to a second set: neighbours fall into the same bin, and each would
-    // wait until the one before it is stored.
+    // Add every other reference to a second set of bins. Neighbours often fall into the same bin,
+    // where each addition would wait for the store of the one before.
     glint_bins others;
     clear(bins);
     clear(&others);
@@ -158,7 +158,7 @@ void glint_split_apply(const glint_split *split, const glint_binning *binning,
     glint_split_sides next = *sides;
     for (size_t i = 0; i < count; i++) {
         const glint_reference reference = references[i];
-        // No branch: which side it is cannot be predicted.
+        // No branch: the side cannot be predicted.
         const int side = bins_of(binning, reference)[split->axis] >= split->bin;
         next.middles[side] =
             glint_box_union(next.middles[side], glint_box_of(glint_box_middle(reference)));

@@ -1,4 +1,5 @@
-// A treelet: exact sweeps over sorted triangles that know which vertices are shared. See treelet.h.
+// Builds a treelet by exact sweeps over sorted triangles. The sweeps know which vertices are
+// shared. See treelet.h.
 #include "accel/treelet.h"
 
 #include "accel/cluster.h"
@@ -6,29 +7,29 @@
 #include <string.h>
 
 #define CAPACITY GLINT_TREELET_MAX
-#define BUCKETS 128  // that triangles are sorted into
-#define TABLE_BITS 9 // of vertices: more than three a triangle
+#define BUCKETS 128  // for sorting triangles
+#define TABLE_BITS 9 // of the vertex table: more than three slots per triangle
 
 typedef struct treelet {
     const glint_bvh_inputs *in;
     glint_arena *arena;
-    float scale; // of areas
+    float scale; // scale of areas
     int count;
     glint_reference references[CAPACITY];
     uint32_t triangles[CAPACITY];
     uint64_t groups[CAPACITY];      // see glint_bvh_group
-    uint16_t vertices[CAPACITY][4]; // of each triangle: three, numbered from 0
-    uint8_t order[3][CAPACITY];     // the triangles by their centres' coordinate, on each axis
-    uint16_t stamps[3 * CAPACITY];  // by vertex: the last count that it was counted in
+    uint16_t vertices[CAPACITY][4]; // numbers of each triangle's three vertices, from 0
+    uint8_t order[3][CAPACITY];     // on each axis, the triangles sorted by their centres
+    uint16_t stamps[3 * CAPACITY];  // by vertex: the last count that included it
     uint16_t stamp;
-    uint8_t is_left[CAPACITY], right[CAPACITY]; // while a cut is applied
-    float clusters[CAPACITY + 1];               // that so many triangles may be expected to make
+    uint8_t is_left[CAPACITY], right[CAPACITY]; // used while a cut is applied
+    float clusters[CAPACITY + 1]; // by number of triangles: clusters that they are expected to make
 } treelet;
 
-// Some of the treelet's triangles: `count` in each order from `first` on.
+// Some of the treelet's triangles: in each order, `count` triangles from `first` on.
 typedef struct part {
     int first, count;
-    bool fits; // they make one cluster
+    bool fits; // the triangles make one cluster
 } part;
 
 typedef struct cut {
@@ -39,7 +40,7 @@ typedef struct cut {
 
 // ---- Vertices ----------------------------------------------------------------------------------
 
-// A vertex as whole numbers: position, and normal or 0.
+// A vertex as integers: position, and normal or 0.
 typedef struct vertex_bits {
     uint64_t words[3];
 } vertex_bits;
@@ -65,7 +66,7 @@ static inline bool same_bits(const vertex_bits *a, const vertex_bits *b)
             (a->words[2] ^ b->words[2])) == 0;
 }
 
-// A place in the table.
+// Returns a place in the table.
 static inline unsigned hash_of(const vertex_bits *bits)
 {
     uint64_t mixed =
@@ -73,8 +74,8 @@ static inline unsigned hash_of(const vertex_bits *bits)
     return (unsigned)((mixed * 0x9e3779b97f4a7c15u) >> (64 - TABLE_BITS));
 }
 
-// Numbers the vertices: corners whose position and normal have the same bits are one. Returns how
-// many there are.
+// Numbers the vertices: corners whose position and normal have the same bits share a number.
+// Returns the number of vertices.
 static int number_vertices(treelet *t)
 {
     uint16_t table[1 << TABLE_BITS] = {0}; // a vertex's number + 1
@@ -96,12 +97,12 @@ static int number_vertices(treelet *t)
     return count;
 }
 
-// Counts the triangle's vertices that no triangle brought since the stamp was new.
+// Counts the triangle's vertices that are new in this count, and stamps them.
 static inline int new_vertices(treelet *t, int triangle)
 {
     const uint16_t *vertices = t->vertices[triangle];
     const uint16_t now = t->stamp;
-    // A triangle may have the same vertex twice: each is stamped before the next is looked at.
+    // A triangle may have the same vertex twice, so stamp each vertex before testing the next.
     int count = t->stamps[vertices[0]] != now;
     t->stamps[vertices[0]] = now;
     count += t->stamps[vertices[1]] != now;
@@ -111,8 +112,8 @@ static inline int new_vertices(treelet *t, int triangle)
     return count;
 }
 
-// Vertices fill the clusters before triangles do where few are shared. Up to 16 triangles that do
-// not make one cluster make two.
+// Estimates the clusters of i triangles. If few vertices are shared, the vertices fill the clusters
+// before the triangles do. Up to 16 triangles that do not make one cluster make two.
 static void expect_clusters(treelet *t, int vertices)
 {
     const float load = fmaxf(1, (float)vertices / (float)t->count) / GLINT_CLUSTER_LANES;
@@ -123,7 +124,7 @@ static void expect_clusters(treelet *t, int vertices)
 
 // ---- Order -------------------------------------------------------------------------------------
 
-// Into buckets first, then by insertion, which has little left to do; equal ones keep their order.
+// Sorts into buckets, then by insertion, which has little left to do. The sort is stable.
 static void sort_axis(treelet *t, glint_box middles, int axis)
 {
     float keys[CAPACITY];
@@ -154,8 +155,8 @@ static void sort_axis(treelet *t, glint_box middles, int axis)
 
 // ---- Splits ------------------------------------------------------------------------------------
 
-// Which of a part's triangles make one cluster, from one end of an order on: the largest number of
-// them. `step` is 1 or −1.
+// Returns how many of a part's triangles make one cluster: the most, from one end of an order on.
+// `step` is 1 or −1.
 static int fitting_count(treelet *t, const uint8_t *order, int step, int count)
 {
     const uint64_t group = t->groups[*order];
@@ -207,14 +208,15 @@ static inline float extent_of(const treelet *t, const part *p, int axis)
            glint_box_middle(t->references[order[0]])[axis];
 }
 
-// Along its short axes a part is hardly ever cut.
+// True for an axis that is not short: a part is hardly ever cut along its short axes.
 static bool is_worth_cutting(const treelet *t, const part *p, int axis)
 {
     float longest = fmaxf(extent_of(t, p, (axis + 1) % 3), extent_of(t, p, (axis + 2) % 3));
     return extent_of(t, p, axis) >= 0.5f * longest;
 }
 
-// Brings the left triangles of a cut to the front of each order, without changing theirs.
+// Moves the left triangles of a cut to the front of each order. The sort order is kept on both
+// sides.
 static void apply_cut(treelet *t, const part *p, const cut *c)
 {
     for (int i = 0; i < p->count; i++) {
@@ -281,7 +283,7 @@ static bool build(treelet *t, const part *p, glint_binary_node *node, glint_wide
     if (p->fits) {
         return make_leaf(t, p, node, costs);
     }
-    // The longest axis is worth cutting, and no cost is NaN or infinite: there is a cut.
+    // There is always a cut: the longest axis is worth cutting, and no cost is NaN or infinite.
     cut best = {.cost = INFINITY};
     for (int axis = 0; axis < 3; axis++) {
         if (is_worth_cutting(t, p, axis)) {

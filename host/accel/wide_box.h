@@ -1,4 +1,4 @@
-// Boxes as wide nodes hold them, and what they cost.
+// Boxes as wide nodes hold them, and their areas.
 #ifndef GLINT_ACCEL_WIDE_BOX_H
 #define GLINT_ACCEL_WIDE_BOX_H
 
@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// Half of the surface area, in double: sums of millions of them are compared.
+// Returns half of the surface area, in double: sums over millions of boxes are compared.
 static inline double glint_wide_area(glint_box b)
 {
     glint_float4 size = b.high + b.low_negated;
@@ -14,8 +14,8 @@ static inline double glint_wide_area(glint_box b)
     return x * y + y * z + z * x;
 }
 
-// Stores the box of a node's child, wider by a few roundings of its own size: a large triangle's
-// sheared vertices (see kernels/intersect.cl) are off by rounding errors of that order.
+// Stores the box of a node's child, wider by a few roundings of its own size. The sheared vertices
+// of a large triangle (see kernels/intersect.cl) have rounding errors of this order.
 static inline void glint_wide_store_box(float *node, int width, int child, glint_box bounds)
 {
     float margin = glint_box_extent(bounds) * 0x1p-21f;

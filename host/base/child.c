@@ -1,4 +1,4 @@
-// Work in a process of its own. See child.h.
+// Runs work in a child process. See child.h.
 #include "base/child.h"
 
 #include <errno.h>
@@ -12,11 +12,12 @@
 #include <time.h>
 #include <unistd.h>
 
-#define ASK_MS 100       // between two questions whether to stop
-#define PATIENCE_MS 1000 // from abandoning a child to SIGKILL
+#define ASK_MS 100       // interval between two calls of stop_requested
+#define PATIENCE_MS 1000 // time from abandoning a child to SIGKILL
 #define NAP_MS 5
 
-// What the child sends first; the bytes of details and text follow, each without its end.
+// The first bytes that the child sends. The bytes of details and text follow, without their final
+// 0.
 typedef struct answer {
     glint_status status;
     char message[GLINT_MESSAGE_CAPACITY];
@@ -24,11 +25,11 @@ typedef struct answer {
     bool has_details;
 } answer;
 
-static int own_pipe = -1; // in a child: where its answer goes
+static int own_pipe = -1; // in a child: the pipe for its answer
 
 bool glint_child_is_abandoned(void)
 {
-    // A pipe whose other end is closed has an error, asked for or not.
+    // poll reports POLLERR for a pipe whose other end is closed, even if not asked for it.
     struct pollfd pipe = {.fd = own_pipe};
     return own_pipe >= 0 && poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR) != 0;
 }
@@ -51,7 +52,7 @@ static bool send_all(int pipe, const void *from, size_t size)
 _Noreturn static void be_child(const glint_child *child, int pipe)
 {
     own_pipe = pipe;
-    if (child->is_expendable) { // it ends with its parent, whatever signals it blocks
+    if (child->is_expendable) { // the child ends with its parent, even if it blocks signals
         prctl(PR_SET_PDEATHSIG, SIGKILL);
     }
     char *text = NULL;
@@ -67,7 +68,7 @@ _Noreturn static void be_child(const glint_child *child, int pipe)
     _exit(sent ? 0 : 1);
 }
 
-// True once `pipe` can be read; false if a stop was requested before.
+// Returns true once `pipe` can be read, false if a stop is requested first.
 static bool wait_for(int pipe, const glint_child *child)
 {
     struct pollfd waited = {.fd = pipe, .events = POLLIN};
@@ -99,7 +100,8 @@ static bool receive_all(int pipe, const glint_child *child, void *to, size_t siz
     return true;
 }
 
-// A text of `length` bytes and its end; NULL where it does not come or finds no memory.
+// Receives a text of `length` bytes and terminates it. NULL if it does not arrive or memory is
+// short.
 static char *receive_text(int pipe, const glint_child *child, size_t length)
 {
     char *text = calloc(length + 1, 1);
@@ -110,7 +112,7 @@ static char *receive_text(int pipe, const glint_child *child, size_t length)
     return text;
 }
 
-// False if the child did not give the whole of its answer.
+// Returns false if the child did not send its whole answer.
 static bool receive(int pipe, const glint_child *child, glint_status *status, char **text,
                     glint_error *error)
 {
@@ -148,7 +150,7 @@ static pid_t reap(pid_t process, int *how, int options)
     return result;
 }
 
-// After its pipe was closed.
+// Ends an abandoned child whose pipe is closed: waits up to PATIENCE_MS, then kills it.
 static void end_child(pid_t process, bool is_expendable)
 {
     int how;
@@ -163,7 +165,7 @@ static void end_child(pid_t process, bool is_expendable)
     reap(process, &how, 0);
 }
 
-// What there is to say of a child that ended without an answer.
+// Describes the end of a child that gave no answer.
 static glint_status fail_without_answer(int how, glint_error *error)
 {
     if (WIFSIGNALED(how)) {

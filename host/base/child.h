@@ -1,5 +1,5 @@
-// Work in a process of its own: what it takes of memory, loads of drivers and leaves in them ends
-// with it, and if it crashes the caller goes on.
+// Runs work in a child process. The end of the process frees its memory and unloads the drivers
+// that it loaded. If the child crashes, the caller goes on.
 #ifndef GLINT_BASE_CHILD_H
 #define GLINT_BASE_CHILD_H
 
@@ -12,26 +12,25 @@ extern "C" {
 #endif
 
 typedef struct glint_child {
-    // Runs in the child, on a copy of the caller's memory, and gives a malloc'd text on GLINT_OK.
-    // The child ends with it, without exit handlers and without flushing what stdio holds.
+    // Runs in the child, on a copy of the caller's memory. On GLINT_OK, *text is a malloc'd text.
+    // Then the child ends without exit handlers and without flushing stdio.
     glint_status (*work)(void *context, char **text, glint_error *error);
     void *context;
-    // Asked in the caller ten times a second. Once true the child is abandoned, and gets SIGKILL if
-    // that does not end it within a second. NULL: never.
+    // The caller asks this ten times a second. Once it is true, the caller abandons the child. A
+    // child that is still running a second later gets SIGKILL. NULL: never stops.
     bool (*stop_requested)(void);
-    bool is_expendable; // leaves nothing behind: a stop is SIGKILL at once
+    bool is_expendable; // the child leaves nothing behind: a stop sends SIGKILL at once
 } glint_child;
 
-// Forks, waits, and brings back the status, the error with its details, and the text. Threads do
-// not survive a fork: the work must use nothing that has threads waiting in the caller, such as an
-// OpenCL driver that was loaded before. Errors besides the work's own: GLINT_INTERRUPTED after a
-// stop, GLINT_DEVICE_FAILED where there is no process to be had or the child ended without an
-// answer.
+// Forks, waits, and returns the status, the error with its details, and the text. Threads do not
+// survive a fork. So the work must not use a library whose threads run in the caller. An example is
+// an OpenCL driver that the caller has loaded. Errors besides the work's own: GLINT_INTERRUPTED
+// after a stop; GLINT_DEVICE_FAILED if the fork fails or the child ends without an answer.
 glint_status glint_child_run(const glint_child *child, char **text, glint_error *error);
 
-// In a child: whether nobody waits for its answer any more, as the caller stopped or died. Work
-// that has something to clean up asks now and then. Not by a signal, as a terminal sends those to
-// the child, too, and two are one too many to tell apart. False where this process is no child.
+// In a child: true if the caller has stopped or died, so that nobody waits for the answer. Work
+// that must clean up asks now and then. A signal would not do: a terminal sends signals to the
+// child too, and the child could not tell two signals apart. False if this process is not a child.
 bool glint_child_is_abandoned(void);
 
 #ifdef __cplusplus

@@ -1,10 +1,10 @@
-// The time, for measuring.
+// Measures time.
 #ifndef GLINT_BASE_CLOCK_H
 #define GLINT_BASE_CLOCK_H
 
 #include <time.h>
 
-// Milliseconds on the monotonic clock, from any beginning.
+// Returns milliseconds on the monotonic clock, from an arbitrary start.
 static inline double glint_now_ms(void)
 {
     struct timespec time;
@@ -12,7 +12,7 @@ static inline double glint_now_ms(void)
     return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
 }
 
-// Milliseconds since *start, which moves on to now.
+// Returns the milliseconds since *start and sets *start to now.
 static inline double glint_lap_ms(double *start)
 {
     const double now = glint_now_ms(), elapsed = now - *start;

@@ -1,4 +1,4 @@
-// How much memory there is. See free_memory.h.
+// Finds how much memory is left. See free_memory.h.
 #include "base/free_memory.h"
 
 #include <inttypes.h>
@@ -11,7 +11,7 @@
 
 #define GROUPS "/sys/fs/cgroup"
 
-// The number after `label` at the beginning of a line, or the file's first word where that is "".
+// Reads the number after `label` at the beginning of a line; with label "", the file's first word.
 static bool read_number(const char *path, const char *label, uint64_t *number)
 {
     FILE *file = fopen(path, "re");
@@ -56,7 +56,8 @@ static uint64_t left_by_limit(void)
     return left_of(limit.rlim_cur, pages * (uint64_t)sysconf(_SC_PAGESIZE));
 }
 
-// What a group has left. The system takes cached files back when memory is short.
+// The bytes that a cgroup has left. Cached files count as free: the system drops them when memory
+// is short.
 static uint64_t left_in_group(const char *group)
 {
     static const char *const cached[] = {"inactive_file ", "active_file "};
@@ -77,7 +78,7 @@ static uint64_t left_in_group(const char *group)
     return left_of(most, used);
 }
 
-// Of the process's group, and of those that it is in (cgroups, version 2).
+// The least that the process's cgroup and its parents have left (cgroups, version 2).
 static uint64_t left_by_groups(void)
 {
     char path[PATH_MAX];

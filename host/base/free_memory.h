@@ -1,4 +1,4 @@
-// How much memory this process can still get.
+// Tells how much memory this process can still get.
 #ifndef GLINT_BASE_FREE_MEMORY_H
 #define GLINT_BASE_FREE_MEMORY_H
 
@@ -8,8 +8,9 @@
 extern "C" {
 #endif
 
-// Bytes, by what the machine has left, the limit of the process (ulimit -v), and that of its group
-// (a container, a batch job). UINT64_MAX where nothing is known.
+// Returns the bytes that are left, the least of three numbers: the machine's free memory, the rest
+// of the process's limit (ulimit -v), the rest of its cgroup's limit (a container, a batch job).
+// UINT64_MAX: unknown.
 uint64_t glint_free_memory(void);
 
 #ifdef __cplusplus

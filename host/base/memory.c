@@ -1,4 +1,4 @@
-// Allocation whose size arithmetic cannot overflow. See memory.h.
+// Allocates memory; the arithmetic on sizes cannot overflow. See memory.h.
 #include "base/memory.h"
 
 #include <stdint.h>
@@ -7,7 +7,7 @@
 #include <sys/mman.h>
 
 #define PAGE_BYTES ((uintptr_t)4096)
-#define HUGE_BYTES ((size_t)1 << 22) // from here on large pages are worth asking for
+#define HUGE_BYTES ((size_t)1 << 22) // from this size on large pages pay
 
 bool glint_multiply(size_t a, size_t b, size_t *product)
 {
@@ -25,12 +25,13 @@ void *glint_allocate_unset(size_t count, size_t size)
     if (!glint_multiply(count, size, &bytes) || bytes > (size_t)-1 - GLINT_ALIGNMENT) {
         return NULL;
     }
-    // aligned_alloc wants a multiple of the alignment.
+    // aligned_alloc requires a multiple of the alignment.
     bytes = (bytes + GLINT_ALIGNMENT) / GLINT_ALIGNMENT * GLINT_ALIGNMENT;
     void *memory = aligned_alloc(GLINT_ALIGNMENT, bytes);
 #ifdef MADV_HUGEPAGE
-    // Where each page is touched for the first time the kernel's work counts: the tree of a million
-    // triangles is built in a tenth less time with large pages. A wish, which may be refused.
+    // Ask for large pages, because the first touch of each page costs time in the operating
+    // system's kernel. With large pages the tree of a million triangles is built in a tenth less
+    // time. The system may refuse.
     if (memory != NULL && bytes >= HUGE_BYTES) {
         uintptr_t first = ((uintptr_t)memory + PAGE_BYTES - 1) / PAGE_BYTES * PAGE_BYTES;
         uintptr_t last = ((uintptr_t)memory + bytes) / PAGE_BYTES * PAGE_BYTES;

@@ -1,4 +1,4 @@
-// Allocation whose size arithmetic cannot overflow.
+// Allocates memory; the arithmetic on sizes cannot overflow.
 #ifndef GLINT_BASE_MEMORY_H
 #define GLINT_BASE_MEMORY_H
 
@@ -9,17 +9,17 @@
 extern "C" {
 #endif
 
-#define GLINT_ALIGNMENT ((size_t)64) // a cache line, and what a zero-copy OpenCL buffer wants
+#define GLINT_ALIGNMENT ((size_t)64) // a cache line; enough for zero-copy OpenCL buffers
 
-// count × size zeroed bytes, aligned to GLINT_ALIGNMENT. NULL when the product overflows or memory
-// is short. Release with free(). A count of 0 gives a pointer that can be freed.
+// Returns count × size zeroed bytes, aligned to GLINT_ALIGNMENT. NULL if the product overflows or
+// memory is short. The caller frees them with free(). A count of 0 gives a pointer that can be
+// freed.
 void *glint_allocate(size_t count, size_t size);
 
-// The same, but the bytes are not set: for large arrays that are written at once, from several
-// threads.
+// Allocates alike, but does not set the bytes. For large arrays that several threads fill at once.
 void *glint_allocate_unset(size_t count, size_t size);
 
-// Sets *product to a × b; false (and *product untouched) when that overflows.
+// Sets *product to a × b. If the product overflows, returns false and leaves *product untouched.
 bool glint_multiply(size_t a, size_t b, size_t *product);
 
 #ifdef __cplusplus

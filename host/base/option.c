@@ -12,8 +12,8 @@
 
 #define DIGITS "0123456789"
 
-// The decimal number that `text` begins with, in bytes; 0: none. strtod would also take spaces,
-// hexadecimal digits and "inf".
+// The length in bytes of the decimal number at the beginning of `text`; 0: none. strtod would also
+// accept spaces, hexadecimal digits and "inf".
 static size_t number_length(const char *text, bool is_whole)
 {
     const char *at = text + (*text == '+' || *text == '-');
@@ -50,8 +50,8 @@ bool glint_parse_int(const char *text, long long *value)
     return true;
 }
 
-// The number that is the first `length` bytes. A locale with another decimal point than ours ends
-// strtod too early: it is refused then, not misread.
+// Reads the number in the first `length` bytes. If the locale has another decimal point, strtod
+// ends too early, and the number is refused, not misread.
 static bool read_real(const char *text, size_t length, double *value)
 {
     char *end;
@@ -192,7 +192,7 @@ static glint_status parse_size(const glint_option *option, const char *text, int
     return GLINT_OK;
 }
 
-// "auto|1|8|16" of at most `capacity` bytes.
+// Lists the choices as "auto|1|8|16", in at most `capacity` bytes.
 static void list_choices(const glint_option *option, char *list, size_t capacity)
 {
     const char *zero = option->zero != NULL ? option->zero : "";

@@ -1,4 +1,4 @@
-// Independent pieces of work spread over the machine's cores. See parallel.h.
+// Spreads independent pieces of work over the machine's cores. See parallel.h.
 #include "base/parallel.h"
 
 #include <pthread.h>
@@ -50,7 +50,7 @@ void glint_parallel_for_on(size_t threads, size_t count, void (*body)(size_t ind
     wanted = wanted < count ? wanted : count;
     pthread_t workers[THREADS_MAX];
     size_t started = 0;
-    // The caller is one of the workers.
+    // The caller is one of the workers, so start one thread less.
     while (started + 1 < wanted && pthread_create(&workers[started], NULL, work, &shared) == 0) {
         started++;
     }

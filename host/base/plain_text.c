@@ -1,11 +1,11 @@
-// Text that is safe to show. See plain_text.h.
+// Makes text safe to show. See plain_text.h.
 #include "base/plain_text.h"
 
 #include <stdint.h>
 #include <string.h>
 
-// Ranges that no terminal should get: controls, directions (Unicode's bidirectional algorithm, UAX
-// #9), separators of lines and paragraphs, annotations, surrogates.
+// Characters that no terminal should get: control characters, direction marks (Unicode's
+// bidirectional algorithm, UAX #9), separators of lines and paragraphs, annotations, surrogates.
 static const uint32_t forbidden[][2] = {
     {0x00, 0x1f},     {0x7f, 0x9f},     {0x061c, 0x061c}, {0x200e, 0x200f},
     {0x2028, 0x202e}, {0x2066, 0x2069}, {0xd800, 0xdfff}, {0xfff9, 0xfffb},
@@ -21,7 +21,7 @@ static bool is_forbidden(uint32_t character)
     return false;
 }
 
-// The bytes of a character of UTF-8 by its first one; 0: none begins so.
+// The length of a UTF-8 character by its first byte; 0: no character begins with this byte.
 static size_t length_of(unsigned char first)
 {
     return first < 0x80                    ? 1
@@ -33,7 +33,7 @@ static size_t length_of(unsigned char first)
 
 size_t glint_character(const char *text, size_t length, bool *is_plain)
 {
-    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000}; // in fewer bytes: refused
+    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000}; // below: overlong, refused
     *is_plain = false;
     if (length == 0) {
         return 0;

@@ -1,4 +1,4 @@
-// Text that is safe to show on a terminal, whatever a file or its name holds.
+// Makes text safe to show on a terminal: a file or its name may hold any bytes.
 #ifndef GLINT_BASE_PLAIN_TEXT_H
 #define GLINT_BASE_PLAIN_TEXT_H
 
@@ -9,16 +9,16 @@
 extern "C" {
 #endif
 
-// How many bytes the first character of `text` has: 1 to 4 of UTF-8, and 1 where they are not
-// UTF-8. 0: more bytes than `length` are needed. *is_plain: whether a terminal shows it and does
-// nothing else. Not plain are control characters (C0 with newline and tab, DEL, C1), characters
-// that turn the direction of text or break lines, and what is not UTF-8.
+// Returns the length in bytes of the first character of `text`: 1 to 4 for UTF-8, 1 for a byte that
+// is not UTF-8. 0: the character needs more than `length` bytes. *is_plain: a terminal shows the
+// character and does nothing else. Not plain: control characters (C0 with newline and tab, DEL,
+// C1), characters that change the direction of text or break lines, and bytes that are not UTF-8.
 size_t glint_character(const char *text, size_t length, bool *is_plain);
 
-// Replaces what is not plain by '?', so that the text is one line.
+// Replaces each character that is not plain by '?', so that the text is one line.
 void glint_make_plain(char *text);
 
-// Whether all characters are plain, or newlines.
+// True if every character is plain or a newline.
 bool glint_is_plain(const char *text);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-// Numbers that look random and are the same everywhere (Steele, Lea and Flood, Fast splittable
-// pseudorandom number generators, 2014).
+// Makes pseudorandom numbers that are the same on every machine (Steele, Lea and Flood, Fast
+// splittable pseudorandom number generators, 2014).
 #ifndef GLINT_BASE_RANDOM_H
 #define GLINT_BASE_RANDOM_H
 
@@ -12,7 +12,7 @@ typedef struct glint_random {
     uint64_t state; // any value
 } glint_random;
 
-// In [0, 1).
+// A number in [0, 1).
 static inline double glint_random_number(glint_random *random)
 {
     uint64_t z = random->state += 0x9e3779b97f4a7c15u;
@@ -21,7 +21,7 @@ static inline double glint_random_number(glint_random *random)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-// Evenly over the unit sphere.
+// A direction, distributed evenly over the unit sphere.
 static inline glint_vec3 glint_random_direction(glint_random *random)
 {
     double y = 2 * glint_random_number(random) - 1;

@@ -1,4 +1,4 @@
-// Opening files for reading. See regular_file.h.
+// Opens regular files for reading. See regular_file.h.
 #include "base/regular_file.h"
 
 #include <errno.h>

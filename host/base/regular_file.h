@@ -1,4 +1,4 @@
-// Opening files for reading without waiting: pipes and devices are refused.
+// Opens files for reading and never blocks: it refuses pipes and devices.
 #ifndef GLINT_BASE_REGULAR_FILE_H
 #define GLINT_BASE_REGULAR_FILE_H
 
@@ -11,8 +11,8 @@
 extern "C" {
 #endif
 
-// The caller closes *file. `size` gets the file's bytes; NULL: not wanted. Errors: GLINT_BAD_INPUT
-// where there is no such file, or it is a folder, a pipe or a device, or may not be read.
+// The caller closes *file. *size is set to the file's bytes; `size` may be NULL. Errors:
+// GLINT_BAD_INPUT if the file does not exist, is a folder, a pipe or a device, or is not readable.
 glint_status glint_regular_file_open(const char *path, FILE **file, uint64_t *size,
                                      glint_error *error);
 

@@ -1,4 +1,4 @@
-// Median, quartiles and range. See statistics.h.
+// Computes median, quartiles and range. See statistics.h.
 #include "base/statistics.h"
 
 #include <math.h>
@@ -24,8 +24,8 @@ double glint_quantile(const double *ascending, size_t count, double q)
     return ascending[below] + share * (ascending[above] - ascending[below]);
 }
 
-// The k-th smallest distance from `centre`, k from 0, of values in ascending order: the distances
-// grow outwards from there, so that two fingers merge them without another array.
+// The k-th smallest distance from `centre`, k from 0, of values in ascending order. Distances grow
+// outwards from the centre, so two indices merge them without another array.
 static double kth_distance(const double *ascending, size_t count, double centre, size_t k)
 {
     size_t right = 0;

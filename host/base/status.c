@@ -1,4 +1,4 @@
-// The error idiom and the list of warnings. See status.h.
+// Fills errors and the list of warnings. See status.h.
 #include "base/status.h"
 
 #include "base/plain_text.h"
@@ -45,7 +45,7 @@ void glint_list_add(char *list, size_t capacity, long long index, const char *na
     if (used + 1 >= sizeof more && strcmp(list + used + 1 - sizeof more, more) == 0) {
         return;
     }
-    const size_t room = capacity - used - (sizeof more - 1); // more may follow
+    const size_t room = capacity - used - (sizeof more - 1); // keep room for ", ..."
     const char *quote = name != NULL ? "\"" : "";
     const int length = snprintf(list + used, room, "%s%lld%s%s%s%s", used > 0 ? ", " : "", index,
                                 name != NULL ? " " : "", quote, name != NULL ? name : "", quote);

@@ -25,7 +25,7 @@ typedef enum glint_status {
     GLINT_INTERRUPTED = 130, // stopped on request (signal), nothing half-written
 } glint_status;
 
-// Whether the machine failed, not the input: what comes next would fail as well.
+// True if the machine failed, not the input: the next piece of work would fail too.
 static inline bool glint_status_is_of_machine(glint_status status)
 {
     return status == GLINT_DEVICE_FAILED || status == GLINT_OUT_OF_MEMORY;
@@ -33,9 +33,9 @@ static inline bool glint_status_is_of_machine(glint_status status)
 
 #define GLINT_MESSAGE_CAPACITY 1024
 
-// Owned by the caller; zero is valid ("no error"). `message` is one line without a trailing
-// newline, of the form "FILE: what is wrong (what to do)". `details` is NULL or a malloc'd text of
-// several lines, such as a kernel build log; glint_error_free releases it.
+// The caller owns it. Zero is valid ("no error"). `message` is one line without a trailing newline,
+// of the form "FILE: what is wrong (what to do)". `details` is NULL or a malloc'd text of several
+// lines, such as a kernel build log; glint_error_free frees it.
 typedef struct glint_error {
     glint_status code;
     char message[GLINT_MESSAGE_CAPACITY];
@@ -43,12 +43,12 @@ typedef struct glint_error {
 } glint_error;
 
 // Records the failure and returns `code`, so that a caller can write `return glint_fail(…)`.
-// `error` may be NULL. What is not plain in the formatted text becomes '?' (plain_text.h),
-// so that the message stays one line whatever a file name or a file's content holds.
+// `error` may be NULL. Characters that are not plain (plain_text.h) become '?'. So the message
+// stays one line, even if a file or its name holds line breaks.
 glint_status glint_fail(glint_error *error, glint_status code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Returns from the calling function with the status of `call`, unless that is GLINT_OK.
+// Returns from the calling function with the status of `call` if that status is not GLINT_OK.
 #define TRY(call)                                                                                  \
     do {                                                                                           \
         const glint_status status_of_call = (call);                                                \
@@ -57,8 +57,8 @@ glint_status glint_fail(glint_error *error, glint_status code, const char *forma
         }                                                                                          \
     } while (0)
 
-// Sets the variable `status` to the status of `call`, and goes to `label` unless that is GLINT_OK:
-// for functions with something to release.
+// Sets the variable `status` to the status of `call`; goes to `label` if that status is not
+// GLINT_OK. For functions that must release something.
 #define TRY_OR(label, status, call)                                                                \
     do {                                                                                           \
         (status) = (call);                                                                         \
@@ -67,22 +67,22 @@ glint_status glint_fail(glint_error *error, glint_status code, const char *forma
         }                                                                                          \
     } while (0)
 
-// Fails with GLINT_OUT_OF_MEMORY: an allocation of `what` did not succeed.
+// Returns GLINT_OUT_OF_MEMORY: an allocation for `what` failed.
 static inline glint_status glint_fail_memory(glint_error *error, const char *what)
 {
     (void)glint_fail(error, GLINT_OUT_OF_MEMORY, "not enough memory for %s", what);
-    return GLINT_OUT_OF_MEMORY; // a constant: static analysis sees that it is no success
+    return GLINT_OUT_OF_MEMORY; // a constant, so that static analysis sees a failure
 }
 
 void glint_error_free(glint_error *error);
 
-// Adds to a list for a message: 0 "main", 1, 2 "top" and so on; "..." in the place of what does not
-// fit. name may be NULL. An empty text begins a list.
+// Appends an entry to a list for a message: 0 "main", 1, 2 "top" and so on. Appends "..." for
+// entries that do not fit. `name` may be NULL. A list starts as an empty text.
 void glint_list_add(char *list, size_t capacity, long long index, const char *name);
 
-// Things worth saying that do not stop the work. Zero is valid and empty. The texts are owned by
-// the list. Adding a text that is already there does nothing, so that each thing is said once; a
-// text that finds no memory is counted in `lost`.
+// Warnings, which do not stop the work. Zero is valid and empty. The list owns the texts. Adding a
+// text twice has no effect, so that each warning appears once. `lost` counts the texts that found
+// no memory.
 typedef struct glint_warnings {
     char **texts;
     size_t count;
@@ -94,7 +94,7 @@ typedef struct glint_warnings {
 void glint_warn(glint_warnings *warnings, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-// Adds to the end of a text that is there, if there is memory.
+// Appends `more` to warning `number` if there is memory.
 void glint_warning_extend(glint_warnings *warnings, size_t number, const char *more);
 
 void glint_warnings_free(glint_warnings *warnings);

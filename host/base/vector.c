@@ -5,7 +5,7 @@ const glint_mat4 glint_mat4_identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0
 
 glint_vec3 glint_vec3_normalize(glint_vec3 a)
 {
-    // Scaling by the largest component first keeps the squares clear of overflow and underflow.
+    // Divide by the largest component first, so that the squares do not overflow or underflow.
     double largest = fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
     if (!(largest > 0) || !isfinite(a.x) || !isfinite(a.y) || !isfinite(a.z)) {
         return (glint_vec3){0, 0, 0};
@@ -14,8 +14,8 @@ glint_vec3 glint_vec3_normalize(glint_vec3 a)
     return glint_vec3_scale(b, 1 / sqrt(glint_vec3_dot(b, b)));
 }
 
-// True if a·b = c·d exactly. The products' rounding errors are doubles too (they are far from
-// underflow here), so comparing both parts compares the exact products.
+// True if a·b = c·d exactly. The rounding error of each product is itself a double, because the
+// products are far from underflow here. So comparing both parts compares the exact products.
 static bool products_equal(double a, double b, double c, double d)
 {
     const double first = a * b, second = c * d;

@@ -50,25 +50,25 @@ static inline double glint_vec3_length(glint_vec3 a)
     return hypot(hypot(a.x, a.y), a.z);
 }
 
-// The unit vector along `a`, or (0, 0, 0) where it has none (zero, infinite or NaN components).
+// Returns the unit vector along `a`, or (0, 0, 0) for zero, infinite or NaN components.
 glint_vec3 glint_vec3_normalize(glint_vec3 a);
 
-// True if the corners (three values each) are not in line, exactly as the floats have it where they
-// lie within 2^29 of one another; beyond that their differences are rounded. Finite corners only.
+// True if the corners (three values each, all finite) are not in line. The test is exact if they
+// lie within 2^29 of one another; farther apart, their differences are rounded.
 bool glint_triangle_has_area(const float corners[9]);
 
 extern const glint_mat4 glint_mat4_identity;
 
 glint_mat4 glint_mat4_multiply(const glint_mat4 *a, const glint_mat4 *b);
 glint_vec3 glint_mat4_point(const glint_mat4 *a, glint_vec3 p);
-glint_vec3 glint_mat4_direction(const glint_mat4 *a, glint_vec3 d); // without the translation
+glint_vec3 glint_mat4_direction(const glint_mat4 *a, glint_vec3 d); // ignores the translation
 
 // The determinant of the upper left 3 × 3.
 double glint_mat4_determinant3(const glint_mat4 *a);
 
 // Applies the cofactor matrix of the upper left 3 × 3, which is its inverse transpose times its
-// determinant: what turns normals, without a division, also where the matrix is singular. The sign
-// of the determinant is divided out, so that a mirrored mesh keeps its normals on the outside.
+// determinant. It turns normals without a division, even if the matrix is singular. The result is
+// multiplied by the sign of the determinant, so that a mirrored mesh keeps its normals outside.
 glint_vec3 glint_mat4_normal(const glint_mat4 *a, glint_vec3 n);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Frames whose error stays within a bound. See error_bound.h.
+// Renders frames whose error stays within a bound. See error_bound.h.
 #include "bound/error_bound.h"
 
 #include "base/clock.h"
@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-#define FRAMES_BEFORE_REFERENCE 3 // that turned out to err by too much
+// After this number of frames that exceeded the bound, glint renders the reference.
+#define FRAMES_BEFORE_REFERENCE 3
 
 void glint_error_bound_begin(glint_error_bound *bound, double max_error,
                              const glint_settings *settings)
@@ -23,7 +24,7 @@ void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cub
         const int column = i % edge, row = i / edge % edge;
         const double x = (2.0 * column + 1) / edge - 1, y = (2.0 * row + 1) / edge - 1;
         const double distance = 1 + x * x + y * y;                  // squared
-        const double solid_angle = 1 / (distance * sqrt(distance)); // but for a factor
+        const double solid_angle = 1 / (distance * sqrt(distance)); // up to a constant factor
         const float *texel = glint_cube_texel(environment, i / (edge * edge), column, row);
         if (!isfinite(texel[0]) || !isfinite(texel[1]) || !isfinite(texel[2])) {
             continue;
@@ -38,11 +39,11 @@ void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cub
     bound->contrast = all > 0 ? sqrt(fmax(0, squares / all - means)) : 0;
 }
 
-// A frame under way.
+// A frame in progress.
 typedef struct judged_frame {
     const glint_frame_request *request;
     glint_error_search search;
-    glint_error_trial trial; // what it is rendered by
+    glint_error_trial trial; // the settings that render it
     double estimate;         // of the error
 } judged_frame;
 

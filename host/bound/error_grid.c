@@ -1,4 +1,4 @@
-// Pictures of a sparse grid of a frame's pixels. See error_grid.h.
+// Renders a sparse grid of a frame's pixels, and measures its errors. See error_grid.h.
 #include "bound/error_grid.h"
 
 #include "base/memory.h"
@@ -11,19 +11,19 @@
 #define SHIFT 0.001  // of a pixel
 #define MATTERS 0.01 // of the mean
 #define SMOOTH 0.01  // of the contrast
-// By how much paths in single precision are off, as an angle: two units of its last place. That is
-// 1e-4 of a pixel of a frame of 352 rows and 40 degrees; cameras stood some two sizes of the scene
-// away from it, and much nearer it may be more. How often frames of glass (7 scenes, 80 each)
-// showed the other side of a jump of some size was what 0.2 to 0.8e-4 would have made of all such
-// jumps between their pixels, 2e-4 at the folds of the sea; of mirrors 0.05 to 0.1e-4, and 0.1 to
-// 0.7e-4 in thickets of them.
+// The error of paths in single precision, as an angle: two units in the last place. This is 1e-4 of
+// a pixel for a frame of 352 rows and 40 degrees. The cameras stood about two scene sizes away;
+// much nearer the error may be larger. It was estimated from how often frames showed the wrong side
+// of a jump, given all jumps of this size between their pixels. Frames of glass (7 scenes, 80
+// frames each) gave 0.2e-4 to 0.8e-4, the folds of the sea 2e-4. Mirrors gave 0.05e-4 to 0.1e-4,
+// dense groups of mirrors 0.1e-4 to 0.7e-4.
 #define ULPS 0x1p-22
-// Of samples on the wrong side, how many stand beside none that differs by as much: of 720 frames
-// of nine scenes, mended by 0.3 of the mean, three had a pixel that was off by half of it or more,
-// where ULPS makes some 360 of all jumps as large.
+// The share of samples on the wrong side with no neighbour that differs by as much; mending misses
+// them. Of 720 frames of nine scenes, mended at 0.3 of the mean, three had a pixel with an error of
+// half of the mean or more. ULPS predicts about 360 such pixels from all jumps of this size.
 #define HIDDEN 0.01
-// A pixel has neighbours on four sides, a whole pixel away; here two sides are looked at, half a
-// pixel away.
+// Mending compares a pixel with four neighbours, a whole pixel away. The grid compares it with two
+// sides, half a pixel away.
 #define NEIGHBOURS 2
 
 int glint_error_grid_step(int width, int height)
@@ -48,7 +48,7 @@ static bool go_on(void *context, uint64_t done, uint64_t total)
     return progress->step(progress->context, 0, 1);
 }
 
-// Through `camera` into *image.
+// Renders the grid through `camera` into *image.
 static glint_status render(glint_error_grid *grid, const glint_settings *settings,
                            const glint_camera *camera, glint_image *image, glint_error *error)
 {
@@ -97,16 +97,16 @@ double glint_error_grid_contrast(const glint_error_grid *grid)
     return finite > 0 ? sqrt(fmax(0, squares / finite - of_means)) : 0;
 }
 
-// How much larger a mean may be than what was found of it with a relative standard error of
-// `chance`: two of these, and more where it rests on so few pixels that these are rare events. Of
-// one, 5.6 times; of ten, 1.9; of a hundred, 1.2, as upper bounds of 97.5% of a Poisson
-// distribution's mean are.
+// Upper bound of a mean, relative to its estimate with a relative standard error of `chance`: two
+// standard errors more. It is larger if the mean rests on few pixels, which are rare events. For
+// one pixel it is 5.6 times, for ten 1.9 times, for a hundred 1.2 times. These are the upper bounds
+// (97.5%) of a Poisson distribution's mean.
 static double at_most(double chance)
 {
     return 1 + 2 * chance + 2.6 * chance * chance;
 }
 
-// Whether a frame's pixel there would be mended.
+// True if a frame would mend this pixel.
 static bool is_mended(const glint_error_grid *grid, double mend, size_t pixel)
 {
     return mend > 0 && grid->jumps != NULL && grid->jumps[pixel] > mend * mend;
@@ -116,7 +116,7 @@ static glint_grid_error compare(const glint_error_grid *grid, double mend)
 {
     const size_t count = glint_error_grid_pixel_count(grid);
     double n = 0, sum_of_differences = 0;
-    double sum = 0, squares = 0; // of the pixels' square errors
+    double sum = 0, squares = 0; // of the squared errors of pixels, and of the squares of these
     for (size_t i = 0; i < count; i++) {
         const glint_pixel_error same =
             glint_metrics_pixel(&grid->reference, &grid->reference, i, grid->mean);
@@ -161,15 +161,15 @@ void glint_error_grid_keep(glint_error_grid *grid, glint_image *image)
     *image = measured;
 }
 
-// ---- With the camera beside where it is ---------------------------------------------------------
+// ---- Shifted cameras ---------------------------------------------------------------------------
 
-// Of a pixel: an angle, or of parallel rays a part of half the picture's height.
+// The size of a pixel: an angle, or for parallel rays a fraction of half the picture's height.
 static double pixel_size(const glint_camera *camera, int height)
 {
     return (camera->orthographic ? 2 : 2 * tan(camera->yfov / 2)) / height;
 }
 
-// One axis of a camera and its back, turned so that it looks towards the axis.
+// Rotates an axis of a camera and the camera's back, so that the view turns towards the axis.
 static void turn(glint_vec3 *axis, glint_vec3 *back, double angle)
 {
     const double cosine = cos(angle), sine = sin(angle);
@@ -178,7 +178,8 @@ static void turn(glint_vec3 *axis, glint_vec3 *back, double angle)
     *axis = glint_vec3_add(glint_vec3_scale(*axis, cosine), glint_vec3_scale(before, sine));
 }
 
-// The camera turned, or one of parallel rays moved, to the right and up by parts of a pixel.
+// The camera rotated to the right and up by fractions of a pixel. A camera with parallel rays is
+// moved instead.
 static glint_camera shifted(const glint_camera *camera, int height, double right, double up)
 {
     const double size = pixel_size(camera, height);
@@ -194,15 +195,15 @@ static glint_camera shifted(const glint_camera *camera, int height, double right
     return c;
 }
 
-// The largest of the three differences; 0 where either is not finite.
+// The largest of the three differences; 0 if one of the pixels is not finite.
 static double difference(const glint_image *a, const glint_image *b, size_t pixel)
 {
     const glint_pixel_error e = glint_metrics_pixel(a, b, pixel, 0);
     return e.is_finite ? e.absolute_most : 0;
 }
 
-// How far a pixel is from the mean of what it is with the camera on either side: R, G and B; 0
-// where that is not finite.
+// The difference between a pixel and the mean of its two values with the camera shifted to either
+// side: R, G and B. A difference that is not finite counts as 0.
 static void find_bend(const glint_image *image, const glint_image sides[2], size_t pixel,
                       double bend[3])
 {
@@ -214,7 +215,8 @@ static void find_bend(const glint_image *image, const glint_image sides[2], size
     }
 }
 
-// The grid with the camera so many pixels to the right and up, and as many to the left and down.
+// Renders the grid twice: with the camera shifted by `shift` pixels to the right and up, and by the
+// opposite shift.
 static glint_status render_sides(glint_error_grid *grid, const glint_settings *settings,
                                  const double shift[2], glint_image sides[2], glint_error *error)
 {
@@ -235,15 +237,16 @@ static int falling(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-// Square jumps, largest first, each of which is made so often as `each` expects.
+// Squared jumps in descending order. Each is expected to show the wrong side `each` times.
 typedef struct jumps {
     const double *squares;
     size_t count;
     double each;
 } jumps;
 
-// The sum of those from `first` on that a frame's samples make, at most, if they are independent:
-// there may be two standard deviations more than are expected, or one more of the largest.
+// Upper bound of the sum of squared jumps from `first` on that a frame's samples show, if the
+// samples are independent. It allows two standard deviations more than expected, or one more of the
+// largest jump.
 static double sum_at_most(const jumps *j, size_t first)
 {
     double mean = 0, variance = 0;
@@ -254,20 +257,22 @@ static double sum_at_most(const jumps *j, size_t first)
     return first < j->count ? mean + fmax(2 * sqrt(variance), j->squares[first]) : 0;
 }
 
-// Of all: so many of the largest are not made at all, with a confidence of 97.5%.
+// Upper bound for all jumps. With a confidence of 97.5%, the largest jumps do not occur; these are
+// left out.
 static double all_at_most(const jumps *j)
 {
     return sum_at_most(j, (size_t)fmin(floor(0.025 / j->each), (double)j->count));
 }
 
-// Where the first `mended` are, but for HIDDEN of them.
+// Upper bound if the first `mended` jumps are mended. The share HIDDEN of them remains.
 static double mended_at_most(const jumps *j, size_t mended)
 {
     const jumps hidden = {j->squares, mended, HIDDEN * j->each};
     return all_at_most(&hidden) + sum_at_most(j, mended);
 }
 
-// As few as leave no more than what is allowed; all where none do.
+// The smallest number of mended jumps whose remaining error is allowed; all jumps if no number
+// suffices.
 static size_t fewest_mended(const jumps *j, double allowed)
 {
     size_t low = 0, high = j->count;
@@ -282,7 +287,7 @@ static size_t fewest_mended(const jumps *j, double allowed)
     return low;
 }
 
-// `unit`: the frame's square error of a sum of squares of 1.
+// `unit`: the squared error of the frame for a sum of squares of 1.
 static glint_edge_errors errors_of(const jumps *j, double unit, double allowed)
 {
     const size_t mended = fewest_mended(j, allowed * allowed / unit);
@@ -293,7 +298,7 @@ static glint_edge_errors errors_of(const jumps *j, double unit, double allowed)
     };
 }
 
-// Keeps the jumps, and gives them sorted.
+// Stores the jumps in the grid, and returns a sorted copy.
 static glint_status find_jumps(glint_error_grid *grid, const glint_image *image,
                                const glint_image sides[2], double **sorted, glint_error *error)
 {
@@ -310,7 +315,7 @@ static glint_status find_jumps(glint_error_grid *grid, const glint_image *image,
         for (int c = 0; c < 3; c++) {
             square += bend[c] / grid->mean * (bend[c] / grid->mean) / 3;
         }
-        // An edge between a pixel and one side makes half of its jump.
+        // If an edge lies between a pixel and one side, the difference is half of the jump.
         (*sorted)[i] = grid->jumps[i] = 4 * square;
     }
     qsort(*sorted, count, sizeof **sorted, falling);
@@ -324,8 +329,8 @@ glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_err
     const size_t count = glint_error_grid_pixel_count(grid);
     const double samples = (double)settings->samples_per_axis * settings->samples_per_axis;
     const double all = samples * settings->width * settings->height;
-    // A pixel of many samples goes over an edge little by little; a whole pixel on either side adds
-    // up to what half of one does to a single sample.
+    // A pixel of many samples crosses an edge gradually. A shift by a whole pixel to either side
+    // then adds up to the effect of half a pixel on a single sample.
     const double shift = samples > 1 ? 1 : 0.5;
     glint_image sides[2] = {{0}, {0}};
     double *sorted = NULL;
@@ -335,7 +340,8 @@ glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_err
     const double off = ULPS / pixel_size(grid->camera, settings->height);
     const jumps found = {sorted, count, off * all / (double)count};
     *result = errors_of(&found, 1 / (samples * all), edges->allowed);
-    // A pixel that is half on one side of an edge is half a jump from its neighbours.
+    // A pixel that lies half on one side of an edge differs from its neighbours by half of the
+    // jump.
     result->mend *= samples > 1 ? 0.5 : 1;
 cleanup:
     free(sorted);
@@ -344,8 +350,8 @@ cleanup:
     return status;
 }
 
-// The grid's pixels that would be mended, as numbers of the frame's, and the first again to the end
-// of their last row. NULL where memory is short.
+// Lists the grid's pixels that would be mended, as pixel numbers of the frame. Unused entries of
+// the last row repeat the first pixel. Returns NULL if there is too little memory.
 static uint32_t *list_mended(const glint_error_grid *grid, const glint_settings *settings,
                              double mend, size_t *count, int *rows)
 {
@@ -394,7 +400,8 @@ glint_status glint_error_grid_count_mended(glint_error_grid *grid, const glint_s
 
 // ---- Chaos -------------------------------------------------------------------------------------
 
-// The next pixel, from `pixel` on, whose light beyond where `cut` ends matters; else their number.
+// The next pixel from `pixel` on whose light beyond the depth of `cut` matters. Returns the number
+// of pixels if there is none.
 static size_t next_that_matters(const glint_error_grid *grid, const glint_image *image,
                                 const glint_image *cut, size_t pixel)
 {

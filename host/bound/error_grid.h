@@ -1,4 +1,5 @@
-// Pictures of a sparse grid of a frame's pixels, and their errors. For error_search.c only.
+// Renders a sparse grid of a frame's pixels, and measures the errors of its pictures. For
+// error_search.c only.
 #ifndef GLINT_BOUND_ERROR_GRID_H
 #define GLINT_BOUND_ERROR_GRID_H
 
@@ -9,96 +10,101 @@
 
 // Zero is valid; glint_error_grid_free frees the pictures.
 typedef struct glint_error_grid {
-    glint_renderer *renderer;       // borrowed
-    const glint_camera *camera;     // likewise
-    const glint_progress *progress; // likewise; may be NULL. It is asked whether to go on, and told
-                                    // nothing of how far it is
+    glint_renderer *renderer;   // borrowed
+    const glint_camera *camera; // borrowed
+    // Borrowed, may be NULL. It is asked whether to continue, but gets no progress.
+    const glint_progress *progress;
     glint_image reference;
-    glint_image image;            // the last one that was measured
-    double mean;                  // the reference's
-    double *jumps;                // of its pixels, see below: in squares of the mean
-    const glint_image *in_double; // of the grid, what mended pixels are taken to be; borrowed
-    int step;                     // of the grid; 1: it is the frame
-    int pictures;                 // so far
-    uint64_t rays;                // likewise
-    glint_frame_report report;    // of the last one
+    glint_image image; // the picture that was measured last
+    double mean;       // mean of the reference
+    // Squared jumps of the grid's pixels (see below), in squares of the mean.
+    double *jumps;
+    // The grid in double precision: mended pixels are assumed to have its values. Borrowed.
+    const glint_image *in_double;
+    int step;                  // step of the grid; 1: the grid is the frame
+    int pictures;              // pictures rendered so far
+    uint64_t rays;             // rays traced so far
+    glint_frame_report report; // report of the last picture
 } glint_error_grid;
 
-// About so many pixels are a grid's; a frame of less than so many is its own grid.
+// A grid has about GRID_PIXELS pixels. A frame with fewer than GRID_WHOLE pixels is its own grid.
 #define GLINT_ERROR_GRID_PIXELS 5000
 #define GLINT_ERROR_GRID_WHOLE 36000
 
-// The step of the grid of a frame.
+// The step of a frame's grid: it takes every step-th pixel of every step-th row.
 int glint_error_grid_step(int width, int height);
 
-// Renders the grid's pixels with `settings`, but for their grid_step and extras, as the reference.
-// Errors, here and below: as glint_renderer_set_settings and glint_renderer_frame.
+// Renders the grid with `settings` as the reference. The grid replaces their grid_step and extras
+// (layers, terms). Errors, here and below: as glint_renderer_set_settings and glint_renderer_frame.
 glint_status glint_error_grid_set_reference(glint_error_grid *grid, const glint_settings *settings,
                                             glint_error *error);
 
-// How far the reference's pixels are from their mean, root mean square over R, G and B; pixels that
-// are not finite do not count.
+// The deviation of the reference's pixels from their mean, as root mean square over R, G and B.
+// Pixels that are not finite do not count.
 double glint_error_grid_contrast(const glint_error_grid *grid);
 
-// Over the pixels that are finite in the reference. Plain data.
+// The error of a picture of the grid, over the pixels that are finite in the reference. Plain data.
 typedef struct glint_grid_error {
-    double measured;   // relative RMSE; infinite where the picture is not finite
-    double at_most;    // what that is at most over the whole frame, as far as a grid can tell, with
-                       // a confidence of 97.5%
-    double mean_error; // the picture's mean less the reference's
+    double measured; // relative RMSE; infinite if the picture is not finite
+    // Upper bound of the relative RMSE of the whole frame, as far as a grid can tell, with a
+    // confidence of 97.5%.
+    double at_most;
+    double mean_error; // mean of the picture − mean of the reference
 } glint_grid_error;
 
-// Renders the grid as above, and compares it to its reference. What of it would be mended is taken
-// to be as in_double is, where edges have been found.
+// Renders the grid as above and compares it with its reference. If edges have been found, pixels
+// that the frame would mend count with their value of in_double.
 glint_status glint_error_grid_measure(glint_error_grid *grid, const glint_settings *settings,
                                       glint_grid_error *result, glint_error *error);
 
-// Takes the picture that was measured last into *image, whose own memory is used for the next one.
+// Moves the picture that was measured last into *image. The next picture reuses the old memory of
+// *image.
 void glint_error_grid_keep(glint_error_grid *grid, glint_image *image);
 
-// What edges are looked for in. Pointers are borrowed.
+// The inputs for finding edges. Pointers are borrowed.
 typedef struct glint_error_edges {
-    const glint_image *image; // of the grid
-    const glint_settings
-        *settings;  // that make about the same, in the precision that is asked about
-    double allowed; // of what is left of them in a mended frame
+    const glint_image *image; // a picture of the grid
+    // Settings that render about the same picture, in the precision in question.
+    const glint_settings *settings;
+    double allowed; // allowed error that edges leave in a mended frame
 } glint_error_edges;
 
-// What a frame in single precision errs by, relative to the reference's mean, as its light jumps at
-// edges and folds and a sample here and there shows the other side: at most, with a confidence of
-// some 95% and as far as the grid has seen such jumps. Plain data.
+// Errors of a frame in single precision at edges and folds, relative to the reference's mean. The
+// light jumps there, and a few samples show the wrong side. The errors are upper bounds with a
+// confidence of about 95%, as far as the grid has seen such jumps. Plain data.
 typedef struct glint_edge_errors {
     double at_most;
-    double mend;   // glint_settings.mend with which it is no more than what is allowed
-    double mended; // at most with that
+    double mend;   // glint_settings.mend that keeps the allowed error
+    double mended; // upper bound with this mending
 } glint_edge_errors;
 
-// Jumps are where a pixel is not the mean of itself with the camera a little to the right and up
-// and as much to the left and down; how often one is taken on the wrong side follows from what
-// single precision is off by. The grid keeps them for what follows.
+// Finds jumps. A pixel has a jump if it differs from the mean of two pictures: one with the camera
+// shifted a little to the right and up, one with the opposite shift. The error of single precision
+// tells how often a sample falls on the wrong side. The grid keeps the jumps for later calls.
 glint_status glint_error_grid_find_edges(glint_error_grid *grid, const glint_error_edges *edges,
                                          glint_edge_errors *result, glint_error *error);
 
-// How many rays mending the frame takes, about, of so many as the grid's pixels take each: renders
-// those of them that would be mended, with `settings`.
+// Estimates the rays that mending takes, in rays of the grid. Renders those pixels of the grid that
+// would be mended, with `settings`.
 glint_status glint_error_grid_count_mended(glint_error_grid *grid, const glint_settings *settings,
                                            double mend, double *rays, glint_error *error);
 
-// What chaos is looked for in. Pointers are borrowed.
+// The inputs for finding chaos. Pointers are borrowed.
 typedef struct glint_error_chaos {
-    const glint_image *image;       // of the grid by `settings`, in double precision
-    const glint_settings *settings; // likewise
-    int depth;                      // surfaces after which it may begin
-    double contrast;                // how far light from another direction is off
+    const glint_image *image;       // the grid rendered with `settings`, in double precision
+    const glint_settings *settings; // settings of `image`
+    int depth;                      // surfaces after which chaos may begin
+    double contrast;                // deviation of the light of another direction
 } glint_error_chaos;
 
-// How much of the grid hangs on digits that single precision does not have: of the pixels whose
-// light beyond `depth` surfaces matters (by a hundredth of the mean), how far each is from the mean
-// of itself with the camera a thousandth of a pixel to the left and to the right, in parts of
-// `contrast` and one at most; the mean over all pixels. That is how likely a jump is met, which
-// counts in full. Where it is less than a hundredth, light is taken to change steeply but without
-// jumps, and its square counts. What changes evenly with the camera is not counted: rounding shifts
-// paths by less than that, and the grid shows what comes of it.
+// Finds the share of the grid that depends on digits that single precision does not have. Only
+// pixels count whose light beyond `depth` surfaces matters (more than a hundredth of the mean).
+// Each is compared with the mean of two pictures, whose cameras are shifted by a thousandth of a
+// pixel to the left and to the right. The difference in units of `contrast`, at most 1, is the
+// likelihood of a jump, and counts in full. Below a hundredth, the light is assumed to change
+// steeply but without jumps, and the square counts. *share is the mean over all pixels of the grid.
+// Light that changes evenly with the camera does not count: rounding shifts paths by less, and the
+// grid shows the effect.
 glint_status glint_error_grid_find_chaos(glint_error_grid *grid, const glint_error_chaos *chaos,
                                          double *share, glint_error *error);
 

@@ -1,19 +1,20 @@
-// The search for the cheapest way of rendering that keeps a bound. See error_search.h.
+// Searches for the cheapest settings whose error keeps a bound. See error_search.h.
 //
-// A grid of some thousand pixels tells the mean of an error well as long as it is spread over many
-// pixels. Some things are not, and each is met in its own way:
-//  - What single precision makes of a pixel here and there: error_unseen.c.
-//  - What truncation takes from a few pixels alone: the kernels add up the squares of what each
-//    pixel was cut short of, of the whole frame (with_truncated). A frame that then exceeds the
-//    bound is rendered again.
-//  - What is cut short mostly shows another direction than what it would have shown, by a fifth to
-//    the whole of the environment's contrast; but it may also be right nearly everywhere, as of an
-//    open sea, and wrong in two pixels of a frame. So truncated weight is never taken to err by
-//    less than LEAST_TRUNCATION of that.
-//  - The mean that errors are relative to: that of the frame itself, once there is one.
-//  - Chance: that of error_grid.h, and a safety factor, which only the choice heeds: what is said
-//    of the frame is without.
-// The reference keeps every bound, as errors are counted from it.
+// A grid of a few thousand pixels gives a good estimate of the mean error if the error is spread
+// over many pixels. Some errors are not, and each of them has its own treatment:
+//  - Single precision, which fails in rare pixels: see error_unseen.c.
+//  - Truncation that affects only a few pixels: the kernels add up the squared truncated weights
+//    of all pixels of the frame (with_truncated). A frame that then exceeds the bound is rendered
+//    again.
+//  - Truncated light mostly shows another direction than the full path would. Its error is a fifth
+//    to the whole of the environment's contrast. But it may also be right nearly everywhere, as
+//    for an open sea, and wrong in two pixels of a frame. So the error of truncated weight is
+//    never assumed to be less than LEAST_TRUNCATION of the contrast.
+//  - The mean that errors are relative to: the mean of the frame itself, once it has been
+//    rendered.
+//  - Chance: the upper bound of error_grid.h, and a safety factor. Only the choice uses the safety
+//    factor; the reported error does not.
+// The reference keeps every bound, because errors are measured against it.
 #include "bound/error_search.h"
 
 #include "bound/error_unseen.h"
@@ -22,42 +23,48 @@
 #include <math.h>
 #include <stdio.h>
 
-// Where no path splits a rung of fewer surfaces is taken if it has no more than this share of rays.
+// If no path splits, a rung with a smaller depth is only taken if its share of the rays is at most
+// this.
 #define SHALLOW_RAYS 0.9
-// Of what another direction would make of the truncated weight: ten scenes' frames have 0.15 to 1
-// of it, with weights of 1/4 to 1/4096, where more than two pixels err. Where few do, as in nested
-// glass with 1/16000, a frame had 0.35 of it and its grid 0.09.
+// The least error of truncated weight, relative to the error that another direction would make. The
+// frames of ten scenes have 0.15 to 1 of this error, with least weights of 1/4 to 1/4096, if more
+// than two pixels are wrong. If only a few pixels are wrong, as in nested glass with 1/16000, a
+// frame had 0.35 and its grid 0.09.
 #define LEAST_TRUNCATION 0.35
-// Of truncated weight, how much more there may be of a frame than of the grid for its errors to be
-// alike; and what others err by at their worst, of what another direction would make of it.
+// ALIKE: the frame may have this times the grid's truncated weight, and its errors still scale with
+// the grid's errors. UNLIKE: the largest error of the rest, relative to the error that another
+// direction would make.
 #define ALIKE 2
 #define UNLIKE 2
-// The grid's own reference may end branches of the bound over this: what that leaves out is some
-// hundredths of the bound.
+// The reference of the grid may end branches below a weight of the bound divided by this. The
+// omitted light is a few hundredths of the bound.
 #define REFERENCE_SHARE 256
-// Half texels err by up to some 10⁻⁴ (render/plan_device.c).
+// Half texels have errors of up to about 10⁻⁴ (render/plan_device.c).
 #define HALF_TEXELS_FROM 1e-3
-// Least weights are 2^(−step/2).
-#define CHAOS_STEP 12 // 1/64: what single precision errs by is looked for with no finer weights
-#define LAST_STEP 32  // the reference's
-// What is tried first: for a bound of 0.1, and how much finer for a tenth of it.
+// Step s stands for the least weight 2^(−s/2).
+// 1/64: the finest weights that the search for chaos in single precision uses.
+#define CHAOS_STEP 12
+#define LAST_STEP 32 // step of the reference
+// The first guess: FIRST_STEP for a bound of 0.1, and STEPS_PER_TENTH more for each tenth of it.
 #define FIRST_STEP 8
 #define STEPS_PER_TENTH 6
-// How the error falls: as about the 0.8th power of the weight, and between these.
+// How fast the error falls: about as the 0.8th power of the weight, within these limits.
 #define OCTAVES_PER_STEP 0.4
 #define OCTAVES_PER_STEP_LEAST 0.2
 #define OCTAVES_PER_STEP_MOST 0.8
-// Weights that fail with this share of the rays of those that keep the bound: what lies between
-// saves nothing.
+// Stop the search if failing weights take this share of the rays of passing weights: weights
+// between them save nothing.
 #define USELESS_RAYS 0.99
-// So many steps before the reference's a frame in double precision takes nearly as long as it.
+// If fewer steps than this are left before the reference, double precision takes nearly as long as
+// the reference.
 #define NEAR_STEPS 4
-// In double precision a frame takes what it takes in float with a quarter of the weight, about;
-// mended with half of it.
+// A frame in double precision takes about as long as in float with a quarter of the weight, or with
+// half of the weight if mended.
 #define DOUBLE_STEPS 4
 #define MENDED_STEPS 3
-// Of the rays of a frame in double precision, how many mending may take: single precision takes
-// about 0.4 of its time, and what is listed a third more than what is not.
+// Mending may take this share of the rays of a frame in double precision. Single precision takes
+// about 0.4 of the time of double precision, and a pixel of a list takes a third more than other
+// pixels.
 #define MOST_MENDED 0.35
 
 static bool keeps(const glint_error_search *s, const glint_error_trial *t)
@@ -66,14 +73,15 @@ static bool keeps(const glint_error_search *s, const glint_error_trial *t)
     return factor * t->error <= s->asked->bound;
 }
 
-// A picture that is dark at all of a sparse grid's places says nothing of what lies between them.
+// True if the picture is black at all pixels of a sparse grid. It then tells nothing about the
+// pixels between them.
 static bool is_blind(const glint_error_search *s)
 {
     return s->grid.step > 1 && s->grid.mean == 0;
 }
 
-// What is truncated that the reference follows cannot be taken to err by less; 0 where the grid is
-// the frame.
+// The least error of weight that is truncated here but not in the reference. 0 if the grid is the
+// frame.
 static double least_error(const glint_error_search *s, double truncation)
 {
     const double more = truncation * truncation - s->truncation * s->truncation;
@@ -100,9 +108,9 @@ void glint_error_search_give_up(const glint_error_search *s, glint_error_trial *
     glint_rung_reference(&s->asked->settings, s->rough, &t->rung);
 }
 
-// ---- Where paths split -------------------------------------------------------------------------
+// ---- Search by weights, if paths split ---------------------------------------------------------
 
-// 2^(−step/2) to three digits, so that the options that are told of make the same picture.
+// 2^(−step/2), rounded to three digits, so that the reported options make the same picture.
 static double weight_of(int step)
 {
     const double weight = exp2(-0.5 * step), digits = pow(10, 2 - floor(log10(weight)));
@@ -114,7 +122,7 @@ static int step_of(double weight)
     return (int)lround(-2 * log2(weight));
 }
 
-// How branches above a weight are followed.
+// How branches above the least weight are followed.
 typedef struct way {
     glint_precision precision;
     double mend; // glint_settings.mend
@@ -142,18 +150,19 @@ static glint_status try_weights(glint_error_search *s, way by, int step, glint_e
     return try_rung(s, &rung, t, error);
 }
 
-// Weights in double precision that have been tried.
+// Weights in double precision that were tried.
 typedef struct tried {
-    int step; // LAST_STEP and 1 while nothing has been
+    int step; // initially LAST_STEP (keeping) and 1 (failing)
     double error;
     uint64_t rays;
 } tried;
 
-// The largest that keep the bound, the smallest that do not, and the last.
+// The largest weights that keep the bound, the smallest weights known to fail, and the last
+// weights.
 typedef struct bracket {
     tried keeping, failing, last;
-    double octaves_per_step; // by which the error falls
-    bool halve;              // the last step left most of what lay between
+    double octaves_per_step; // decrease of the error, in octaves per step
+    bool halve;              // the last step left most of the interval
 } bracket;
 
 static int width_of(const bracket *b)
@@ -173,7 +182,7 @@ static void take_note(const glint_error_search *s, const glint_error_trial *t, i
     b->halve = 2 * width_of(b) > before;
 }
 
-// Where between the two the bound would be kept, on a straight line.
+// The step between the two at which the error meets the bound, by linear interpolation.
 static double step_between(const glint_error_search *s, const bracket *b)
 {
     const double fall = log2(b->failing.error / b->keeping.error);
@@ -183,7 +192,8 @@ static double step_between(const glint_error_search *s, const bracket *b)
                                  : b->failing.step + 0.5 * width_of(b);
 }
 
-// The step to try next; the one that keeps the bound where none is expected to do better.
+// The step to try next. Returns the step that keeps the bound if no other step is expected to do
+// better.
 static int next_step(const glint_error_search *s, const bracket *b)
 {
     const int first = b->failing.step + 1, last = b->keeping.step - 1;
@@ -199,8 +209,8 @@ static int next_step(const glint_error_search *s, const bracket *b)
     return next > first ? next < last ? (int)next : last : first;
 }
 
-// The largest weights in double precision, whose picture is kept. *step is LAST_STEP where nothing
-// but the reference will do.
+// Finds the largest weights in double precision that keep the bound, and keeps their picture. *step
+// is LAST_STEP if only the reference keeps the bound.
 static glint_status find_weights(glint_error_search *s, int *step, glint_error_trial *best,
                                  glint_error *error)
 {
@@ -221,8 +231,8 @@ static glint_status find_weights(glint_error_search *s, int *step, glint_error_t
     return GLINT_OK;
 }
 
-// What the grid does not show of single precision, with those weights; of long paths, where the
-// weights are finer, with CHAOS_STEP's.
+// Estimates the unseen errors of single precision with these weights. For long paths, uses the
+// weights of CHAOS_STEP if the weights are finer.
 static glint_status find_unseen_of_weights(glint_error_search *s, int step,
                                            const glint_error_trial *best, glint_error *error)
 {
@@ -240,8 +250,8 @@ static glint_status find_unseen_of_weights(glint_error_search *s, int step,
     return glint_error_find_chaos(s, &s->grid.image, t.deepest, &t.rung.settings, error);
 }
 
-// Single precision errs by what double precision does and more, so that it needs no larger weights;
-// it is worth its while with weights that are smaller by less than what it is faster.
+// Tries single precision. It has the error of double precision and more, so it never allows larger
+// weights. It pays if the weights it needs are smaller by less than its gain in speed.
 static glint_status try_float(glint_error_search *s, double mend, int of_double,
                               glint_error_trial *best, glint_error *error)
 {
@@ -249,6 +259,7 @@ static glint_status try_float(glint_error_search *s, double mend, int of_double,
     const int last = of_double + more < LAST_STEP ? of_double + more : LAST_STEP;
     const double unseen = mend > 0 ? s->mended_unseen : s->unseen;
     double expected = best->error;
+    // Skip weights that are expected to fail.
     int at = of_double;
     for (; at < last && GLINT_ERROR_SAFETY * hypot(expected, unseen) > s->asked->bound; at++) {
         expected *= exp2(-OCTAVES_PER_STEP);
@@ -264,8 +275,8 @@ static glint_status try_float(glint_error_search *s, double mend, int of_double,
     return GLINT_OK;
 }
 
-// Whether mending is worth while beside a frame in double precision, by `settings`, whose grid
-// takes so many rays.
+// Finds whether mending pays compared with a frame in double precision. `settings` render this
+// frame, and `rays` are the rays of its grid.
 static glint_status may_mend(glint_error_search *s, const glint_settings *settings, uint64_t rays,
                              bool *is_worth, glint_error *error)
 {
@@ -299,8 +310,8 @@ static glint_status search_weights(glint_error_search *s, glint_error_trial *bes
     return is_worth ? try_float(s, s->mend, step, best, error) : GLINT_OK;
 }
 
-// What is finer in the same precision, by the grid as well; where that takes nearly as long as the
-// reference, this.
+// Tries finer weights in the same precision on the grid. If they take nearly as long as the
+// reference, takes the reference.
 static glint_status refine_weights(glint_error_search *s, double estimate, glint_error_trial *t,
                                    glint_error *error)
 {
@@ -319,7 +330,7 @@ static glint_status refine_weights(glint_error_search *s, double estimate, glint
     return GLINT_OK;
 }
 
-// ---- Where they do not -------------------------------------------------------------------------
+// ---- Search by rungs, if paths do not split ----------------------------------------------------
 
 static glint_rung *append_rung(glint_error_search *s)
 {
@@ -344,7 +355,7 @@ static void list_rungs(glint_error_search *s, const glint_plan *plan)
     doubles->settings.precision = GLINT_PRECISION_DOUBLE;
 }
 
-// The finest in single precision, mended: whether that is worth trying.
+// Prepares the finest rung in single precision with mending, and finds whether it pays.
 static glint_status prepare_mended(glint_error_search *s, bool *is_worth, glint_error *error)
 {
     glint_rung *rung = &s->rungs[s->mended_rung];
@@ -358,7 +369,7 @@ static glint_status prepare_mended(glint_error_search *s, bool *is_worth, glint_
     return GLINT_OK;
 }
 
-// The first from `taken` on that keeps the bound.
+// Finds the first rung from `taken` on that keeps the bound.
 static glint_status search_rungs(glint_error_search *s, glint_error_trial *best, glint_error *error)
 {
     for (; s->taken < s->count; s->taken++) {
@@ -382,7 +393,7 @@ static glint_status search_rungs(glint_error_search *s, glint_error_trial *best,
 
 // ---- The search --------------------------------------------------------------------------------
 
-// What the grid's reference tells of the frame, beside its mean.
+// Collects what the grid's reference tells about the frame, except its mean.
 static void learn(glint_error_search *s)
 {
     const glint_frame_report *report = &s->grid.report;
@@ -390,14 +401,14 @@ static void learn(glint_error_search *s)
     s->deepest = report->deepest;
     s->truncation = report->truncation.rms;
     if (s->grid.mean != 0 && s->grid.step > 1) {
-        // Of what shines itself, paint and lamps in the scene, the picture tells.
+        // The picture tells about light that comes from the scene itself, such as paint and lamps.
         s->contrast = fmax(s->asked->contrast, glint_error_grid_contrast(&s->grid));
         s->relative_contrast = s->contrast / fabs(s->grid.mean);
         s->unseen = s->mended_unseen = s->glass ? GLINT_ERROR_FLOAT_IN_GLASS : 0;
     }
 }
 
-// Exact lobes, where those of the settings take half of the bound.
+// Chooses exact lobes if the lobes of the settings take half of the bound.
 static glint_status choose_lobes(glint_error_search *s, glint_error *error)
 {
     if (!s->rough) {
@@ -424,12 +435,12 @@ glint_status glint_error_search_begin(glint_error_search *s, const glint_error_b
     glint_rung reference;
     glint_rung_reference(&asked->settings, s->rough, &reference);
     s->of_reference = reference.settings;
-    if (s->grid.step > 1) { // one that is the frame is a small one, and has time for all
+    if (s->grid.step > 1) { // a grid that is the frame is small and has time for all branches
         const double least = fmin(1, asked->bound / REFERENCE_SHARE);
         s->of_reference.min_weight = fmax(s->of_reference.min_weight, least);
     }
     if (plan->features[GLINT_FEATURE_CONVEX_SOLID].compiled) {
-        s->of_reference.depth = 0; // so that what is cut short of it is what may be of others
+        s->of_reference.depth = 0; // auto, so that its truncation is comparable with other settings
     }
     TRY(glint_error_grid_set_reference(&s->grid, &s->of_reference, error));
     learn(s);
@@ -471,10 +482,11 @@ glint_status glint_error_search_refine(glint_error_search *s, double estimate, g
     return search_rungs(s, t, error);
 }
 
-// What a frame errs by whose pixels were cut short of `whole`, by what the grid's errs: where no
-// path splits, and depth is what cuts them short, more than those as another direction would; else
-// up to twice of it by as much for its weight as they do, and the rest, of pixels like which there
-// were none, as another direction would at its worst.
+// Estimates a frame's error from its truncated weight `whole` (RMS) and the error of the grid. If
+// no path splits, the depth truncates. The weight that exceeds the grid's then counts as if it
+// showed another direction. If paths split, up to ALIKE times the grid's weight counts with the
+// error that the grid has for its weight. The rest, of pixels unlike those of the grid, counts as
+// UNLIKE times the error of another direction.
 static double with_truncated(const glint_error_search *s, const glint_error_trial *t, double whole)
 {
     const double seen = t->truncation, measured = t->grid.measured;
@@ -486,8 +498,8 @@ static double with_truncated(const glint_error_search *s, const glint_error_tria
     return hypot(alike, UNLIKE * s->relative_contrast * unlike);
 }
 
-// The reference's mean over the whole frame, over that of the grid: the frame's, less what it errs
-// by on the grid's pixels.
+// The reference's mean over the whole frame, divided by its mean over the grid. The frame's mean is
+// corrected by the frame's error on the grid.
 static double mean_over_grids(const glint_error_search *s, const glint_error_trial *t,
                               const glint_image *frame)
 {

@@ -1,36 +1,39 @@
-// What single precision makes of a frame's pixels here and there. See error_unseen.h.
+// Estimates errors of single precision in rare pixels. See error_unseen.h.
 //
-//  - At edges and folds of glass, and where mirrors show each other, it shows the other side in a
-//    pixel here and there, which may be off by ten times the mean. How many there may be, and of
-//    what size, follows from the jumps between the grid's pixels and places beside them
+//  - Edges: at edges and folds of glass, and between mirrors that reflect each other, a few pixels
+//    show the wrong side of the edge. They may be off by ten times the mean. The number and size
+//    of these errors follow from the jumps between the grid's pixels and places beside them
 //    (error_grid.h).
-//  - Where light bounces so often between curved surfaces that it has no digits left, one pixel in
-//    ten thousand is off by many times the mean. How likely that is of the grid's pixels is found
-//    in double precision, and those are taken to show what another direction of the environment
-//    would.
-// Both are where the picture jumps, and what stands beside a jump can be mended (render/mend.h).
+//  - Chaos: if light bounces so often between curved surfaces that it has no correct digits left,
+//    one pixel in ten thousand is off by many times the mean. Renderings of the grid in double
+//    precision tell how likely this is. Such pixels are assumed to show another direction of the
+//    environment.
+// Both errors occur where the picture jumps. Mending (render/mend.h) can repair the pixels beside
+// a jump.
 #include "bound/error_unseen.h"
 
 #include <math.h>
 
-// Surfaces after which single precision may have no digits left: light that glass focuses as it
-// passes loses a digit at each or at every other one.
+// Surfaces after which single precision may have no correct digits left. Light that glass focuses
+// loses a digit at every surface, or at every second surface.
 #define CHAOS_DEPTH 12
-// By 1 what follows of it is 0.65 to 5 times what single precision errs by, of 12 views of three
-// scenes of curved glass (built-in glass and mixed, gallery), and more of others.
+// Safety factor of the estimate. With a factor of 1, the estimate is 0.65 to 5 times the error of
+// single precision. This holds for 12 views of three scenes of curved glass (built-in glass and
+// mixed, gallery). For other scenes it is larger.
 #define CHAOS_FACTOR 2
-// Of events of which none was seen there may be so many, with a confidence of 97.5%: an upper bound
-// of a Poisson distribution's mean. With it need not be found how likely they are, where they may
-// take this share of the bound.
+// If the grid shows no event of a kind, up to this number of events may exist, with a confidence of
+// 97.5% (upper bound of a Poisson distribution's mean). If the resulting error takes less than
+// AFFORDABLE of the bound, the likelihood need not be found.
 #define NONE_SEEN 3.7
 #define AFFORDABLE 0.5
-// The mean square of how far two directions' light is apart, in squares of the contrast.
+// The mean square of the difference between the light of two directions, in squares of the
+// contrast.
 #define UNRELATED 2
-// Of the bound, what edges may leave in a mended frame.
+// The share of the bound that edges may take in a mended frame.
 #define MENDED_EDGES 0.5
-// Of what chaos makes of a frame, what is left where jumps are mended of this share of the
-// contrast. Of 12 frames of the gallery, whose contrast is 5 times the mean, it is 0.37 where jumps
-// of the mean are, and 0.10 of 0.3 of it.
+// The share of the chaos error that is left if jumps above MENDED_CONTRAST of the contrast are
+// mended. It was measured with 12 frames of the gallery, whose contrast is 5 times the mean. The
+// share is 0.37 if jumps of the mean are mended, and 0.10 for jumps of 0.3 of the mean.
 #define MENDED_CHAOS 0.25
 #define MENDED_CONTRAST 0.1
 
@@ -62,7 +65,7 @@ glint_status glint_error_find_edges(glint_error_search *s, const glint_image *im
     const glint_error_edges edges = {image, &in_float, MENDED_EDGES * s->asked->bound};
     glint_edge_errors found;
     TRY(glint_error_grid_find_edges(&s->grid, &edges, &found, error));
-    // Where paths end at their first surface, rays are off by so little that it may be left out.
+    // If paths end at their first surface, the error of rays is so small that it can be left out.
     const bool counts = s->glass || s->deepest > 1;
     s->unseen = hypot(s->unseen, counts ? found.at_most : 0);
     s->mended_unseen = hypot(s->mended_unseen, counts ? found.mended : 0);
@@ -75,7 +78,7 @@ bool glint_error_wants_chaos(const glint_error_search *s, uint32_t deepest)
     return has_hope(s) && s->relative_contrast > 0 && deepest > CHAOS_DEPTH;
 }
 
-// How much light that shows another direction may add, when none of the grid's pixels does.
+// The error if pixels show another direction, but none of the grid's pixels does.
 static double none_seen(const glint_error_search *s)
 {
     const double pixels = (double)glint_error_grid_pixel_count(&s->grid);
@@ -90,6 +93,7 @@ glint_status glint_error_find_chaos(glint_error_search *s, const glint_image *im
         return GLINT_OK;
     }
     double unseen = none_seen(s);
+    // If the estimate without measurement takes too much of the bound, measure.
     if (hypot(s->unseen, unseen) > AFFORDABLE * s->asked->bound) {
         const glint_error_chaos chaos = {image, settings, CHAOS_DEPTH, s->contrast};
         double share;

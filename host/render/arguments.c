@@ -1,4 +1,4 @@
-// The arguments of the kernels. See arguments.h.
+// Sets the arguments of the kernels. See arguments.h.
 #include "render/arguments.h"
 
 #include "device/opencl_error.h"

@@ -1,4 +1,5 @@
-// The arguments of the kernels, by the lists of kernels/arguments.h. For this floor only.
+// Sets the arguments of the kernels from the lists in kernels/arguments.h. Used in this folder
+// only.
 #ifndef GLINT_RENDER_ARGUMENTS_H
 #define GLINT_RENDER_ARGUMENTS_H
 
@@ -10,7 +11,7 @@
 
 #define GLINT_BUFFER_MEMBER(type, name) cl_mem name;
 
-// Buffers of the scene, and those that a frame is written into. All are borrowed.
+// The buffers of the scene, and the buffers that a frame is written to. All are borrowed.
 typedef struct glint_scene_arguments {
     GLINT_SCENE_ARGUMENTS(GLINT_BUFFER_MEMBER)
 } glint_scene_arguments;
@@ -24,7 +25,7 @@ typedef struct glint_argument {
     const void *value;
 } glint_argument;
 
-// Sets all arguments of a kernel, in their order. Errors: GLINT_DEVICE_FAILED.
+// Sets all arguments of a kernel, in order. Errors: GLINT_DEVICE_FAILED.
 glint_status glint_arguments_set(const struct glint_device *device, cl_kernel kernel,
                                  const glint_argument *arguments, size_t count, glint_error *error);
 

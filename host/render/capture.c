@@ -1,4 +1,4 @@
-// Six views from one place. See capture.h.
+// Renders six views from one place. See capture.h.
 #include "render/capture.h"
 
 #include "render/renderer.h"
@@ -30,7 +30,7 @@ static glint_camera face_camera(int face, glint_vec3 eye)
                           .back = glint_vec3_scale(middle, -1)};
 }
 
-// The steps of one view among those of six.
+// The progress of one of the six views.
 typedef struct view_steps {
     const glint_progress *all;
     int face;
@@ -82,6 +82,7 @@ glint_status glint_capture(const glint_capture_request *request, glint_cube *cub
     }
     glint_status status;
     TRY_OR(cleanup, status, glint_cube_create(settings->width, cube, error));
+    // Render the six faces.
     for (int face = 0; face < 6; face++) {
         const glint_camera camera = face_camera(face, request->at);
         view_steps steps = {request->progress, face};
@@ -96,6 +97,7 @@ glint_status glint_capture(const glint_capture_request *request, glint_cube *cub
     }
 cleanup:
     glint_image_free(&image);
+    // Complete the map, or leave it empty after a failure.
     if (status == GLINT_OK) {
         glint_cube_fill_border(cube);
     } else {

@@ -1,4 +1,4 @@
-// What a frame counts. See counts.h.
+// Adds up the counts of frames. See counts.h.
 #include "render/counts.h"
 
 void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more)
@@ -14,7 +14,7 @@ void glint_ray_counts_add(glint_ray_counts *sum, const glint_ray_counts *more)
 
 uint64_t glint_ray_counts_all(const glint_ray_counts *rays)
 {
-    // Total reflections are among the reflected.
+    // `reflected` includes total reflections.
     return rays->primary + rays->reflected + rays->refracted_in + rays->refracted_out +
            rays->transmitted + rays->shadow;
 }

@@ -1,4 +1,4 @@
-// The scene on the device. See device_scene.h.
+// Uploads the scene and swaps it with the next scene. See device_scene.h.
 #include "render/device_scene.h"
 
 #include "base/clock.h"
@@ -50,7 +50,7 @@ glint_status glint_device_scene_upload(glint_device_scene *s, const glint_scene 
     const glint_status status = upload(s, scene, error);
     glint_solids_free(&s->shown.solids);
     if (status != GLINT_OK || !scene->moves) {
-        glint_bvh_free(&s->shown.tree); // only that of a scene that moves is needed again
+        glint_bvh_free(&s->shown.tree); // only the tree of a scene that moves is needed again
     }
     s->upload_ms = glint_lap_ms(&clock);
     return status;

@@ -1,4 +1,5 @@
-// The scene on the device, and the next one, which is prepared beside it. For this floor only.
+// Holds the scene on the device, and the next scene, which is prepared at the same time. Used in
+// this folder only.
 #ifndef GLINT_RENDER_DEVICE_SCENE_H
 #define GLINT_RENDER_DEVICE_SCENE_H
 
@@ -15,24 +16,25 @@
 // Zero is valid: no scene.
 typedef struct glint_device_scene {
     const struct glint_device *device; // borrowed
-    glint_prepared_scene shown;        // whose frames are rendered
-    glint_prepared_scene next;         // its tree is fitted from that of the last but one
-    bool next_is_ready;                // set and read by whoever prepares it
+    glint_prepared_scene shown;        // the scene that frames show
+    glint_prepared_scene next;         // the next scene; its tree is refitted from the tree of the
+                                       // scene before `shown`
+    bool next_is_ready;                // set and read by the caller that prepares it
     glint_stored_space space;
     glint_owners owners;
     glint_geometry_memory geometry;
     glint_texture_memory textures;
-    cl_mem vertices; // what is found at them
+    cl_mem vertices; // the results of shading at vertices
     double upload_ms;
 } glint_device_scene;
 
-// Takes the tree of the scene that is shown back from the device, to be fitted.
+// Takes the tree of the shown scene back from the device, so that it can be refitted.
 void glint_device_scene_take_back(glint_device_scene *s);
 
-// The scene that was prepared last becomes the one that is shown, and its tree is fitted next.
+// Makes the prepared scene the shown scene. The tree of the old scene is refitted next.
 void glint_device_scene_swap(glint_device_scene *s);
 
-// Uploads `shown`, which was prepared of `scene`. Errors: GLINT_DEVICE_FAILED,
+// Uploads `shown`, which was prepared from `scene`. Errors: GLINT_DEVICE_FAILED,
 // GLINT_OUT_OF_MEMORY.
 glint_status glint_device_scene_upload(glint_device_scene *s, const glint_scene *scene,
                                        glint_error *error);

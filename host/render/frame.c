@@ -1,4 +1,4 @@
-// Rendering one frame. See frame.h.
+// Renders one frame. See frame.h.
 #include "render/frame.h"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-// Rendering one frame: upload, launch, read back. Returns pixels, writes no file.
+// Renders one frame: uploads, launches, reads back. Returns pixels and writes no file.
 #ifndef GLINT_RENDER_FRAME_H
 #define GLINT_RENDER_FRAME_H
 
@@ -15,27 +15,28 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Wall-clock milliseconds of the phases that floor 5 sees.
+// Wall-clock times of the phases of rendering, in milliseconds.
 typedef struct glint_phases {
     double analysis;     // topology and plan
     double bvh;          // tree
-    double irradiance;   // irradiance map, where paint needs one: all of them
-    double cells;        // likewise what rough surfaces see of the environment
-    double kernel_build; // compiling, or fetching from the driver's cache: all kernels so far
-    double upload;       // of this scene, and of this environment for all settings so far
-    double kernel;       // all launches of the frame
+    double irradiance;   // all irradiance maps so far; only paint needs them
+    double cells;        // all environment cells so far; only rough surfaces need them
+    double kernel_build; // all kernels so far: compiling, or fetching from the driver's cache
+    // This scene, and this environment for all settings so far.
+    double upload;
+    double kernel; // all launches of the frame
     double readback;
 } glint_phases;
 
 typedef struct glint_frame_report {
     glint_ray_counts rays;
     glint_truncation truncation;
-    uint32_t deepest; // surfaces met by the longest path
-    uint64_t
-        nonfinite_pixels; // pixels with a NaN or infinite component (0 unless something is wrong)
-    uint64_t
-        mended_pixels; // that were rendered again in double precision, see glint_settings.mend;
-                       // rays and times count them, the rest is of single precision
+    uint32_t deepest; // surfaces that the longest path met
+    // Pixels with a NaN or infinite component (0 unless something is wrong).
+    uint64_t nonfinite_pixels;
+    // Pixels rendered again in double precision (see glint_settings.mend). Rays and times
+    // include them; all other counts are of single precision.
+    uint64_t mended_pixels;
     double kernel_ms, readback_ms; // of this frame
 } glint_frame_report;
 
@@ -43,64 +44,64 @@ typedef struct glint_frame_report {
 typedef struct glint_renderer glint_renderer;
 
 typedef struct glint_renderer_inputs {
-    glint_device *device;                 // borrowed, must outlive the renderer
-    const glint_scene *scene;             // borrowed during creation only
-    const glint_environment *environment; // borrowed during creation; as long as the renderer lives
-                                          // where it is given other scenes or settings
-    const glint_settings *settings;       // borrowed during creation only
-    const char *kernel_dir;               // NULL: the embedded kernels; borrowed as long as the
-                                          // renderer lives
-    bool without_frames;                  // no frame will be asked for (see probe.h)
+    glint_device *device;     // borrowed, must outlive the renderer
+    const glint_scene *scene; // borrowed during creation only
+    // Borrowed during creation; as long as the renderer lives if it gets other scenes or settings.
+    const glint_environment *environment;
+    const glint_settings *settings; // borrowed during creation only
+    // NULL: the embedded kernels. Borrowed as long as the renderer lives.
+    const char *kernel_dir;
+    bool without_frames; // the renderer will render no frame (see probe.h)
 } glint_renderer_inputs;
 
-// Analyses, plans, builds the tree and the kernels, uploads. Errors: GLINT_USAGE, GLINT_BAD_INPUT,
-// GLINT_DEVICE_FAILED; a kernel that does not compile leaves the build log in error->details.
+// Analyses the scene, makes the plan, builds the tree and the kernels, and uploads. Errors:
+// GLINT_USAGE, GLINT_BAD_INPUT, GLINT_DEVICE_FAILED. If a kernel does not compile, error->details
+// holds the build log.
 glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
                                    glint_error *error);
 
-// Another scene in the place of the one that there was, for the frames that follow: its plan is
-// made, its tree too or fitted from the last one's (see accel/bvh.h), and uploaded; kernels are
-// compiled only where the plan has changed, the environment stays. The scene is borrowed during the
-// call. Errors as above; a renderer that failed may be given another scene, and renders no frame
-// until then.
+// Replaces the scene for the next frames. Makes its plan, builds its tree or refits the last tree
+// (see accel/bvh.h), and uploads both. Compiles kernels only if the plan changed; the environment
+// stays. The scene is borrowed during the call. Errors as above. After a failure, the renderer
+// renders no frame until it gets another scene.
 glint_status glint_renderer_set_scene(glint_renderer *renderer, const glint_scene *scene,
                                       glint_error *error);
 
-// The same in two steps, the first of which may be taken on another thread while frames of the
-// scene before are rendered: what needs no device, plan and tree; and the rest. The renderer then
-// holds two trees. glint_renderer_set_prepared is given the scene that was prepared last. Where
-// preparing failed, the renderer is as it was. Errors as above.
+// Replace the scene in two steps. glint_renderer_prepare makes plan and tree and needs no device.
+// It may run on another thread while the renderer renders frames of the previous scene. The
+// renderer then holds two trees. glint_renderer_set_prepared does the rest, for the scene that was
+// prepared last. If preparing fails, the renderer does not change. Errors as above.
 glint_status glint_renderer_prepare(glint_renderer *renderer, const glint_scene *scene,
                                     glint_error *error);
 glint_status glint_renderer_set_prepared(glint_renderer *renderer, const glint_scene *scene,
                                          glint_error *error);
 
-// Another environment in the place of the one that there was, for the frames that follow; what the
-// plan says of its texels is found anew, and kernels are compiled only where that changes. It is
-// borrowed as at the creation. Not to be called while a scene is prepared, and a scene that has
-// been is prepared no more. Errors as above; a renderer that failed may be given another
-// environment, and renders no frame until then.
+// Replaces the environment for the next frames. Chooses its texels again, and compiles kernels only
+// if this choice changes. The environment is borrowed as at creation. Do not call this while a
+// scene is being prepared. Afterwards, a prepared scene must be prepared again. Errors as above.
+// After a failure, the renderer renders no frame until it gets another environment.
 glint_status glint_renderer_set_environment(glint_renderer *renderer,
                                             const glint_environment *environment,
                                             glint_error *error);
 
-// Other settings for the frames that follow, as glint_plan_vary allows them: those of a coarser or
-// a finer frame of the same scene, or of a grid of its pixels (grid_step). What the last few need
-// is kept, so that going back is quick. Another scene or environment brings the settings of the
-// creation back. Errors: as creating; a renderer that failed may be given other settings, and
-// renders no frame until then; one that failed to take a scene or an environment needs that first.
+// Replaces the settings for the next frames, as far as glint_plan_vary allows: a coarser or finer
+// frame of the same scene, or a grid of its pixels (grid_step). The renderer caches the data of the
+// last few settings, so that going back is quick. A new scene or environment restores the settings
+// of the creation. Errors: as glint_renderer_create. After a failure, the renderer renders no frame
+// until it gets other settings. If it failed to take a scene or an environment, it needs this
+// first.
 glint_status glint_renderer_set_settings(glint_renderer *renderer, const glint_settings *settings,
                                          glint_error *error);
 
-// The plan of the settings that there are, and for the last frame's camera; that of the creation's
-// settings, for any camera from which what is proved of the scene holds.
+// The plan of the current settings for the last frame's camera, and the plan of the creation's
+// settings. The second holds for any camera for which the proofs about the scene hold.
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer);
 const glint_plan *glint_renderer_first_plan(const glint_renderer *renderer);
 const glint_bvh_report *glint_renderer_bvh(const glint_renderer *renderer);
 const glint_phases *glint_renderer_phases(const glint_renderer *renderer);
 
-// Bytes that the device works on; a CPU's lie in the host's memory. Buffers that were needed for
-// larger frames of other settings stay, and are not counted.
+// Bytes of the buffers in use on the device. A CPU's buffers lie in the host's memory. Buffers that
+// stay allocated from larger frames of other settings do not count.
 typedef struct glint_device_bytes {
     size_t scene;       // clusters of triangles, normals, materials
     size_t tree;        // nodes
@@ -110,7 +111,7 @@ typedef struct glint_device_bytes {
 
 glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
 
-// Bytes of the compiled kernels as the driver would hand them out; 0 where it does not.
+// Bytes of the compiled kernels as the driver returns them; 0 if the driver does not return them.
 size_t glint_renderer_program_bytes(const glint_renderer *renderer);
 
 // A frame to render. Pointers are borrowed.
@@ -118,23 +119,22 @@ typedef struct glint_frame_request {
     glint_renderer *renderer;
     const glint_camera *camera;
     const glint_progress *progress; // may be NULL
-    glint_image *image; // zero, or one whose memory is used again where it has the frame's size:
-                        // on a CPU that saves what fresh memory costs
+    // Zero, or an image whose memory is reused if it has the frame's size. On a CPU this saves the
+    // cost of fresh memory.
+    glint_image *image;
     glint_frame_report *report; // may be NULL
 } glint_frame_request;
 
 // Renders into an RGBA image (premultiplied, linear). On failure the image is left empty.
 glint_status glint_renderer_frame(const glint_frame_request *request, glint_error *error);
 
-// The pixels of the last frame in double precision as the device computed them
-// ([height][width][4], malloc'd), before they are rounded to float: for tests. GLINT_USAGE in other
-// precisions.
+// The pixels of the last frame in double precision as the device computed them, before they are
+// rounded to float ([height][width][4], malloc'd). For tests. GLINT_USAGE in other precisions.
 glint_status glint_renderer_exact_pixels(glint_renderer *renderer, double **pixels,
                                          glint_error *error);
 
-// The layers of the last frame: those that the settings ask for. *layers need not be set; the
-// caller frees it. Errors: GLINT_USAGE where the settings ask for none, GLINT_DEVICE_FAILED;
-// *layers is then empty.
+// The layers of the last frame that the settings ask for. *layers may be unset; the caller frees
+// it. Errors: GLINT_USAGE if the settings ask for none, GLINT_DEVICE_FAILED; *layers is then empty.
 glint_status glint_renderer_layers(glint_renderer *renderer, glint_layers *layers,
                                    glint_error *error);
 

@@ -1,4 +1,4 @@
-// Lists of frames and their parts. See frame_list.h.
+// Parses lists of frames and walks their parts. See frame_list.h.
 #include "render/frame_list.h"
 
 #include <stdio.h>
@@ -67,7 +67,8 @@ static glint_status append(glint_frame_list *list, glint_frame_range range, glin
 
 // ---- Reading -----------------------------------------------------------------------------------
 
-// A number at *text, which moves on past it; false where there is none, or one out of range.
+// Reads the number at *text and moves *text past it. Returns false if there is no number or if it
+// is out of range.
 static bool read_number(const char **text, int64_t *number)
 {
     const char *digits = *text + (**text == '-');
@@ -103,7 +104,7 @@ static glint_status check_step(const char *text, const glint_frame_range *range,
     return GLINT_OK;
 }
 
-// One range at *rest, which moves on past it.
+// Reads one range at *rest and moves *rest past it.
 static glint_status read_range(const char *text, const char **rest, glint_frame_range *range,
                                glint_error *error)
 {
@@ -234,7 +235,11 @@ static int compare_frames(const void *a, const void *b)
 
 void glint_frame_list_print(int *frames, size_t count, char *text, size_t capacity)
 {
-    enum { RANGE = 24, MORE = 32 }; // at most, of characters
+    enum {
+        RANGE = 24,
+        MORE = 32
+    }; // most characters of a range, and of the note about frames that
+       // do not fit
     qsort(frames, count, sizeof *frames, compare_frames);
     size_t length = 0, i = 0;
     text[0] = '\0';

@@ -1,4 +1,4 @@
-// Names of a sequence's files. See frame_name.h.
+// Makes the names of a sequence's files. See frame_name.h.
 #include "render/frame_name.h"
 
 #include <stdio.h>
@@ -7,7 +7,8 @@
 
 #define DIGITS_MAX 64
 
-// The length of "%d" or "%04d" at `text`, and how many digits it asks for; 0 where none stands.
+// The length of "%d" or "%04d" at `text`, and its number of digits; 0 if there is no such
+// placeholder.
 static size_t printf_place(const char *text, int *digits)
 {
     const size_t numerals = strspn(text + 1, "0123456789");
@@ -18,7 +19,7 @@ static size_t printf_place(const char *text, int *digits)
     return numerals + 2;
 }
 
-// The next place at or after `from`; false where there is none.
+// Finds the next placeholder at or after `from`. Returns false if there is none.
 static bool find_place(glint_frame_name *name, size_t from)
 {
     const char *path = name->path;

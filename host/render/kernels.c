@@ -1,4 +1,4 @@
-// The compiled kernels of the last few plans. See kernels.h.
+// Caches the compiled kernels of the last few plans. See kernels.h.
 #include "render/kernels.h"
 
 #include "device/program.h"
@@ -33,7 +33,7 @@ static glint_status build(const glint_kernel_request *in, const char *options, g
     return status;
 }
 
-// Of these options; NULL: none.
+// The kernels with these options; NULL if there are none.
 static glint_kernels *find(glint_kernel_cache *cache, const char *options)
 {
     for (size_t i = 0; i < GLINT_KERNELS_KEPT; i++) {
@@ -89,7 +89,7 @@ glint_status glint_kernel_cache_get(glint_kernel_cache *cache, const glint_kerne
 size_t glint_kernels_program_bytes(const glint_kernels *kernels)
 {
     cl_program program = NULL;
-    size_t bytes = 0; // for the one device that it was built for
+    size_t bytes = 0; // for the only device that it was built for
     if (clGetKernelInfo(kernels->tiles, CL_KERNEL_PROGRAM, sizeof program, &program, NULL) !=
             CL_SUCCESS ||
         clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) !=

@@ -1,4 +1,4 @@
-// Which rungs there are. See ladder.h.
+// Makes the rungs of the ladder. See ladder.h.
 #include "render/ladder.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ void glint_rung_of(const glint_settings *settings, const char *name, const char 
              is_exact && options[0] != '\0' ? " " : "", is_exact ? "--roughness exact" : "");
 }
 
-// A rung that is the settings but for what the caller then changes.
+// Adds a rung with these settings, which the caller then changes.
 static glint_rung *add(glint_ladder *ladder, const glint_settings *settings, const char *name,
                        const char *options)
 {
@@ -29,7 +29,7 @@ static bool has(const glint_plan *plan, glint_feature feature)
     return plan->features[feature].compiled;
 }
 
-// Whether a path can meet a second surface.
+// True if a path can meet a second surface.
 static bool goes_on(const glint_plan *plan)
 {
     return has(plan, GLINT_FEATURE_MIRROR) || has(plan, GLINT_FEATURE_GLASS) ||
@@ -37,7 +37,7 @@ static bool goes_on(const glint_plan *plan)
            has(plan, GLINT_FEATURE_CLEARCOAT) || has(plan, GLINT_FEATURE_ROUGH);
 }
 
-// Not where lights shine, which vertices do not show.
+// Adds shading at vertices, but not for scenes with lights: vertices do not show lights.
 static void add_vertices(const glint_plan *plan, const glint_settings *settings,
                          glint_ladder *ladder)
 {
@@ -84,7 +84,7 @@ void glint_rung_mend(double mend, glint_rung *rung)
     if (!(mend > 0)) {
         return;
     }
-    char text[32]; // so that the options make the same picture
+    char text[32]; // rounded, so that the options make the same picture
     snprintf(text, sizeof text, "%.3g", mend);
     rung->settings.mend = strtod(text, NULL);
     const size_t name = strlen(rung->name), options = strlen(rung->options);
@@ -105,9 +105,9 @@ static void add_weights(const glint_settings *settings, glint_precision precisio
                          &ladder->rungs[ladder->count++]);
 }
 
-// Where paths split, how far the light branches are followed decides cost and error, and their
-// depth hardly does: what a path of some depth is cut short of is as bright as anything, what a
-// light branch is cut short of is not.
+// Adds rungs for scenes whose paths split. The least weight decides cost and error there; the depth
+// has little effect. A path that the depth truncates may be as bright as any other, a light branch
+// is not.
 static void add_branching(const glint_settings *settings, glint_ladder *ladder)
 {
     add(ladder, settings, "no Fresnel term", "--fresnel none")->settings.fresnel =
@@ -121,7 +121,7 @@ static void add_branching(const glint_settings *settings, glint_ladder *ladder)
     }
 }
 
-// None where one surface is proved to be all that a path meets.
+// Adds depths. Adds none if it is proved that a path meets only one surface.
 static void add_bouncing(const glint_plan *plan, const glint_settings *settings,
                          glint_ladder *ladder)
 {

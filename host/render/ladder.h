@@ -1,6 +1,6 @@
-// The ladder: ways to render one scene, from the crudest to the reference, each with less of an
-// error than most of those before and at a higher cost. Which of them there are depends on what the
-// scene has: where nothing is glass there is no Fresnel term to leave out. Pure: calls no OpenCL.
+// Makes the ladder of a scene: settings from the crudest to the reference. Each rung has a smaller
+// error than most rungs before it, at a higher cost. The rungs depend on the scene: without glass
+// there is no Fresnel term to leave out. Pure: calls no OpenCL.
 #ifndef GLINT_RENDER_LADDER_H
 #define GLINT_RENDER_LADDER_H
 
@@ -10,42 +10,44 @@
 
 #define GLINT_RUNGS_MAX 14
 
-// Where the reference's paths end. Its depth is that of --depth auto and no more, as there is none
-// at which nothing changes any more: light that glass reflects totally can stay in it for ever, of
-// the gallery 10⁻⁵ of all weight at 16,384 surfaces still, and what it takes in the end is
-// arbitrary. Below the weight next to nothing is left: with four times of it, gallery and nested
-// glass differ by 2·10⁻⁴ and 6·10⁻⁴ (relative RMSE), other scenes not at all.
+// The depth and the least weight at which the reference's paths end. The depth is that of --depth
+// auto, because no depth exists beyond which nothing changes. Light that glass reflects totally can
+// stay inside for ever: in the gallery, 10⁻⁵ of all weight still does at 16,384 surfaces. Its final
+// value is arbitrary. Below the least weight almost nothing is left: with four times this weight,
+// gallery and nested glass differ by 2·10⁻⁴ and 6·10⁻⁴ (relative RMSE), and other scenes not at
+// all.
 #define GLINT_REFERENCE_DEPTH GLINT_DEPTH_MAX
 #define GLINT_REFERENCE_MIN_WEIGHT (1.0 / 65536)
 
 typedef struct glint_rung {
     char name[64];     // "weights of 1/64"
-    char options[128]; // the program's, that make it: "--min-weight 0.015625"
+    char options[128]; // the program's options: "--min-weight 0.015625"
     glint_settings settings;
 } glint_rung;
 
-// A rung of these settings; where they ask for exact lobes its options end with that.
+// Makes a rung of these settings. If they ask for exact lobes, its options end with this option.
 void glint_rung_of(const glint_settings *settings, const char *name, const char *options,
                    glint_rung *rung);
-// Rungs that are the settings but for what their names say: how many surfaces paths meet (0: as
-// many as the weight allows); below which weight branches are not followed; the reference, whose
-// lobes are exact where surfaces are `rough`.
+// Make rungs from the settings. by_depth limits the number of surfaces of a path (0: as many as the
+// weight allows). by_weight stops at branches below the weight.
 void glint_rung_by_depth(const glint_settings *settings, int depth, glint_rung *rung);
 void glint_rung_by_weight(const glint_settings *settings, glint_precision precision,
                           glint_texels texels, double min_weight, glint_rung *rung);
-// A rung in single precision, mended by so much, to three digits; 0: not at all.
+// Adds mending with the limit `mend`, rounded to three digits, to a rung in single precision. 0: no
+// mending.
 void glint_rung_mend(double mend, glint_rung *rung);
+// Makes the reference. Its lobes are exact if surfaces are `rough`.
 void glint_rung_reference(const glint_settings *settings, bool rough, glint_rung *reference);
 
 // Plain data.
 typedef struct glint_ladder {
     size_t count;
-    glint_rung rungs[GLINT_RUNGS_MAX]; // roughly in the order of what they cost, the cheapest first
-    glint_rung reference;              // what their errors are counted from
+    glint_rung rungs[GLINT_RUNGS_MAX]; // roughly in order of cost, the cheapest first
+    glint_rung reference;              // the rung that errors are measured against
 } glint_ladder;
 
-// `plan` is made of `settings`, in which model, depth, precision, texels and weights are at their
-// defaults: what a rung does not say of them, and all else, is theirs.
+// Makes the ladder. `plan` is the plan of `settings`, whose model, depth, precision, texels and
+// weights are at their defaults. A rung takes from them all that it does not change.
 void glint_ladder_make(const glint_plan *plan, const glint_settings *settings,
                        glint_ladder *ladder);
 

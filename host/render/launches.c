@@ -1,4 +1,4 @@
-// Launching kernels over the tiles of a frame. See launches.h.
+// Launches the kernels over the tiles of a frame. See launches.h.
 #include "render/launches.h"
 
 #include "base/clock.h"
@@ -8,24 +8,25 @@
 #include <math.h>
 #include <string.h>
 
-// Launches are made long enough to keep a device busy and short enough for progress and signals.
+// The length of a launch: long enough to keep a device busy, short enough for progress and signals.
 #define LAUNCH_MS 100.0
 #define LAUNCHES_AT_ONCE 2
-// The first frame's first one tells the speed.
+// The first launch of the first frame measures the speed.
 #define FIRST_LAUNCH_SAMPLES 32768.0
-// Rows of tiles that are rendered side by side: what neighbours have fetched from memory is then
-// still in the caches. One where so many rows would be a long launch by themselves.
+// A band: rows of tiles that are rendered side by side. Data that one tile fetched is then still in
+// the caches for its neighbours. A band is one row if more rows would be a long launch by
+// themselves.
 #define BAND_ROWS 4
 #define BAND_SAMPLES 2e6
 
-// Where a packet is one ray, the rays of 8 × 8 pixels share a work-group; a wider packet is a
-// work-group's worth by itself.
+// If a packet is one ray, the rays of 8 × 8 pixels share a work-group. A wider packet fills a
+// work-group by itself.
 static size_t local_side(const glint_plan *plan)
 {
     return plan->kernel_width == 1 ? 8 : 1;
 }
 
-// Pixels that a work-item renders.
+// Size in pixels of the tile that a work-item renders.
 static int tile_width(const glint_plan *plan)
 {
     return GLINT_PACKET_COLUMNS(plan->kernel_width) * GLINT_TILE_SIDE(plan->tiles);
@@ -59,13 +60,13 @@ static glint_status set_arguments(const glint_launcher *l, const glint_frame_rec
                                sizeof arguments / sizeof *arguments, error);
 }
 
-// Begins to render so many bands of tiles from record->first_band on.
+// Starts to render `bands` bands of tiles from record->first_band on.
 static glint_status launch(const glint_launcher *l, const glint_frame_record *record, size_t bands,
                            cl_event *done, glint_error *error)
 {
     TRY(set_arguments(l, record, error));
     const size_t local[2] = {local_side(l->plan), local_side(l->plan)};
-    const size_t width = record->width > 0 ? (size_t)record->width : 1; // 0: to warm up
+    const size_t width = record->width > 0 ? (size_t)record->width : 1; // width 0: warm-up
     const size_t across = divide_up(width, (size_t)tile_width(l->plan)) * (size_t)record->band;
     const size_t global[2] = {round_up(across, local[0]), round_up(bands, local[1])};
     cl_command_queue queue = l->device->launches;
@@ -95,8 +96,9 @@ glint_status glint_launches_warm_up(const glint_launcher *l, glint_error *error)
     return glint_launch_wait(l->device, done, error);
 }
 
-// The bands of tiles of the next launch: as many as would have taken LAUNCH_MS at the last one's
-// speed, and at most four times as many, as the next part of the frame may be much slower.
+// The number of bands in the next launch: as many as fit into LAUNCH_MS at the speed of the last
+// launch. At most four times as many as before, because the next part of the frame may be much
+// slower.
 static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
 {
     double factor = fmin(4, LAUNCH_MS / fmax(elapsed_ms, 1e-3));
@@ -104,18 +106,18 @@ static size_t next_step(size_t step, double elapsed_ms, size_t multiple)
     return round_up((size_t)wanted, multiple);
 }
 
-// A frame's launches, of which a few are under way at once: what is left of one by the time that
-// some of the device's cores find nothing more in it is rendered beside the next.
+// The launches of a frame. Several are queued at once: cores of the device that find no more work
+// in one launch begin with the next.
 typedef struct launches {
     const glint_launcher *launcher;
     glint_frame_record *record;
-    size_t bands, begun, done; // of the frame; in launches that were begun, that have ended
+    size_t bands, begun, done; // bands of the frame, in launches that began, in launches that ended
     size_t step;               // bands of the next launch
     int under_way;
     struct {
         cl_event end;
         size_t bands;
-    } queue[LAUNCHES_AT_ONCE]; // the oldest first
+    } queue[LAUNCHES_AT_ONCE]; // oldest first
 } launches;
 
 static glint_status begin_launch(launches *l, glint_error *error)

@@ -1,4 +1,4 @@
-// Diagnostic layers of a frame. See layers.h.
+// Makes the diagnostic layers of a frame. See layers.h.
 #include "render/layers.h"
 
 #include "base/memory.h"
@@ -12,10 +12,10 @@
 #include <string.h>
 #include <strings.h>
 
-// A channel's part before the dot is the layer's name, as programs show it. The names behind it are
-// those by which programs know vectors and colours. Those of numbers must not be one that DWA takes
-// for colour, and compresses with loss: R, G, B, Y, RY, BY. Compositing programs look for the
-// distance under Z alone.
+// A channel's name before the dot is the layer's name, as programs show it. The part after the dot
+// is the name that programs expect for vectors and colours. Channels of numbers must not be called
+// R, G, B, Y, RY or BY: DWA treats these as colour and compresses them with loss. Compositing
+// programs look for the distance only under Z.
 static const struct {
     const char *name;
     const char *channels[4]; // NULL at the end
@@ -145,7 +145,7 @@ static float value_of(const glint_layers_inputs *in, size_t pixel, glint_aov aov
     return 0;
 }
 
-// How many channels the layer has, if it is wanted; else 0.
+// The number of channels of the layer if it is in the set, else 0.
 static int channel_count(uint32_t aovs, int aov)
 {
     int count = 0;

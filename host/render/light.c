@@ -1,4 +1,4 @@
-// The environment on the device. See light.h.
+// Uploads the environment and its irradiance. See light.h.
 #include "render/light.h"
 
 #include "base/clock.h"
@@ -83,14 +83,15 @@ static glint_status make_map(glint_light *light, cl_mem *buffer, glint_error *er
     return status;
 }
 
-// Albedos, that of sheen if it is wanted, and behind them cells down to level `last`; −1: nothing.
+// Makes albedos (also of sheen if `sheen`), followed by cells down to level `last`; −1: an empty
+// buffer.
 static glint_status make_lobes(glint_light *light, int last, bool sheen, glint_error *error)
 {
     const size_t cells = last >= 0 ? GLINT_CELLS_FIRST(last + 1) : 0;
     const glint_content content = {
         "the cells of the environment",
         last >= 0 ? (GLINT_LOBES_CELLS + cells * GLINT_CELL_VALUES) * sizeof(float) : 0, NULL};
-    // A device that shares the host's memory reads them where they are.
+    // A device that shares the host's memory reads the values in place.
     float *values = glint_allocate_unset(content.bytes + 1, 1);
     if (values == NULL) {
         return glint_fail_memory(error, content.what);

@@ -1,4 +1,4 @@
-// Mending frames in single precision. See mend.h.
+// Mends frames in single precision. See mend.h.
 #include "render/mend.h"
 
 #include "render/pixel_list.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TILE 16 // pixels of a tile are listed after each other
+#define TILE 16 // the pixels of a tile are consecutive in the list
 #define BLOCK 4
 
 static double mean_of(const glint_image *image)
@@ -25,15 +25,15 @@ static double mean_of(const glint_image *image)
     return count > 0 ? sum / count : 0;
 }
 
-// Three times the mean square; infinite or NaN where one is not finite.
+// Three times the mean squared difference; infinite or NaN if a pixel is not finite.
 static float square_difference(const float *a, const float *b)
 {
     const float r = a[0] - b[0], g = a[1] - b[1], blue = a[2] - b[2];
     return r * r + g * g + blue * blue;
 }
 
-// Marks both of two neighbours that differ by more than `limit`; of each pixel those are looked at
-// that come after it. Returns how many pixels are marked.
+// Marks both pixels of every pair of neighbours that differ by more than `limit`. Compares each
+// pixel with its right and lower neighbour. Returns the number of marked pixels.
 static size_t mark(const glint_image *image, double limit, uint8_t *marks)
 {
     const ptrdiff_t width = image->width;
@@ -56,7 +56,7 @@ static size_t mark(const glint_image *image, double limit, uint8_t *marks)
     return count;
 }
 
-// Block by block.
+// Lists the marked pixels of a tile, block by block.
 static void list_tile(const glint_image *image, const uint8_t *marks, int left, int top,
                       glint_pixel_list *list)
 {
@@ -102,7 +102,7 @@ static glint_status find_pixels(const glint_image *image, double mend, glint_pix
     return status;
 }
 
-// Whether to go on: how far it is has been told.
+// Asks whether to continue. The first pass has already reported the progress.
 static bool ask(void *context, uint64_t done, uint64_t total)
 {
     (void)done, (void)total;
@@ -118,7 +118,7 @@ static void put(const glint_image *mended, const glint_pixel_list *list, glint_i
     }
 }
 
-// The listed pixels, into *mended.
+// Renders the listed pixels into *mended.
 static glint_status render_listed(const glint_frame_request *request, const glint_pixel_list *list,
                                   glint_image *mended, glint_frame_report *report,
                                   glint_error *error)
@@ -151,7 +151,7 @@ static glint_status render_again(const glint_frame_request *request, const glint
         request->report->readback_ms += again.readback_ms;
     }
     glint_image_free(&mended);
-    // Also where it failed: the list goes.
+    // Restore the settings even after a failure, because the caller frees the list.
     const glint_status back =
         glint_renderer_set_settings(request->renderer, &whole, status == GLINT_OK ? error : NULL);
     return status == GLINT_OK ? back : status;

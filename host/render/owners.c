@@ -1,4 +1,4 @@
-// Which node and which material triangles belong to. See owners.h.
+// Finds the node and the material of triangles. See owners.h.
 #include "render/owners.h"
 
 #include "base/memory.h"
@@ -24,7 +24,8 @@ glint_status glint_owners_set(glint_owners *owners, const glint_scene *scene, gl
 
 glint_owner glint_owner_of(const glint_owners *owners, int triangle)
 {
-    size_t low = 0, high = owners->count; // the owner is the last that begins no later
+    size_t low = 0, high = owners->count; // binary search: the owner is the last with
+                                          // first_triangle ≤ triangle
     while (low < high && triangle >= 0) {
         const size_t middle = low + (high - low) / 2;
         if (owners->list[middle].first_triangle <= (size_t)triangle) {

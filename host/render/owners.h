@@ -1,5 +1,5 @@
-// Which node and which material of the file the triangles of a scene belong to: layers name them by
-// their indices in the file, which stay the same over an animation.
+// Finds the node and the material in the file that a triangle belongs to. Layers name them by their
+// indices in the file, which stay the same during an animation.
 #ifndef GLINT_RENDER_OWNERS_H
 #define GLINT_RENDER_OWNERS_H
 
@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-// From `first_triangle` on, to the next owner's.
+// The owner of the triangles from `first_triangle` up to the next owner's first triangle.
 typedef struct glint_owner {
     size_t first_triangle;
     int node, material; // −1: none
@@ -20,11 +20,11 @@ typedef struct glint_owners {
     size_t count;
 } glint_owners;
 
-// Copies what the layers need of a scene, into *owners, which may hold another's. Errors:
-// GLINT_OUT_OF_MEMORY.
+// Copies the owners of a scene to *owners, and replaces earlier ones. Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_owners_set(glint_owners *owners, const glint_scene *scene, glint_error *error);
 
-// The owner of the triangle of that number in the scene; of −1, and of one without, {0, −1, −1}.
+// The owner of triangle number `triangle` in the scene. For −1 and for a triangle without an owner:
+// {0, −1, −1}.
 glint_owner glint_owner_of(const glint_owners *owners, int triangle);
 
 void glint_owners_free(glint_owners *owners);

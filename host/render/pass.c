@@ -1,4 +1,4 @@
-// One pass over a frame's pixels. See pass.h.
+// Runs one pass over a frame's pixels. See pass.h.
 #include "render/pass.h"
 
 #include "base/clock.h"
@@ -28,7 +28,7 @@ static void count_rays(const uint32_t *counters, glint_ray_counts *rays)
     rays->total_reflections = total_of(counters, GLINT_COUNT_TOTAL_REFLECTIONS);
 }
 
-// Weights of each of so many samples, as shares of all weight.
+// The share of a weight counter in the weight of all samples.
 static double share_of(const uint32_t *counters, int counter, uint64_t samples)
 {
     return (double)total_of(counters, counter) / ldexp((double)samples, GLINT_WEIGHT_BITS);
@@ -50,7 +50,7 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
     const double squares =
         ldexp((double)total_of(counters, GLINT_COUNT_TRUNCATION_SQUARES), -GLINT_SQUARE_BITS);
     report->truncation = (glint_truncation){
-        // Where the depth is exact, what was not traced is known to see the environment.
+        // If the depth is exact, untraced light is known to see the environment.
         .by_depth =
             r->plan.depth_is_exact ? 0 : share_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH, samples),
         .by_min_weight = share_of(counters, GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT, samples),
@@ -71,7 +71,7 @@ static void make_record(const glint_renderer *r, const glint_camera *camera,
     record->terms = r->settings.terms;
 }
 
-// Vertices and tiles, into `pixels`.
+// Shades the vertices and renders the tiles into `pixels`.
 static glint_status launch(const glint_frame_request *request, cl_mem pixels, glint_error *error)
 {
     glint_renderer *r = request->renderer;

@@ -1,4 +1,4 @@
-// Lists of pixels. See pixel_list.h.
+// Makes lists of pixels. See pixel_list.h.
 #include "render/pixel_list.h"
 
 #include "base/memory.h"

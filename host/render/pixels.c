@@ -1,4 +1,4 @@
-// The pixels of a frame. See pixels.h.
+// Transfers the pixels of a frame into an image. See pixels.h.
 #include "render/pixels.h"
 
 #include "base/memory.h"
@@ -49,8 +49,8 @@ static glint_status read_own(const glint_pixels *p, void *values, glint_error *e
     return glint_check_opencl(error, p->device, "reading the frame", code);
 }
 
-// Where the buffer lies around the image nothing moves, but the host may only look at it once it is
-// mapped.
+// Maps the image for the host. The buffer already uses the image's memory, so nothing is copied,
+// but OpenCL lets the host read it only after mapping.
 static glint_status map_image(const glint_pixels *p, glint_error *error)
 {
     cl_int code;

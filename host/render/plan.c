@@ -1,4 +1,4 @@
-// The plan: what is compiled, and why. See plan.h.
+// Makes the plan: what is compiled, and why. See plan.h.
 #include "render/plan.h"
 
 #include "render/layers.h"
@@ -26,7 +26,8 @@ const char *glint_feature_meaning(glint_feature feature)
     return meanings[feature];
 }
 
-// Layers of paths tell what was cut short, which a depth that is proved would be told of as.
+// Layers of paths report truncated light. With a proved depth, they would report light as truncated
+// that is exact.
 static void choose_sight(const glint_settings *settings, const glint_sight *sight, glint_plan *plan)
 {
     plan->sight = (glint_sight){0};
@@ -65,7 +66,7 @@ void glint_plan_heed_sight(glint_plan *plan, bool heed)
     glint_plan_describe_secondary_rays(plan);
 }
 
-// The part of a plan that rests on neither scene nor topology.
+// Decides the part of a plan that depends on neither scene nor topology.
 static glint_status vary(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     const glint_settings *settings = in->settings;
@@ -91,7 +92,8 @@ glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glin
     }
     TRY(glint_plan_decide_features(in, plan, error));
     if (settings->all_features) {
-        glint_plan_compile_idle_features(plan); // media as well
+        glint_plan_compile_idle_features(plan); // before the media are chosen, because idle
+                                                // features affect them
     }
     glint_plan_choose_media(in, plan);
     return vary(in, plan, error);

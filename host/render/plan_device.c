@@ -1,4 +1,4 @@
-// How the kernels suit the device: packets, tiles, stacks and texels. See plan_parts.h.
+// Adapts the kernels to the device: packets, tiles, stacks and texels. See plan_parts.h.
 #include "render/plan_parts.h"
 #include "render/wavelengths.h"
 
@@ -9,14 +9,14 @@
 #include <math.h>
 #include <stdio.h>
 
-// Whether a work-item is one lane of the hardware: of GPUs, and of drivers for CPUs that fill
-// vectors with work-items themselves.
+// True if a work-item is one lane of the hardware: on GPUs, and with CPU drivers that fill vectors
+// with work-items.
 static bool is_lane(const glint_capabilities *device)
 {
     return !device->is_cpu || device->native_float_width <= 1;
 }
 
-// A packet fills the widest vector of the device, or is one ray.
+// A packet fills the widest vector of the device, or it is one ray.
 int glint_plan_native_width(const glint_capabilities *device, glint_precision precision)
 {
     const int per_lane = precision == GLINT_PRECISION_DOUBLE ? 2 : 1;
@@ -44,8 +44,8 @@ static void choose_width(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
-// Neighbouring primary rays meet mostly the same nodes and triangles, so a core does well to trace
-// many at once; a GPU needs its work in many small pieces.
+// Neighbouring primary rays mostly meet the same nodes and triangles, so a CPU core traces many of
+// them together. A GPU needs many small pieces of work.
 static void choose_tiles(const glint_settings *settings, glint_plan *plan)
 {
     plan->tiles = plan->kernel_width > 1 && settings->list == NULL;
@@ -59,12 +59,12 @@ static void choose_tiles(const glint_settings *settings, glint_plan *plan)
     snprintf(plan->tiles_reason, sizeof plan->tiles_reason, "%s", reason);
 }
 
-// What does not fill a stack of waiting branches costs nothing, so that all weights down to 2^−16
-// share a kernel.
+// Unused entries of the stack of branches cost nothing. So all least weights down to 2^−16 share
+// one kernel.
 #define STACK_LEAST 18
 
-// The path goes on with the lighter of two branches, which has at most half of the weight, so that
-// at most 1 + log2(1/min_weight) wait; one more slot tells that the stack is nearly full.
+// The path continues with the lighter of two branches, which has at most half of the weight. So at
+// most 1 + log2(1/min_weight) branches wait. One more entry signals that the stack is nearly full.
 static void choose_stack(const glint_settings *settings, glint_plan *plan)
 {
     plan->stack_capacity = 0;
@@ -89,12 +89,12 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
     }
 }
 
-// What the waiting branches of a tile may take of a work-item's own memory, which on CPUs is a
-// thread's stack: the C library's least default is 2 MiB.
+// The largest size of a tile's waiting branches. They lie in a work-item's private memory, which on
+// CPUs is a thread's stack. The smallest default of the C library is 2 MiB.
 #define BRANCHES_MAX_BYTES ((size_t)5 << 18)
 
-// A tile's pixels each have room for as many branches as one path may need; where that comes to too
-// much a work-item renders one packet.
+// Each pixel of a tile has room for all branches of a path. If this takes too much memory, a
+// work-item renders one packet.
 static void limit_branches(glint_plan *plan)
 {
     const size_t branch = GLINT_BRANCH_BYTES(glint_plan_scalar_bytes(plan),
@@ -122,7 +122,7 @@ void glint_plan_choose_packets(const glint_plan_inputs *in, glint_plan *plan)
     limit_branches(plan);
 }
 
-// Says what kernels/traverse_together.cl makes of width and tiles.
+// Describes how kernels/traverse_together.cl uses the width and the tiles.
 void glint_plan_describe_secondary_rays(glint_plan *plan)
 {
     const bool packets = plan->kernel_width > 1;
@@ -134,7 +134,8 @@ void glint_plan_describe_secondary_rays(glint_plan *plan)
     }
 }
 
-// Entries of the fewest bits that can name every medium; without nesting one entry is enough.
+// Chooses the stack of media: the fewest bits per entry that can name every medium. Without
+// nesting, one entry is enough.
 void glint_plan_choose_media(const glint_plan_inputs *in, glint_plan *plan)
 {
     const glint_scene *scene = in->scene;
@@ -155,24 +156,28 @@ void glint_plan_choose_media(const glint_plan_inputs *in, glint_plan *plan)
     plan->media_capacity = nested ? 30 / bits : 1;
 }
 
-// What rounding may add to what is seen of the environment (visible_rmse). Where all is as bright
-// as the mean it comes to 2.1e-4; more means that texels are too dark for half and lose digits.
+// The largest error that rounding may add to the visible environment (visible_rmse). If all texels
+// are as bright as the mean, it is 2.1e-4. A larger error means that some texels are too dark for
+// half and lose digits.
 #define TEXEL_TOLERANCE 2.5e-4
 
-// Half, if the environment can be held and, unless half was asked for, is held well.
+// Chooses half texels if half can hold the environment, and either half was requested or the error
+// is small.
 static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *plan,
                                       glint_error *error)
 {
     const bool asked_for = in->settings->texels == GLINT_TEXELS_HALF;
     const size_t capacity = sizeof plan->texels_reason;
+    // Measure the rounding, if the caller has not done so.
     glint_half_rounding half;
     if (in->half != NULL) {
         half = *in->half;
     } else {
         TRY(glint_half_rounding_measure(in->environment, &half, error));
     }
+    // Check the range of half.
     double largest = (double)half.largest, most = (double)GLINT_HALF_MAX;
-    bool fits = largest <= most; // NaN does not
+    bool fits = largest <= most; // false for NaN
     if (!fits && asked_for) {
         return glint_fail(error, GLINT_USAGE,
                           "--texels half: the environment's brightest texel is %g, and half holds "
@@ -184,6 +189,7 @@ static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *p
                  largest, most);
         return GLINT_OK;
     }
+    // Decide by the error.
     plan->half_texels = asked_for || half.visible_rmse <= TEXEL_TOLERANCE;
     snprintf(plan->texels_reason, capacity, "%s an error of %.2g of what is seen (%.2g is allowed)",
              asked_for           ? "asked for; rounding adds"
@@ -197,8 +203,8 @@ static glint_status weigh_half_texels(const glint_plan_inputs *in, glint_plan *p
     return GLINT_OK;
 }
 
-// Half texels take half of the memory's time. Double precision, the reference, has them only if
-// they are asked for.
+// Half texels need half of the memory bandwidth. Double precision, the reference, has them only on
+// request.
 glint_status glint_plan_choose_texels(const glint_plan_inputs *in, glint_plan *plan,
                                       glint_error *error)
 {

@@ -1,4 +1,4 @@
-// What is compiled into the kernels, and why. See plan_parts.h.
+// Decides what is compiled into the kernels, with reasons. See plan_parts.h.
 #include "render/plan_parts.h"
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// The feature that each lobe of a material needs, and what the reason says of such materials.
+// The feature that each lobe of a material needs, and how the reason describes such materials.
 #define LOBES(LOBE)                                                                                \
     LOBE(MIRROR, metal, "a metallic share")                                                        \
     LOBE(TINT, tint, "coloured metal")                                                             \
@@ -28,16 +28,20 @@
     LOBE(EMISSION, emission, "emission")
 
 typedef struct material_census {
-    size_t used;                          // materials in use
-    size_t needing[GLINT_FEATURE_COUNT];  // of these, for a lobe
-    size_t metal_and_glass;               // both at once
-    size_t partly_there, partly_reflects; // by alpha; of these, those that reflect as well
-    size_t coats_apart;                   // clear coats that reflect another way than what is below
-    size_t rough, rough_coats;            // that reflect lobes; of these, no metal
-    size_t faceted;                       // of rough glass
-    size_t brushed;                       // rougher along a direction
-    size_t sheen;                         // below fibres
-    double least_roughness;               // of these; 0 where textures say it
+    size_t used;                         // materials in use
+    size_t needing[GLINT_FEATURE_COUNT]; // used materials with the lobe that needs the feature
+    size_t metal_and_glass;              // materials that are metal and glass at once
+    // Materials that alpha makes partly transparent; of these, those that also reflect.
+    size_t partly_there, partly_reflects;
+    // Clear coats that reflect in another direction than the layer below.
+    size_t coats_apart;
+    // Materials that reflect rough lobes; of these, those that are not metal.
+    size_t rough, rough_coats;
+    size_t faceted; // materials of rough glass
+    size_t brushed; // materials with anisotropic roughness
+    size_t sheen;   // materials with sheen
+    // Least roughness of the rough materials; 0 if a texture sets it.
+    double least_roughness;
 } material_census;
 
 static void note_roughness(const glint_material *material, float roughness, glint_texture_slot slot,
@@ -68,7 +72,7 @@ static void count_roughness(const glint_material *material, const glint_lobes *l
     }
 }
 
-// Whether a clear coat's reflection may be a branch beside that of what is below.
+// True if the reflection of a clear coat may be a separate branch beside that of the layer below.
 static bool is_coat_apart(const glint_material *material, const glint_lobes *lobes,
                           bool heeds_roughness)
 {
@@ -155,7 +159,8 @@ static void decide_materials(const material_census *c, glint_plan *plan)
 #undef DECIDE
 }
 
-// Without Fresnel's equations a path splits only where a material is metal and glass at once.
+// Decides FRESNEL, SPLIT and coats. Without Fresnel's equations, a path splits only at materials
+// that are metal and glass at once.
 static void decide_optics(const material_census *c, glint_fresnel fresnel, glint_plan *plan)
 {
     const bool exact = fresnel == GLINT_FRESNEL_EXACT;
@@ -190,11 +195,11 @@ static void decide_optics(const material_census *c, glint_fresnel fresnel, glint
     }
 }
 
-// At grazing angles lobes are narrower by a few times.
+// At grazing angles, lobes are a few times narrower.
 #define GRAZING_LEVELS 2
 
-// Rough surfaces need cells as small as their narrowest lobe wants them, where it is exact: so all
-// settings see the same cells.
+// Chooses the finest level of cells. Rough surfaces need cells as small as exact rendering of their
+// narrowest lobe requires. So all settings see the same cells.
 static void choose_cells(const material_census *c, glint_fresnel fresnel, glint_plan *plan)
 {
     const size_t rough = fresnel == GLINT_FRESNEL_EXACT ? c->rough : c->rough - c->rough_coats;
@@ -205,14 +210,16 @@ static void choose_cells(const material_census *c, glint_fresnel fresnel, glint_
         const double widest =
             (double)GLINT_LOBE_WIDEST * (1 + (double)GLINT_LOBE_TAIL / (alpha * alpha));
         const double width = fmin(alpha, sqrt(widest));
-        // In the lobe's middle a cell brings about the ratio's square of what the lobe takes.
+        // In the middle of the lobe, a cell contributes about ratio² of the light that the lobe
+        // gathers.
         const double ratio = pow(2.5 * glint_lobe_tolerance(GLINT_ROUGHNESS_EXACT), 1.0 / 6);
         const double level = ceil(log2(2 / (ratio * width) / GLINT_CELLS_ROOT)) + GRAZING_LEVELS;
         plan->cells_last = (int)fmin(fmax(level, 0), GLINT_CELLS_LEVELS - 1);
     }
 }
 
-// What vertices and textures say of materials. Where vertices are shaded only factors count.
+// Decides the attributes of vertices and textures. If vertices are shaded, only the materials'
+// factors count.
 static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
 {
     const glint_attributes *set = &in->scene->attribute_set;
@@ -241,7 +248,7 @@ static void decide_attributes(const glint_plan_inputs *in, glint_plan *plan)
            textured ? "" : ", and no textures");
 }
 
-// Why no light of the scene shines; NULL: they do.
+// The reason why no light of the scene shines; NULL: lights shine.
 static const char *no_lights(const glint_plan_inputs *in, const glint_plan *plan)
 {
     const bool shows_lights = plan->features[GLINT_FEATURE_PAINT].compiled ||
@@ -301,7 +308,7 @@ static void decide_scene(const glint_plan_inputs *in, glint_plan *plan)
     }
 }
 
-// Where solids touch or overlap, or may come to, and where they rank by more than what nests.
+// Decides OVERLAPS: solids touch or overlap, or may do so later, or have priorities and nest.
 static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan *plan)
 {
     const glint_solids *solids = in->solids;
@@ -332,7 +339,7 @@ static void decide_overlaps(const glint_plan_inputs *in, bool heeded, glint_plan
     }
 }
 
-// Where eyes are inside solids, or may be.
+// Stores the boxes in which the eye may be inside a solid.
 static void note_boxes(const glint_plan_inputs *in, glint_plan *plan)
 {
     for (size_t i = 0;
@@ -396,12 +403,13 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
                                         glint_error *error)
 {
     material_census census = {.used = 1};
-    if (in->settings->output != GLINT_OUTPUT_HITS) { // of which no material is looked at
+    if (in->settings->output != GLINT_OUTPUT_HITS) { // hits read no material
         TRY(take_census(in, &census, error));
     }
     decide_materials(&census, plan);
     if (glint_plan_shades_vertices(plan)) {
-        census.partly_there = census.partly_reflects = 0; // vertices are there or not
+        census.partly_there = census.partly_reflects = 0; // at vertices, a surface is either
+                                                          // present or not
     }
     decide_by_count(plan, GLINT_FEATURE_ALPHA, census.partly_there, census.used, "alpha");
     decide_optics(&census, in->settings->fresnel, plan);
@@ -415,13 +423,13 @@ glint_status glint_plan_decide_features(const glint_plan_inputs *in, glint_plan 
     decide_overlaps(
         in, in->settings->output != GLINT_OUTPUT_HITS && !glint_plan_shades_vertices(plan), plan);
     note_boxes(in, plan);
-    glint_plan_decide_inside(false, plan); // until a camera is known
+    glint_plan_decide_inside(false, plan); // false until a camera is known
     decide_attributes(in, plan);
     decide_settings(in->settings, plan);
     return decide_lights(in, plan, error);
 }
 
-// From the depth, and from what is proved of the scene.
+// Decides the features that depend on the depth and on proofs about the scene.
 void glint_plan_decide_paths(glint_plan *plan)
 {
     const bool escapes = plan->sight.exits_escape;
@@ -439,7 +447,7 @@ void glint_plan_decide_paths(glint_plan *plan)
            plan->depth);
 }
 
-// What becomes of roughness.
+// Decides the features for roughness.
 static void decide_roughness(const glint_settings *settings, glint_plan *plan)
 {
     const bool heeded = glint_settings_heed_roughness(settings) && settings->terms == 0;
@@ -467,7 +475,7 @@ static void decide_roughness(const glint_settings *settings, glint_plan *plan)
     }
 }
 
-// What becomes of paint that is lit from behind, if there is any.
+// Decides the feature for paint that is lit from behind, if there is any.
 static void decide_translucence(const glint_settings *settings, glint_plan *plan)
 {
     const bool heeded = settings->terms == 0 && !glint_plan_shades_vertices(plan);
@@ -478,7 +486,7 @@ static void decide_translucence(const glint_settings *settings, glint_plan *plan
     }
 }
 
-// What becomes of the solids that disperse light, if there are any.
+// Decides the feature for solids that disperse light, if there are any.
 static void decide_dispersion(const glint_settings *settings, glint_plan *plan)
 {
     if (!plan->disperses) {
@@ -491,7 +499,7 @@ static void decide_dispersion(const glint_settings *settings, glint_plan *plan)
     }
 }
 
-// What is told of a frame beside its colours.
+// Decides the features for effects and extra outputs.
 void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
 {
     decide_roughness(settings, plan);

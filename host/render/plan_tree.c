@@ -1,4 +1,4 @@
-// The trees of plans. See plan.h.
+// Builds and refits the trees of plans. See plan.h.
 #include "render/plan.h"
 #include "scene/complete_normals.h"
 
@@ -20,7 +20,7 @@ static glint_bvh_inputs tree_inputs(const glint_plan *plan, const glint_scene *s
     };
 }
 
-// The normals that a tree's clusters get: where vertices are shaded all have one.
+// Finds the normals of a tree's clusters. If vertices are shaded, every vertex gets a normal.
 static glint_status find_normals(const glint_plan *plan, const glint_scene *scene, float **own,
                                  const float **normals, glint_error *error)
 {

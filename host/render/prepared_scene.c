@@ -1,4 +1,4 @@
-// All that a scene needs before the device comes in. See prepared_scene.h.
+// Prepares a scene without the device. See prepared_scene.h.
 #include "render/prepared_scene.h"
 
 #include "base/clock.h"
@@ -14,8 +14,8 @@ static bool has_solids(const glint_scene *scene)
     return false;
 }
 
-// The topology is found only where solids may nest, or where what paths meet may be proved of it:
-// of millions of triangles it takes seconds.
+// Finds the topology only if solids may nest, or if it may help a proof about paths. For millions
+// of triangles it takes seconds.
 glint_status glint_prepared_scene_plan(glint_prepared_scene *p, const glint_plan_inputs *inputs,
                                        glint_error *error)
 {
@@ -25,6 +25,7 @@ glint_status glint_prepared_scene_plan(glint_prepared_scene *p, const glint_plan
     const bool sees = glint_plan_may_heed_sight(inputs->settings);
     const bool rough = glint_settings_heed_roughness(inputs->settings);
     const bool solids = has_solids(scene);
+    // Find the topology and the solids.
     if (scene->moves && solids) {
         TRY(glint_topology_find_solids(scene, &topology, error));
     } else if (!scene->moves && (solids || (sees && glint_sight_wants_topology(scene, rough)))) {
@@ -35,9 +36,11 @@ glint_status glint_prepared_scene_plan(glint_prepared_scene *p, const glint_plan
     if (solids) {
         TRY_OR(cleanup, status, glint_solids_find(scene, &topology, &found, error));
     }
-    const glint_topology none = {0}; // nothing is proved of a scene that moves
+    // Prove what paths can meet.
+    const glint_topology none = {0}; // no proofs for a scene that moves
     const glint_sight sight =
         sees ? glint_sight_find(scene, scene->moves ? &none : &topology, rough) : (glint_sight){0};
+    // Make the plan, and keep it only if nothing failed.
     glint_plan_inputs all = *inputs;
     all.topology = &topology;
     all.solids = &found;
@@ -56,7 +59,7 @@ cleanup:
     return status;
 }
 
-// The smallest power of two that is no smaller than the tree needs, so that few sizes are compiled.
+// The smallest power of two that holds what the tree needs, so that few sizes are compiled.
 static int traversal_stack(int need)
 {
     int size = 64;
@@ -66,10 +69,10 @@ static int traversal_stack(int need)
     return size;
 }
 
-// A tree that is fitted to triangles that moved is worse than one that is built anew. It is built
-// anew where its boxes grew by so much: all together, as where bodies that shared boxes fly apart,
-// or beside the root's, as where they come to lie within each other. A quarter more, as a body's
-// turn by 45 degrees gives, could not be seen in tracing times.
+// A refitted tree is worse than a new one. A new tree is built if the boxes grew by this factor.
+// Either the sum of all boxes grew, as when bodies that shared boxes fly apart. Or the sum relative
+// to the root's box grew, as when bodies move into each other. A growth of a quarter, as when a
+// body turns by 45 degrees, had no measurable effect on tracing times.
 #define REFIT_GROWTH 1.5
 
 static glint_status build_or_refit(glint_prepared_scene *p, const glint_scene *scene,

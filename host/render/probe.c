@@ -1,4 +1,4 @@
-// Single parts of the renderer on arrays. See probe.h.
+// Calls single parts of the renderer on arrays. See probe.h.
 #include "render/probe.h"
 
 #include "base/memory.h"
@@ -14,11 +14,12 @@ _Static_assert(sizeof(glint_probe_hit) == GLINT_PROBE_HIT * sizeof(double), "a h
 _Static_assert(sizeof(glint_probe_bounce) == GLINT_PROBE_BOUNCE * sizeof(double),
                "a bounce has gaps");
 
-#define CHUNK_ELEMENTS ((size_t)65536) // of one launch; a whole number of work-items at any width
+// Elements of one launch: a whole number of work-items at any width.
+#define CHUNK_ELEMENTS ((size_t)65536)
 
 static const struct {
     const char *kernel;
-    size_t in, out; // numbers of an element
+    size_t in, out; // numbers per element
 } parts[GLINT_PROBE_PARTS] = {
     [GLINT_PROBE_TRACE] = {"probe_trace", GLINT_PROBE_RAY, GLINT_PROBE_HIT},
     [GLINT_PROBE_BOUNCE_RAYS] = {"probe_bounce", GLINT_PROBE_RAY, GLINT_PROBE_BOUNCE},
@@ -39,8 +40,8 @@ _Static_assert(CHUNK_ELEMENTS % (16 * 16) == 0, "a chunk is no whole number of w
 struct glint_probe {
     glint_renderer *renderer; // the scene on the device
     cl_program program;
-    cl_kernel kernels[GLINT_PROBE_PARTS]; // those called so far
-    cl_mem in, out;                       // of a chunk of the largest elements
+    cl_kernel kernels[GLINT_PROBE_PARTS]; // kernels called so far
+    cl_mem in, out;                       // room for a chunk of the largest elements
     void *staging;                        // the same on the host
 };
 
@@ -71,7 +72,8 @@ static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe
                          glint_error *error)
 {
     glint_settings settings = *inputs->settings;
-    if (settings.depth == 0) { // the parts are those of the general kernels, whatever is proved
+    // Test the general kernels, not those with a proved depth.
+    if (settings.depth == 0) {
         settings.depth = GLINT_DEPTH_MAX;
     }
     glint_renderer_inputs without_frames = *inputs;
@@ -139,7 +141,7 @@ void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
     frame->irradiance_edge = r->light.chosen.irradiance_edge;
 }
 
-// Elements that one work-item takes: PATH_GROUPS packets, see kernels/traverse_together.cl.
+// Elements per work-item: PATH_GROUPS packets, see kernels/traverse_together.cl.
 static size_t elements_per_item(const glint_plan *plan)
 {
     const bool follows = plan->features[GLINT_FEATURE_INTERREFLECTION].compiled ||
@@ -176,8 +178,8 @@ static void widen(const void *from, double *to, size_t count)
     }
 }
 
-// `count` elements, at most CHUNK_ELEMENTS, to the device; those after the last, up to a whole
-// number of work-items, are 0.
+// Writes `count` elements, at most CHUNK_ELEMENTS, to the device. Fills with 0 up to a whole number
+// of work-items.
 static cl_int write_elements(const glint_probe *probe, glint_probe_part part, const double *in,
                              size_t count, size_t padded)
 {
@@ -205,7 +207,7 @@ static cl_int read_elements(const glint_probe *probe, glint_probe_part part, dou
     return code;
 }
 
-// The elements of `work` from `first` on, as many as a chunk holds.
+// Calls the part for one chunk of the elements of `work`, from `first` on.
 static cl_int call_chunk(const glint_probe *probe, const glint_probe_work *work, size_t first)
 {
     const glint_renderer *r = probe->renderer;

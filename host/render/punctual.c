@@ -1,4 +1,4 @@
-// Punctual lights on the device. See punctual.h.
+// Uploads punctual lights to the device. See punctual.h.
 #include "render/punctual.h"
 
 #include "base/memory.h"
@@ -8,10 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Far beyond what a frame can show, and far from the end of a float's range.
+// The largest value: far beyond the range of a frame, and far below the largest float.
 #define MOST 1e30
 
-// The narrowest cone whose edge is soft, as KHR_lights_punctual has it.
+// The narrowest cone with a soft edge, as in KHR_lights_punctual.
 #define LEAST_CONE 1e-3
 
 static void set_cone(const glint_punctual_light *light, glint_light_record *record)
@@ -22,7 +22,7 @@ static void set_cone(const glint_punctual_light *light, glint_light_record *reco
                        &record->cone_scale[1]);
 }
 
-// A place is rounded as vertices are: a light in a plane along the axes stays there.
+// Positions are rounded like vertices: a light in a plane along the axes stays in it.
 static glint_light_record record_of(const glint_scene *scene, const glint_punctual_light *light)
 {
     static const unsigned kinds[] = {

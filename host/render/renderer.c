@@ -1,4 +1,4 @@
-// Making renderers, and giving them other scenes, environments and settings. See frame.h.
+// Makes renderers and gives them other scenes, environments and settings. See frame.h.
 #include "render/renderer.h"
 
 #include "base/clock.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// ---- What the plan asks for --------------------------------------------------------------------
+// ---- Resources for a plan ----------------------------------------------------------------------
 
 glint_scene_arguments glint_renderer_scene_arguments(const glint_renderer *r)
 {
@@ -66,8 +66,8 @@ static glint_status find_kernels(glint_renderer *r, glint_error *error)
     return GLINT_OK;
 }
 
-// Fails where the device cannot hold the plan's environment and frames beside what it holds
-// already.
+// Fails if the device cannot hold the plan's environment and frames in addition to its current
+// data.
 static glint_status check_memory(const glint_renderer *r,
                                  const glint_content target[GLINT_TARGET_PARTS], glint_error *error)
 {
@@ -82,7 +82,7 @@ static glint_status check_memory(const glint_renderer *r,
     return glint_contents_check(r->device, contents, GLINT_TARGET_PARTS + 1, used, error);
 }
 
-// Finds or makes all that the plan and the settings need.
+// Finds or makes all data that the plan and the settings need.
 static glint_status equip(glint_renderer *r, glint_error *error)
 {
     const bool without_frames = r->state & GLINT_RENDERER_IS_WITHOUT_FRAMES;
@@ -101,8 +101,8 @@ static glint_status equip(glint_renderer *r, glint_error *error)
 
 // ---- Scenes, environments and settings ---------------------------------------------------------
 
-// After the renderer was given `what`: it lacks that where it could not take it. Where it could, it
-// has settings as well.
+// Updates the state after the renderer got `what`. After a failure, it lacks `what`. After a
+// success, it also has settings.
 static glint_status note(glint_renderer *r, glint_renderer_state what, glint_status status)
 {
     r->state =
@@ -120,7 +120,7 @@ static glint_plan_inputs plan_inputs(const glint_renderer *r, const glint_settin
     };
 }
 
-// Before the tree is built.
+// Checks before the tree is built that the device can hold the scene.
 static glint_status check_scene_fits(const glint_renderer *r, const glint_scene *scene,
                                      const glint_plan *plan, glint_error *error)
 {
@@ -133,9 +133,9 @@ static glint_status check_scene_fits(const glint_renderer *r, const glint_scene 
     return glint_contents_check(r->device, contents, sizeof contents / sizeof *contents, 0, error);
 }
 
-// Plan and tree of the scene, and whether the device can hold them. Of the renderer nothing is
-// changed, and nothing is read that a frame or other settings change: frames may be rendered
-// meanwhile.
+// Makes plan and tree of the scene, and checks that the device can hold them. Does not change the
+// renderer, and reads nothing that a frame or other settings change. So frames may be rendered at
+// the same time.
 static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
                             glint_prepared_scene *prepared, glint_error *error)
 {
@@ -146,7 +146,7 @@ static glint_status prepare(const glint_renderer *r, const glint_scene *scene,
     return glint_prepared_scene_tree(prepared, scene, error);
 }
 
-// What has been prepared is shown, with the settings of the creation.
+// Shows the prepared scene with the settings of the creation.
 static glint_status show(glint_renderer *r, const glint_scene *scene, glint_error *error)
 {
     const glint_prepared_scene *shown = &r->scene.shown;
@@ -190,7 +190,7 @@ glint_status glint_renderer_set_prepared(glint_renderer *r, const glint_scene *s
     return note(r, GLINT_RENDERER_LACKS_SCENE, show(r, scene, error));
 }
 
-// What the creation's settings want to know of the environment.
+// Measures the properties of the environment that the creation's settings need.
 static glint_status measure_light(glint_renderer *r, glint_error *error)
 {
     if (r->first_settings.proxy && r->light.proxy.kind == GLINT_PROXY_NONE) {
@@ -214,7 +214,7 @@ glint_status glint_renderer_set_environment(glint_renderer *r, const glint_envir
                                             glint_error *error)
 {
     glint_light_set_environment(&r->light, environment);
-    r->scene.next_is_ready = false; // its plan is another environment's
+    r->scene.next_is_ready = false; // its plan belongs to the old environment
     return note(r, GLINT_RENDERER_LACKS_LIGHT, take_light(r, error));
 }
 
@@ -257,7 +257,7 @@ glint_status glint_renderer_suit(glint_renderer *r, const glint_camera *camera, 
     const glint_plan before = r->plan;
     glint_plan_suit(&r->plan, &r->scene.space, camera);
     if (has_same_options(&before, &r->plan)) {
-        return GLINT_OK; // only the depth is another
+        return GLINT_OK; // only the depth changed
     }
     r->bands_per_ms = 0;
     return note(r, GLINT_RENDERER_LACKS_SETTINGS, equip(r, error));

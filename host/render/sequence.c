@@ -1,9 +1,9 @@
-// Tracing and writing side by side. See sequence.h.
+// Traces and writes frames at the same time. See sequence.h.
 //
-// Frames live in slots. The caller's thread takes a free one, traces into it and queues it; a
-// writer takes the oldest in the queue and puts it among the finished; the caller's thread hands
-// those to `done` between launches, and the slot is free again. So nothing but the queues is
-// shared, and whoever shows progress needs no lock.
+// Frames live in slots. The caller's thread takes a free slot, traces into it and queues it. A
+// writer takes the oldest slot in the queue, writes it, and puts it among the finished slots.
+// Between launches, the caller's thread hands the finished frames to `done` and frees their slots.
+// So threads share only the queues, and progress displays need no lock.
 #include "render/sequence.h"
 
 #include "base/clock.h"
@@ -19,28 +19,30 @@
 #include <time.h>
 
 #define MEMORY_IN_FLIGHT 1e9 // bytes of pixels
-#define WAIT_MS 100          // between two looks at whether the end is asked for
+// Time between two checks for a stop.
+#define WAIT_MS 100
 
 typedef struct slot {
     glint_sequence_frame frame;
-    struct slot *next; // in a queue
+    struct slot *next; // next slot in a queue
 } slot;
 
-// First in, first out.
+// A FIFO queue.
 typedef struct queue {
     slot *first, *last;
 } queue;
 
 typedef struct pipeline {
     const glint_sequence *sequence;
-    size_t slot_count, busy; // slots, and those that hold a frame: the caller's thread alone knows
+    // All slots, and slots that hold a frame. Only the caller's thread uses these.
+    size_t slot_count, busy;
     slot *slots;
-    queue idle; // the caller's thread's
+    queue idle; // used by the caller's thread only
     pthread_mutex_t lock;
     pthread_cond_t work, finished;
-    queue waiting, through; // under the lock
-    bool closed;            // under the lock: no more frames will come
-    bool ended;             // `done` wants no more: the caller's thread's
+    queue waiting, through; // guarded by the lock
+    bool closed;            // guarded by the lock: no more frames will come
+    bool ended;             // `done` stopped the sequence; used by the caller's thread only
     pthread_t *threads;
     size_t thread_count;
 } pipeline;
@@ -102,7 +104,7 @@ static void *writer(void *context)
     return NULL;
 }
 
-// As many as can be had; without any, the caller's thread writes.
+// Starts as many writers as possible. If none starts, the caller's thread writes.
 static void start_writers(pipeline *p)
 {
     while (p->thread_count < p->sequence->writers &&
@@ -124,7 +126,7 @@ static void join_writers(pipeline *p)
 
 // ---- The caller's thread -----------------------------------------------------------------------
 
-// Hands the finished frames on, which frees their slots.
+// Hands the finished frames to `done` and frees their slots.
 static void collect(pipeline *p)
 {
     pthread_mutex_lock(&p->lock);
@@ -142,7 +144,7 @@ static void collect(pipeline *p)
     }
 }
 
-// Waits a while for a writer to be through with a frame.
+// Waits for a writer to finish a frame, at most WAIT_MS.
 static void wait_for_writers(pipeline *p)
 {
     struct timespec until;
@@ -158,7 +160,7 @@ static void wait_for_writers(pipeline *p)
     pthread_mutex_unlock(&p->lock);
 }
 
-// Between launches.
+// Called between launches.
 static bool step(void *context, uint64_t done, uint64_t total)
 {
     pipeline *p = context;
@@ -200,7 +202,8 @@ static void queue_for_writing(pipeline *p, slot *s)
     pthread_mutex_unlock(&p->lock);
 }
 
-// An idle slot, waiting for one where all hold frames; NULL where the end is asked for meanwhile.
+// Returns an idle slot, and waits if all slots hold frames. Returns NULL if the sequence is
+// stopped.
 static slot *take_slot(pipeline *p, glint_status *status, glint_error *error)
 {
     while (true) {
@@ -219,11 +222,11 @@ static slot *take_slot(pipeline *p, glint_status *status, glint_error *error)
     }
 }
 
-// Asks for the next frame, and brings it on its way. *is_over: there is none.
+// Asks for the next frame, traces and queues it. *is_over: there is none.
 static glint_status feed_one(pipeline *p, slot *s, bool *is_over, glint_error *error)
 {
     const glint_sequence *sequence = p->sequence;
-    // The image's memory serves again.
+    // Reuse the image's memory.
     s->frame = (glint_sequence_frame){.image = s->frame.image};
     const glint_sequence_next next = sequence->next(sequence->context, &s->frame);
     *is_over = next == GLINT_NEXT_NONE;

@@ -1,4 +1,4 @@
-// What may be asked for. See settings.h.
+// Checks settings and derives values from them. See settings.h.
 #include "render/settings.h"
 
 #include "render/settings_table.h"
@@ -69,8 +69,8 @@ static bool is_usual(const glint_setting *setting, const glint_settings *setting
     return !glint_setting_differs(setting, settings, &glint_settings_default);
 }
 
-// A value is in range if the option takes what it prints as: the command line and the library have
-// one rule.
+// A value is in range if the option accepts its printed form. So the command line and the library
+// have the same rule.
 static glint_status check_values(const glint_settings *settings, glint_error *error)
 {
     for (size_t i = 0; i < glint_setting_count; i++) {

@@ -1,4 +1,4 @@
-// A number for the device as an unevaluated sum of two floats.
+// Splits a number for the device into an unevaluated sum of two floats.
 #ifndef GLINT_RENDER_SPLIT_H
 #define GLINT_RENDER_SPLIT_H
 

@@ -1,4 +1,4 @@
-// What a frame is written into. See target.h.
+// Manages the buffers that a frame is written to. See target.h.
 #include "render/target.h"
 
 #include "base/memory.h"
@@ -98,7 +98,7 @@ glint_status glint_target_read_counters(const glint_target *target,
                                                 GLINT_COUNTER_WORDS * sizeof *words, words));
 }
 
-// Memory that the caller frees; NULL on failure.
+// Reads a part of the target into *copy, which the caller frees; NULL on failure.
 static glint_status read_part(const glint_target *target, glint_target_part part,
                               const glint_settings *settings, void **copy, glint_error *error)
 {

@@ -1,5 +1,5 @@
-// What a frame is written into: its pixels, and what is counted and kept beside them. For this
-// floor only.
+// Holds the buffers that a frame is written to: pixels, counters, layers and terms. Used in this
+// folder only.
 #ifndef GLINT_RENDER_TARGET_H
 #define GLINT_RENDER_TARGET_H
 
@@ -19,41 +19,42 @@ typedef enum glint_target_part {
     GLINT_TARGET_COUNTERS,
     GLINT_TARGET_LAYERS,
     GLINT_TARGET_TERMS,
-    GLINT_TARGET_LIST, // what is read: which pixels are rendered
+    GLINT_TARGET_LIST, // input: the pixels to render
     GLINT_TARGET_PARTS
 } glint_target_part;
 
-// Zero is valid. Buffers that have been larger stay, so that small frames and large ones may take
-// turns (see bound/error_grid.h).
+// Zero is valid. Buffers never shrink, so that small and large frames can alternate (see
+// bound/error_grid.h).
 typedef struct glint_target {
     const struct glint_device *device; // borrowed
     cl_mem buffers[GLINT_TARGET_PARTS];
     glint_pixels pixels;
 } glint_target;
 
-// What frames of these settings and this precision take. Errors: GLINT_USAGE where that cannot be
-// counted.
+// Computes the sizes of the buffers for frames of these settings and this precision. Errors:
+// GLINT_USAGE if a size overflows.
 glint_status glint_target_measure(const glint_settings *settings, size_t scalar_bytes,
                                   glint_content contents[GLINT_TARGET_PARTS], glint_error *error);
 
-// Bytes of a frame's pixels and of what is kept beside them.
+// Bytes of a frame's pixels, layers and terms.
 size_t glint_target_frame_bytes(const glint_settings *settings, size_t scalar_bytes);
 
-// Makes room for these contents, and uploads the list. Errors: GLINT_DEVICE_FAILED.
+// Makes the buffers large enough for these contents, and uploads the list. Errors:
+// GLINT_DEVICE_FAILED.
 glint_status glint_target_fit(glint_target *target, const glint_settings *settings,
                               size_t scalar_bytes, const glint_content contents[GLINT_TARGET_PARTS],
                               glint_error *error);
 
-// The kernels' arguments, but for the pixels of a frame that is written into an image.
+// The arguments of the kernels. If the device writes into an image, the caller sets `pixels`.
 glint_output_arguments glint_target_arguments(const glint_target *target);
 
-// The counters of the last frame: 32-bit words, see kernels/layout.h.
+// Clear and read the counters of the last frame: 32-bit words, see kernels/layout.h.
 #define GLINT_COUNTER_WORDS (GLINT_COUNTER_SLOTS * GLINT_COUNTERS * 2)
 glint_status glint_target_clear_counters(const glint_target *target, glint_error *error);
 glint_status glint_target_read_counters(const glint_target *target,
                                         uint32_t words[GLINT_COUNTER_WORDS], glint_error *error);
 
-// The layers and terms of the last frame, which was rendered with these settings. On failure
+// Reads the layers and terms of the last frame, which was rendered with these settings. On failure
 // *layers is empty.
 glint_status glint_target_layers(const glint_target *target, const glint_settings *settings,
                                  const glint_owners *owners, glint_layers *layers,

@@ -1,4 +1,4 @@
-// Terms of pixels, in files and lit anew. See terms.h.
+// Writes, reads and lights the terms of pixels. See terms.h.
 #include "render/terms.h"
 
 #include "base/memory.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The channels' names, in the order of what is stored: of the header, and of a term.
+// The names of the channels of the header and of a term, in the stored order.
 enum { HEADER = 4, TERM = 7 };
 static const char *const header_names[HEADER] = {"constant_r", "constant_g", "constant_b",
                                                  "dropped"};
@@ -31,7 +31,7 @@ static void name_channel(int which, char name[GLINT_LAYER_NAME])
     }
 }
 
-// The place of a channel among a pixel's stored values.
+// The index of a channel among a pixel's stored values.
 static size_t place_of(int which)
 {
     return which < HEADER ? (size_t)which
@@ -75,7 +75,7 @@ static int find_channel(const glint_channels *channels, const char *name)
     return -1;
 }
 
-// Where the channels are; false where one of the first `capacity` terms is not complete.
+// Finds the channels. Returns false if one of the terms is incomplete or if there are none.
 static bool find_channels(glint_terms *terms)
 {
     char name[GLINT_LAYER_NAME];
@@ -109,7 +109,7 @@ static void survey(glint_terms *terms)
     double kept = 0, dropped = 0;
     for (size_t p = 0; p < pixels; p++) {
         const float *pixel = c->values + p * (size_t)c->count;
-        dropped += fmax(0, (double)pixel[terms->places[3]]); // 0 of NaN
+        dropped += fmax(0, (double)pixel[terms->places[3]]); // 0 for NaN
         for (int k = 0; k < terms->capacity; k++) {
             const int *places = terms->places + HEADER + TERM * k;
             kept += fmax(0, heaviest(pixel, places));
@@ -143,15 +143,15 @@ void glint_terms_free(glint_terms *terms)
 
 // ---- Lighting ----------------------------------------------------------------------------------
 
-// What the threads share.
+// The data that the threads share.
 typedef struct job {
     const glint_terms *terms;
     const glint_cube *radiance, *irradiance;
-    double cosine, sine; // of the environment's turn
+    double cosine, sine; // of the environment's rotation
     glint_image *image;
 } job;
 
-// The environment turned by the angle a about +Y is looked up along a vector turned by −a.
+// To look up an environment that is rotated by the angle a about +Y, rotates the vector by −a.
 static glint_vec3 turn_back(const job *work, const float *pixel, const int *places)
 {
     const double x = (double)pixel[places[0]], z = (double)pixel[places[2]];
@@ -168,7 +168,7 @@ static void light_pixel(const job *work, const float *pixel, double rgb[3])
     for (int k = 0; k < terms->capacity; k++) {
         const int *places = terms->places + HEADER + TERM * k;
         if (pixel[places[0]] == 0 && pixel[places[1]] == 0 && pixel[places[2]] == 0) {
-            break; // not taken, nor those behind it
+            break; // this place and all following are unused
         }
         const glint_vec3 along = turn_back(work, pixel, places);
         double light[3];

@@ -1,4 +1,4 @@
-// Textures on the device. See textures.h.
+// Uploads textures. See textures.h.
 #include "render/textures.h"
 
 #include "base/memory.h"
@@ -40,7 +40,7 @@ static glint_texture_record record_of(const glint_textures *textures, const glin
     return record;
 }
 
-// But for the texels.
+// True if the records are equal except for their texels.
 static bool are_alike(const glint_texture_record *a, const glint_texture_record *b)
 {
     for (int i = 0; i < 6; i++) {
@@ -52,8 +52,8 @@ static bool are_alike(const glint_texture_record *a, const glint_texture_record 
            a->flags == b->flags;
 }
 
-// The place of a record among those that there are, where it is put if it is new. An image's place
-// tells it from others.
+// Returns the index of a record in the table, and adds it if it is new. The index of the first
+// texel identifies the image.
 static int place_of(glint_texture_table *table, const glint_texture_record *record)
 {
     glint_texture_record *new = &table->records[table->count];

@@ -1,4 +1,4 @@
-// The scene and the environment in buffers on the device. See upload.h.
+// Uploads the scene and the environment. See upload.h.
 #include "render/upload.h"
 
 #include "base/memory.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Both compilers must lay the shared structs out alike: 32-bit scalars without gaps.
+// Both compilers must give the shared structs the same layout: 32-bit scalars without gaps.
 _Static_assert(sizeof(glint_material_record) == 232, "glint_material_record has gaps");
 _Static_assert(sizeof(glint_texture_record) == 112, "glint_texture_record has gaps");
 _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps");
@@ -39,7 +39,7 @@ static size_t solid_bytes(const glint_scene *scene, const glint_plan *plan)
 void glint_geometry_measure(const glint_scene *scene, const glint_plan *plan,
                             glint_content contents[GLINT_GEOMETRY_CONTENTS])
 {
-    // As many as would do if all clusters could be full.
+    // The number of clusters if all clusters were full.
     const size_t clusters = (scene->triangle_count + GLINT_CLUSTER_LANES - 1) / GLINT_CLUSTER_LANES;
     const bool has_normals = scene->normals != NULL || glint_plan_shades_vertices(plan);
     const size_t normals = has_normals ? GLINT_CLUSTER_NORMALS * sizeof(float) : 0;
@@ -90,7 +90,8 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
 {
     const glint_lobes lobes = glint_material_lobes(m);
     glint_material_record record = {
-        .metallic = lobes.unlit || lobes.blend ? 1 : m->metallic, // nothing is transmitted
+        .metallic = lobes.unlit || lobes.blend ? 1 : m->metallic, // 1, so that nothing is
+                                                                  // transmitted
         .transmission = m->transmission,
         .ior = m->ior,
         .blend = lobes.blend ? m->mirror : 0,
@@ -117,6 +118,7 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
         .diffuse_transmission = lobes.translucent ? m->diffuse_transmission : 0,
         .roughness = lobes.rough || lobes.facets ? m->roughness : 0,
     };
+    // Copy colours and textures.
     memcpy(record.base_color, m->base_color, sizeof m->base_color);
     record.base_color[3] = m->alpha;
     memcpy(record.specular_color, m->specular_color, sizeof m->specular_color);
@@ -132,8 +134,8 @@ material_record(const glint_material *m, const int textures[GLINT_TEXTURE_SLOTS]
     return record;
 }
 
-// σ = −ln(colour)/distance (KHR_materials_volume), per stored unit. A colour of 0 absorbs all: a
-// finite σ large enough for any distance, as ∞ times a distance of 0 would give NaN.
+// σ = −ln(colour)/distance (KHR_materials_volume), per stored unit. A colour of 0 absorbs all
+// light. Its σ is large enough for any distance but finite, because ∞ times a distance of 0 is NaN.
 static glint_medium_record medium_record(const glint_material *m, double unit)
 {
     glint_medium_record record = {.ior = m->ior, .dispersion = (m->ior - 1) * m->dispersion};
@@ -149,8 +151,8 @@ static glint_medium_record medium_record(const glint_material *m, double unit)
     return record;
 }
 
-// Media as the plan counts them: of each solid material one or, where solids overlap, in the order
-// of their priority. Sets how many there are, without empty space.
+// Makes the media that the plan counts: one per solid material or, if solids overlap, in order of
+// priority. *count is their number without empty space.
 static glint_medium_record *media_records(const glint_upload_inputs *in, size_t *count)
 {
     const glint_scene *scene = in->scene;
@@ -186,14 +188,16 @@ static glint_status upload_materials(const glint_upload_inputs *in, glint_geomet
         status = glint_fail_memory(error, "the materials");
         goto cleanup;
     }
+    // Fill the records.
     for (size_t i = 0; i < count; i++) {
         materials[i] = material_record(&scene->materials[i], in->textures->of_material[i],
                                        &media_of_materials);
     }
-    // A kernel without MANY_MATERIALS reads the first: the one that is in use.
+    // A kernel without MANY_MATERIALS reads the first material. Put the used material there.
     if (!in->plan->features[GLINT_FEATURE_MANY_MATERIALS].compiled && scene->triangle_count > 0) {
         materials[0] = materials[scene->material_of[0]];
     }
+    // Upload the records, and the attributes of vertices and solids.
     const glint_content contents[] = {
         {"the materials", (count + 1) * sizeof *materials, materials},
         {"the media", (media_count + 1) * sizeof *media, media},
@@ -258,7 +262,8 @@ void glint_geometry_memory_free(glint_geometry_memory *memory)
     glint_buffer_release(&memory->lights);
 }
 
-// The environment and its coarser levels. Of halfs the map's own texels need no copy in between.
+// Uploads the environment and its coarser levels. For halfs, the map's own texels need no
+// intermediate copy.
 static glint_status upload_levels(const struct glint_device *device, bool half,
                                   const glint_cube *cube, glint_shared_buffer *texels,
                                   glint_error *error)

@@ -1,4 +1,4 @@
-// Shading at vertices. See vertices.h.
+// Shades vertices. See vertices.h.
 #include "render/vertices.h"
 
 #include "device/opencl_error.h"
@@ -31,7 +31,7 @@ glint_status glint_vertices_shade(const glint_launcher *l, const glint_frame_rec
         return GLINT_OK;
     }
     TRY(set_arguments(l, view, (cl_int)clusters, error));
-    // Not left to the driver: one that compiles for each size of work-groups would take seconds.
+    // Set the work-group size here: a driver that compiles for each size would take seconds.
     const size_t local = l->plan->kernel_width == 1 ? 16 : 1;
     const size_t global = (clusters / local + 1) * local;
     cl_event done;

@@ -1,4 +1,4 @@
-// From a camera to the values that the kernel makes primary rays of. See view.h and
+// Computes from a camera the values for the kernel's primary rays. See view.h and
 // glint_frame_record.
 #include "render/view.h"
 
@@ -24,15 +24,16 @@ static glint_split_vector split_vector(glint_vec3 v)
     return split;
 }
 
-// From an eye farther than so many times the scene's extent, 1/depth is too flat to order surfaces
-// by in single precision.
+// If the eye is farther away than this many scene extents, 1/depth is too flat to order surfaces in
+// single precision.
 #define FAR_EYE 4.0
 
-// Where the scene lies along the axis of view, in stored units.
+// The interval of the scene along the view axis, in stored units.
 typedef struct depth_range {
-    double start;  // how far in front of the eye it begins: 0 when the eye is beside, behind or
-                   // inside. Kept a little short, so that rounding hides nothing.
-    double extent; // how far it goes on from there
+    // Distance from the eye to the scene; 0 if the eye is beside, behind or inside it. Slightly too
+    // short, so that rounding hides nothing.
+    double start;
+    double extent; // length of the interval
 } depth_range;
 
 static depth_range depth_of(const glint_stored_space *space, const glint_camera *camera,
@@ -99,13 +100,16 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     depth_range range = depth_of(space, camera, eye);
     double start = range.start;
 
-    // The image plane's step of one pixel: at unit distance, or for parallel rays in stored units.
+    // The step of one pixel in the image plane: at unit distance, or for parallel rays in stored
+    // units.
     double half_height = camera->orthographic ? camera->ymag / space->unit : tan(camera->yfov / 2);
     double step = 2 * half_height / settings->height;
     glint_vec3 step_x = glint_vec3_scale(camera->right, step);
     glint_vec3 step_y = glint_vec3_scale(camera->up, step);
-    double spread = camera->orthographic ? 1 : start; // of the origins
+    double spread = camera->orthographic ? 1 : start; // distance of the origins, as a factor of the
+                                                      // step
 
+    // Origin and direction of primary rays, and their change per pixel.
     record->origin = split_vector(glint_vec3_add(eye, glint_vec3_scale(forward, start)));
     record->origin_x = split_vector(glint_vec3_scale(step_x, spread));
     record->origin_y = split_vector(glint_vec3_scale(step_y, spread));
@@ -114,6 +118,7 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     record->direction_y = split_vector(camera->orthographic ? none : step_y);
     glint_split_number(start, &record->start[0], &record->start[1]);
 
+    // The projection of a point onto the image, and the key that orders surfaces by depth.
     record->image_x = split_vector(glint_vec3_scale(camera->right, 1 / step));
     record->image_y = split_vector(glint_vec3_scale(camera->up, 1 / step));
     record->image_z = split_vector(forward);
@@ -122,6 +127,7 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     record->image_slope = camera->orthographic ? 0 : 1;
     record->key_is_inverse = !camera->orthographic && start <= FAR_EYE * range.extent;
 
+    // The rotation of the environment, and the settings.
     double angle = fmod(settings->env_rotate, 360) * GLINT_PI / 180;
     glint_split_number(cos(angle), &record->env_rotation[0], &record->env_rotation[1]);
     glint_split_number(sin(angle), &record->env_rotation[2], &record->env_rotation[3]);
@@ -138,7 +144,7 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
 bool glint_view_is_outside(const glint_stored_space *space, const glint_camera *camera)
 {
     const glint_vec3 e = camera->eye, low = space->low, high = space->high;
-    if (camera->orthographic) { // rays begin in the plane of the eye
+    if (camera->orthographic) { // parallel rays begin in the plane of the eye
         const glint_vec3 eye =
             glint_vec3_scale(glint_vec3_subtract(e, space->origin), 1 / space->unit);
         return depth_of(space, camera, eye).start > 0;
@@ -147,17 +153,17 @@ bool glint_view_is_outside(const glint_stored_space *space, const glint_camera *
            e.z > high.z;
 }
 
-// Bounds are looked at a little beyond their ends: eyes may be on a solid's surface.
+// Tolerance around the bounds, because eyes may lie on a solid's surface.
 #define BESIDE_BOX 1e-6
 
-// Whether rays may begin in a box, in stored coordinates, or on it.
+// True if rays may begin in or on a box in stored coordinates.
 static bool begins_in(const float box[2][3], glint_vec3 eye, const glint_camera *camera)
 {
     const double at[3] = {eye.x, eye.y, eye.z};
     const double back[3] = {camera->back.x, camera->back.y, camera->back.z};
     bool inside = true;
     double least = 0;
-    double most = 0; // heights of the box's corners above the plane of the eye
+    double most = 0; // heights of the box's corners above the eye's plane
     for (int k = 0; k < 3; k++) {
         const double low = (double)box[0][k] - at[k] - BESIDE_BOX;
         const double high = (double)box[1][k] - at[k] + BESIDE_BOX;

@@ -1,4 +1,4 @@
-// From a camera to the values that the kernel makes primary rays of.
+// Computes from a camera the values for the kernel's primary rays.
 #ifndef GLINT_RENDER_VIEW_H
 #define GLINT_RENDER_VIEW_H
 
@@ -6,7 +6,7 @@
 #include "render/plan.h"
 #include "scene/scene.h"
 
-// What placing rays in stored coordinates needs of a scene.
+// The data of a scene that convert positions to stored coordinates.
 typedef struct glint_stored_space {
     glint_vec3 origin;    // metres
     double unit;          // metres per stored unit
@@ -15,18 +15,19 @@ typedef struct glint_stored_space {
 
 glint_stored_space glint_stored_space_of(const glint_scene *scene);
 
-// Fills the camera's and the settings' part of the record; the edges of the maps are the caller's.
+// Fills the part of the record for camera and settings. The caller sets the edges of the maps.
 void glint_view_record(const glint_stored_space *space, const glint_camera *camera,
                        const glint_settings *settings, const glint_plan *plan,
                        glint_frame_record *record);
 
-// Whether all rays begin outside of the scene's bounds.
+// True if all rays begin outside the scene's bounds.
 bool glint_view_is_outside(const glint_stored_space *space, const glint_camera *camera);
 
-// Makes the plan heed its sight if that holds for the camera.
+// Adapts the plan to the camera: decides INSIDE, and uses the proof about the scene if it holds for
+// the camera.
 void glint_plan_suit(glint_plan *plan, const glint_stored_space *space, const glint_camera *camera);
 
-// Fills the proxy's part; one of kind NONE is never read.
+// Fills the proxy's part. Kernels never read a proxy of kind NONE.
 void glint_view_set_proxy(const glint_stored_space *space, const glint_proxy *proxy,
                           glint_frame_record *record);
 

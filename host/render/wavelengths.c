@@ -1,15 +1,15 @@
-// Wavelengths of dispersed light, and what they weigh. See wavelengths.h.
+// Chooses the wavelengths of dispersed light and their weights. See wavelengths.h.
 #include "render/wavelengths.h"
 
 #include <math.h>
 
-// Fraunhofer's lines by which Abbe's number is defined, in nm.
+// Fraunhofer's lines that define Abbe's number, in nm.
 #define LINE_F 486.1
 #define LINE_D 587.6
 #define LINE_C 656.3
 #define DISPERSION_OF_ABBE 20 // glTF's dispersion is this over Abbe's number
 
-// Beyond these the eye sees little, in nm.
+// The limits beyond which the eye sees little, in nm.
 #define SHORTEST 400
 #define LONGEST 700
 
@@ -24,16 +24,16 @@ double glint_wavelength_ior_step(double nm)
     return (inverse_square(nm) - inverse_square(LINE_D)) / lines / DISPERSION_OF_ABBE;
 }
 
-// A bell of different widths below and above its peak.
+// A bell curve with different widths below and above its peak.
 static double bell(double nm, double peak, double below, double above)
 {
     const double away = (nm - peak) * (nm < peak ? below : above);
     return exp(-away * away / 2);
 }
 
-// What of R, G and B a wavelength looks like: the CIE's colour matching functions of 1931, as
-// Wyman, Sloan and Shirley fit them (Simple analytic approximations to the CIE XYZ color matching
-// functions, 2013), in the primaries of Rec.709. What would be less than 0 is outside of these: 0.
+// The colour of a wavelength in R, G and B of Rec.709. It uses the CIE's colour matching functions
+// of 1931, as fitted by Wyman, Sloan and Shirley (Simple analytic approximations to the CIE XYZ
+// color matching functions, 2013). Negative values lie outside these primaries and become 0.
 static void color_of(double nm, double rgb[3])
 {
     const double x = 1.056 * bell(nm, 599.8, 0.0264, 0.0323) +

@@ -1,11 +1,11 @@
-// Keyframes. See animation.h.
+// Samples keyframes. See animation.h.
 #include "scene/animation.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-// A key's value; `part` −1 and 1 are its tangents.
+// Returns a key's value; `part` −1 and 1 give its in-tangent and out-tangent.
 static const double *key_value(const glint_curve *curve, size_t key, int part)
 {
     const size_t components = curve->components;
@@ -19,7 +19,7 @@ static double length4(const double q[4])
     return sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
 }
 
-// To unit length; false where there is none.
+// Scales to unit length. Returns false if that is impossible.
 static bool normalize4(double q[4])
 {
     const double length = length4(q);
@@ -32,9 +32,9 @@ static bool normalize4(double q[4])
     return true;
 }
 
-// From one unit quaternion to another: q and −q are the same turn, of which the nearer is taken.
-// The angle comes from both the sum and the difference, as its cosine alone tells small angles
-// badly.
+// Interpolates between two unit quaternions. q and −q are the same rotation; takes the nearer of
+// the two. The angle comes from the sum and the difference, because the cosine alone is inexact for
+// small angles.
 static void slerp(const double *from, const double *to, double share, double *result)
 {
     double a[4], b[4], sum[4], difference[4], dot = 0;
@@ -50,7 +50,7 @@ static void slerp(const double *from, const double *to, double share, double *re
         sum[k] = a[k] + b[k];
         difference[k] = b[k] - a[k];
     }
-    const double angle = 2 * atan2(length4(difference), length4(sum)); // at most a right one
+    const double angle = 2 * atan2(length4(difference), length4(sum)); // at most a right angle
     const double sine = sin(angle);
     const double of_a = sine > 0 ? sin((1 - share) * angle) / sine : 1 - share;
     const double of_b = sine > 0 ? sin(share * angle) / sine : share;
@@ -86,7 +86,7 @@ static void take_key(const glint_curve *curve, size_t key, double *value)
     }
 }
 
-// The last key at or before `time`, which lies between the first and the last.
+// Returns the last key at or before `time`, which lies between the first and the last key.
 static size_t find_key(const glint_curve *curve, double time)
 {
     size_t low = 0, high = curve->key_count - 1;

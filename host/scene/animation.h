@@ -1,4 +1,4 @@
-// How a property of a node moves: glTF's keyframes and the values between them.
+// Samples the animation of a node's property: glTF's keyframes and the values between them.
 #ifndef GLINT_SCENE_ANIMATION_H
 #define GLINT_SCENE_ANIMATION_H
 
@@ -18,21 +18,22 @@ typedef enum glint_interpolation {
 // Borrows its arrays.
 typedef struct glint_curve {
     glint_interpolation interpolation;
-    bool is_rotation;    // values are quaternions (x, y, z, w) of any length but 0
-    size_t components;   // numbers a value: 4 of a rotation, 3 of other vectors, one a morph target
-    size_t key_count;    // at least 1
-    const double *times; // [key_count], seconds, ascending
+    bool is_rotation;     // values are quaternions (x, y, z, w) of any length but 0
+    size_t components;    // numbers per value: 4 for a rotation, 3 for other vectors, one per morph
+                          // target
+    size_t key_count;     // at least 1
+    const double *times;  // [key_count], seconds, ascending
     const double *values; // [key_count][components]; CUBIC: [key_count][in-tangent, value,
                           // out-tangent][components], tangents per second
 } glint_curve;
 
-// The value at a time: `components` numbers, of a rotation a unit quaternion. Before the first key
-// its value holds, after the last key the last's. Times in files are floats: one that is earlier
-// than a key by no more than a float's rounding is the key's, or a STEP at frame n would come at
-// frame n + 1 where n frames are rounded up.
+// Computes the value at a time: `components` numbers; for a rotation, a unit quaternion. Before the
+// first key the first value holds, after the last key the last value. Times in files are floats. A
+// time that is earlier than a key by at most a float's rounding counts as the key's time. Otherwise
+// a STEP meant for frame n would come at frame n + 1 if its time is rounded up.
 void glint_curve_sample(const glint_curve *curve, double time, double *value);
 
-// Whether the value ever changes.
+// True if the value ever changes.
 bool glint_curve_moves(const glint_curve *curve);
 
 #ifdef __cplusplus

@@ -1,9 +1,9 @@
-// Built-in scenes: displaced spheres of one material each, some of them over a floor. See
+// Makes the built-in scenes: displaced spheres of one material each, some of them over a floor. See
 // built_in.h.
 //
 // A sphere is an icosphere (icosphere.h). Its vertex along the unit vector u lies at (1 + f(u)) u,
-// with f of displacement() below: smooth, closed, everywhere curved both ways, so that mirrored and
-// refracted rays go in all directions.
+// with f from displacement() below. The surface is smooth, closed and curved both ways everywhere,
+// so that mirrored and refracted rays go in all directions.
 #include "scene/built_in.h"
 
 #include "base/memory.h"
@@ -14,18 +14,18 @@
 
 typedef struct sphere {
     glint_vec3 centre; // metres
-    double relief;     // how much of the displacement it has
+    double relief;     // factor on the displacement
     double phase;      // shifts the displacement, so that no two spheres are alike
     uint32_t material;
 } sphere;
 
-// What a scene is made of. Its origin is (0, 0, 0).
+// The description of a scene. Its origin is (0, 0, 0).
 typedef struct recipe {
     const char *name, *summary;
-    int level;   // of the spheres: 20 × 4^level triangles each
-    double unit; // metres, a power of two that holds the scene
+    int level;   // level of the spheres: 20 × 4^level triangles each
+    double unit; // metres, a power of two at least as large as the scene
     bool has_floor;
-    double floor_height, floor_half; // metres: y, and half the side of the square
+    double floor_height, floor_half; // metres: y of the floor, and half the side of its square
     uint32_t floor_material;
     glint_vec3 eye, target; // metres
     double yfov;            // radians
@@ -34,9 +34,9 @@ typedef struct recipe {
     const glint_material *materials;
 } recipe;
 
-// Glass is smoother than metal and paint: a path meets it several times, and each time its
-// curvature multiplies the rounding; with all of the displacement a quarter of the pixels would be
-// beyond what a float can say (host/report/bench/bench_check.c).
+// Glass gets less displacement than metal and paint. A path meets glass several times, and each
+// time its curvature multiplies the rounding. With the full displacement a quarter of the pixels
+// would exceed the precision of float (host/report/bench/bench_check.c).
 #define GLASS_RELIEF 0.25
 #define DEGREES (GLINT_PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -125,7 +125,7 @@ const char *glint_built_in_summary(size_t index)
     return index < COUNT(recipes) ? recipes[index].summary : NULL;
 }
 
-// f(u), and its gradient as a function of three independent coordinates.
+// Returns f(u), and its gradient as a function of three independent coordinates.
 static double displacement(const sphere *ball, glint_vec3 u, glint_vec3 *gradient)
 {
     const double phase = ball->phase, large = 0.12 * ball->relief, small = 0.03 * ball->relief;
@@ -144,7 +144,7 @@ static void put(float *to, glint_vec3 v)
     to[2] = (float)v.z;
 }
 
-// The vertex along u. It depends on u alone, so that triangles which share it agree on every bit.
+// Writes the vertex along u. It depends on u alone, so triangles that share it agree on every bit.
 static void put_vertex(const glint_scene *scene, const sphere *ball, glint_vec3 u, size_t vertex)
 {
     glint_vec3 gradient;
@@ -188,7 +188,7 @@ static void put_floor(glint_scene *scene, const recipe *made)
     }
 }
 
-// The triangles from `first` on are one instance.
+// Ends an instance: the triangles from `first` on.
 static void end_instance(glint_scene *scene, size_t first)
 {
     scene->instances[scene->instance_count] = (glint_instance){
@@ -231,7 +231,7 @@ static bool copy_materials(const recipe *made, glint_scene *scene)
     return done;
 }
 
-// Everything but the triangles themselves.
+// Allocates everything except the triangles' contents.
 static bool allocate(const recipe *made, glint_scene *scene)
 {
     size_t triangles = made->sphere_count * 20 * ((size_t)1 << 2 * made->level) + 2;

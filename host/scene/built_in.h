@@ -1,4 +1,5 @@
-// Scenes that need no file, so that the installed program can measure by itself: made by formula.
+// Makes built-in scenes by formula, so that the installed program can measure itself without a
+// file.
 #ifndef GLINT_SCENE_BUILT_IN_H
 #define GLINT_SCENE_BUILT_IN_H
 
@@ -11,14 +12,14 @@
 extern "C" {
 #endif
 
-// The name of built-in scene `index`, "mirror", and in a few words what it is; both NULL past the
-// last. Static text.
+// The name of built-in scene `index`, such as "mirror", and a summary of a few words. Both are NULL
+// past the last scene. The texts are static.
 const char *glint_built_in_name(size_t index);
 const char *glint_built_in_summary(size_t index);
 
-// Makes the scene of that name, which is its path too, with one camera. Every surface but a floor
-// is closed. Errors: GLINT_BAD_INPUT for a name that is none, GLINT_OUT_OF_MEMORY. On
-// failure `scene` is left empty.
+// Makes the built-in scene `name`, with one camera; the name is also its path. Every surface except
+// a floor is closed. Errors: GLINT_BAD_INPUT for an unknown name, GLINT_OUT_OF_MEMORY. On failure
+// `scene` is empty.
 glint_status glint_built_in_scene(const char *name, glint_scene *scene, glint_error *error);
 
 #ifdef __cplusplus

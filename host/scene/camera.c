@@ -1,4 +1,4 @@
-// The camera: its axes from a node's transform, and the default one. See camera.h.
+// Computes a camera's axes from a node's transform, and makes the default camera. See camera.h.
 #include "scene/camera.h"
 
 #include <stddef.h>
@@ -21,19 +21,19 @@ bool glint_camera_from_matrix(const glint_mat4 *to_world, glint_camera *camera)
     if (is_zero(back) || is_zero(up) || !isfinite(eye.x) || !isfinite(eye.y) || !isfinite(eye.z)) {
         return false;
     }
-    // What is left of up beside the forward axis. Of two unit vectors, less than this much is
-    // rounding and no direction.
+    // The part of up perpendicular to the forward axis. For two unit vectors, a shorter part is
+    // only rounding.
     const double least = 1e-9;
     up = glint_vec3_subtract(up, glint_vec3_scale(back, glint_vec3_dot(up, back)));
     if (!(glint_vec3_length(up) > least)) {
         return false;
     }
     up = glint_vec3_normalize(up);
-    // Once more: where little was left of it, its own rounding had grown.
+    // Repeat: if the perpendicular part was short, its rounding has grown.
     up = glint_vec3_subtract(up, glint_vec3_scale(back, glint_vec3_dot(up, back)));
     camera->up = glint_vec3_normalize(up);
     camera->back = back;
-    // Not the matrix's right: a mirrored node would give a mirrored picture.
+    // Do not use the matrix's right: a mirrored node would give a mirrored picture.
     camera->right = glint_vec3_normalize(glint_vec3_cross(camera->up, back));
     camera->eye = eye;
     return true;
@@ -50,9 +50,9 @@ void glint_camera_frame_bounds(glint_vec3 low, glint_vec3 high, glint_camera *ca
         center = glint_vec3_add(low, glint_vec3_scale(glint_vec3_subtract(high, low), 0.5));
     }
     double radius = has_box ? glint_vec3_length(glint_vec3_subtract(high, low)) / 2 : 0;
-    // From the eye to the centre: the direction in which the camera's +Z axis points.
+    // The direction from the centre to the eye, along the camera's +Z axis.
     glint_vec3 back = {0, 0, 1};
-    // Far enough that the step from the centre is not lost in rounding.
+    // Far enough from the centre that rounding does not lose the step.
     double distance = fmax(1, 1e-3 * glint_vec3_length(center));
     if (radius > 0 && isfinite(radius)) {
         back = glint_vec3_normalize((glint_vec3){0.4, 0.3, 1});
@@ -74,10 +74,10 @@ bool glint_camera_look(glint_vec3 eye, glint_vec3 target, glint_vec3 up, glint_c
     return glint_camera_from_matrix(&to_world, camera);
 }
 
-// The horizontal direction, a unit vector, from `centre` towards the camera.
+// Returns the horizontal unit vector from `centre` towards the camera.
 static glint_vec3 compass_direction(glint_vec3 centre, const glint_camera *camera)
 {
-    const double least = 1e-9; // less is rounding: the camera stands straight above or below
+    const double least = 1e-9; // below this is rounding: the camera stands straight above or below
     const glint_vec3 arm = glint_vec3_normalize(glint_vec3_subtract(camera->eye, centre));
     const glint_vec3 up = glint_vec3_scale(camera->up, camera->back.y > 0 ? -1 : 1);
     const glint_vec3 ways[] = {arm, camera->back, up};
@@ -100,7 +100,7 @@ void glint_camera_raise(glint_vec3 centre, double elevation, glint_camera *camer
     camera->eye = glint_vec3_add(centre, glint_vec3_scale(camera->back, distance));
 }
 
-// Turned about +Y by `quarters` quarter turns and an angle with the given cosine and sine.
+// Turns v about +Y by `quarters` quarter turns and an angle with the given cosine and sine.
 static glint_vec3 turn(glint_vec3 v, int quarters, double cosine, double sine)
 {
     const glint_vec3 turned = {v.x * cosine + v.z * sine, v.y, v.z * cosine - v.x * sine};

@@ -1,4 +1,4 @@
-// Normals for every vertex. See complete_normals.h.
+// Computes a normal for every vertex. See complete_normals.h.
 #include "scene/complete_normals.h"
 
 #include "base/memory.h"
@@ -9,7 +9,8 @@ static glint_vec3 vertex(const float *values)
     return (glint_vec3){(double)values[0], (double)values[1], (double)values[2]};
 }
 
-// The unit normal of a triangle's plane, towards the side from which it winds counter-clockwise.
+// The unit normal of a triangle's plane, on the side from which the triangle winds
+// counter-clockwise.
 static glint_vec3 plane_normal(const float *corners)
 {
     const glint_vec3 a = vertex(corners), b = vertex(corners + 3), c = vertex(corners + 6);

@@ -1,11 +1,12 @@
-// Where solids touch and overlap, and where other surfaces touch them. The triangles of solids, and
-// those near them, are sorted so that neighbours in space stand beside each other; boxes of eight,
-// of eight such boxes and so on are a tree over them. The tree is joined with itself: pairs of
-// triangles whose boxes meet are looked at, O(n log n) of them.
+// Finds where solids touch and overlap, and where other surfaces touch them. The triangles of
+// solids, and triangles near them, are sorted so that neighbours in space stand together. A tree of
+// boxes lies over them: boxes of eight triangles, of eight such boxes, and so on. The tree is
+// joined with itself: triangles whose boxes meet are compared, O(n log n) pairs.
 //
-// Surfaces are in one place where they are nearer than GLINT_TOUCHING of their coordinates (along
-// the normal). This looks a few times as far as the kernels do, which judge ray by ray
-// (kernels/overlaps.cl): what it marks in vain costs time and changes nothing.
+// Two surfaces coincide if their distance along the normal is less than GLINT_TOUCHING of their
+// coordinates. The search here uses a few times the distance that the kernels use
+// (kernels/overlaps.cl). The kernels judge ray by ray, so a mark too many costs time but changes no
+// picture.
 #include "scene/contacts.h"
 
 #include "base/memory.h"
@@ -18,21 +19,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAN 8       // children of a box, and triangles of the least ones
-#define LEVELS 12   // 8^12 triangles
-#define FARTHER 4.0 // than the kernels look
-// Pairs of triangles that are looked at, some seconds' worth. In a heap of triangles that all cross
-// each other there are more, and more contacts than anyone reads: then all may touch.
+#define FAN 8       // children of a box; triangles of a lowest box
+#define LEVELS 12   // enough for 8^12 triangles
+#define FARTHER 4.0 // factor on the kernels' distance
+// The most pairs of triangles to compare, worth some seconds. A heap of triangles that all cross
+// each other has more pairs, and more contacts than anyone reads. In this case all triangles may
+// touch.
 #define PAIRS_MAX ((size_t)16 * 1024 * 1024)
 #define CONTACTS_MAX ((size_t)256 * 1024)
 #define MIXED 0xFFFFFFFFu
-#define NO_SOLID 0xFFFFFFFEu // in place of a component: of no solid
-// The cosine between planes that are in one place; the kernels have 0.99.
+#define NO_SOLID 0xFFFFFFFEu // a component number for triangles of no solid
+// The least cosine between coinciding planes; the kernels use 0.99.
 #define NEARLY_PARALLEL 0.9
 
 typedef struct box {
     float low[3], high[3];
-    uint32_t component; // of all that is inside; else MIXED
+    uint32_t component; // component of all triangles inside, or MIXED
 } box;
 
 typedef struct search {
@@ -41,19 +43,19 @@ typedef struct search {
     glint_solids *solids;
     uint32_t *order; // [count] numbers of triangles, sorted
     size_t count;
-    box *boxes[LEVELS]; // of level 0 the triangles' own, in order
+    box *boxes[LEVELS]; // level 0: the triangles' boxes, in order
     size_t sizes[LEVELS];
     int levels;
-    size_t capacity; // of the contacts
-    size_t pairs;    // of triangles that may still be looked at
+    size_t capacity; // capacity of the list of contacts
+    size_t pairs;    // pairs of triangles left to compare
     bool complete;
 } search;
 
 // ---- Two triangles ------------------------------------------------------------------------------
 
 typedef struct face {
-    glint_vec3 at[3], normal; // unit
-    double reach;             // how near to its plane others are in one place with it
+    glint_vec3 at[3], normal; // the normal is a unit vector
+    double reach;             // triangles within this distance of its plane coincide with it
 } face;
 
 static face face_of(const glint_scene *scene, uint32_t triangle)
@@ -70,14 +72,14 @@ static face face_of(const glint_scene *scene, uint32_t triangle)
     const double size = scene->parts.count > 0 ? fmax(most[0], fmax(most[1], most[2])) : 1;
     f.normal = glint_vec3_normalize(glint_vec3_cross(glint_vec3_subtract(f.at[1], f.at[0]),
                                                      glint_vec3_subtract(f.at[2], f.at[0])));
-    // The last term is for what rays themselves are rounded by, on planes through the origin.
+    // The last term covers the rounding of rays, for planes through the origin.
     f.reach = FARTHER * (double)GLINT_TOUCHING *
               (fabs(f.normal.x) * most[0] + fabs(f.normal.y) * most[1] +
                fabs(f.normal.z) * most[2] + 0.5 * size);
     return f;
 }
 
-// Heights of a face's corners above another's plane; those within its reach are 0.
+// Heights of the corners of `above` over the plane of `f`; 0 within its reach.
 static void find_heights(const face *f, const face *above, double heights[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -97,7 +99,7 @@ static bool on_one_side(const double heights[3])
            (heights[0] <= 0 && heights[1] <= 0 && heights[2] <= 0);
 }
 
-// Whether some direction across an edge of `a`, in its plane, has both faces apart.
+// True if some edge of `a` separates the two faces within the plane of `a`.
 static bool edge_separates(const face *a, const face *b)
 {
     for (int i = 0; i < 3; i++) {
@@ -115,7 +117,8 @@ static bool edge_separates(const face *a, const face *b)
     return false;
 }
 
-// The part of a line, in the direction `along`, that lies on a face which crosses it.
+// Finds the stretch of a line that lies on a face, in the direction `along`. The face crosses the
+// line.
 static void find_stretch(const face *f, const double heights[3], glint_vec3 along, double ends[2])
 {
     ends[0] = INFINITY;
@@ -136,7 +139,7 @@ static void find_stretch(const face *f, const double heights[3], glint_vec3 alon
 
 typedef enum meeting { APART, TOUCHING, CROSSING } meeting;
 
-// Möller, "A Fast Triangle-Triangle Intersection Test" (1997).
+// Tells how two faces meet. Möller, "A Fast Triangle-Triangle Intersection Test" (1997).
 static meeting meet(const face *a, const face *b)
 {
     double of_b[3];
@@ -171,7 +174,7 @@ static bool boxes_meet(const box *a, const box *b)
     return true;
 }
 
-// Whether a component may lie on itself: bodies of one mesh that share corners are one component.
+// True if a component may touch itself: bodies of one mesh that share corners are one component.
 static bool may_touch_itself(const search *s, uint32_t component)
 {
     return component != NO_SOLID && !s->topology->components[component].simple;
@@ -189,7 +192,7 @@ static int compare_contacts(const void *left, const void *right)
     return (int)b->overlap - (int)a->overlap;
 }
 
-// One of each pair: that which overlaps, if one does.
+// Keeps one contact of each pair, an overlap if there is one.
 static void sort_contacts(glint_solids *solids)
 {
     if (solids->contact_count == 0) {
@@ -206,7 +209,8 @@ static void sort_contacts(glint_solids *solids)
     solids->contact_count = kept;
 }
 
-// Where the list is full one of each pair is kept; what is still more than half full grows.
+// Makes room for a contact. If the list is full, keeps one contact of each pair. If it is then
+// still more than half full, enlarges it.
 static bool make_room(search *s)
 {
     glint_solids *solids = s->solids;
@@ -261,7 +265,7 @@ static void meet_triangles(search *s, size_t i, size_t j)
     const face one = face_of(s->scene, a);
     const face other = face_of(s->scene, b);
     const meeting how = meet(&one, &other);
-    if (how == APART || (same && !(how == TOUCHING && // neighbours in a plane are wound alike
+    if (how == APART || (same && !(how == TOUCHING && // neighbours in a plane have equal winding
                                    glint_vec3_dot(one.normal, other.normal) < 0))) {
         return;
     }
@@ -313,7 +317,7 @@ static void grow_box(box *b, const float *low, const float *high)
     }
 }
 
-// Wider than the triangle by as much as others are in one place with it.
+// The triangle's box, widened so that coinciding triangles' boxes meet.
 static box box_of(const search *s, uint32_t triangle)
 {
     const float *p = s->scene->positions + (size_t)triangle * 9;
@@ -352,7 +356,7 @@ static bool build_level(search *s)
     return boxes != NULL;
 }
 
-// All that solids are in, and what may touch it.
+// The bounds of all solids, and of all triangles that may touch them.
 static box bounds_of_solids(const glint_scene *scene, const glint_topology *topology)
 {
     box all = empty_box();
@@ -370,8 +374,8 @@ static box bounds_of_solids(const glint_scene *scene, const glint_topology *topo
     return all;
 }
 
-// Lists the triangles of solids and those near some, by their corners; NULL: only counts them.
-// Returns how many triangles these are.
+// Lists the corners of triangles that may be near solids; `corners` may be NULL. Returns the number
+// of triangles.
 static size_t list_corners(const search *s, unsigned int *corners)
 {
     const glint_scene *scene = s->scene;
@@ -393,7 +397,7 @@ static size_t list_corners(const search *s, unsigned int *corners)
     return count;
 }
 
-// Neighbours beside each other.
+// Sorts the triangles so that neighbours in space stand together.
 static bool sort_triangles(search *s)
 {
     const glint_scene *scene = s->scene;
@@ -437,7 +441,7 @@ static bool build(search *s)
     return true;
 }
 
-// Where not all pairs were looked at, all may touch.
+// Marks all triangles as touching if some pairs were not compared.
 static void mark_rest(search *s)
 {
     for (size_t i = 0; s->pairs == 0 && i < s->count; i++) {

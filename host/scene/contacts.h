@@ -1,11 +1,11 @@
-// Where solids touch and overlap: for solids.c alone.
+// Finds where solids touch and overlap; only solids.c uses it.
 #ifndef GLINT_SCENE_CONTACTS_H
 #define GLINT_SCENE_CONTACTS_H
 
 #include "scene/solids.h"
 
-// Fills solids->contacts, and marks the records of triangles, which stand ready, with
-// GLINT_SOLID_TOUCHES. False where memory is short.
+// Fills solids->contacts, and marks the records of touching triangles with GLINT_SOLID_TOUCHES. The
+// records are allocated already. Returns false if memory is short.
 bool glint_contacts_find(const glint_scene *scene, const glint_topology *topology,
                          glint_solids *solids);
 

@@ -1,9 +1,9 @@
-// Whether points lie in convex position: a bounding volume tree over them, and for every point a
-// search for another that is farther along its normal. See convexity.h.
+// Tests whether points lie in convex position. It builds a bounding volume tree over them. For
+// every point it searches for another point that is farther along its normal. See convexity.h.
 //
-// The volumes are discs that lie along the surface. Boxes along the axes would stick out of it by
-// their own size, and a search would have to look into about the square root of all of them; a disc
-// that is turned against the searched normal by a small angle sticks out by so much less.
+// The bounding volumes are discs along the surface. Axis-aligned boxes would stick out of it by
+// their own size, and a search would visit about the square root of all boxes. A disc that is
+// turned against the searched normal by a small angle sticks out far less.
 #include "scene/convexity.h"
 
 #include "base/memory.h"
@@ -12,14 +12,14 @@
 #include <stdlib.h>
 
 #define LEAF_SIZE 8
-// Halving 2^64 points reaches leaves before that.
+// Enough: halving 2^64 points reaches leaves earlier.
 #define DEEPEST 64
 
-// A node of the implicit tree: node i has the children 2i + 1 and 2i + 2, which halve its points.
-// They lie within `radius` of `center` and within [low, high] of it along `normal`.
+// A node of the implicit tree. Node i has the children 2i + 1 and 2i + 2; each holds half of its
+// points. The points lie within `radius` of `center` and within [low, high] of it along `normal`.
 typedef struct tree_node {
     glint_vec3 center;
-    glint_vec3 normal; // unit, the points' mean; 0 where they have none
+    glint_vec3 normal; // unit, the mean of the points' normals; 0 if there is none
     double low, high, radius;
 } tree_node;
 
@@ -29,7 +29,7 @@ typedef struct point_tree {
     tree_node *nodes;
 } point_tree;
 
-// A node in the making or in the search: its number and its points [begin, end).
+// A node during construction or search: its number and its points [begin, end).
 typedef struct tree_range {
     size_t node, begin, end;
 } tree_range;
@@ -46,14 +46,14 @@ static bool is_leaf(tree_range range)
     return range.end - range.begin <= LEAF_SIZE;
 }
 
-// Puts the points so that those before `middle` are not beyond it along the axis: Hoare's
-// selection.
+// Hoare's selection: moves points so that those before `middle` are not beyond it along the axis.
 static void select_middle(glint_surface_point *points, tree_range range, int axis)
 {
     size_t middle = range.begin + (range.end - range.begin) / 2;
     size_t low = range.begin;
     size_t high = range.end - 1;
     while (low < high) {
+        // Partition the points from low to high around a pivot.
         float pivot = points[low + (high - low) / 2].position[axis];
         size_t i = low;
         size_t j = high;
@@ -74,6 +74,7 @@ static void select_middle(glint_surface_point *points, tree_range range, int axi
                 j--;
             }
         }
+        // Continue on the side that holds the middle.
         if (middle <= j) {
             high = j;
         } else if (middle >= i) {
@@ -89,7 +90,7 @@ static glint_vec3 vector_of(const float *p)
     return (glint_vec3){p[0], p[1], p[2]};
 }
 
-// Sets the node, and returns the axis along which its points lie farthest apart.
+// Sets the node's volume. Returns the axis along which its points spread most.
 static int enclose(const glint_surface_point *points, tree_range range, tree_node *node)
 {
     float low[3] = {INFINITY, INFINITY, INFINITY};
@@ -135,7 +136,7 @@ static void build(point_tree *tree)
     }
 }
 
-// The farthest that a point of the node can be along the unit vector.
+// An upper bound of how far the node's points reach along the unit vector.
 static double farthest(const tree_node *node, glint_vec3 direction)
 {
     double cosine = glint_vec3_dot(direction, node->normal);
@@ -167,8 +168,8 @@ static bool any_beyond(const point_tree *tree, glint_vec3 direction, double limi
     return false;
 }
 
-// What rounding can do to the difference of two positions along the normal; `largest` are the
-// largest coordinates there are.
+// The rounding error of the difference of two positions along the normal. `largest` holds the
+// largest coordinates of all points.
 static double tolerance(glint_vec3 normal, const float *position, glint_vec3 largest)
 {
     double sum = fabs(normal.x) * (fabs((double)position[0]) + largest.x) +
@@ -189,7 +190,7 @@ static glint_vec3 largest_coordinates(const glint_surface_point *points, size_t 
     return largest;
 }
 
-// Nodes are numbered up to a leaf's on the deepest level.
+// The number of nodes, up to the last leaf of the deepest level.
 static size_t node_count(size_t points)
 {
     size_t count = 1;

@@ -1,22 +1,22 @@
-// Moving a camera so that a scene fills its frame. See fit.h.
+// Moves a camera so that a scene fills its frame. See fit.h.
 //
-// A point p is left of the frame's right edge if (right + t·back)·p ≤ right·eye + t·back·eye, with
-// t the tangent of the half angle. So each edge needs only the greatest product of its plane's
-// normal with a point, and the eye follows in closed form.
+// A point p is left of the frame's right edge if (right + t·back)·p ≤ right·eye + t·back·eye, where
+// t is the tangent of the half angle. So each edge needs only the greatest product of its plane's
+// normal with a point. The eye follows in closed form.
 #include "scene/fit.h"
 
 #include <math.h>
 
 enum { RIGHT_EDGE, LEFT_EDGE, UPPER_EDGE, LOWER_EDGE, NEAREST, EXTREMES };
 
-#define LEAST_DISTANCE 0.01 // of the bounds' radius: nearer, a point would hide all others
+#define LEAST_DISTANCE 0.01 // of the bounds' radius: a nearer point would hide all others
 
 typedef struct fit_extremes {
     const glint_fit *fit;
     glint_vec3 centre;
     glint_vec3 normals[EXTREMES];
-    double across[EXTREMES]; // the normals' horizontal lengths
-    double most[EXTREMES];   // of normal·(point − centre)
+    double across[EXTREMES]; // horizontal lengths of the normals
+    double most[EXTREMES];   // greatest normal·(point − centre)
 } fit_extremes;
 
 static void begin(const glint_fit *fit, const glint_camera *camera, fit_extremes *extremes)
@@ -43,7 +43,7 @@ static void add_point(fit_extremes *extremes, glint_vec3 point)
     const double radius = extremes->fit->turns ? sqrt(p.x * p.x + p.z * p.z) : 0;
     for (int i = 0; i < EXTREMES; i++) {
         const glint_vec3 n = extremes->normals[i];
-        // On its circle about the axis a point comes to lie along the normal.
+        // On its circle about the axis, a point passes the direction of the normal.
         const double product =
             extremes->fit->turns ? n.y * p.y + extremes->across[i] * radius : glint_vec3_dot(n, p);
         extremes->most[i] = product > extremes->most[i] ? product : extremes->most[i];
@@ -82,13 +82,13 @@ void glint_camera_fit(const glint_fit *fit, glint_camera *camera)
     const double width = (most[RIGHT_EDGE] + most[LEFT_EDGE]) / 2 / fit->aspect;
     const double height = (most[UPPER_EDGE] + most[LOWER_EDGE]) / 2;
     const double larger = fmax(width, height);
-    // No points; or, in parallel light, all behind each other. (In perspective `larger` is below 0
-    // where the nearest point alone says how near the camera may come.)
+    // There are no points; or, in an orthographic view, all lie behind each other. (In perspective,
+    // `larger` is below 0 if the nearest point alone limits the distance.)
     if (!isfinite(larger) || !isfinite(radius) || !isfinite(most[NEAREST]) ||
         (camera->orthographic && !(larger > 0))) {
         return;
     }
-    double distance = most[NEAREST] + radius; // before the centre
+    double distance = most[NEAREST] + radius; // from the centre
     if (camera->orthographic) {
         camera->ymag = larger / (1 - fit->margin);
     } else {

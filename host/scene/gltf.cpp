@@ -1,5 +1,5 @@
-// The glTF loader, from the file to the scene: read, check, walk, flatten.
-// Whatever is thrown on the way ends here as a status.
+// Loads glTF, from the file to the scene: read, check, walk, flatten. Turns every exception into a
+// status.
 //
 // Limits: files of 4 GiB, buffers of 8 GiB, 2^27 triangles.
 #include "scene/scene.h"
@@ -49,7 +49,7 @@ void report(const Load &load, glint_scene &scene, glint_warnings *warnings)
     }
 }
 
-// A scene that only cameras are taken of.
+// A scene of which only the cameras are used.
 struct CameraScene {
     glint_scene scene = {};
 
@@ -62,7 +62,7 @@ struct CameraScene {
     }
 };
 
-// Whatever a walk adds to a tally, which the next walk adds again, is taken back.
+// Restores a tally after a walk: the next walk adds the same warnings again.
 class TallyRestorer
 {
   public:
@@ -109,7 +109,7 @@ void fill(glint_scene_source &source, double time, glint_scene &scene)
     }
 }
 
-// Of buffers that name one file the longest is read, once, and stands for all of them.
+// Reads the buffers. If several buffers name one file, reads the longest once, and uses it for all.
 void read_buffers(Load &load)
 {
     const json &buffers = objects_of(load.document.root, "buffers");
@@ -165,7 +165,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
                      load.clips.name.empty() ? nullptr : load.clips.name.c_str()};
 }
 
-// What `work` throws as a status.
+// Calls `work` and turns its exceptions into a status.
 template <typename Work>
 glint_status guard(const char *path, glint_error *error, Work work)
 {

@@ -1,4 +1,4 @@
-// Reading elements of accessors that were checked. See gltf_accessor.hpp.
+// Reads elements of checked accessors. See gltf_accessor.hpp.
 #include "scene/gltf_accessor.hpp"
 
 #include <algorithm>
@@ -33,6 +33,7 @@ Reader::Reader(const Model &model, std::size_t accessor_index)
     if (!accessor.sparse.isSparse) {
         return;
     }
+    // Open the sparse part, and check its indices.
     const auto &sparse = accessor.sparse;
     sparse_component_ = sparse.indices.componentType;
     sparse_indices_ = view_data(model, static_cast<std::size_t>(sparse.indices.bufferView)) +

@@ -1,4 +1,4 @@
-// Reading elements of accessors that were checked.
+// Reads elements of checked accessors.
 #ifndef GLINT_SCENE_GLTF_ACCESSOR_HPP
 #define GLINT_SCENE_GLTF_ACCESSOR_HPP
 
@@ -10,16 +10,16 @@
 namespace glint
 {
 
-// The bytes of a view. Its buffer was read.
+// Returns the bytes of a view whose buffer is loaded.
 const unsigned char *view_data(const Model &model, std::size_t view);
 
-// Random access to an accessor, in place: nothing is copied, so a scene's size bounds the memory
-// whatever a count says. Zero is valid and reads zeros. The model must outlive it.
+// Reads an accessor's elements in place, in any order. It copies nothing, so the file's size limits
+// the memory, not its counts. Zero is valid and reads zeros. The model must outlive the reader.
 class Reader
 {
   public:
     Reader() = default;
-    // Refuses sparse indices that do not ascend, or lie outside.
+    // Refuses sparse indices that do not ascend or are out of range.
     Reader(const Model &model, std::size_t accessor);
 
     std::size_t count() const
@@ -27,7 +27,7 @@ class Reader
         return count_;
     }
 
-    // An element of unsigned integers.
+    // Returns an element of unsigned integers.
     std::uint32_t index(std::size_t i) const
     {
         const unsigned char *bytes = element(i);
@@ -41,7 +41,7 @@ class Reader
         }
     }
 
-    // The largest value that the component type of indices can hold.
+    // The largest value of the indices' component type.
     std::uint32_t largest_index() const
     {
         return component_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xFF
@@ -49,7 +49,7 @@ class Reader
                                                                       : 0xFFFFFFFF;
     }
 
-    // `n` components as numbers; normalised integers become [−1, 1] or [0, 1].
+    // Reads `n` components as numbers; normalised integers become [−1, 1] or [0, 1].
     void numbers(std::size_t i, std::size_t n, double *result) const
     {
         const unsigned char *bytes = element(i);
@@ -78,7 +78,7 @@ class Reader
     std::size_t sparse_index(std::size_t k) const;
     double integer(const unsigned char *bytes, std::size_t i) const;
 
-    // Large enough for one element of any type; with a stride of 0 all elements are this one.
+    // Large enough for one element of any type. With a stride of 0 it stands for all elements.
     static const unsigned char zeros_[64];
 
     const unsigned char *base_ = zeros_;

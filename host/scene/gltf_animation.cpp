@@ -1,4 +1,4 @@
-// Animations of a glTF file. See gltf_animation.hpp.
+// Checks and reads animations of a glTF file. See gltf_animation.hpp.
 #include "scene/gltf_animation.hpp"
 
 #include "base/free_memory.h"
@@ -20,7 +20,7 @@ namespace
 
 constexpr std::array<const char *, 4> paths = {"translation", "rotation", "scale", "weights"};
 
-// The property of that path; paths.size() where it is none that is modelled.
+// Returns the property of a path; paths.size() if glint does not model it.
 std::size_t property_of(const std::string &path)
 {
     return static_cast<std::size_t>(std::find(paths.begin(), paths.end(), path) - paths.begin());
@@ -55,13 +55,13 @@ void check_sampler(const json &sampler, const Place &place, const Model &model)
     interpolation_of(sampler, place);
 }
 
-// Numbers a key: 1 or, with tangents, 3.
+// The number of values per key: 1, or 3 with tangents.
 std::size_t values_a_key(const json &sampler, const Place &place)
 {
     return interpolation_of(sampler, place) == GLINT_INTERPOLATION_CUBIC ? 3 : 1;
 }
 
-// What a node's curve of weights moves; 0 where the node has nothing to morph.
+// The number of morph targets that a node's curve of weights moves; 0 if the node has none.
 std::size_t targets_of(const Model &model, const json &target)
 {
     const json *node = member(target, "node");
@@ -69,7 +69,7 @@ std::size_t targets_of(const Model &model, const json &target)
     return mesh < 0 ? 0 : model.target_counts[static_cast<std::size_t>(mesh)];
 }
 
-// A sampler as a channel for that property needs it; `targets` are those that weights are for.
+// Checks a channel's sampler for its property; `targets` is the number of morph targets.
 void check_output(const json &sampler, const Place &place, std::size_t property,
                   std::size_t targets, const Model &model)
 {
@@ -174,7 +174,7 @@ std::vector<double> read_values(const Reader &reader, std::size_t components, st
     return values;
 }
 
-// `components` is how many numbers a value has.
+// `components` is the count of numbers in a value.
 Curve read_curve(const Model &model, const json &sampler, const Place &place, Property property,
                  std::size_t components)
 {
@@ -184,12 +184,12 @@ Curve read_curve(const Model &model, const json &sampler, const Place &place, Pr
     curve.interpolation = interpolation_of(sampler, place);
     curve.times = read_times(Reader(model, sampler["input"].get<std::size_t>()), place);
     curve.values = read_values(Reader(model, sampler["output"].get<std::size_t>()),
-                               property == weights ? 1 : components, // which are scalars each
+                               property == weights ? 1 : components, // each weight is a scalar
                                values_a_key(sampler, place), place);
     return curve;
 }
 
-// What clips are read from and into.
+// The input and output of reading clips.
 struct Reading {
     const Document &document;
     const Model &model;
@@ -198,7 +198,7 @@ struct Reading {
     std::uint64_t left; // bytes of memory that further curves may take
 };
 
-// Many channels may share a sampler, and each has its curve.
+// Counts a curve's memory. Many channels may share a sampler, but each has its own curve.
 void take_memory(Reading &reading, std::uint64_t bytes)
 {
     if (bytes > reading.left) {
@@ -234,6 +234,7 @@ void read_channel(Reading &reading, const json &animation, const Place &place, s
                           where);
         return;
     }
+    // Count the memory of the curve, then read it.
     auto sampler = channel["sampler"].get<std::size_t>();
     const json &source = animation["samplers"][sampler];
     const std::size_t numbers = reading.model.accessors[source["input"].get<std::size_t>()].count +

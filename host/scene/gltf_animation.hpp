@@ -1,4 +1,4 @@
-// Animations of a glTF file: checked, and the chosen clips read as curves of nodes.
+// Checks the animations of a glTF file, and reads the chosen clips as curves of nodes.
 #ifndef GLINT_SCENE_GLTF_ANIMATION_HPP
 #define GLINT_SCENE_GLTF_ANIMATION_HPP
 
@@ -15,13 +15,13 @@
 namespace glint
 {
 
-// Refuses what refers to nothing, and accessors of the wrong kind or length. What is not modelled
-// (pointers) passes.
+// Refuses references to nothing, and accessors of the wrong kind or length. Animations that glint
+// does not model (pointers) pass.
 void check_animations(const json &root, const Model &model);
 
 enum Property : std::size_t { translation, rotation, scale, weights };
 
-// A curve with what it borrows.
+// A curve that owns its arrays.
 struct Curve {
     std::vector<double> times, values;
     glint_interpolation interpolation = GLINT_INTERPOLATION_LINEAR;
@@ -34,19 +34,19 @@ struct Curve {
     }
 };
 
-// The properties of a node that move; empty curves for those that do not.
+// The curves of a node's properties; empty for properties that do not move.
 struct Moves {
     std::array<Curve, 4> of;
 };
 
 struct Clips {
     std::map<std::size_t, Moves> nodes;
-    std::string name;    // of the clip, or of the first of several; may be empty
-    double duration = 0; // seconds, to the last key
+    std::string name;    // name of the clip, or of the first of several; may be empty
+    double duration = 0; // seconds to the last key
 };
 
-// The clip of that name or index; "all", "none"; NULL: the first, if there is one. Curves that a
-// node cannot follow, or that are not modelled, are tallied and left out.
+// Reads the clip by name or index, or "all" or "none"; NULL: the first, if any. Leaves out curves
+// that a node cannot follow or that glint does not model, and tallies them.
 Clips read_clips(const Document &document, const Model &model, const char *name, Tally &tally);
 
 } // namespace glint

@@ -1,4 +1,4 @@
-// Texture coordinates, colours and tangents of vertices. See gltf_attributes.hpp.
+// Stores the vertices' texture coordinates, colours and tangents. See gltf_attributes.hpp.
 #include "scene/gltf_attributes.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace glint
 namespace
 {
 
-// Returns where the next attribute goes.
+// Each function returns the place of the next attribute.
 float *store_texcoords(const Primitive &primitive, std::size_t set, std::size_t vertex,
                        Tally &tally, float *stored)
 {
@@ -29,7 +29,7 @@ float *store_texcoords(const Primitive &primitive, std::size_t set, std::size_t 
     return stored + 2;
 }
 
-// 1 where the material has none: an override may have taken them away.
+// Stores 1 if the material uses no colours: an override may have removed them.
 float *store_color(Load &load, const Primitive &primitive, std::size_t vertex, float *stored)
 {
     std::array<double, 4> rgba = {1, 1, 1, 1};
@@ -46,8 +46,8 @@ float *store_color(Load &load, const Primitive &primitive, std::size_t vertex, f
     return stored + 4;
 }
 
-// Zeros where the file has none, or none that is usable. Those of what is morphed or skinned do not
-// fit any more: they are computed anew.
+// Stores zeros if the file has no usable tangent. Tangents of a morphed or skinned mesh do not fit
+// any more and are computed anew.
 float *store_tangent(const Draw &draw, std::size_t vertex, float *stored)
 {
     std::array<double, 4> t{};
@@ -57,7 +57,7 @@ float *store_tangent(const Draw &draw, std::size_t vertex, float *stored)
     const glint_vec3 world =
         glint_vec3_normalize(glint_mat4_direction(&draw.to_world, {t[0], t[1], t[2]}));
     const bool is_usable = world.x != 0 || world.y != 0 || world.z != 0;
-    // A node that mirrors turns the bitangent round.
+    // A mirroring node flips the bitangent.
     const bool is_mirrored = glint_mat4_determinant3(&draw.to_world) < 0;
     stored[0] = static_cast<float>(world.x);
     stored[1] = static_cast<float>(world.y);
@@ -76,7 +76,7 @@ glint_attributes attributes_of(const Load &load)
             set.texcoords = set.texcoords || use.image != 0;
             set.second_texcoords = set.second_texcoords || (use.image != 0 && use.texcoord == 1);
         }
-        // They follow texture coordinates.
+        // Computed tangents follow texture coordinates.
         const bool tangents = glint_material_needs_tangents(&one.second.material);
         set.tangents = set.tangents || tangents;
         set.texcoords = set.texcoords || tangents;

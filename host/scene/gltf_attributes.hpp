@@ -1,4 +1,4 @@
-// What vertices hold beside position and normal.
+// Stores the vertices' attributes besides position and normal.
 #ifndef GLINT_SCENE_GLTF_ATTRIBUTES_HPP
 #define GLINT_SCENE_GLTF_ATTRIBUTES_HPP
 
@@ -7,11 +7,11 @@
 namespace glint
 {
 
-// Which attributes the materials in use need of what is drawn.
+// Returns the attributes of the drawn primitives that the materials in use need.
 glint_attributes attributes_of(const Load &load);
 
-// Stores the attributes of a triangle with these vertices as scene.attribute_set has them, [3]
-// [stride] floats. Values that are not finite are replaced, and named in the tally.
+// Stores the attributes of a triangle with these vertices in the order of scene.attribute_set, [3]
+// [stride] floats. Replaces values that are not finite, and tallies them.
 void store_attributes(Load &load, const Draw &draw, const std::array<std::size_t, 3> &corners,
                       const glint_attributes &set, float *stored);
 

@@ -18,7 +18,7 @@ struct Bounds {
         return !(low.x <= high.x);
     }
 
-    // NaN is left out.
+    // Ignores NaN.
     void grow(glint_vec3 p)
     {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

@@ -1,5 +1,4 @@
-// Validation of the raw JSON: the top level, and what of it no other file checks. See
-// gltf_check.hpp.
+// Validates the top level of the raw JSON, where no other file does. See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 
 #include "scene/gltf_animation.hpp"
@@ -15,7 +14,7 @@ namespace glint
 namespace
 {
 
-// "2.0" has a major number of 2. Anything else that begins otherwise is another format.
+// Checks a version: "2.0" has the major number 2. Another major number means another format.
 void check_version(const json &asset, const Place &place, const char *key)
 {
     std::string version = optional_text(asset, place, key);
@@ -66,7 +65,7 @@ void check_extensions(const json &root, Model &model)
 void check_document(const Document &document, Model &model)
 {
     check_asset(document.root);
-    // Before anything else, so that everybody can rely on it.
+    // First of all, so that the other checks can rely on it.
     for (const char *key :
          {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
           "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {

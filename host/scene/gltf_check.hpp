@@ -1,7 +1,6 @@
-// Validation of the raw JSON. Everything that the loader uses is checked here, and everything that
-// refers to something. What is in order goes into the model, in the same pass: storage
-// (gltf_check_storage.hpp), materials (gltf_material.hpp), meshes, the graph, and animations
-// (gltf_animation.hpp).
+// Validates the raw JSON: every value that the loader uses, and every reference. The same pass
+// copies valid values to the model: storage (gltf_check_storage.hpp), materials
+// (gltf_material.hpp), meshes, the graph, and animations (gltf_animation.hpp).
 #ifndef GLINT_SCENE_GLTF_CHECK_HPP
 #define GLINT_SCENE_GLTF_CHECK_HPP
 
@@ -11,13 +10,13 @@
 namespace glint
 {
 
-// The whole document: calls the others, and check_animations, in turn. Reads no buffer.
+// Checks the whole document: calls the other checks and check_animations in turn. Reads no buffer.
 void check_document(const Document &document, Model &model);
 
-// Meshes, and the primitives' attributes and indices.
+// Checks meshes, and their primitives' attributes and indices.
 void check_meshes(const json &root, Model &model);
 
-// Nodes, scenes, cameras, and skins (gltf_skin.hpp).
+// Checks nodes, scenes, cameras, and skins (gltf_skin.hpp).
 void check_graph(const json &root, Model &model);
 
 } // namespace glint

@@ -1,5 +1,5 @@
-// Validation of the raw JSON: nodes, scenes and cameras. Everything takes linear time: a
-// graph of 40 nodes can have 2^40 paths, and a chain can be 50,000 deep. See gltf_check.hpp.
+// Validates nodes, scenes and cameras in the raw JSON. All checks take linear time: a graph of 40
+// nodes can have 2^40 paths, and a chain can be 50,000 deep. See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_check_storage.hpp"
 #include "scene/gltf_lights.hpp"
@@ -22,7 +22,7 @@ std::string node_name(std::size_t i)
     return "nodes[" + std::to_string(i) + "]";
 }
 
-// The numbers; none where the member is missing.
+// Returns the numbers of a member; none if it is missing.
 std::vector<double> check_numbers(const json &node, const Place &node_place, const char *key,
                                   std::size_t count)
 {
@@ -43,7 +43,7 @@ std::vector<double> check_numbers(const json &node, const Place &node_place, con
     return numbers;
 }
 
-// A matrix must be one that translation, rotation and scale could make: affine and not singular.
+// Checks that a matrix is affine and not singular, as translation, rotation and scale make it.
 std::vector<double> check_matrix(const json &node, const Place &node_place)
 {
     std::vector<double> m = check_numbers(node, node_place, "matrix", 16);
@@ -51,7 +51,7 @@ std::vector<double> check_matrix(const json &node, const Place &node_place)
         return m;
     }
     Place place = node_place / "matrix";
-    // Some exporters round; nobody writes a projection by a part in 100,000.
+    // Some exporters round. A projection never differs by only a part in 100,000.
     constexpr double tolerance = 1e-5;
     if (std::fabs(m[3]) > tolerance || std::fabs(m[7]) > tolerance ||
         std::fabs(m[11]) > tolerance || std::fabs(m[15] - 1) > tolerance) {
@@ -61,8 +61,8 @@ std::vector<double> check_matrix(const json &node, const Place &node_place)
                          m[8] * (m[1] * m[6] - m[2] * m[5]);
     double volume =
         std::hypot(m[0], m[1], m[2]) * std::hypot(m[4], m[5], m[6]) * std::hypot(m[8], m[9], m[10]);
-    // Written so that NaN and a volume of 0 count as singular. 1e-12 of the box that the axes span
-    // is far below what the floats of a matrix can mean.
+    // Written so that NaN and a volume of 0 count as singular. The limit is 1e-12 of the box that
+    // the axes span. This is far below the precision of a matrix of floats.
     if (!(std::fabs(determinant) > 1e-12 * volume)) {
         refuse(place, "singular: its axes lie in a plane (a scale of [0, 0, 0] hides a node)");
     }
@@ -146,14 +146,15 @@ tinygltf::Node check_node(const json &root, const json &source, const Place &pla
     return node;
 }
 
-// Refuses the second parent that a node would get; as a loop where it is one.
+// Sets a child's parent. Refuses a second parent; if it closes a loop, the message says so.
 void adopt(std::size_t parent, std::size_t child, std::vector<int> &parents, const Place &place)
 {
     if (parents[child] < 0) {
         parents[child] = static_cast<int>(parent);
         return;
     }
-    // A walk up from `parent` that meets `child` closes a loop. It ends: at most once around.
+    // If a walk up from `parent` meets `child`, there is a loop. The walk ends: it goes around at
+    // most once.
     std::size_t steps = 0;
     for (int up = static_cast<int>(parent); up >= 0 && steps < parents.size(); steps++) {
         if (up == static_cast<int>(child)) {
@@ -170,7 +171,7 @@ void adopt(std::size_t parent, std::size_t child, std::vector<int> &parents, con
                       " already (a node has one parent only: copy it)");
 }
 
-// With one parent at most, a node that no root leads to is in a loop, or under one.
+// Each node has at most one parent. So a node that no root leads to is in a loop, or below a loop.
 void check_loops(const std::vector<int> &parents)
 {
     enum : char { unknown, on_the_way, rooted };

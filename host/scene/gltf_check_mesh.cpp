@@ -1,5 +1,5 @@
-// Validation of the raw JSON: meshes, primitives, their attributes and indices. What the accessors
-// hold is checked when it is read (gltf_primitive.cpp). See gltf_check.hpp.
+// Validates meshes, primitives, their attributes and indices in the raw JSON. The accessors'
+// contents are checked when they are read (gltf_primitive.cpp). See gltf_check.hpp.
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_check_storage.hpp"
 #include "scene/gltf_draco.hpp"
@@ -40,7 +40,7 @@ void check_indices(const json &source, const Place &primitive_place, const Model
     }
 }
 
-// Attributes that textures and colours need.
+// Checks an attribute that textures and colours need.
 void check_attribute(const std::string &name, const tinygltf::Accessor &accessor,
                      const Place &place, const Model &model)
 {

@@ -1,4 +1,4 @@
-// Validation of the raw JSON: buffers, views and accessors. See gltf_check_storage.hpp.
+// Validates buffers, views and accessors in the raw JSON. See gltf_check_storage.hpp.
 #include "scene/gltf_check_storage.hpp"
 
 #include "scene/gltf_meshopt.hpp"
@@ -13,8 +13,8 @@ namespace glint
 namespace
 {
 
-constexpr std::uint64_t largest_total = std::uint64_t{8} << 30; // bytes of all buffers
-// An accessor without data is all zeros, whatever its count says.
+constexpr std::uint64_t largest_total = std::uint64_t{8} << 30; // most bytes of all buffers
+// An accessor without data is all zeros, for any count in the file. So limit these zeros.
 constexpr std::uint64_t most_zeros = std::uint64_t{1} << 24;
 
 // Fills model.is_read: false for buffers without bytes.
@@ -39,7 +39,7 @@ void check_buffers(const Document &document, Model &model)
     }
 }
 
-// Refuses to read a buffer that has no bytes.
+// Checks that a buffer has bytes to read.
 void expect_bytes(const Document &document, const Model &model, std::size_t buffer)
 {
     if (model.is_read[buffer]) {
@@ -54,14 +54,15 @@ void expect_bytes(const Document &document, const Model &model, std::size_t buff
                               : "missing (only a .glb with a BIN chunk can leave it out)");
 }
 
-// Who refers to a buffer.
+// The references to a buffer.
 struct Users {
-    bool plain = false;    // a view, to its bytes
-    bool packed = false;   // a view that is unpacked instead
-    bool unpacked = false; // an extension, to the packed bytes
+    bool plain = false;    // a view refers to its bytes
+    bool packed = false;   // a view refers to it, but is unpacked from another buffer
+    bool unpacked = false; // an extension refers to packed bytes in it
 };
 
-// A buffer whose data is packed elsewhere is not read, whether or not it has bytes.
+// Decides which buffers to read. A buffer whose data is packed elsewhere is not read, even if it
+// has bytes.
 void choose_buffers(const Document &document, const std::vector<Users> &users, Model &model)
 {
     const json &buffers = objects_of(document.root, "buffers");
@@ -86,7 +87,7 @@ tinygltf::BufferView check_view(const json &root, const json &view, const Place 
     std::uint64_t length = whole_at(view, place, "byteLength", 1, largest_whole);
     std::uint64_t offset = optional_whole(view, place, "byteOffset", 0, largest_whole);
     std::uint64_t there = buffers[buffer]["byteLength"].get<std::uint64_t>();
-    if (offset > there || length > there - offset) { // each < 2^53: no overflow
+    if (offset > there || length > there - offset) { // each is below 2^53: no overflow
         refuse(place / "byteLength", counted(length, "byte") + " from byte " +
                                          std::to_string(offset) + " run past the end of buffers[" +
                                          std::to_string(buffer) + "], which has " +
@@ -142,7 +143,7 @@ std::uint64_t component_size(std::uint64_t component_type)
 
 struct Type {
     const char *name;
-    int code; // tinygltf's
+    int code; // tinygltf's code
     std::uint64_t components;
 };
 
@@ -211,7 +212,7 @@ struct Range {
 void check_range(const Model &model, std::size_t view, const Place &place, const Range &range)
 {
     std::uint64_t there = model.bufferViews[view].byteLength;
-    // Numbers of the file are below 2^53 and strides below 256: neither side can overflow.
+    // Numbers of the file are below 2^53 and strides below 256, so neither side overflows.
     bool fits = range.offset + (range.count - 1) * range.stride + range.size <= there;
     if (!fits) {
         refuse(place, counted(range.count, "element") + " of " + counted(range.size, "byte") +
@@ -222,7 +223,7 @@ void check_range(const Model &model, std::size_t view, const Place &place, const
     }
 }
 
-// The sparse part's view and the offset within it.
+// Returns the view of a sparse part, and its offset in the view.
 template <typename Part>
 std::size_t check_sparse_view(const json &part, const Place &place, const Model &model,
                               Part &result)

@@ -1,4 +1,4 @@
-// Validation of the raw JSON: buffers, views and accessors, which the other checks refer to.
+// Validates buffers, views and accessors, to which the other checks refer.
 #ifndef GLINT_SCENE_GLTF_CHECK_STORAGE_HPP
 #define GLINT_SCENE_GLTF_CHECK_STORAGE_HPP
 
@@ -11,15 +11,16 @@ namespace glint
 // Fills the model's views and accessors. Reads no buffer.
 void check_storage(const Document &document, Model &model);
 
-// Refuses many zeros: accessors without data that nothing fills. The meshes were checked.
+// Refuses too many zeros: accessors without data that no extension fills. Call it after the meshes
+// are checked.
 void check_zeros(const Model &model);
 
-// A vertex attribute, index or instance attribute must be of one of these.
+// The allowed formats of a vertex attribute, index or instance attribute.
 struct Format {
-    int type;                   // TINYGLTF_TYPE_VEC3
-    bool plain_float;           // 5126
+    int type;                   // for example TINYGLTF_TYPE_VEC3
+    bool plain_float;           // float, 5126
     bool normalized_ints;       // normalised signed byte or short
-    bool quantized;             // whatever KHR_mesh_quantization lets positions be
+    bool quantized;             // any format that KHR_mesh_quantization allows for positions
     bool unsigned_ints = false; // normalised unsigned byte or short
 };
 void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format);

@@ -1,7 +1,7 @@
-// Primitives packed by Draco. See gltf_draco.hpp.
+// Decodes primitives packed by Draco. See gltf_draco.hpp.
 //
-// What a view is to hold follows from the accessors: so glint lays the results out, and the decoder
-// fills them in. No count of Draco's own makes glint take memory.
+// The accessors define the contents of a view. So glint lays out the results, and the decoder fills
+// them in. No count in Draco's data makes glint allocate memory.
 #include "scene/gltf_draco.hpp"
 
 #include "base/free_memory.h"
@@ -28,18 +28,18 @@ constexpr const char *extension_name = "KHR_draco_mesh_compression";
 // ---- Limits (SECURITY.md) -----------------------------------------------------------------------
 
 constexpr std::uint64_t mib = std::uint64_t{1} << 20;
-// Meshes take 10 to 50 bytes for each of Draco's. Only flat grids are packed more than 256 times.
+// Meshes take 10 to 50 bytes per byte of Draco's data. Only flat grids exceed 256.
 constexpr std::uint64_t result_bytes_least = 256 * mib;
 constexpr std::uint64_t result_bytes_each = 256;
-// While it decodes, Draco holds tables of corners and two copies of each attribute.
+// During decoding Draco holds tables of corners and two copies of each attribute.
 constexpr std::uint64_t memory_bytes = 128 * mib;
 constexpr std::uint64_t memory_each_index = 96;
 constexpr std::uint64_t memory_each_result = 6;
-// A second decodes 4 MiB of results, at the slowest.
+// The slowest decoding yields 4 MiB of results per second.
 constexpr std::uint64_t cpu_seconds_least = 5;
 constexpr std::uint64_t results_a_second = 4 * mib;
 constexpr std::uint64_t seconds_least = 60;
-constexpr std::uint64_t seconds_each = 20; // for each second of CPU time
+constexpr std::uint64_t seconds_each = 20; // per second of CPU time
 
 std::uint64_t cpu_seconds_of(std::uint64_t result_bytes)
 {
@@ -53,13 +53,13 @@ std::uint64_t seconds_of(std::uint64_t result_bytes)
 
 // ---- Jobs ---------------------------------------------------------------------------------------
 
-// A view, and what its primitives want of it.
+// A packed view, and the results that its primitives need.
 struct Packed {
     std::size_t view = 0;
     glint_mesh_job job = {};
-    std::uint64_t result_bytes = 0; // from result_offset on, the end of the memory file
+    std::uint64_t result_bytes = 0; // from result_offset to the end of the memory file
     std::uint64_t result_offset = 0;
-    std::vector<std::size_t> users; // of model.draco
+    std::vector<std::size_t> users; // indices into model.draco
 };
 
 tinygltf::Primitive &primitive_of(Model &model, const DracoPrimitive &one)
@@ -81,7 +81,7 @@ std::uint64_t size_of(const tinygltf::Accessor &accessor)
     return static_cast<std::uint64_t>(bytes) * static_cast<std::uint64_t>(count);
 }
 
-// The attribute of the job that fits, or −1.
+// Returns the job's attribute that fits, or −1.
 int find_attribute(const glint_mesh_job &job, std::uint32_t id, const tinygltf::Accessor &accessor)
 {
     const int components =
@@ -96,7 +96,7 @@ int find_attribute(const glint_mesh_job &job, std::uint32_t id, const tinygltf::
     return -1;
 }
 
-// Room for so many bytes at the end of the results; refuses what no memory holds.
+// Reserves bytes at the end of the results; refuses more than any memory holds.
 std::uint64_t reserve(Packed &packed, std::uint64_t count, std::uint64_t size, const Place &place)
 {
     const std::uint64_t offset = packed.result_bytes;
@@ -142,7 +142,7 @@ void add_user(Model &model, std::size_t user, Packed &packed)
             .count;
     const std::uint64_t corners =
         model.accessors[static_cast<std::size_t>(primitive.indices)].count;
-    // A strip of n corners has n − 2 triangles at most, and Draco lists triangles.
+    // A strip of n corners has at most n − 2 triangles, and Draco lists triangles.
     const bool is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
     const std::uint64_t room = is_strip ? 3 * (std::max<std::uint64_t>(corners, 2) - 2) : corners;
     if (packed.users.empty()) {
@@ -160,13 +160,13 @@ void add_user(Model &model, std::size_t user, Packed &packed)
     packed.users.push_back(user);
 }
 
-// Before any memory is taken.
+// Checks the total size before any memory is allocated.
 void check_total(const Model &model, const std::vector<Packed> &all)
 {
-    const std::uint64_t there = buffer_bytes(model); // views may overlap
+    const std::uint64_t there = buffer_bytes(model); // counts once the bytes of views that overlap
     std::uint64_t results = 0;
     for (const Packed &one : all) {
-        results = std::min(results + one.result_bytes, largest_whole); // each is below
+        results = std::min(results + one.result_bytes, largest_whole); // no overflow
     }
     const std::uint64_t most =
         std::max(result_bytes_least, std::min(there, largest_whole >> 9) * result_bytes_each);
@@ -177,7 +177,7 @@ void check_total(const Model &model, const std::vector<Packed> &all)
                                           " (the file is damaged; or export it without Draco)");
     }
     const std::uint64_t left = glint_free_memory();
-    if (results * 2 > left) { // the memory file, and the buffers
+    if (results * 2 > left) { // the memory file and the buffers
         throw shortage("its packed meshes take " + counted(results * 2, "byte") + ", and " +
                        counted(left, "byte") + " of memory are free (split the scene)");
     }
@@ -233,7 +233,7 @@ class MemoryFile
     throw refusal(error.message);
 }
 
-// Writes the job and the packed bytes, and makes room for the results.
+// Writes the job and the packed bytes, and reserves room for the results.
 void lay_out(const Model &model, Packed &packed, const MemoryFile &file)
 {
     glint_mesh_job &job = packed.job;
@@ -254,7 +254,7 @@ void lay_out(const Model &model, Packed &packed, const MemoryFile &file)
     }
 }
 
-// Gives the results, and sets job.index_room to the number of indices.
+// Decodes a view and returns the results. Sets job.index_room to the number of indices.
 std::vector<unsigned char> decode(const Model &model, Packed &packed)
 {
     const MemoryFile file;
@@ -276,7 +276,7 @@ std::vector<unsigned char> decode(const Model &model, Packed &packed)
         GLINT_OK) {
         pass_on(error);
     }
-    // The decoder may have gone wrong in any way.
+    // The decoder may misbehave in any way, so limit its count.
     packed.job.index_room = std::min(index_bytes / sizeof(std::uint32_t), packed.job.index_room);
     std::vector<unsigned char> results(packed.result_bytes);
     const glint_stored stored = {name.c_str(), {}, results.size(), 0, file.descriptor()};
@@ -287,7 +287,7 @@ std::vector<unsigned char> decode(const Model &model, Packed &packed)
     return results;
 }
 
-// An accessor like `like` of the bytes from `offset` on in the last buffer.
+// Adds an accessor like `like`, for the bytes from `offset` on in the last buffer.
 int add_accessor(Model &model, const tinygltf::Accessor &like, std::uint64_t offset)
 {
     tinygltf::BufferView &view = model.bufferViews.emplace_back();
@@ -322,7 +322,7 @@ void connect(Model &model, const DracoPrimitive &one, const Packed &packed)
 
 // ---- Checks -------------------------------------------------------------------------------------
 
-// Marks the accessor as one that Draco fills, and says whether it has no data of its own.
+// Marks an accessor that Draco fills. Returns true if it has no data of its own.
 bool mark(Model &model, int accessor, const Place &place)
 {
     const auto index = static_cast<std::size_t>(accessor);
@@ -395,7 +395,7 @@ void check_draco(const json &source, const Place &place, Model &model)
 
 void decode_draco(Model &model)
 {
-    // Views of the same bytes are one.
+    // Views of the same bytes count as one view.
     std::map<std::tuple<int, std::size_t, std::size_t>, std::size_t> by_bytes;
     std::vector<Packed> all;
     for (std::size_t i = 0; i < model.draco.size(); i++) {
@@ -407,6 +407,7 @@ void decode_draco(Model &model)
         }
         add_user(model, i, all[entry.first->second]);
     }
+    // Check the total before decoding.
     check_total(model, all);
     std::uint64_t results = 0;
     for (const Packed &one : all) {
@@ -419,7 +420,7 @@ void decode_draco(Model &model)
         for (const std::size_t user : packed.users) {
             connect(model, model.draco[user], packed);
         }
-        // Many small views, each within its limits, could take for ever.
+        // Many small views, each within its limits, could take forever together.
         if (std::chrono::steady_clock::now() - begin >
             std::chrono::seconds(std::min<std::uint64_t>(seconds_of(results), 2000000))) {
             refuse(Place() / "meshes", "take more than " + std::to_string(seconds_of(results)) +

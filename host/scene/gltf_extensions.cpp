@@ -1,4 +1,4 @@
-// What glint makes of each extension. See gltf_extensions.hpp.
+// Lists the extensions, and how glint treats each. See gltf_extensions.hpp.
 #include "scene/gltf_extensions.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Extension {
     const char *name;
     Holder holder;
     bool can_be_required;
-    const char *said; // where it stands in a used object; NULL: nothing, as nothing is missing
+    const char *said; // the warning for a used object; NULL: none, since nothing is missing
     glint_treatment treatment;
 };
 

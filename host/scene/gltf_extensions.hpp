@@ -1,4 +1,4 @@
-// What glint makes of each extension: the one list of those that it reads, or has a word for.
+// The list of extensions that glint reads or warns about, and how it treats each.
 #ifndef GLINT_SCENE_GLTF_EXTENSIONS_HPP
 #define GLINT_SCENE_GLTF_EXTENSIONS_HPP
 
@@ -9,16 +9,16 @@
 namespace glint
 {
 
-// The kind of object that an extension stands in.
+// The kind of object that holds an extension.
 enum class Holder { document, texture, material, node, primitive };
 
-// Whether a file that requires the extension can be shown.
+// True if glint can show a file that requires the extension.
 bool can_be_required(const std::string &name);
 
-// What is made of an extension.
+// How glint treats an extension.
 glint_treatment treatment_of(const std::string &name);
 
-// Adds those of a used object's extensions that are not modelled to the tally.
+// Tallies the extensions of a used object that glint does not model.
 void survey_extensions(const json &object, Holder holder, const std::string &where, Tally &tally);
 
 } // namespace glint

@@ -1,6 +1,6 @@
-// Getting bytes, safely. Nothing here trusts the file: lengths are compared with what is there
-// before anything is allocated, only regular files are opened (a FIFO or a device would hang), and
-// what a scene refers to must lie under its folder.
+// Reads the scene's file and never trusts it. Lengths are compared with the bytes present before
+// memory is allocated. Only regular files are opened, because a FIFO or a device would hang. Files
+// that a scene refers to must lie under its folder.
 #include "scene/gltf_file.hpp"
 
 #include <algorithm>
@@ -17,14 +17,14 @@ namespace glint
 namespace
 {
 
-constexpr std::uint64_t largest_file = std::uint64_t{1} << 32; // what a GLB can say of itself
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 32; // the limit of a GLB's length
 constexpr std::uint64_t largest_json = std::uint64_t{1} << 30;
 constexpr std::size_t deepest_nesting = 100;
 
 class File
 {
   public:
-    // Does not wait for a FIFO's other end.
+    // O_NONBLOCK: do not wait for a FIFO's other end.
     explicit File(const std::string &path)
         : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))
     {
@@ -43,7 +43,7 @@ class File
     File &operator=(const File &) = delete;
     File &operator=(File &&) = delete;
 
-    // Empty when the file can be read; else why not.
+    // Returns the reason why the file cannot be read; empty if it can.
     std::string trouble()
     {
         if (descriptor_ < 0) {
@@ -68,7 +68,7 @@ class File
         return size_;
     }
 
-    // Fills `bytes` from an offset. False when the file ends before, or cannot be read.
+    // Fills `bytes` from an offset. Returns false if the file ends before, or cannot be read.
     bool read(std::uint64_t offset, void *bytes, std::size_t count) const
     {
         auto *target = static_cast<char *>(bytes);
@@ -110,8 +110,8 @@ void read_or_refuse(const File &file, std::uint64_t offset, void *bytes, std::si
     }
 }
 
-// Nothing that parses JSON, or takes its tree down, should be asked to recurse without a limit.
-// `offset` is where the text begins in the file.
+// Refuses deep nesting: a JSON parser, and the destructor of its tree, recurse. `offset` is the
+// start of the text in the file.
 void check_nesting(const std::string &text, std::uint64_t offset)
 {
     std::size_t depth = 0;
@@ -138,9 +138,9 @@ void check_nesting(const std::string &text, std::uint64_t offset)
     }
 }
 
-// "[json.exception.parse_error.101] parse error at line 1, column 9: syntax error while parsing
-// value - invalid literal; last read: '…'; expected …" without its head and without the last token,
-// which can be as long as the file.
+// Shortens the parser's message "[json.exception.parse_error.101] parse error at line 1, column 9:
+// syntax error while parsing value - invalid literal; last read: '…'; expected …". Removes its head
+// and the last token, which can be as long as the file.
 std::string syntax_cause(const std::string &what)
 {
     std::size_t begin = what.find(": ");
@@ -177,12 +177,12 @@ void parse(const std::string &text, std::uint64_t offset, json &root)
 }
 
 struct Chunk {
-    std::uint64_t offset; // of the data
+    std::uint64_t offset; // offset of the data
     std::uint32_t length;
     std::uint32_t type;
 };
 
-// The chunk whose header stands at `offset`, which must end by `end`.
+// Reads the header of the chunk at `offset`; the chunk must end by `end`.
 Chunk read_chunk(const File &file, std::uint64_t offset, std::uint64_t end)
 {
     std::array<unsigned char, 8> header{};
@@ -231,7 +231,7 @@ void read_glb(const File &file, Document &document)
     std::string text(chunk.length, '\0');
     read_or_refuse(file, chunk.offset, text.data(), text.size());
     parse(text, chunk.offset, document.root);
-    // Chunks of unknown types are skipped, as the format asks.
+    // Skip chunks of unknown types, as the format requires.
     for (std::uint64_t next = chunk.offset + chunk.length; next < length;) {
         chunk = read_chunk(file, next, length);
         if (chunk.type == type_bin && !document.has_bin) {

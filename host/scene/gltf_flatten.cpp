@@ -1,6 +1,6 @@
-// Flattening, in two passes over the drawn triangles: the first finds the bounds, from which origin
-// and unit follow, the second stores. World positions exist in double only while they are worked
-// on, so that memory is what the scene's arrays take. See gltf_flatten.hpp.
+// Flattens the scene in two passes over the drawn triangles. The first pass finds the bounds, which
+// give origin and unit; the second stores. World positions in double exist only during the work on
+// them. So the scene's arrays take all the memory. See gltf_flatten.hpp.
 #include "scene/gltf_flatten.hpp"
 
 #include "base/free_memory.h"
@@ -22,17 +22,17 @@ namespace glint
 namespace
 {
 
-// A scene of so many triangles takes 10 GiB; indices of their floats stay below 2^31.
+// A scene of this size takes 10 GiB; indices of its floats stay below 2^31.
 constexpr std::size_t most_triangles = std::size_t{1} << 27;
-// What the search for small parts takes for each triangle. Where memory is short there are none:
-// they are told as the rest is.
+// Memory of the search for small parts, bytes per triangle. If memory is short, there is no search,
+// and all positions are stored relative to the scene's origin.
 constexpr std::size_t bytes_of_search = 320;
-// Metres. Beyond, squares of lengths leave a float's range.
+// Metres. Beyond, squares of lengths exceed a float's range.
 constexpr double farthest = 1e18;
 
 struct Corner {
     std::size_t vertex;
-    std::size_t element; // of the draw's shape, where it has one
+    std::size_t element; // of the draw's shape, if there is one
     glint_vec3 local;
 };
 using Triangle = std::array<Corner, 3>;
@@ -47,12 +47,12 @@ bool equal(glint_vec3 a, glint_vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-// The triangle's corners in the order in which it is stored.
+// Returns the triangle's corners in stored order.
 Triangle corners_of(const Draw &draw, std::size_t t, bool mirrored)
 {
     Triangle result;
     for (std::size_t c = 0; c < 3; c++) {
-        // A mirroring node turns the winding round; swapping two corners puts the outside back.
+        // A mirroring node reverses the winding. Swapping two corners restores the outside.
         std::size_t from = mirrored && c > 0 ? 3 - c : c;
         std::size_t vertex = draw.primitive->vertex(t, from);
         if (draw.shape != nullptr) {
@@ -76,8 +76,8 @@ Triangle corners_of(const Draw &draw, std::size_t t, bool mirrored)
                " (positions must be finite)");
 }
 
-// A triangle with two corners in one place is degenerate under every transform, and must not be
-// allowed to stretch the bounds.
+// True if two corners are at one place. Such a triangle is degenerate under every transform and
+// must not stretch the bounds.
 bool is_collapsed(const Triangle &triangle)
 {
     return equal(triangle[0].local, triangle[1].local) ||
@@ -90,10 +90,10 @@ double larger(double a, double b, double c)
     return std::max(a, std::max(b, c));
 }
 
-// What is found before anything is stored.
+// The results of the first pass.
 struct Measures {
     Bounds bounds;
-    double smallest = INFINITY; // triangle, metres across
+    double smallest = INFINITY; // width of the smallest triangle, metres
 };
 
 double width_of(const Bounds &bounds)
@@ -135,15 +135,16 @@ Measures measure(const std::vector<Draw> &draws)
     return measures;
 }
 
-// `step` is a power of two; beyond 2^52 steps every double is a whole number of them.
+// `step` is a power of two. Beyond 2^52 steps every double is already a multiple of it.
 double rounded_to(double value, double step)
 {
-    return std::nearbyint(value / step) * step + 0.0; // never −0
+    return std::nearbyint(value / step) * step + 0.0; // + 0.0 avoids −0
 }
 
-// The unit is the least power of two that holds half the extent, the origin the centre, rounded to
-// 1/64 of the unit: few bits, so that most positions keep theirs in the subtraction. Where the
-// rounding pushes the farthest vertex past 1, the unit doubles.
+// Chooses unit and origin. The unit is the least power of two that holds half the extent. The
+// origin is the centre, rounded to 1/64 of the unit: it has few bits, so that most positions keep
+// their bits in the subtraction. If the rounding pushes the farthest vertex past 1, the unit
+// doubles.
 void choose_frame(const Bounds &bounds, glint_scene &scene)
 {
     const glint_vec3 low = bounds.low;
@@ -156,7 +157,7 @@ void choose_frame(const Bounds &bounds, glint_scene &scene)
     double half = width_of(bounds) / 2;
     int exponent = 0;
     double mantissa = std::frexp(half, &exponent); // half = mantissa × 2^exponent, in [1/2, 1)
-    // Not so small that metres per unit leave a float's range.
+    // Limit the unit, so that metres per unit stay in a float's range.
     scene.unit =
         half > 0 ? std::ldexp(1.0, std::max(mantissa == 0.5 ? exponent - 1 : exponent, -100)) : 1;
     double step = scene.unit / 64;
@@ -176,8 +177,8 @@ class Writer
   public:
     Writer(Load &load, glint_scene &scene) : load_(load), draws_(load.draws), scene_(scene) {}
 
-    // `default_material` stands for the primitives that name none. Small parts are looked for where
-    // there may be some.
+    // Stores all draws. `default_material` serves primitives that name no material.
+    // `looks_for_parts`: there may be small parts.
     void write(std::size_t triangles, bool with_normals, std::uint32_t default_material,
                bool looks_for_parts)
     {
@@ -202,7 +203,8 @@ class Writer
     }
 
   private:
-    // Before the memory is touched: what the machine has not would be taken from other programs.
+    // Checks the free memory before touching the arrays: otherwise they would displace other
+    // programs' memory.
     static void check_memory(std::size_t triangles, std::size_t bytes)
     {
         const double gib = 1 << 30;
@@ -228,7 +230,7 @@ class Writer
                        : nullptr;
         scene_.material_of =
             static_cast<std::uint32_t *>(glint_allocate(triangles, sizeof(std::uint32_t)));
-        // One more, as an instance is begun before it is known whether anything is left of it.
+        // One more: an instance begins before it is known whether any triangle of it remains.
         scene_.instances = static_cast<glint_instance *>(
             glint_allocate(draws_.size() + 1, sizeof(glint_instance)));
         if (scene_.positions == nullptr || scene_.material_of == nullptr ||
@@ -238,7 +240,8 @@ class Writer
         }
     }
 
-    // Of all triangles that are not collapsed: what turns out to have no area is dropped later.
+    // Finds the parts of all triangles that are not collapsed. Triangles without area are dropped
+    // later.
     void find_parts(std::size_t triangles)
     {
         std::vector<double> exact;
@@ -301,7 +304,7 @@ class Writer
         }
     }
 
-    // False where nothing is left of the triangle.
+    // Stores a triangle's positions. Returns false if it has no area.
     bool store_positions(const Draw &draw, const Triangle &triangle, float *p)
     {
         if (scene_.parts.count > 0) {
@@ -316,7 +319,7 @@ class Writer
         return glint_triangle_has_area(p);
     }
 
-    // The same for the next of the triangles that parts were found of.
+    // Does the same from the parts, for the next triangle in them.
     bool take_from_part(float *p)
     {
         const glint_parts &parts = scene_.parts;
@@ -330,7 +333,7 @@ class Writer
         return glint_triangle_has_area(parts.positions + 9 * to);
     }
 
-    // Normals that are zero, NaN or infinite become (0, 0, 0) in glint_vec3_normalize.
+    // glint_vec3_normalize turns normals that are zero, NaN or infinite into (0, 0, 0).
     void store_normals(const Draw &draw, const Triangle &triangle,
                        const std::array<glint_vec3, 3> &turned)
     {
@@ -352,7 +355,7 @@ class Writer
         }
     }
 
-    // The bounds of what is stored.
+    // Sets the bounds of the stored triangles.
     void finish_bounds()
     {
         auto world = [&](const std::array<float, 3> &p) {
@@ -366,12 +369,12 @@ class Writer
     Load &load_;
     const std::vector<Draw> &draws_;
     glint_scene &scene_;
-    std::size_t taken_ = 0; // of the triangles in parts, before those without area are dropped
+    std::size_t taken_ = 0; // triangles taken from the parts, including those without area
     std::array<float, 3> low_ = {INFINITY, INFINITY, INFINITY};
     std::array<float, 3> high_ = {-INFINITY, -INFINITY, -INFINITY};
 };
 
-// The file's nodes, and the names of those that are drawn.
+// Stores the file's nodes, and the names of drawn nodes.
 void name_nodes(const Model &model, glint_scene &scene)
 {
     const std::size_t count = model.nodes.size();
@@ -390,12 +393,13 @@ void name_nodes(const Model &model, glint_scene &scene)
     }
 }
 
-// Keeps the materials that triangles use, in the order of the file and the default one last, so
-// that nothing is compiled, and nothing said, for others.
+// Keeps the materials that triangles use, in the order of the file, the default one last. So glint
+// compiles nothing for other materials and does not warn of them.
 void keep_used_materials(Load &load, std::size_t default_material, glint_scene &scene)
 {
     constexpr std::uint32_t unused = 0xFFFFFFFF;
     std::vector<std::uint32_t> place(default_material + 1, unused);
+    // Find the used materials.
     for (std::size_t i = 0; i < scene.instance_count; i++) {
         place[scene.instances[i].material] = 0;
     }
@@ -405,6 +409,7 @@ void keep_used_materials(Load &load, std::size_t default_material, glint_scene &
     if (scene.materials == nullptr) {
         throw std::bad_alloc();
     }
+    // Move them to the scene.
     const json &root = load.document.root;
     for (std::size_t i = 0; i < place.size(); i++) {
         if (place[i] == unused) {
@@ -419,6 +424,7 @@ void keep_used_materials(Load &load, std::size_t default_material, glint_scene &
         scene.material_count++;
         survey_material(root, source, used_material, load.tally);
     }
+    // Renumber the materials of instances and triangles.
     for (std::size_t i = 0; i < scene.instance_count; i++) {
         scene.instances[i].material = place[scene.instances[i].material];
     }
@@ -441,9 +447,9 @@ void flatten(Load &load, glint_scene &scene)
 {
     std::size_t triangles = 0;
     bool with_normals = false;
-    std::set<const Shape *> drawn; // hidden ones cost nothing
+    std::set<const Shape *> drawn; // hidden shapes cost nothing
     for (const Draw &draw : load.draws) {
-        triangles += draw.primitive->triangles; // 2^22 draws of 2^33 at most
+        triangles += draw.primitive->triangles; // at most 2^22 draws of 2^33
         drawn.insert(draw.shape);
         with_normals = with_normals || draw.primitive->has_normals;
     }
@@ -460,7 +466,7 @@ void flatten(Load &load, glint_scene &scene)
     Writer(load, scene)
         .write(triangles, with_normals, static_cast<std::uint32_t>(default_material),
                glint_parts_may_be_there(measures.smallest / scene.unit));
-    load.poses.clear(); // their memory is free while the scene is rendered
+    load.poses.clear(); // their memory is free during rendering
     load.draws.clear();
     name_nodes(load.model, scene);
     keep_used_materials(load, default_material, scene);

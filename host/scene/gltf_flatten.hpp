@@ -1,4 +1,4 @@
-// Flattening: every drawn triangle to world space, in double, and into the scene's arrays.
+// Flattens the scene: transforms every drawn triangle to world space, in double, and stores it.
 #ifndef GLINT_SCENE_GLTF_FLATTEN_HPP
 #define GLINT_SCENE_GLTF_FLATTEN_HPP
 
@@ -10,7 +10,7 @@ namespace glint
 // Refuses more triangles than a scene may have.
 void check_triangle_count(std::size_t triangles);
 
-// Fills all of the scene but its path, cameras and skipped counts.
+// Fills the scene except its path, cameras and skipped counts.
 void flatten(Load &load, glint_scene &scene);
 
 } // namespace glint

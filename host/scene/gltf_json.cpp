@@ -1,4 +1,4 @@
-// Checked access to JSON. See gltf_json.hpp.
+// Reads and checks JSON. See gltf_json.hpp.
 #include "scene/gltf_json.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ std::string in_quotes(const std::string &text)
     if (text.size() <= limit) {
         return "\"" + text + "\"";
     }
-    // Not in the middle of a UTF-8 character.
+    // Do not cut in the middle of a UTF-8 character.
     std::size_t end = limit;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) {
         end--;
@@ -92,7 +92,7 @@ static std::string described(const json &value)
     }
 }
 
-// 0 "main", 1, 2 "top" and so on, some of them.
+// Lists names for a message: 0 "main", 1, 2 "top" and so on, as many as fit.
 static std::string list_of(const std::vector<std::string> &names)
 {
     std::string list;
@@ -111,7 +111,7 @@ std::size_t find_named(const std::vector<std::string> &names, const char *name, 
             return i;
         }
     }
-    // strtoul would take a sign and spaces, too.
+    // strtoul would also accept a sign and spaces.
     char *end = nullptr;
     unsigned long index = std::strtoul(name, &end, 10);
     bool is_index = name[0] >= '0' && name[0] <= '9' && *end == '\0';
@@ -313,7 +313,7 @@ double number_of(const json &value, const Place &place)
 double number_within(const json &value, const Place &place, double low, double high)
 {
     double number = number_of(value, place);
-    // Exporters compute in floats: past a bound by their rounding is on the bound.
+    // Exporters compute in floats: a number past a bound by their rounding counts as the bound.
     const double slack = 1e-6 * (high - low);
     if (!(number >= low - slack && number <= high + slack)) {
         refuse(place, shown(number) + " is outside [" + shown(low) + ", " + shown(high) +

@@ -1,5 +1,5 @@
-// Reading JSON that nobody has checked yet: every accessor names the place that it read when it
-// refuses. Refusals travel as exceptions inside the shim; gltf.cpp turns them into a status.
+// Reads unchecked JSON. A function that refuses a value names its place in the document. Refusals
+// are exceptions inside the loader; gltf.cpp turns them into a status.
 #ifndef GLINT_SCENE_GLTF_JSON_HPP
 #define GLINT_SCENE_GLTF_JSON_HPP
 
@@ -30,9 +30,8 @@ class shortage : public std::runtime_error
     using std::runtime_error::runtime_error;
 };
 
-// Where something stands in the document, such as meshes[3].primitives[0].mode. Cheap to make, so
-// that it can be made for every object; the text is put together only for a message. The keys must
-// outlive it.
+// A place in the document, such as meshes[3].primitives[0].mode. It is cheap, so that the loader
+// can make one for every object; only a message composes its text. The keys must outlive it.
 class Place
 {
   public:
@@ -51,48 +50,48 @@ class Place
 
 [[noreturn]] void refuse(const Place &place, const std::string &cause);
 
-// The text in quotes, cut after a few dozen characters.
+// Returns the text in quotes, cut after a few dozen characters.
 std::string in_quotes(const std::string &text);
 
-// A number as a short text; counted("node", 2) is "2 nodes".
+// Return short texts: a number; and a count, for example counted("node", 2) is "2 nodes".
 std::string shown(double value);
 std::string counted(std::size_t count, const char *noun);
 
-// The thing of that name among those with these, or else of that index ("0"). Refuses what is
-// neither, with a list of what there is; `noun` is what such a thing is called.
+// Finds a thing by name among `names`, or else by index ("0"). Refuses an unknown name or index,
+// with a list of the known ones; `noun` is the word for such a thing.
 std::size_t find_named(const std::vector<std::string> &names, const char *name, const char *noun);
 
-// NULL where the object has no such member.
+// Returns a member; NULL if the object does not have it.
 const json *member(const json &object, const char *key);
 
-// The member, which must be there and be an object, an array (of so many elements, if any length is
-// given), a text.
+// Return a required member that is an object or an array. Refuse a missing member or another type.
 const json &object_at(const json &object, const Place &place, const char *key);
 const json &array_at(const json &object, const Place &place, const char *key);
 
-// Refuses what is no object.
+// Refuses a value that is not an object.
 void expect_object(const json &value, const Place &place);
 
-// Refuses what stands under a key of the top level unless it is an array of objects, or missing.
+// Checks a top-level member: it must be missing or an array of objects.
 void check_objects(const json &root, const char *key);
-// That array, once it has been checked; an empty one where there is none.
+// Returns such a checked array; an empty array if it is missing.
 const json &objects_of(const json &root, const char *key);
-// An array that may be missing, of anything.
+// Returns an optional array of any elements.
 const json &optional_array(const json &object, const Place &place, const char *key);
-// NULL where it is missing.
+// Returns an optional object; NULL if it is missing.
 const json *optional_object(const json &object, const Place &place, const char *key);
 
-// An object's extension; NULL where it has none of that name. Refuses one that is no object.
+// Returns an object's extension by name; NULL if it is missing. Refuses an extension that is no
+// object.
 const json *extension_of(const json &object, const Place &place, const char *name);
 
-// A malloc'd copy; NULL for an empty text.
+// Returns a malloc'd copy; NULL for an empty text.
 char *copy_text(const std::string &text);
 
 std::string text_of(const json &value, const Place &place);
 std::string optional_text(const json &object, const Place &place, const char *key);
 bool optional_boolean(const json &object, const Place &place, const char *key, bool fallback);
 
-// A whole number in [low, high]; 3.0 is one.
+// Return a whole number in [low, high]; 3.0 is whole.
 std::uint64_t whole_number(const json &value, const Place &place, std::uint64_t low,
                            std::uint64_t high);
 std::uint64_t whole_at(const json &object, const Place &place, const char *key, std::uint64_t low,
@@ -100,17 +99,17 @@ std::uint64_t whole_at(const json &object, const Place &place, const char *key, 
 std::uint64_t optional_whole(const json &object, const Place &place, const char *key,
                              std::uint64_t fallback, std::uint64_t high);
 
-// An index into an array of `count` things.
+// Returns an index into an array of `count` things.
 std::size_t index_of(const json &value, const Place &place, std::size_t count, const char *noun);
-// −1 where the member is missing.
+// Returns an optional index; −1 if the member is missing.
 std::ptrdiff_t optional_index(const json &object, const Place &place, const char *key,
                               std::size_t count, const char *noun);
 
-// A finite number, and one within [low, high], but for the rounding of a float.
+// Return a finite number, and a number within [low, high], with tolerance for a float's rounding.
 double number_of(const json &value, const Place &place);
 double number_within(const json &value, const Place &place, double low, double high);
 
-// Whole numbers beyond this are not exact in a JSON number.
+// Larger whole numbers are not exact in a JSON number.
 constexpr std::uint64_t largest_whole = (std::uint64_t{1} << 53) - 1;
 
 } // namespace glint

@@ -1,4 +1,5 @@
-// Punctual lights: checked as part of the document, and placed by their nodes. See gltf_lights.hpp.
+// Checks punctual lights as part of the document, and places them at their nodes. See
+// gltf_lights.hpp.
 #include "scene/gltf_lights.hpp"
 
 #include "base/memory.h"
@@ -46,7 +47,7 @@ std::vector<double> check_color(const json &light, const Place &light_place)
     return color;
 }
 
-// 0: no end.
+// Returns the range; 0: unlimited.
 double check_range(const json &light, const Place &place)
 {
     const json *found = member(light, "range");

@@ -1,4 +1,4 @@
-// Punctual lights (KHR_lights_punctual).
+// Checks and places punctual lights (KHR_lights_punctual).
 #ifndef GLINT_SCENE_GLTF_LIGHTS_HPP
 #define GLINT_SCENE_GLTF_LIGHTS_HPP
 
@@ -12,13 +12,14 @@ namespace glint
 // Fills model.lights with the file's lights.
 void check_lights(const json &root, Model &model);
 
-// The light of a node: an index into model.lights; −1: none.
+// Returns the light of a node, an index into model.lights; −1: none.
 int check_node_light(const json &node, const Place &place, const Model &model);
 
-// Makes room in the scene for the lights of all nodes that it shows.
+// Allocates the scene's lights, enough for all nodes that it shows.
 void allocate_lights(const Load &load, glint_scene &scene);
 
-// Adds a node's light, where the node stands. One that shines nowhere is left out, with a warning.
+// Adds the light of a node at the node's place. Leaves out a light that shines nowhere, with a
+// warning.
 void add_light(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene);
 
 } // namespace glint

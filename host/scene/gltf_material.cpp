@@ -1,5 +1,5 @@
-// Materials: checked, read, and surveyed for what is not modelled. Checking and reading are one
-// pass, so that no value can be read that was not checked. See gltf_material.hpp.
+// Checks and reads materials in one pass, so that no unchecked value can be read. Warns of features
+// that glint does not model. See gltf_material.hpp.
 #include "scene/gltf_material.hpp"
 
 #include "scene/gltf_extensions.hpp"
@@ -25,7 +25,7 @@ float factor(const json &object, const Place &place, const char *key, double fal
                             : static_cast<float>(number_within(*found, place / key, 0, 1));
 }
 
-// A number from `low` up, that a float can hold.
+// Reads a number of at least `low` that a float can hold.
 float factor_from(const json &object, const Place &place, const char *key, double low,
                   double fallback)
 {
@@ -40,7 +40,7 @@ float factor_from(const json &object, const Place &place, const char *key, doubl
     return static_cast<float>(value);
 }
 
-// `count` numbers in [0, 1].
+// Reads `count` numbers in [0, 1].
 void color(const json &object, const Place &object_place, const char *key, std::size_t count,
            float *result)
 {
@@ -62,7 +62,7 @@ bool is_extension(const char *holder)
     return std::strncmp(holder, "KHR_", 4) == 0;
 }
 
-// Where the slot's holder stands in the material; NULL where it is missing, or does not count.
+// Returns the object that holds the slot in the material; NULL if it is missing or does not count.
 const json *holder_of(const json &material, const Place &place, const TextureSlot &slot)
 {
     if (slot.holder != nullptr && std::strcmp(slot.holder, "pbrMetallicRoughness") == 0 &&
@@ -83,7 +83,7 @@ Place place_of(const Place &place, const TextureSlot &slot)
                                        : place / slot.holder;
 }
 
-// Takes what a textureInfo says into the material, with the place of the image in the file.
+// Copies a textureInfo to the material, with the image's place in the file.
 void take_texture(const json &root, const json &info, const TextureSlot &slot, UsedMaterial &read)
 {
     std::ptrdiff_t image = -1;
@@ -120,7 +120,7 @@ float read_ior(const json &object, const Place &place)
     return static_cast<float>(ior);
 }
 
-// alphaMode and what belongs to it.
+// Reads alphaMode and its related values.
 void read_alpha(const json &material, const Place &place, glint_material &result)
 {
     const std::string mode = optional_text(material, place, "alphaMode");
@@ -197,7 +197,7 @@ void read_volume(const json &object, const Place &place, glint_material &result)
     const json *distance = member(object, "attenuationDistance");
     if (distance != nullptr) {
         double value = number_of(*distance, place / "attenuationDistance");
-        // Beyond what a float holds nothing is absorbed on any path.
+        // If the value exceeds a float, no path is long enough for any absorption.
         result.attenuation_distance = value > FLT_MAX ? INFINITY : static_cast<float>(value);
         if (!(result.attenuation_distance > 0)) {
             refuse(place / "attenuationDistance",
@@ -214,8 +214,9 @@ double brightness(const float rgb[3])
                      0.114 * double(rgb[2]) * double(rgb[2]));
 }
 
-// How metallic a surface of this diffuse and specular brightness is: the m at which a base colour
-// b gives both, (1 − m) b and 0.04 (1 − m) + m b. `left` is what the specular colour leaves.
+// The metallic value m of a surface with this diffuse and specular brightness. A base colour b then
+// gives both: (1 − m) b and 0.04 (1 − m) + m b. `left` is the light that the specular colour
+// leaves.
 double metallic_of(double diffuse, double specular, double left)
 {
     constexpr double dielectric = 0.04;
@@ -227,8 +228,8 @@ double metallic_of(double diffuse, double specular, double left)
     return std::clamp((std::sqrt(d) - b) / (2 * dielectric), 0.0, 1.0);
 }
 
-// KHR_materials_pbrSpecularGlossiness, converted as its specification's example does. It takes the
-// place of pbrMetallicRoughness.
+// Converts KHR_materials_pbrSpecularGlossiness like the example in its specification. It replaces
+// pbrMetallicRoughness.
 void read_specular_glossiness(const json &object, const Place &place, glint_material &result)
 {
     float diffuse[4] = {1, 1, 1, 1}, specular[3] = {1, 1, 1};
@@ -248,7 +249,7 @@ void read_specular_glossiness(const json &object, const Place &place, glint_mate
     result.alpha = diffuse[3];
 }
 
-// Colours that may be brighter than white.
+// Reads a colour that may be brighter than white.
 void read_specular_color(const json &object, const Place &object_place, float *result)
 {
     const json *found = member(object, "specularColorFactor");
@@ -261,7 +262,7 @@ void read_specular_color(const json &object, const Place &object_place, float *r
     }
     for (std::size_t i = 0; i < 3; i++) {
         const double value = number_of((*found)[i], place[i]);
-        if (!(value >= -1e-6 && value <= FLT_MAX)) { // less by an exporter's rounding is 0
+        if (!(value >= -1e-6 && value <= FLT_MAX)) { // an exporter may round to just below 0
             refuse(place[i], shown(value) + " is out of range (give 0 or more)");
         }
         result[i] = static_cast<float>(std::max(value, 0.0));
@@ -318,8 +319,8 @@ void read_extensions(const json &material, const Place &place, glint_material &r
     result.unlit = extension_of(material, place, "KHR_materials_unlit") != nullptr;
 }
 
-// The lecture's blend and the priority of solids: extras {"glint": {"mirror": m, "priority": p}}.
-// Other programs' extras can be anything.
+// Reads the lecture's blend and the priority of solids: extras {"glint": {"mirror": m, "priority":
+// p}}. Extras of other programs may hold anything.
 void read_extras(const json &material, const Place &place, glint_material &result)
 {
     const json *extras = member(material, "extras");
@@ -341,7 +342,7 @@ void read_extras(const json &material, const Place &place, glint_material &resul
     }
 }
 
-// Without its textures.
+// Reads a material without its textures.
 glint_material read_one(const json &material, const Place &place)
 {
     glint_material result = glint_material_default;
@@ -373,7 +374,7 @@ void check_slots(const json &root, const json &material, const Place &place)
     }
 }
 
-// Mid-grey paint, where nothing is known of a surface.
+// Makes the surface mid-grey paint, because nothing is known of it.
 void make_grey(glint_material &material)
 {
     std::fill(material.base_color, material.base_color + 3, 0.5F);
@@ -396,12 +397,12 @@ void make_grey(glint_material &material)
     }
 }
 
-// What stands for a texture that cannot be shown. Returns what is said of it.
+// Sets a substitute for a texture that cannot be shown. Returns its description.
 const char *do_without(glint_texture_slot slot, UsedMaterial &used)
 {
     glint_material &material = used.material;
     if (used.is_replaced) {
-        return "the colour's factor alone is used"; // of textures a preset keeps that one
+        return "the colour's factor alone is used"; // a preset keeps no other texture
     }
     switch (slot) {
     case GLINT_TEXTURE_NORMAL:
@@ -431,7 +432,7 @@ const char *do_without(glint_texture_slot slot, UsedMaterial &used)
     }
 }
 
-// materials[3] "gem"
+// For example: materials[3] "gem"
 std::string where_is(const json &root, std::ptrdiff_t index)
 {
     if (index < 0) {

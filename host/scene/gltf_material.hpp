@@ -1,4 +1,4 @@
-// Materials: checked, read, and surveyed for what is not modelled.
+// Checks and reads materials, and warns of features that glint does not model.
 #ifndef GLINT_SCENE_GLTF_MATERIAL_HPP
 #define GLINT_SCENE_GLTF_MATERIAL_HPP
 
@@ -10,40 +10,39 @@
 namespace glint
 {
 
-// Checks every material, used or not.
+// Checks every material, whether used or not.
 void check_materials(const json &root);
 
-// A texture that cannot be shown, and why.
+// A texture that glint cannot show, and the reason.
 struct MissingTexture {
     glint_texture_slot slot;
     std::string key, why;
 };
 
-// A material that triangles use. Its name is left NULL.
+// A material that triangles use. Its name stays NULL.
 struct UsedMaterial {
     glint_material material = {};
     std::vector<MissingTexture> missing;
-    bool is_replaced = false; // by an override: what else the file says of it does not count
+    bool is_replaced = false; // by an override: the file's other values no longer count
 };
 
-// The factors of a material of a checked document; of glTF's default material for −1.
+// Returns a material's factors from a checked document; −1: of glTF's default material.
 glint_material read_factors(const json &root, std::ptrdiff_t index);
 
-// The same with its textures: `image` of each is 1 + its place in the file's images.
+// Returns a material with its textures: each `image` is 1 + its place in the file's images.
 UsedMaterial read_material(const json &root, std::ptrdiff_t index);
 
-// Notes the images of the textures that are left, and sets `image` of each to its number there.
+// Registers the images of the remaining textures, and sets each `image` to its number in `images`.
 void note_images(UsedMaterial &used, Images &images);
 
-// Once the images are read: puts something else in the place of textures that cannot be shown, and
-// says so.
+// Replaces textures that cannot be shown, and tallies them. Call it after the images are read.
 void settle_material(const json &root, std::ptrdiff_t index, const Images &images,
                      UsedMaterial &used, Tally &tally);
 
-// Empty where it has none; of the default material, too.
+// Returns the name; empty for a material without a name and for the default material.
 std::string material_name(const json &root, std::ptrdiff_t index);
 
-// What of a used material is not modelled, is added to the tally.
+// Tallies features of a used material that glint does not model.
 void survey_material(const json &root, std::ptrdiff_t index, const UsedMaterial &used,
                      Tally &tally);
 

@@ -1,8 +1,9 @@
-// Views packed by meshoptimizer. See gltf_meshopt.hpp.
+// Unpacks views packed by meshoptimizer. See gltf_meshopt.hpp.
 //
-// The library decodes in glint's own process: it knows where input and output end, and fuzzing with
-// guard pages found no access beyond. Nothing is allocated that the packed bytes cannot hold: the
-// format needs a bit for eight bytes of a vertex, or a byte for an index or a triangle.
+// The library decodes in glint's own process. It knows the ends of input and output, and fuzzing
+// with guard pages found no access beyond them. glint allocates nothing that the packed bytes
+// cannot hold: the format needs a bit for eight bytes of a vertex, or a byte for an index or a
+// triangle.
 #include "scene/gltf_meshopt.hpp"
 
 #include "base/free_memory.h"
@@ -21,7 +22,7 @@ namespace
 
 constexpr std::array<const char *, 2> extension_names = {"EXT_meshopt_compression",
                                                          "KHR_meshopt_compression"};
-// No packed byte holds more: 2 bits say that 16 bytes repeat what stands before them.
+// The most bytes per packed byte: 2 bits can say that 16 bytes repeat the bytes before.
 constexpr std::uint64_t most_bytes_each = 64;
 
 struct Extension {
@@ -40,7 +41,7 @@ Extension find_extension(const json &holder, const Place &place)
     return {nullptr, place};
 }
 
-// The place in `names` of the word under `key`, or of `fallback` where it is missing.
+// Returns the place in `names` of the word under `key`; if it is missing, of `fallback`.
 template <typename Code, std::size_t N>
 Code word_at(const Extension &extension, const char *key, const char *fallback,
              const std::array<const char *, N> &names)
@@ -83,7 +84,7 @@ void check_stride(const PackedView &packed, const Place &place)
     }
 }
 
-// The range of the packed bytes in their buffer.
+// Checks the range of the packed bytes in their buffer.
 void check_source(const json &root, const Extension &extension, PackedView &packed)
 {
     const json &buffers = objects_of(root, "buffers");
@@ -104,7 +105,7 @@ void check_source(const json &root, const Extension &extension, PackedView &pack
     }
 }
 
-// What the view itself says must be what is unpacked.
+// Checks that the view's own size matches the unpacked data.
 void check_target(const PackedView &packed, const tinygltf::BufferView &view,
                   const Extension &extension)
 {
@@ -128,13 +129,13 @@ Place place_of(const PackedView &packed)
 
 // ---- Unpacking ----------------------------------------------------------------------------------
 
-// The fewest bytes that can hold so many elements.
+// The least number of packed bytes for the elements.
 std::uint64_t least_bytes(const PackedView &packed)
 {
     switch (packed.mode) {
     case PackedMode::attributes: {
-        // Blocks of elements; in each, for each byte of an element, two bits for 16 elements, in
-        // whole bytes. A tail holds the first element, in at least 32 bytes.
+        // Elements come in blocks. A block holds, for each byte of an element, two bits per 16
+        // elements, in whole bytes. A tail holds the first element, in at least 32 bytes.
         const std::uint64_t block = std::min<std::uint64_t>(8192 / packed.stride / 16 * 16, 256);
         const auto headers = [](std::uint64_t elements) { return (elements + 63) / 64; };
         return 1 +
@@ -143,13 +144,13 @@ std::uint64_t least_bytes(const PackedView &packed)
                std::max<std::uint64_t>(packed.stride, 32);
     }
     case PackedMode::triangles:
-        return 1 + packed.count / 3 + 16; // a code each, and a table
+        return 1 + packed.count / 3 + 16; // a code per triangle, and a table
     default:
-        return 1 + packed.count + 4; // at least a byte each, and a tail
+        return 1 + packed.count + 4; // at least a byte per index, and a tail
     }
 }
 
-// The library reads these versions of the formats.
+// True for the versions of the formats that the library reads.
 bool is_known_header(PackedMode mode, unsigned char header)
 {
     switch (mode) {
@@ -214,7 +215,7 @@ void unpack(const PackedView &packed, const unsigned char *from, std::vector<uns
     }
 }
 
-// Views may share packed bytes, but not so that a small file fills the memory.
+// Checks the total size. Views may share packed bytes, but a small file must not fill the memory.
 void check_total(const Model &model, std::uint64_t unpacked)
 {
     const std::uint64_t there = buffer_bytes(model);
@@ -268,7 +269,7 @@ bool check_packed_view(const json &root, std::size_t index, Model &model)
 
 void unpack_views(Model &model)
 {
-    // What is packed once is unpacked once.
+    // Unpack equal packed views only once.
     using Key = std::tuple<std::size_t, std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t,
                            PackedMode, PackedFilter>;
     std::map<Key, std::vector<std::size_t>> views;
@@ -278,7 +279,8 @@ void unpack_views(Model &model)
         check_packed_bytes(one, model.buffers[one.buffer].data.data() + one.offset);
         std::vector<std::size_t> &same = views[{one.buffer, one.offset, one.length, one.stride,
                                                 one.count, one.mode, one.filter}];
-        // Neither is above 2^61: the first is cut, the second within most_bytes_each of a length.
+        // No overflow: the first is limited, the second within most_bytes_each of a length; neither
+        // exceeds 2^61.
         unpacked = std::min(unpacked, largest_whole) + (same.empty() ? one.count * one.stride : 0);
         same.push_back(i);
     }

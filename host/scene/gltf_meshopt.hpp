@@ -1,5 +1,5 @@
-// EXT_meshopt_compression and KHR_meshopt_compression: views whose bytes are packed, and buffers
-// that hold no bytes.
+// EXT_meshopt_compression and KHR_meshopt_compression: unpacks views, and finds fallback buffers,
+// which hold no bytes.
 #ifndef GLINT_SCENE_GLTF_MESHOPT_HPP
 #define GLINT_SCENE_GLTF_MESHOPT_HPP
 
@@ -9,15 +9,15 @@
 namespace glint
 {
 
-// Whether the buffer says that it stands in for packed data, so that nothing in it is read.
+// True if the buffer says that it stands in for packed data; its content is not read.
 bool is_fallback(const json &buffer, const Place &place);
 
-// Checks the extension of bufferViews[index], whose own members were checked, and adds it to
-// model.packed. False where there is none.
+// Checks the extension of bufferViews[index] and adds it to model.packed. The view's own members
+// are already checked. Returns false if the view has no such extension.
 bool check_packed_view(const json &root, std::size_t index, Model &model);
 
-// Unpacks model.packed, each into a buffer of its own that its view then refers to. The buffers
-// were read. Refuses damaged data; throws a shortage where the machine has not the memory.
+// Unpacks each of model.packed into a buffer of its own, to which its view then refers. The buffers
+// must be loaded. Refuses damaged data; throws a shortage if memory is short.
 void unpack_views(Model &model);
 
 } // namespace glint

@@ -1,4 +1,5 @@
-// What a checked document holds, in tinygltf's types: what is read after the checks.
+// The contents of a checked document, in tinygltf's types. After the checks the loader reads only
+// these.
 #ifndef GLINT_SCENE_GLTF_MODEL_HPP
 #define GLINT_SCENE_GLTF_MODEL_HPP
 
@@ -10,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
-#include <fstream> // which tinygltf leaves out without its file functions, and uses all the same
+#include <fstream> // tinygltf uses it, but does not include it without its file functions
 #include <map>
 #include <set>
 #include <string>
@@ -20,7 +21,7 @@
 namespace glint
 {
 
-// Materials by the variant in which a primitive has them (KHR_materials_variants).
+// A primitive's material by variant (KHR_materials_variants).
 using VariantMaterials = std::map<std::size_t, int>;
 
 // A primitive whose material depends on the variant: meshes[mesh].primitives[number].
@@ -29,8 +30,8 @@ struct MappedPrimitive {
     VariantMaterials materials;
 };
 
-// A view whose bytes are packed (gltf_meshopt.hpp): `count` elements of `stride` bytes, from
-// `length` bytes at `offset` of a buffer.
+// A packed view (gltf_meshopt.hpp): `count` elements of `stride` bytes, packed in `length` bytes at
+// `offset` of a buffer.
 enum class PackedMode { attributes, triangles, indices };
 enum class PackedFilter { none, octahedral, quaternion, exponential };
 struct PackedView {
@@ -40,33 +41,35 @@ struct PackedView {
     PackedFilter filter = PackedFilter::none;
 };
 
-// A primitive that Draco packed (gltf_draco.hpp), and the ids of its attributes there.
+// A primitive packed by Draco (gltf_draco.hpp), and the ids of its attributes in the packed data.
 struct DracoPrimitive {
     std::size_t mesh = 0, number = 0, view = 0;
     std::vector<std::pair<std::string, std::uint32_t>> attributes;
 };
 
-// The checks fill it, each object where it is checked (gltf_check*.cpp), with what the loader reads
-// of it. So no value can be read that nobody has checked. An index of −1 refers to nothing; an
-// accessor whose bufferView is −1 holds zeros. Where the file is in order tinygltf's own loader
-// gives the same, but it is no validator: it drops what it cannot read, hides negative offsets,
-// opens files and follows what is out of range.
+// The checks (gltf_check*.cpp) fill the model: each checked object gets the values that the loader
+// reads. So the loader cannot read an unchecked value. An index of −1 refers to nothing; an
+// accessor whose bufferView is −1 holds zeros. For a valid file tinygltf's own loader gives the
+// same model. But it does not validate: it drops unreadable values, hides negative offsets, opens
+// files and follows references that are out of range.
 struct Model : tinygltf::Model {
     bool quantized = false;   // KHR_mesh_quantization is declared
-    std::vector<int> parents; // of each node; −1: a root
+    std::vector<int> parents; // [node]; −1: a root
     std::vector<PackedView> packed;
     bool requires_draco = false;
     std::vector<DracoPrimitive> draco;
-    std::set<std::size_t> filled_accessors; // by Draco
-    std::vector<bool> is_read;         // of each buffer; false: a placeholder for what views unpack
-    std::vector<std::string> variants; // the names of the file's variants of materials
-    std::ptrdiff_t variant = -1;       // the chosen one; −1: the plain materials
+    std::set<std::size_t> filled_accessors; // accessors that Draco fills
+    // [buffer]; false: a placeholder for unpacked views.
+    std::vector<bool> is_read;
+    std::vector<std::string> variants; // names of the file's material variants
+    std::ptrdiff_t variant = -1;       // index of the chosen variant; −1: the plain materials
     std::vector<MappedPrimitive> mapped;
-    std::vector<int> light_of;              // of each node, its punctual light; −1: none
-    std::vector<std::size_t> target_counts; // of each mesh's morph targets: the most of a primitive
+    std::vector<int> light_of; // [node]: its punctual light; −1: none
+    // [mesh]: the number of morph targets, the most of any primitive.
+    std::vector<std::size_t> target_counts;
 };
 
-// Bytes of all buffers that are there.
+// Returns the bytes of all loaded buffers.
 inline std::uint64_t buffer_bytes(const Model &model)
 {
     std::uint64_t sum = 0;

@@ -1,4 +1,4 @@
-// Morph targets. See gltf_morph.hpp.
+// Checks and applies morph targets. See gltf_morph.hpp.
 #include "scene/gltf_morph.hpp"
 
 #include "scene/gltf_check_storage.hpp"

@@ -1,4 +1,4 @@
-// Morph targets: checked, opened, and added to a primitive's attributes.
+// Checks morph targets, opens them, and adds them to a primitive's attributes.
 #ifndef GLINT_SCENE_GLTF_MORPH_HPP
 #define GLINT_SCENE_GLTF_MORPH_HPP
 
@@ -10,38 +10,36 @@
 namespace glint
 {
 
-// The attributes that targets move. A row is all that another one needs to be checked, opened and
-// morphed.
+// The attributes that targets move. To support another attribute, add a row.
 enum MorphAttribute : std::size_t { morph_position, morph_normal };
 struct MorphRow {
     const char *name;
     int type; // tinygltf's
     std::size_t components;
-    bool any_integers; // with KHR_mesh_quantization: also those that are not normalised
+    bool any_integers; // with KHR_mesh_quantization: also integers that are not normalised
 };
 constexpr std::array<MorphRow, 2> morph_rows = {{
     {"POSITION", TINYGLTF_TYPE_VEC3, 3, true},
     {"NORMAL", TINYGLTF_TYPE_VEC3, 3, false},
 }};
 
-// What a target adds to each attribute where its weight is 1. A reader without elements: nothing.
+// The deltas of a target for each attribute, at weight 1. A reader without elements: no deltas.
 struct MorphTarget {
     std::array<Reader, morph_rows.size()> of;
 };
 
-// Refuses targets whose accessors are of the wrong kind or length. Fills primitive.targets.
+// Refuses targets whose accessors have the wrong kind or length. Fills primitive.targets.
 void check_targets(const json &source, const Place &primitive_place, const Model &model,
                    tinygltf::Primitive &primitive);
 
-// The member "weights" of a mesh or a node: as many as there are targets, or none.
+// Returns the member "weights" of a mesh or a node: one per target, or none.
 std::vector<double> check_weights(const json &object, const Place &place, std::size_t targets);
 
-// The sum of targets times their weights. Targets of weight 0 are left out, so they cost nothing.
-// Borrows the targets.
+// The sum of targets times their weights. Targets of weight 0 cost nothing. Borrows the targets.
 class Morph
 {
   public:
-    // Weights past the last target are not used; those that are missing are 0.
+    // Ignores weights past the last target; missing weights are 0.
     Morph(const std::vector<MorphTarget> &targets, const std::vector<double> &weights);
 
     bool moves(MorphAttribute attribute) const
@@ -49,7 +47,7 @@ class Morph
         return !parts_[attribute].empty();
     }
 
-    // Targets that count, of all attributes.
+    // The number of targets that count, over all attributes.
     std::size_t part_count() const
     {
         std::size_t sum = 0;
@@ -59,7 +57,7 @@ class Morph
         return sum;
     }
 
-    // Adds to the components of a vertex. Allocates nothing.
+    // Adds the deltas to the components of a vertex. Allocates nothing.
     void add(MorphAttribute attribute, std::size_t vertex, double *components) const;
 
   private:

@@ -1,4 +1,4 @@
-// Poses. See gltf_pose.hpp.
+// Computes poses. See gltf_pose.hpp.
 #include "scene/gltf_pose.hpp"
 
 namespace glint
@@ -14,7 +14,7 @@ const Curve *weight_curve(const Clips &clips, std::size_t node)
     return has ? &found->second.of[weights] : nullptr;
 }
 
-// The joints of a skin in use are visited, those of another may not be.
+// All joints of a skin in use are visited; joints of other skins may not be.
 Bones place_bones(const PoseSource &source, const Skin &skin, const std::vector<glint_mat4> &placed)
 {
     Bones bones;

@@ -1,4 +1,4 @@
-// Primitives made ready for drawing. See gltf_primitive.hpp.
+// Prepares primitives for drawing. See gltf_primitive.hpp.
 #include "scene/gltf_primitive.hpp"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace glint
 namespace
 {
 
-// Many primitives can share an accessor; each is opened and searched once, or a small file could
-// ask for a long time.
+// A cache of opened accessors. Many primitives can share an accessor; each is opened and searched
+// once. Otherwise a small file could take a long time.
 class Accessors
 {
   public:
@@ -90,7 +90,7 @@ void open_targets(const tinygltf::Primitive &source, Accessors &accessors, Primi
             const bool is_read =
                 std::any_of(morph_rows.begin(), morph_rows.end(),
                             [&](const MorphRow &row) { return moved.first == row.name; });
-            if (!is_read && moved.first != "TANGENT") { // tangents follow from the others
+            if (!is_read && moved.first != "TANGENT") { // tangents are computed anew
                 tally.add("a morph target moves " + moved.first + ", which is left out",
                           primitive.place().text());
             }
@@ -126,7 +126,7 @@ void open_influences(const tinygltf::Primitive &source, Accessors &accessors, Pr
     }
 }
 
-// What textures and colours need.
+// Opens the attributes for textures and colours.
 void open_attributes(const tinygltf::Primitive &source, const Model &model, Accessors &accessors,
                      Primitive &primitive)
 {

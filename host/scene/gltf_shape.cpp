@@ -1,4 +1,4 @@
-// Primitives as they stand at one time. See gltf_shape.hpp.
+// Deforms primitives for one time. See gltf_shape.hpp.
 #include "scene/gltf_shape.hpp"
 
 #include "base/free_memory.h"
@@ -21,11 +21,12 @@ glint_vec3 row3(const glint_mat4 &m, int row)
     return {m.m[row][0], m.m[row][1], m.m[row][2]};
 }
 
-// −1 or 1 by the determinant's sign; 0 where the matrix flattens, so that the sign is rounding's.
+// −1 or 1, the determinant's sign; 0 if the matrix flattens, because then rounding decides the
+// sign.
 signed char orientation_of(const glint_mat4 &m)
 {
-    // Of the box of the rows' lengths, far above the rounding of sums of doubles, far below what
-    // the floats of a file can mean.
+    // Relative to the box of the rows' lengths. This is far above the rounding of sums of doubles
+    // and far below the precision of the file's floats.
     constexpr double flat = 1e-12;
     const double determinant = glint_mat4_determinant3(&m);
     double squares = flat * flat;
@@ -35,11 +36,11 @@ signed char orientation_of(const glint_mat4 &m)
     return determinant * determinant <= squares ? 0 : determinant < 0 ? -1 : 1;
 }
 
-// Elements of a shape, and what their weights are.
+// Some elements of a shape, and the verdicts on their weights.
 struct Task {
     Shape *shape;
     std::size_t first, last;
-    std::array<bool, 5> met = {}; // by Weighting
+    std::array<bool, 5> met = {}; // indexed by Weighting
 };
 
 void run(std::size_t index, void *context)
@@ -49,7 +50,7 @@ void run(std::size_t index, void *context)
         const Weighting weighting = task.shape->deform_element(task.first);
         task.met[static_cast<std::size_t>(weighting)] = true;
         if (is_fault(weighting)) {
-            return; // at task.first
+            return; // task.first is the faulty element
         }
     }
 }
@@ -130,7 +131,7 @@ Weighting Shape::deform_element(std::size_t element)
     orientations_[element] = orientation_of(blend);
     if (!normals_.empty()) {
         const glint_vec3 turned = glint_mat4_normal(&blend, normals_[element]);
-        // A flattened mesh keeps the side that a determinant of +0 would give it.
+        // A flattened mesh keeps the side of a determinant of +0.
         const bool undo = orientations_[element] == 0 && glint_mat4_determinant3(&blend) < 0;
         normals_[element] = glint_vec3_scale(turned, undo ? -1 : 1);
     }

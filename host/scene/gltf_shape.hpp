@@ -1,5 +1,5 @@
-// Primitives as they stand at one time: morphed by their targets, then skinned. This is where
-// flattening asks for positions and normals that are not the file's own.
+// Shapes: primitives at one time, morphed by their targets and then skinned. Flattening asks here
+// for positions and normals that are not the file's own.
 #ifndef GLINT_SCENE_GLTF_SHAPE_HPP
 #define GLINT_SCENE_GLTF_SHAPE_HPP
 
@@ -16,25 +16,25 @@ namespace glint
 class Shape
 {
   public:
-    // `joints` are the matrices of a skin's joints, from the mesh as bound to the world; NULL:
-    // none. Borrows both.
+    // `joints` are the matrices of a skin's joints, from the bound mesh to the world; NULL: none.
+    // Borrows the primitive and the joints.
     Shape(const Primitive &primitive, const std::vector<double> &weights,
           const std::vector<glint_mat4> *joints);
 
-    // False where all is as the file has it: there is nothing to compute then.
+    // False if positions and normals are the file's: then there is nothing to compute.
     bool deforms() const
     {
         return is_skinned() || morph_.moves(morph_position) || morph_.moves(morph_normal);
     }
 
-    // Positions are the world's then, and the node's own place does not count. False also where the
-    // primitive has no influences.
+    // True if positions are in world space, so that the node's own place does not count. False for
+    // a primitive without influences.
     bool is_skinned() const
     {
         return joints_ != nullptr;
     }
 
-    // Of the vertex at corner c of triangle t, after deform(). Normals have any length.
+    // The element at corner c of triangle t, after deform(). Normals have any length.
     std::size_t element(std::size_t t, std::size_t c) const
     {
         return is_per_corner_ ? 3 * t + c : primitive_->vertex(t, c);
@@ -48,11 +48,11 @@ class Shape
         return normals_[element];
     }
 
-    // Whether the joints turn a triangle inside out, by most of its corners.
+    // True if the joints turn the triangle inside out, by the majority of its corners.
     bool is_mirrored(std::size_t t) const;
 
-    // Steps of deform(): the memory; one element, which allocates nothing; the refusal of one that
-    // is at fault.
+    // The steps of deform(): allocate the memory; compute one element, without allocation; refuse a
+    // faulty element.
     void allocate(bool with_normals);
     Weighting deform_element(std::size_t element);
     [[noreturn]] void refuse_element(std::size_t element) const;
@@ -61,7 +61,7 @@ class Shape
     {
         return is_per_corner_ ? 3 * primitive_->triangles : primitive_->positions.count();
     }
-    // About how many vectors deform() reads and adds.
+    // The approximate number of vectors that deform() reads and adds.
     double cost() const
     {
         const std::size_t each = 1 + morph_.part_count() + 4 * primitive_->influences.size();
@@ -81,16 +81,16 @@ class Shape
     const Primitive *primitive_;
     Morph morph_;
     const std::vector<glint_mat4> *joints_;
-    // Where most vertices belong to no triangle, each corner has an element of its own, so that
-    // time and memory are bounded by the triangles.
+    // If most vertices belong to no triangle, each corner has an element of its own. So the number
+    // of triangles limits time and memory.
     bool is_per_corner_;
-    std::vector<glint_vec3> positions_, normals_; // by element; no normals where there are none
-    std::vector<signed char> orientations_;       // −1: mirrored, 0: flattened, 1
+    std::vector<glint_vec3> positions_, normals_; // [element]; normals only if the file has them
+    std::vector<signed char> orientations_;       // −1: mirrored, 0: flattened, 1: neither
 };
 
-// Computes the shapes on all cores, each vertex in double precision by itself, so that the result
-// depends on no other and on no number of threads. Refuses influences that mean nothing, and what
-// memory does not hold. Those that can be mended are tallied.
+// Computes the shapes on all cores. Each vertex is computed by itself in double precision, so the
+// number of threads does not change the result. Refuses influences that are faulty, and shapes too
+// large for memory. Repairs and tallies other bad weights.
 void deform(const std::vector<Shape *> &shapes, bool with_normals, Tally &tally);
 
 } // namespace glint

@@ -1,4 +1,4 @@
-// Skins. See gltf_skin.hpp.
+// Checks and reads skins. See gltf_skin.hpp.
 #include "scene/gltf_skin.hpp"
 
 #include "scene/gltf_check_storage.hpp"
@@ -12,10 +12,10 @@ namespace glint
 namespace
 {
 
-// Sums that differ from 1 by no more come from rounding: eight weights in bytes err by 1/510 each.
+// Sums differ from 1 at most so much by rounding: eight weights in bytes err by 1/510 each.
 constexpr double sum_tolerance = 8.0 / 510;
 
-// The last row's, as of a node's matrix.
+// Tolerance of the last row, as for a node's matrix.
 constexpr double row_tolerance = 1e-5;
 
 void check_matrices(const json &skin, const Place &skin_place, const Model &model,
@@ -54,7 +54,7 @@ glint_mat4 read_matrix(const Reader &matrices, std::size_t i, const Place &place
     glint_mat4 result = glint_mat4_identity;
     for (std::size_t k = 0; k < 16; k++) {
         if (k % 4 < 3) {
-            result.m[k % 4][k / 4] = m[k]; // the file's is column by column
+            result.m[k % 4][k / 4] = m[k]; // the file stores columns
         }
     }
     return result;
@@ -209,7 +209,7 @@ void refuse_influence(const std::vector<Influences> &sets, std::size_t vertex,
     const Place attributes = primitive_place / "attributes";
     const std::string who = "vertex " + std::to_string(vertex);
     std::size_t set = 0;
-    double joint = read_set(sets[0], vertex)[0].joint; // which counts where all weights are 0
+    double joint = read_set(sets[0], vertex)[0].joint; // counts if all weights are 0
     for (std::size_t s = 0; s < sets.size(); s++) {
         for (const Influence &one : read_set(sets[s], vertex)) {
             const Weighting judged = judge(one, joint_count);

@@ -1,4 +1,4 @@
-// Bounds over time. See gltf_sweep.hpp.
+// Computes bounds over time. See gltf_sweep.hpp.
 #include "scene/gltf_sweep.hpp"
 
 #include "scene/gltf_flatten.hpp"
@@ -15,15 +15,15 @@ namespace glint
 namespace
 {
 
-// A clip is looked at at so many times evenly apart, and at its keys, where things turn back.
-// Between those what moves is taken to stay near where it is at both.
+// A clip is evaluated at this many evenly spaced times, and at its keys, where motion may reverse.
+// Between two times, moving things are assumed to stay near their positions at both.
 constexpr int sweep_steps = 64;
 constexpr std::size_t most_sweep_keys = 4096;
 
-// Deforming takes longer, about 120 ns a vertex of four joints, which is a cost of 5. So much over
-// all times takes two seconds of one core; what costs more is looked at less often.
+// The most cost of deforming over all times, two seconds of one core. A vertex of four joints costs
+// 5, about 120 ns. Scenes of higher cost are evaluated at fewer times.
 constexpr double most_deforming = 5 * 0x1p24;
-// Boxes of instances that move, over all times: some seconds.
+// The most boxes of moving instances over all times, some seconds.
 constexpr double most_moving = 0x1p26;
 constexpr double fewest_times = 17;
 
@@ -37,7 +37,7 @@ std::vector<double> sweep_times(const Clips &clips)
     }
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
-    // Of more keys than that, which lie close, every so many-th.
+    // Of more keys, which lie close together, keep every stride-th.
     const std::size_t stride = times.size() / most_sweep_keys + 1;
     for (std::size_t i = 0; i * stride < times.size(); i++) {
         times[i] = times[i * stride];
@@ -49,7 +49,7 @@ std::vector<double> sweep_times(const Clips &clips)
     return times;
 }
 
-// Of the corners of triangles, as the shape has them, or (NULL) as the file has them.
+// The bounds of the triangles' corners, deformed by the shape; NULL: as in the file.
 Bounds box_of(const Primitive &primitive, const Shape *shape)
 {
     Bounds box;
@@ -82,7 +82,7 @@ struct Drawing {
     std::vector<glint_mat4> instances; // relative to the node; empty: the node alone
 };
 
-// Before anything takes time: what is to be drawn may be too much.
+// Lists what is drawn; refuses too much before anything takes time.
 std::vector<Drawing> drawings_of(const Load &load)
 {
     std::vector<Drawing> drawings;
@@ -110,7 +110,7 @@ std::vector<Drawing> drawings_of(const Load &load)
     return drawings;
 }
 
-// Grows bounds by drawings at one time after the other.
+// Grows bounds by drawings, one time after the other.
 class Sweeper
 {
   public:
@@ -123,7 +123,7 @@ class Sweeper
         boxes_.resize(load.primitives.all.size());
     }
 
-    // Where nodes that move stand at a time.
+    // Places the moving nodes at a time.
     void place(double time)
     {
         for (std::size_t i = 0; i < load_.visits.size(); i++) {
@@ -133,7 +133,7 @@ class Sweeper
         }
     }
 
-    // Deforms the meshes of drawings as they are at the time of place(). Returns what that cost.
+    // Deforms the meshes of drawings for the time of place(). Returns the cost.
     double pose(const std::vector<const Drawing *> &drawings, double time)
     {
         shape_boxes_.clear();
@@ -151,7 +151,7 @@ class Sweeper
         return cost;
     }
 
-    // By drawings that were posed, where they stand at the time of place().
+    // Grows the bounds by posed drawings, at the time of place().
     void grow(const std::vector<const Drawing *> &drawings)
     {
         for (const Drawing *drawing : drawings) {
@@ -165,7 +165,7 @@ class Sweeper
     }
 
   private:
-    // Found when it is first needed.
+    // Returns a primitive's box as in the file, computed at first use.
     const Bounds &box_as_filed(std::size_t primitive)
     {
         if (boxes_[primitive].is_empty()) {
@@ -199,16 +199,15 @@ class Sweeper
 
     const Load &load_;
     const PoseSource source_;
-    std::vector<glint_mat4> placed_; // of the visits
-    std::vector<Bounds> boxes_;      // of the primitives, as the file has them
+    std::vector<glint_mat4> placed_; // [visit]
+    std::vector<Bounds> boxes_;      // [primitive], as in the file
     std::map<const Shape *, Bounds> shape_boxes_;
     Poses poses_;
-    Tally said_elsewhere_; // whoever loads a frame hears of it
+    Tally said_elsewhere_; // dropped: loading a frame gives the same warnings
     Bounds all_;
 };
 
-// Of the times those that may be looked at where each costs so much, and `all` may be spent:
-// evenly chosen, with the ends.
+// Chooses times, evenly and with both ends, if each costs `each` and `all` may be spent.
 std::vector<double> affordable(std::vector<double> times, double each, double all)
 {
     std::sort(times.begin(), times.end());
@@ -230,10 +229,11 @@ std::vector<double> affordable(std::vector<double> times, double each, double al
 Bounds sweep(const Load &load)
 {
     const std::vector<Drawing> drawings = drawings_of(load);
-    std::vector<const Drawing *> rigid; // those that stay and those that move as they are
+    std::vector<const Drawing *> rigid; // not deforming: still or moving
     std::vector<const Drawing *> still;
     std::vector<const Drawing *> moving;
     std::vector<const Drawing *> deforming;
+    // Sort the drawings by their motion.
     for (const Drawing &drawing : drawings) {
         const Visit &visit = load.visits[drawing.visit];
         (visit.deforms ? deforming : rigid).push_back(&drawing);
@@ -241,10 +241,12 @@ Bounds sweep(const Load &load)
             (visit.moves ? moving : still).push_back(&drawing);
         }
     }
+    // Evaluate drawings at rest once.
     const std::vector<double> times = sweep_times(load.clips);
     Sweeper sweeper(load);
     sweeper.pose(rigid, 0);
     sweeper.grow(still);
+    // Evaluate rigid motion, as often as its cost allows.
     double boxes = 0;
     for (const Drawing *drawing : moving) {
         boxes += double(std::max<std::size_t>(drawing->instances.size(), 1));
@@ -253,6 +255,7 @@ Bounds sweep(const Load &load)
         sweeper.place(time);
         sweeper.grow(moving);
     }
+    // Evaluate deforming meshes, as often as their cost allows.
     if (!deforming.empty()) {
         sweeper.place(0);
         const double cost = sweeper.pose(deforming, 0);

@@ -1,4 +1,4 @@
-// What a scene that moves takes up over the whole of its clip.
+// Computes the bounds of a moving scene over its whole clip.
 #ifndef GLINT_SCENE_GLTF_SWEEP_HPP
 #define GLINT_SCENE_GLTF_SWEEP_HPP
 
@@ -8,8 +8,8 @@
 namespace glint
 {
 
-// Bounds of all that is drawn at any time, by the corners of the primitives' boxes. Nodes that stay
-// where they are are looked at once, others at each key.
+// Returns the bounds of everything drawn at any time, from the corners of the primitives' boxes. It
+// evaluates nodes at rest once, and moving nodes at each key.
 Bounds sweep(const Load &load);
 
 } // namespace glint

@@ -1,4 +1,4 @@
-// Warnings that name the first thing that they concern, and count the others.
+// Collects warnings. Each names the first place that it concerns, and counts the others.
 #ifndef GLINT_SCENE_GLTF_TALLY_HPP
 #define GLINT_SCENE_GLTF_TALLY_HPP
 
@@ -16,7 +16,7 @@ namespace glint
 class Tally
 {
   public:
-    // What is added while this lives concerns a material, by its index in the file.
+    // While an About exists, added warnings concern its material, by its index in the file.
     class About
     {
       public:
@@ -35,7 +35,8 @@ class Tally
         Tally &tally_;
     };
 
-    // `text` says what was found and what is done about it; `where` is kept of the first only.
+    // Adds a warning. `text` says what was found and what is done about it. Only the first `where`
+    // is kept.
     void add(const std::string &text, const std::string &where)
     {
         auto added = index_of_.emplace(text, entries_.size());
@@ -48,14 +49,14 @@ class Tally
         }
     }
 
-    // Of the first 64 lines of report(), those that concern a material: bit i for line i.
+    // Returns which of the first 64 lines of report() concern a material: bit i for line i.
     std::uint64_t lines_about(int material) const
     {
         auto found = lines_about_.find(material);
         return found == lines_about_.end() ? 0 : found->second;
     }
 
-    // One line each, in the order in which they were first added.
+    // Reports one line per warning, in the order of their first addition.
     void report(const char *path, glint_warnings *warnings) const
     {
         for (const Entry &entry : entries_) {

@@ -1,4 +1,4 @@
-// Textures: checked, read, and their images decoded. See gltf_texture.hpp.
+// Checks and reads textures, and decodes their images. See gltf_texture.hpp.
 #include "scene/gltf_texture.hpp"
 
 #include "base/free_memory.h"
@@ -18,8 +18,8 @@ namespace
 
 const char *const transform_name = "KHR_texture_transform";
 
-// Extensions that name another image than `source` does, of a format that is read. A file may
-// have `source` as well, for programs that read no such images.
+// Extensions that name another image than `source`, in a format that glint reads. The file may also
+// have `source`, for programs that do not read this format.
 const std::array<const char *, 2> sources = {"EXT_texture_webp", "MSFT_texture_dds"};
 
 void check_image(const Document &document, const json &image, const Place &place)
@@ -93,7 +93,7 @@ void check_texture(const json &root, const json &texture, const Place &place)
     }
 }
 
-// Two numbers of KHR_texture_transform.
+// Reads two numbers of KHR_texture_transform.
 void read_pair(const json &object, const Place &place, const char *key, double pair[2])
 {
     const json *found = member(object, key);
@@ -108,7 +108,7 @@ void read_pair(const json &object, const Place &place, const char *key, double p
     }
 }
 
-// Translation · rotation · scale.
+// Reads the transform: translation · rotation · scale.
 void read_transform(const json &object, const Place &place, float transform[6])
 {
     double offset[2] = {0, 0}, scale[2] = {1, 1};
@@ -127,7 +127,7 @@ void read_transform(const json &object, const Place &place, float transform[6])
     }
 }
 
-// The set of texture coordinates; 0 where none is named.
+// Returns the set of texture coordinates; 0 if none is named.
 std::uint64_t texcoord_of(const json &object, const Place &place)
 {
     return optional_whole(object, place, "texCoord", 0, 1 << 20);
@@ -159,7 +159,7 @@ void read_sampler(const json &sampler, glint_texture_use &use)
                    : GLINT_MIP_LINEAR;
 }
 
-// The image that a texture shows, −1 where it names none that is read.
+// Returns the image of a texture; −1: it names no image that glint reads.
 std::ptrdiff_t image_of(const json &root, const json &texture)
 {
     std::size_t images = objects_of(root, "images").size();
@@ -176,15 +176,15 @@ std::ptrdiff_t image_of(const json &root, const json &texture)
 
 // ---- Images -------------------------------------------------------------------------------------
 
-// The bytes of an image, or its path; and what messages call it.
+// The bytes of an image, or its path; and its name in messages.
 struct ImageData {
     std::string name, path;
-    Bytes decoded; // of a data URI
+    Bytes decoded; // the bytes of a data URI
     const unsigned char *bytes = nullptr;
     std::size_t size = 0;
 };
 
-// Throws a refusal where there is no image.
+// Finds an image; throws a refusal if there is none.
 ImageData find_image(const Document &document, const Model &model, std::size_t index)
 {
     const json &image = objects_of(document.root, "images")[index];
@@ -217,7 +217,7 @@ ImageData find_image(const Document &document, const Model &model, std::size_t i
     return data;
 }
 
-// What glint says of a file or of bytes in memory, without the name that it begins with.
+// Returns an error's message without the name at its beginning.
 std::string cause_in(const glint_error &error, const std::string &name)
 {
     const std::string text = error.message;
@@ -229,10 +229,10 @@ struct Work {
     const Model *model;
     const std::vector<ImageUse> *uses;
     int largest;
-    int threads; // of each image
+    int threads; // threads per image
     std::vector<glint_texture_levels> levels;
     std::vector<std::string> faults;
-    bool is_short = false; // of memory
+    bool is_short = false; // memory is short
 };
 
 void read_image(Work &work, std::size_t i)
@@ -258,7 +258,7 @@ void read_image(Work &work, std::size_t i)
     }
 }
 
-// Nothing may be thrown past the threads' C code.
+// Exceptions must not pass through the C code of the threads.
 void read_image_in_thread(std::size_t i, void *context)
 {
     Work &work = *static_cast<Work *>(context);

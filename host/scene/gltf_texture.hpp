@@ -1,4 +1,4 @@
-// What materials say of textures, and the images behind them.
+// Reads the textures of materials, and their images.
 #ifndef GLINT_SCENE_GLTF_TEXTURE_HPP
 #define GLINT_SCENE_GLTF_TEXTURE_HPP
 
@@ -19,21 +19,22 @@ struct TextureSlot {
     const char *holder; // NULL: the material itself, "KHR_…": the extension
     const char *key;
     glint_texture_slot slot;
-    bool is_color; // its R, G and B have the sRGB curve
+    bool is_color; // R, G and B are encoded by the sRGB curve
 };
 
-// The slots that are read. A material may have two for one slot, of which the later counts.
+// Returns the slots that glint reads. If a material has two entries for one slot, the later one
+// counts.
 const std::array<TextureSlot, 19> &texture_slots();
 
-// Checks images, samplers and textures, used or not.
+// Checks images, samplers and textures, whether used or not.
 void check_textures(const Document &document);
 
 // Checks a textureInfo object.
 void check_texture_info(const json &root, const json &info, const Place &place);
 
-// An image as materials use it.
+// An image, and how materials use it.
 struct ImageUse {
-    std::size_t image; // in the file's images
+    std::size_t image; // index in the file's images
     bool is_color, is_coverage;
 
     bool operator<(const ImageUse &other) const
@@ -43,17 +44,18 @@ struct ImageUse {
     }
 };
 
-// The images that used materials need, each once for what it is read for.
+// The images that the used materials need, each once per use.
 class Images
 {
   public:
-    // Its number, from 1.
+    // Returns the number of an image, from 1.
     std::uint32_t number_of(const ImageUse &use);
 
-    // Decodes all, on all cores. Levels larger than `largest` texels across are left out; 0: none.
+    // Decodes all images, on all cores. Leaves out levels larger than `largest` texels across; 0:
+    // no limit.
     void read(const Document &document, const Model &model, int largest);
 
-    // Why an image could not be read; empty where it was.
+    // Returns why an image could not be read; empty if it was read.
     const std::string &fault(std::uint32_t number) const
     {
         return faults_[number - 1];
@@ -77,8 +79,8 @@ class Images
     std::unique_ptr<glint_textures, Release> textures_;
 };
 
-// What a checked textureInfo says; `image` is left 0. Sets *image to the file's image, −1 where
-// there is none that is read.
+// Reads a checked textureInfo; `image` stays 0. Sets *image to the index of the file's image; −1:
+// no image that glint reads.
 glint_texture_use read_texture_info(const json &root, const json &info, std::ptrdiff_t *image);
 
 } // namespace glint

@@ -1,4 +1,4 @@
-// URIs as glTF uses them. See gltf_uri.hpp.
+// Decodes the URIs of glTF. See gltf_uri.hpp.
 #include "scene/gltf_uri.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ int hexadecimal(char c)
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-// A '%' that no two hexadecimal digits follow stays as it is.
+// Decodes percent signs. A '%' without two hexadecimal digits stays.
 std::string percent_decoded(const std::string &text)
 {
     std::string result;
@@ -67,7 +67,7 @@ int base64_digit(char c)
     return c == '+' ? 62 : (c == '/' ? 63 : -1);
 }
 
-// Reads digits from `begin`; padding may be missing, nothing may follow it.
+// Decodes base64 from `begin`. Padding may be missing; nothing may follow it.
 Bytes base64_decoded(const std::string &text, std::size_t begin, const Place &place)
 {
     std::size_t end = text.size();
@@ -95,7 +95,7 @@ Bytes base64_decoded(const std::string &text, std::size_t begin, const Place &pl
     return bytes;
 }
 
-// The scheme with its colon, or nothing: RFC 3986.
+// Returns the scheme with its colon, or nothing: RFC 3986.
 std::string scheme_of(const std::string &uri)
 {
     std::size_t i = 0;
@@ -154,7 +154,7 @@ std::string find_uri(const std::string &folder, const std::string &uri, const Pl
     if (name.empty() || name.find('\0') != std::string::npos) {
         refuse(place, in_quotes(uri) + " names no file");
     }
-    // A name that only looks percent-encoded ("50%20.bin" on disk) is tried as it stands, too.
+    // Also try a name as it is, if it only looks percent-encoded ("50%20.bin" on disk).
     std::string found;
     for (const std::string &candidate : {name, uri}) {
         found = real_path(candidate[0] == '/' ? candidate : folder + "/" + candidate);

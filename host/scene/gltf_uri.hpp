@@ -1,4 +1,4 @@
-// URIs as glTF uses them: data URIs, and relative references to files.
+// Decodes the URIs of glTF: data URIs, and relative references to files.
 #ifndef GLINT_SCENE_GLTF_URI_HPP
 #define GLINT_SCENE_GLTF_URI_HPP
 
@@ -11,12 +11,12 @@ using Bytes = std::vector<unsigned char>;
 
 bool is_data_uri(const std::string &uri);
 
-// The bytes of a data URI (RFC 2397) of any media type, base64 or percent-encoded.
+// Returns the bytes of a data URI (RFC 2397) of any media type, base64 or percent-encoded.
 Bytes decode_data_uri(const std::string &uri, const Place &place);
 
-// The path of the file that a relative reference names, percent-decoded, links resolved; empty,
-// with errno set, where there is none. Refuses schemes such as http, and what lies outside the
-// folder.
+// Returns the path of the file that a relative reference names, percent-decoded, with links
+// resolved. Empty, with errno set, if there is no such file. Refuses schemes such as http, and
+// files outside the folder.
 std::string find_uri(const std::string &folder, const std::string &uri, const Place &place);
 
 } // namespace glint

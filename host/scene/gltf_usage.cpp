@@ -1,4 +1,4 @@
-// What a file uses of glTF. See gltf_usage.hpp.
+// Lists the glTF features that a file uses. See gltf_usage.hpp.
 #include "scene/gltf_usage.hpp"
 
 #include "base/memory.h"
@@ -13,7 +13,7 @@ namespace glint
 namespace
 {
 
-// In the order of their first use; what is worst of one name counts.
+// Usages in the order of first use. If a name occurs twice, the worse treatment counts.
 class Usages
 {
   public:
@@ -63,7 +63,8 @@ void add_material(const glint_material &material, Usages &usages)
     }
 }
 
-// Light takes the way through the solid itself, which the texture only stands for.
+// Counts thickness textures as approximated: light travels through the solid itself, and the
+// texture is only an estimate of that distance.
 void add_thickness(const Load &load, std::ptrdiff_t index, const UsedMaterial &used, Usages &usages)
 {
     if (index < 0 || used.is_replaced || !(used.material.thickness > 0)) {

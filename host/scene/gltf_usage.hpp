@@ -1,4 +1,5 @@
-// What a file uses of glTF, and what is made of it: the table that `glint info` prints.
+// Lists the glTF features that a file uses, and how glint treats each: `glint info` prints the
+// table.
 #ifndef GLINT_SCENE_GLTF_USAGE_HPP
 #define GLINT_SCENE_GLTF_USAGE_HPP
 
@@ -7,7 +8,7 @@
 namespace glint
 {
 
-// Sets the scene's usages, once its materials are there.
+// Sets the scene's usages. Call it after its materials are set.
 void list_usages(const Load &load, glint_scene &scene);
 
 } // namespace glint

@@ -1,4 +1,4 @@
-// The materials of what is drawn. See gltf_used_materials.hpp.
+// Reads the materials of drawn primitives. See gltf_used_materials.hpp.
 #include "scene/gltf_used_materials.hpp"
 
 namespace glint
@@ -7,7 +7,7 @@ namespace glint
 namespace
 {
 
-// Whether a primitive names no material.
+// True if some primitive names no material.
 bool uses_default_material(const Model &model)
 {
     for (const tinygltf::Mesh &mesh : model.meshes) {
@@ -20,8 +20,8 @@ bool uses_default_material(const Model &model)
     return false;
 }
 
-// Looks for what the overrides name among all materials of the file: what triangles use may change
-// with time.
+// Finds the overrides' materials among all materials of the file, because the materials in use may
+// change over time.
 void resolve_overrides(Load &load)
 {
     const json &root = load.document.root;
@@ -45,7 +45,7 @@ void resolve_overrides(Load &load)
     }
 }
 
-// Reads the materials of what is drawn, and notes which have colours at vertices.
+// Reads the materials of drawn primitives; notes which have vertex colours.
 void read_materials(Load &load)
 {
     for (const Visit &visit : load.visits) {

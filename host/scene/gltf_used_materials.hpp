@@ -1,4 +1,4 @@
-// The materials of what is drawn.
+// Reads the materials of drawn primitives.
 #ifndef GLINT_SCENE_GLTF_USED_MATERIALS_HPP
 #define GLINT_SCENE_GLTF_USED_MATERIALS_HPP
 
@@ -7,8 +7,8 @@
 namespace glint
 {
 
-// Reads the materials that the chosen nodes' primitives name, changes them as `options` asks, and
-// reads the images that they need then.
+// Reads the materials of the chosen nodes' primitives, applies the overrides of `options`, and
+// reads the images that the materials then need.
 void read_used_materials(const glint_scene_options &options, Load &load);
 
 } // namespace glint

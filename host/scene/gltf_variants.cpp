@@ -1,5 +1,4 @@
-// Variants of materials: checked as part of the document, whether or not one is chosen. See
-// gltf_variants.hpp.
+// Checks material variants as part of the document, even if none is chosen. See gltf_variants.hpp.
 #include "scene/gltf_variants.hpp"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-// KHR_materials_variants: several sets of materials in one file, of which one is shown.
+// KHR_materials_variants: chooses one of several sets of materials in a file.
 #ifndef GLINT_SCENE_GLTF_VARIANTS_HPP
 #define GLINT_SCENE_GLTF_VARIANTS_HPP
 
@@ -9,19 +9,19 @@
 namespace glint
 {
 
-// The names that the file lists, into model.variants. Refuses names that are missing or not texts.
+// Reads the variants' names into model.variants. Refuses names that are missing or not texts.
 void check_variants(const json &root, Model &model);
 
-// What a primitive's mappings say, by variant. Refuses indices that refer to nothing, and a variant
-// that two of the mappings claim.
+// Returns a primitive's materials by variant. Refuses indices that refer to nothing, and a variant
+// in two mappings.
 VariantMaterials check_variant_mappings(const json &root, const json &primitive, const Place &place,
                                         const Model &model);
 
-// Gives the primitives the materials of a variant, by its name or index. Primitives that say
-// nothing of it keep their plain material. NULL: all keep theirs. Refuses unknown names.
+// Gives the primitives the materials of a variant, by name or index. A primitive without a mapping
+// for it keeps its plain material. NULL: all keep theirs. Refuses unknown names.
 void choose_variant(const char *name, Model &model);
 
-// Copies the variants' names to a scene, and which one it shows.
+// Copies the variants' names and the chosen variant to a scene.
 void name_variants(const Model &model, glint_scene &scene);
 
 } // namespace glint

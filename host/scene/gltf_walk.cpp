@@ -1,5 +1,5 @@
-// The node walk. It uses a stack of its own, as a chain of nodes may be as deep as the file is
-// long; that there are no loops and no second parents was checked. See gltf_walk.hpp.
+// Walks the nodes. It uses an explicit stack, because a chain of nodes may be as deep as the file
+// is long. The checks have excluded loops and second parents. See gltf_walk.hpp.
 #include "scene/gltf_walk.hpp"
 
 #include "base/memory.h"
@@ -26,8 +26,8 @@ std::string node_where(const Load &load, std::size_t node)
     return "nodes[" + std::to_string(node) + "]" + (name.empty() ? "" : " " + in_quotes(name));
 }
 
-// `rotation` is (x, y, z, w) of any length but 0: exporters round, and a longer quaternion means
-// the same turn.
+// `rotation` is (x, y, z, w) of any length but 0. Exporters round, and a longer quaternion means
+// the same rotation.
 glint_mat4 from_parts(const double *translation, const double *rotation, const double *scale)
 {
     double length = std::sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] +
@@ -61,7 +61,7 @@ constexpr std::array<double, 3> no_move = {0, 0, 0};
 constexpr std::array<double, 4> no_turn = {0, 0, 0, 1};
 constexpr std::array<double, 3> no_scale = {1, 1, 1};
 
-// A property of the node at a time: what its curve says, else what the node says, else `value`.
+// Returns a node's property at a time: from its curve, else from the node, else `value`.
 template <std::size_t N>
 void take(const std::vector<double> &own, const Moves *moves, Property property, double time,
           std::array<double, N> &value)
@@ -80,7 +80,7 @@ const Moves *moves_of(const Load &load, std::size_t index)
     return found == load.clips.nodes.end() ? nullptr : &found->second;
 }
 
-// Whether the node's place ever changes.
+// True if the node's place ever changes.
 bool ever_moves(const Moves *moves)
 {
     return moves != nullptr &&
@@ -96,9 +96,9 @@ glint_mat4 local_matrix(const Load &load, std::size_t index, double time)
     if (!node.matrix.empty()) {
         glint_mat4 result = glint_mat4_identity;
         for (std::size_t i = 0; i < 16; i++) {
-            result.m[i % 4][i / 4] = node.matrix[i]; // the file's is column by column
+            result.m[i % 4][i / 4] = node.matrix[i]; // the file stores columns
         }
-        // Checked to be this up to rounding; exactly so, nothing is projected.
+        // The check allowed rounding; the exact row avoids any projection.
         result.m[3][0] = result.m[3][1] = result.m[3][2] = 0;
         result.m[3][3] = 1;
         return result;
@@ -121,7 +121,7 @@ const json *instancing_of(const json &node)
     return found == nullptr ? nullptr : member(*found, "attributes");
 }
 
-// A property of instance i, or `value` where the attribute is missing.
+// Returns a property of instance i, or `value` if the attribute is missing.
 template <std::size_t N>
 std::array<double, N> instance_part(const Reader &attribute, std::size_t i,
                                     std::array<double, N> value)
@@ -186,6 +186,7 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
             load.tally.add("a skin does not move it, as it has no JOINTS_0; its node places it",
                            primitive.place().text());
         }
+        // Draw the primitive at each instance. A shape that does not deform is the file's own.
         shape = shape != nullptr && shape->deforms() ? shape : nullptr;
         for (const glint_mat4 &instance : instances) {
             load.draws.push_back({&primitive, static_cast<int>(node),
@@ -200,7 +201,7 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
     }
 }
 
-// The names are owned until `give` hands all over.
+// Collects cameras. Owns their names until give() moves all to the scene.
 class Cameras
 {
   public:
@@ -241,7 +242,7 @@ void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world, Camera
     auto index = static_cast<std::size_t>(load.model.nodes[node].camera);
     const tinygltf::Camera &source = load.model.cameras[index];
     glint_camera camera = {};
-    // One that is lost for a while keeps its place in the list.
+    // A camera that is lost for some time keeps its place in the list.
     camera.is_lost = !glint_camera_from_matrix(&to_world, &camera);
     if (camera.is_lost && load.clips.nodes.empty()) {
         load.tally.add(
@@ -282,7 +283,7 @@ std::vector<int> find_roots(Load &load, const char *name)
                                                       : 0;
         return model.scenes[scene].nodes;
     }
-    // glTF calls such a file a library. Whoever renders it wants to see what is in it.
+    // glTF calls such a file a library. A user who renders it wants to see its contents.
     std::vector<int> roots;
     for (std::size_t i = 0; i < model.nodes.size(); i++) {
         if (load.model.parents[i] < 0) {
@@ -295,7 +296,7 @@ std::vector<int> find_roots(Load &load, const char *name)
     return roots;
 }
 
-// Adds the roots and all below them to the visits.
+// Adds the roots and all nodes below them to the visits.
 void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
 {
     struct Step {
@@ -323,8 +324,7 @@ void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
     }
 }
 
-// Joints may lie in trees that the scene does not show. Each tree is visited once, so that this
-// takes linear time.
+// Visits joints in trees that the scene does not show. Visits each tree once, in linear time.
 void visit_joints(Load &load)
 {
     const std::size_t shown = load.visits.size();
@@ -355,7 +355,7 @@ bool any_joint_moves(const Load &load, const Skin &skin)
     });
 }
 
-// Whether the node itself places a primitive of its mesh: joints place the others.
+// True if the node itself places a primitive of its mesh; joints place the other primitives.
 bool places_any(const Load &load, const tinygltf::Node &node)
 {
     const auto mesh = static_cast<std::size_t>(node.mesh);
@@ -365,7 +365,7 @@ bool places_any(const Load &load, const tinygltf::Node &node)
                                         [](const Primitive &p) { return p.influences.empty(); });
 }
 
-// Which meshes, cameras and lights the clip moves, once all visits are known.
+// Finds which meshes, cameras and lights the clip moves. Call it after all visits are known.
 void survey_motion(Load &load)
 {
     std::vector<char> skin_moves;
@@ -420,7 +420,7 @@ std::vector<glint_mat4> instances_of(const Load &load, std::size_t node, std::si
     Reader scales = open("SCALE");
     std::size_t count =
         std::max({translations.count(), rotations.count(), scales.count(), std::size_t{1}});
-    if (count > most) { // before any is made: a small file can ask for many
+    if (count > most) { // checked before making any: a small file can ask for many
         refuse_draws();
     }
     result.reserve(count);

@@ -1,4 +1,4 @@
-// Spheres of triangles. See icosphere.h.
+// Makes spheres of triangles. See icosphere.h.
 #include "scene/icosphere.h"
 
 typedef struct receiver {
@@ -6,7 +6,7 @@ typedef struct receiver {
     void *context;
 } receiver;
 
-// The middle of an edge is the same from both its sides: a + b = b + a, bit for bit.
+// The middle of an edge is the same from both sides: a + b = b + a, bit for bit.
 static glint_vec3 middle(glint_vec3 a, glint_vec3 b)
 {
     return glint_vec3_normalize(glint_vec3_add(a, b));

@@ -1,4 +1,4 @@
-// Spheres of triangles of nearly equal size.
+// Makes spheres of triangles of nearly equal size.
 #ifndef GLINT_SCENE_ICOSPHERE_H
 #define GLINT_SCENE_ICOSPHERE_H
 
@@ -8,9 +8,9 @@
 extern "C" {
 #endif
 
-// Calls `triangle` with the corners (unit vectors, counter-clockwise from outside) of each triangle
-// of an icosahedron that has been quartered `level` times: 20 × 4^level in all. A corner that
-// triangles share is the same for all of them, bit for bit.
+// Divides the triangles of an icosahedron into four, `level` times: 20 × 4^level triangles. Calls
+// `triangle` with the corners of each (unit vectors, counter-clockwise from outside). A corner is
+// the same for all triangles that share it, bit for bit.
 void glint_icosphere(int level, void (*triangle)(void *context, const glint_vec3 corners[3]),
                      void *context);
 

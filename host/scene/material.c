@@ -1,4 +1,4 @@
-// Which lobes a material has. See material.h.
+// Decides which lobes a material has. See material.h.
 #include "scene/material.h"
 
 #include "kernels/layout.h"
@@ -62,20 +62,20 @@ const glint_texture_use *glint_material_tangent_texture(const glint_material *m)
     return normal->image != 0 ? normal : &m->textures[GLINT_TEXTURE_ANISOTROPY];
 }
 
-// Whether alpha can be less than 1.
+// True if alpha can be less than 1.
 static bool has_alpha(const glint_material *m)
 {
     return m->alpha < 1 || m->has_vertex_colors || has_texture(m, GLINT_TEXTURE_BASE_COLOR);
 }
 
-// Whether KHR_materials_specular says anything.
+// True if KHR_materials_specular changes the reflection.
 static bool is_specular(const glint_material *m)
 {
     return m->specular != 1 || !is_white(m->specular_color) ||
            has_texture(m, GLINT_TEXTURE_SPECULAR) || has_texture(m, GLINT_TEXTURE_SPECULAR_COLOR);
 }
 
-// A lobe as the environment shows it needs no path where it is wide.
+// True if a lobe needs a path. A wide lobe does not: the environment alone lights it.
 static bool needs_path(const glint_material *m, float roughness, glint_texture_slot slot)
 {
     return roughness < GLINT_COAT_MATTE || has_texture(m, slot);
@@ -90,7 +90,7 @@ static void add_clearcoat(const glint_material *m, glint_lobes *lobes)
         needs_path(m, m->clearcoat_roughness, GLINT_TEXTURE_CLEARCOAT_ROUGHNESS);
 }
 
-// The lobes that share the light.
+// Returns the lobes that share the light, without coverage.
 static glint_lobes sharing_lobes(const glint_material *m)
 {
     glint_lobes lobes = {0};
@@ -104,7 +104,7 @@ static glint_lobes sharing_lobes(const glint_material *m)
         lobes.blend_mirror = m->mirror > 0;
         return lobes;
     }
-    // A texture can only lower what it multiplies.
+    // A texture can only lower the factor that it multiplies.
     const bool dielectric = m->metallic < 1 || has_texture(m, GLINT_TEXTURE_METALLIC_ROUGHNESS);
     const bool is_colored = !is_white(m->base_color) || m->has_vertex_colors ||
                             has_texture(m, GLINT_TEXTURE_BASE_COLOR);

@@ -1,4 +1,4 @@
-// What surfaces are made of, and the one answer to what they do with light.
+// Describes what surfaces are made of, and decides which lobes they have.
 #ifndef GLINT_SCENE_MATERIAL_H
 #define GLINT_SCENE_MATERIAL_H
 
@@ -12,59 +12,63 @@
 extern "C" {
 #endif
 
-// What the alpha of a surface's base colour means: how much of it is there.
+// What the alpha of the base colour means for the surface.
 typedef enum glint_alpha_mode {
-    GLINT_ALPHA_OPAQUE, // nothing: all of it
-    GLINT_ALPHA_MASK,   // all of it from alpha_cutoff on, else nothing
-    GLINT_ALPHA_BLEND,  // that share of it; the other light goes straight on
+    GLINT_ALPHA_OPAQUE, // no meaning: the surface is fully there
+    GLINT_ALPHA_MASK,   // the surface is there if alpha ≥ alpha_cutoff
+    GLINT_ALPHA_BLEND,  // alpha is the surface's coverage; the rest of the light goes straight on
 } glint_alpha_mode;
 
-// glTF 2.0's factors, and the extensions that are modelled. Colours are linear Rec.709 in [0, 1].
+// The factors of glTF 2.0 and of the supported extensions. Colours are linear Rec.709 in [0, 1].
 typedef struct glint_material {
     char *name; // may be NULL; owned
-    int index;  // in the file; of glTF's default material, how many the file has
+    int index;  // in the file; for glTF's default material, the number of materials in the file
     float base_color[3];
-    float metallic;             // [0, 1]
-    float roughness;            // [0, 1]
-    float emission[3];          // emissiveFactor × emissiveStrength, radiance ≥ 0
-    float transmission;         // KHR_materials_transmission, [0, 1]
-    float ior;                  // KHR_materials_ior, ≥ 1; default 1.5. 0 in the file ("infinite,
-                                // F = 1") is refused
-    float thickness;            // KHR_materials_volume: > 0 makes the mesh the boundary of a solid
-    float attenuation_distance; // metres; INFINITY where the file gives none
-    float attenuation_color[3]; // what is left of white after attenuation_distance
-    float dispersion;           // KHR_materials_dispersion, 20/Abbe number, ≥ 0; of solids
-    float specular;             // KHR_materials_specular, [0, 1]: of what paint and glass reflect
-    float specular_color[3];    // likewise, ≥ 0: of that at right angles
-    float clearcoat;            // KHR_materials_clearcoat, [0, 1]: how much of a coat there is
-    float clearcoat_roughness;  // its roughness, [0, 1]
-    float iridescence;          // KHR_materials_iridescence, [0, 1]: how much of a film there is
-    float iridescence_ior;      // of the film, ≥ 1
-    float iridescence_thickness[2]; // nm, ≥ 0: where the texture is 0 and 1; without one the last
-    float anisotropy;               // KHR_materials_anisotropy, [0, 1]: strength
-    float anisotropy_rotation;      // radians, from the tangent towards the bitangent
-    float sheen_color[3];           // KHR_materials_sheen, [0, 1]: black is none
-    float sheen_roughness;          // [0, 1]
-    // KHR_materials_diffuse_transmission, [0, 1]: how much of what paint sends on comes from
-    // behind; its colour.
+    float metallic;     // [0, 1]
+    float roughness;    // [0, 1]
+    float emission[3];  // emissiveFactor × emissiveStrength, radiance ≥ 0
+    float transmission; // KHR_materials_transmission, [0, 1]
+    // KHR_materials_ior, ≥ 1; default 1.5. glint refuses 0 ("infinite, F = 1").
+    float ior;
+    float thickness;            // KHR_materials_volume: > 0 makes the mesh a solid's boundary
+    float attenuation_distance; // metres; INFINITY if the file gives none
+    float attenuation_color[3]; // colour of white light after attenuation_distance
+    float dispersion;           // KHR_materials_dispersion, 20/Abbe number, ≥ 0; for solids
+    float specular;          // KHR_materials_specular, [0, 1]: scales reflection of paint and glass
+    float specular_color[3]; // KHR_materials_specular, ≥ 0: scales reflection at normal incidence
+    float clearcoat;         // KHR_materials_clearcoat, [0, 1]: weight of the coat
+    float clearcoat_roughness; // roughness of the coat, [0, 1]
+    float iridescence;         // KHR_materials_iridescence, [0, 1]: weight of the film
+    float iridescence_ior;     // index of refraction of the film, ≥ 1
+    // Thickness of the film, nm, ≥ 0, for texture values 0 and 1. Without a texture the last value
+    // counts.
+    float iridescence_thickness[2];
+    float anisotropy;          // KHR_materials_anisotropy, [0, 1]: strength
+    float anisotropy_rotation; // radians, from the tangent towards the bitangent
+    float sheen_color[3];      // KHR_materials_sheen, [0, 1]: black is no sheen
+    float sheen_roughness;     // [0, 1]
+    // KHR_materials_diffuse_transmission, [0, 1]: the share of paint's diffuse light that comes
+    // from behind, and its colour.
     float diffuse_transmission;
     float diffuse_transmission_color[3];
-    bool unlit;     // KHR_materials_unlit
-    float mirror;   // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
-    float priority; // of solids where they overlap, extras {"glint": {"priority": p}}; see solids.h
+    bool unlit;   // KHR_materials_unlit
+    float mirror; // the lecture's blend, extras {"glint": {"mirror": m}}; else −1
+    // Priority where solids overlap, extras {"glint": {"priority": p}}; see solids.h.
+    float priority;
     glint_alpha_mode alpha_mode;
-    float alpha;        // baseColorFactor's A, [0, 1]
-    float alpha_cutoff; // of GLINT_ALPHA_MASK
+    float alpha;        // A of baseColorFactor, [0, 1]
+    float alpha_cutoff; // for GLINT_ALPHA_MASK
     glint_texture_use textures[GLINT_TEXTURE_SLOTS];
-    float normal_scale;           // of x and y of the normal texture's normals
-    float clearcoat_normal_scale; // likewise, of the clear coat's
+    float normal_scale;           // scales x and y of the normal texture's normals
+    float clearcoat_normal_scale; // scales x and y of the clear coat's normals
     float occlusion_strength;     // [0, 1]
-    bool has_vertex_colors;       // some of its triangles have colours at their vertices
-    uint64_t warnings; // that loading gave first: bit i is set if the i-th concerns this material
+    bool has_vertex_colors;       // some triangles have colours at their vertices
+    // Of the first warnings that loading gave: bit i is set if warning i concerns this material.
+    uint64_t warnings;
 } glint_material;
 
-// What glTF 2.0 and its extensions give a material that says nothing of them, for initialisers: of
-// KHR_materials_specular; and of that and of glass.
+// Initialisers for values that a file leaves out: of KHR_materials_specular; and of specular and
+// glass.
 #define GLINT_MATERIAL_SPECULAR .specular = 1, .specular_color = {1, 1, 1}
 #define GLINT_MATERIAL_CLEAR                                                                       \
     GLINT_MATERIAL_SPECULAR, .ior = 1.5F, .attenuation_distance = INFINITY,                        \
@@ -73,50 +77,50 @@ typedef struct glint_material {
 // glTF's default material: rough, white metal.
 extern const glint_material glint_material_default;
 
-// The lobes that a material has: each is one way in which its surface sends light on. A lobe is
-// there if its share of the light is above 0. ARCHITECTURE.md, "Light transport", has the rules and
-// the shares. The plan, the upload, the proofs about paths and the reports all ask here.
+// The lobes that a material has: each is one way in which its surface sends light on. A lobe exists
+// if its share of the light is above 0. docs/light_transport.md has the rules and the shares. The
+// plan, the upload, the proofs about paths and the reports all ask here.
 typedef struct glint_lobes {
-    bool unlit;    // the base colour, and the path ends: no other lobe is there
+    bool unlit;    // shows the base colour and ends the path: no other lobe exists
     bool emission; // adds radiance
-    // The lecture's blend, in place of metal, glass and paint.
+    // The lecture's blend replaces metal, glass and paint.
     bool blend;
-    bool blend_mirror; // its mirror has a share
-    // Metal, glass and paint share the light; metallic comes first, then transmission.
+    bool blend_mirror; // the blend's mirror has a share
+    // Metal, glass and paint share the light: metallic decides first, then transmission.
     bool metal;       // reflects
-    bool tint;        // and colours what it reflects, by itself or by a film
-    bool glass;       // transmits and reflects: solid or thin
-    bool solid;       // the mesh bounds a solid, which refracts
-    bool absorption;  // and absorbs
-    bool dispersion;  // and refracts by the wavelength
-    bool thin;        // a wall without thickness: light passes straight
-    bool paint;       // is lit by the environment's irradiance
-    bool translucent; // also from behind
-    bool gloss;       // and reflects, as it is smooth
-    bool specular;    // what paint and glass reflect is weighed or coloured
-    bool iridescent;  // a film colours what is reflected
-    bool rough;       // metal, and the coat of paint, reflect lobes
-    bool brushed;     // which are rougher along a direction than across it
-    bool rough_path;  // for which paths go on
-    bool sheen;       // fibres stand on metal and paint, where nothing is transmitted
-    bool facets;      // glass is rough, and so is what beside it reflects
-    // Above these, but for unlit surfaces and the blend:
-    bool clearcoat;            // a clear coat reflects
-    bool rough_clearcoat;      // a lobe
-    bool rough_clearcoat_path; // for which paths go on
-    // Beside all of these: some of the surface may not be there.
+    bool tint;        // metal colours its reflection, by its colour or by a film
+    bool glass;       // transmits and reflects; solid or thin
+    bool solid;       // glass: the mesh bounds a solid, which refracts
+    bool absorption;  // the solid absorbs
+    bool dispersion;  // the solid refracts by wavelength
+    bool thin;        // glass: a wall without thickness; light passes straight
+    bool paint;       // diffuse: lit by the environment's irradiance
+    bool translucent; // paint is also lit from behind
+    bool gloss;       // paint also reflects, because it is smooth
+    bool specular;    // KHR_materials_specular changes the reflection of paint and glass
+    bool iridescent;  // a film colours the reflection
+    bool rough;       // metal and paint's coat reflect rough lobes
+    bool brushed;     // the rough lobes are anisotropic
+    bool rough_path;  // paths follow the rough lobes
+    bool sheen;       // fibres on metal and paint, if nothing is transmitted
+    bool facets;      // glass is rough, and so are the reflections of metal and paint beside it
+    // A clear coat lies above these lobes, but not on unlit surfaces or the blend.
+    bool clearcoat;            // the coat exists
+    bool rough_clearcoat;      // the coat reflects a rough lobe
+    bool rough_clearcoat_path; // paths follow the coat's rough lobe
+    // Coverage applies to all lobes: part of the surface may not be there.
     bool masked; // by alpha_cutoff
-    bool covers; // by its alpha; never of a solid, which is all there
+    bool covers; // by alpha; never for a solid, which always covers fully
 } glint_lobes;
 
 glint_lobes glint_material_lobes(const glint_material *material);
 
-// The normal texture, or else the clear coat's; its image is 0 where there is neither.
+// Returns the normal texture, or else the clear coat's. Its image is 0 if there is neither.
 const glint_texture_use *glint_material_normal_texture(const glint_material *material);
 
-// Whether surfaces need tangents; and the texture whose coordinates they follow: the normal
-// texture, else the clear coat's, else that of the anisotropy. Its image may be 0: the first
-// coordinates.
+// True if surfaces need tangents. The second function returns the texture whose coordinates the
+// tangents follow: the normal texture, else the clear coat's normal texture, else the anisotropy
+// texture. Its image may be 0: then the first set of coordinates counts.
 bool glint_material_needs_tangents(const glint_material *material);
 const glint_texture_use *glint_material_tangent_texture(const glint_material *material);
 

@@ -1,4 +1,4 @@
-// Overrides of materials: parsed, resolved and applied. See material_override.h.
+// Parses, resolves and applies overrides of materials. See material_override.h.
 #include "scene/material_override.h"
 
 #include <ctype.h>
@@ -17,10 +17,10 @@
     .attenuation_distance = INFINITY, .attenuation_color = {1, 1, 1}, GLINT_MATERIAL_SPECULAR,     \
     .mirror = (-1)
 
-// Indices of refraction at 589 nm: diamond, and water at 20 °C.
+// Indices of refraction at 589 nm: diamond; water at 20 °C.
 static const struct preset {
     const char *name;
-    bool keeps_color; // the file's
+    bool keeps_color; // keeps the file's base colour
     glint_material material;
 } presets[] = {
     {"mirror", false, {OPAQUE, .base_color = {1, 1, 1}, .metallic = 1}},
@@ -36,11 +36,11 @@ static const struct preset {
 
 static const struct value {
     const char *name;
-    size_t offset; // in glint_material
-    int count;     // of its numbers
+    size_t offset; // offset in glint_material
+    int count;     // count of numbers
     float low, high;
-    const char *range; // what is expected, for messages
-    const char *whose; // which materials have it, for messages
+    const char *range; // the expected range, for messages
+    const char *whose; // the materials that have the value, for messages
 } values[GLINT_MATERIAL_VALUE_COUNT] = {
 #define OF(member) offsetof(glint_material, member)
 #define SHARE "from 0 to 1"
@@ -63,7 +63,7 @@ static const struct value {
 
 enum { PRESET_COUNT = sizeof presets / sizeof *presets };
 
-// Whether such a material looks different with another value there.
+// True if another value would change the look of the material.
 static bool depends_on(const glint_material *material, const struct value *value)
 {
     const glint_lobes lobes = glint_material_lobes(material);
@@ -143,7 +143,7 @@ static bool read_numbers(const char *text, const struct value *value, float *res
     double numbers[3];
     bool is_good = glint_parse_reals(text, numbers, value->count);
     for (int i = 0; is_good && i < value->count; i++) {
-        is_good = numbers[i] <= (double)value->high; // what is more would become infinite
+        is_good = numbers[i] <= (double)value->high; // a larger number would become infinite
         result[i] = is_good ? (float)numbers[i] : 0;
         is_good = is_good && result[i] >= value->low;
     }
@@ -170,7 +170,8 @@ static glint_status take_value(const char *option, const char *name, const char 
     return fail_unknown_word(option, made->text, name, error);
 }
 
-// The end of the word or value that `text` begins with. Commas between numbers belong to a value.
+// Returns the end of the word or value at the beginning of `text`. Commas between a value's numbers
+// belong to it.
 static const char *end_of_item(const char *text)
 {
     const char *end = text + strcspn(text, ",");
@@ -280,7 +281,7 @@ static glint_status fail_unnamed(const glint_material_override *one,
                                     "there is no material \"%s\" (the file has none)", name);
 }
 
-// The index that NAME is, if it is one; −1 else. strtol would take a sign and spaces, too.
+// Returns the index if NAME is an index, else −1. strtol would also accept a sign and spaces.
 static int index_of(const glint_material_override *one)
 {
     char *end;
@@ -325,7 +326,7 @@ static void set_value(glint_material *material, const struct value *value, const
     memcpy((char *)material + value->offset, numbers, (size_t)value->count * sizeof *numbers);
 }
 
-// The values that the material depends on, as a set.
+// Returns the set of values that the material depends on.
 static unsigned values_of(const glint_material *material)
 {
     unsigned set = 0;
@@ -335,7 +336,7 @@ static unsigned values_of(const glint_material *material)
     return set;
 }
 
-// The values that the material depended on before they were set are added to `heeded`.
+// Applies an override. Adds the values that the material depended on before to `heeded`.
 static void apply(const glint_material_override *one, glint_material *material, unsigned *heeded)
 {
     if (one->preset > 0) {

@@ -1,4 +1,4 @@
-// Whether solids may nest, from the bounds of their components. See topology.h.
+// Tests whether solids may nest, by the bounds of their components. See topology.h.
 #include "scene/topology.h"
 
 #include "base/memory.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A component's bounds, their axes turned so that boxes lie farthest apart along the first.
+// The bounds of a component. The axes are turned so that boxes spread most along the first axis.
 typedef struct box {
     float low[3], high[3];
 } box;
@@ -19,7 +19,7 @@ static int compare_boxes(const void *left, const void *right)
     return (a->low[0] > b->low[0]) - (a->low[0] < b->low[0]);
 }
 
-// Boxes that touch overlap, too: at a shared face the order of two hits is a matter of rounding.
+// Touching boxes overlap too: at a shared face, rounding decides the order of two hits.
 static bool overlap(const box *a, const box *b)
 {
     for (int k = 0; k < 3; k++) {
@@ -49,8 +49,8 @@ static int widest_axis(const box *boxes, size_t count)
     return widest;
 }
 
-// A sweep along the widest axis. It gives up, and says that boxes may overlap, where many lie side
-// by side across that axis: what is not proved cheaply is not proved.
+// Sweeps along the widest axis. If many boxes lie side by side across this axis, gives up and
+// returns true: an expensive proof counts as no proof.
 static bool may_overlap(box *boxes, size_t count)
 {
     int axis = widest_axis(boxes, count);

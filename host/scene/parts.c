@@ -1,6 +1,6 @@
-// Small parts, and where they are told from. Triangles are joined by the edges that they share. A
-// part's anchor stands on a grid a little coarser than the part is wide, so that parts that lie
-// close to each other have one: their triangles may then stand in one cluster of the tree.
+// Finds small parts and their anchors. Triangles that share edges are joined to parts. Anchors
+// stand on a grid a little coarser than the part is wide. So parts that are close to each other
+// share an anchor, and their triangles may stand in one cluster of the tree.
 #include "scene/parts.h"
 
 #include "base/memory.h"
@@ -11,14 +11,14 @@
 
 #define NONE 0xFFFFFFFFu
 
-// A part is small if half of its extent is at most this, and its smallest triangle is at most so
-// far across, in stored units. Half of the scene's extent is about 1. Larger ones have digits
-// enough.
+// A part is small if half of its extent is at most SMALL_PART, and the width of its smallest
+// triangle at most SMALL_TRIANGLE, in stored units. Half of the scene's extent is about 1. Larger
+// parts have enough digits.
 #define SMALL_PART 0x1p-6
 #define SMALL_TRIANGLE 0x1p-9
-#define GRID_OF_PART 2.0 // times a power of two that is more than half of the part's extent
+#define GRID_OF_PART 2.0 // factor on the power of two above half of the part's extent
 
-// A hash table of numbers, a power of two in size.
+// A hash table of numbers; its size is a power of two.
 typedef struct table {
     uint32_t *slots;
     size_t mask;
@@ -26,14 +26,14 @@ typedef struct table {
 
 typedef struct joining {
     const double *exact;
-    size_t count;        // of triangles
-    uint32_t *vertex_of; // [corner]: the first corner in its place
+    size_t count;        // number of triangles
+    uint32_t *vertex_of; // [corner]: the first corner at the same place
     uint32_t *parent;    // [triangle]: union-find
     table table;
 } joining;
 
 typedef struct extent {
-    double low[3], high[3], smallest; // of its triangles
+    double low[3], high[3], smallest; // bounds of its triangles, and the width of the smallest
 } extent;
 
 bool glint_parts_may_be_there(double smallest_triangle)
@@ -65,7 +65,7 @@ static uint64_t mixed(uint64_t hash, uint64_t value)
     return hash ^ hash >> 29;
 }
 
-// The bits of a corner's place as it is, or as floats tell it; −0 is 0.
+// The bits of a corner's position, either exact or rounded to floats; −0 becomes 0.
 static void place_of(const joining *j, uint32_t corner, bool as_floats, uint64_t words[3])
 {
     double place[3];
@@ -96,7 +96,7 @@ static void weld(joining *j, bool as_floats)
     }
 }
 
-// The ends of the edge that begins at a corner, the lesser first.
+// The two ends of the edge that begins at a corner, the lesser first.
 static void ends_of(const joining *j, uint32_t corner, uint32_t ends[2])
 {
     const uint32_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
@@ -105,7 +105,7 @@ static void ends_of(const joining *j, uint32_t corner, uint32_t ends[2])
     ends[1] = a < b ? b : a;
 }
 
-// Joins triangles that share an edge. One whose ends are in one place is none.
+// Joins triangles that share an edge. An edge whose ends are at one place does not count.
 static void join_by_edges(joining *j)
 {
     memset(j->table.slots, 0xFF, (j->table.mask + 1) * sizeof *j->table.slots);
@@ -144,7 +144,7 @@ static void grow(extent *e, const double *corners)
     e->smallest = fmin(e->smallest, widest);
 }
 
-// False where a part is not small; its anchor is then the scene's origin.
+// Returns false if the part is not small; its anchor is then the scene's origin.
 static bool choose_anchor(const extent *e, float anchor[3])
 {
     double half = 0;
@@ -164,7 +164,7 @@ static bool choose_anchor(const extent *e, float anchor[3])
     return true;
 }
 
-// The number of an anchor, which is added where it is not there yet.
+// Returns the number of an anchor; adds the anchor if it is new.
 static uint32_t number_of(glint_parts *parts, const table *numbers, const float anchor[3])
 {
     uint32_t words[3];
@@ -181,8 +181,8 @@ static uint32_t number_of(glint_parts *parts, const table *numbers, const float 
     return (uint32_t)parts->count++;
 }
 
-// Measures every root's part, and gives all triangles the number of its anchor. False where none is
-// small.
+// Measures the part of every root, and gives all triangles the number of its anchor. Returns false
+// if no part is small.
 static bool number_parts(joining *j, extent *extents, glint_parts *parts)
 {
     static const float origin[3] = {0, 0, 0};
@@ -197,7 +197,7 @@ static bool number_parts(joining *j, extent *extents, glint_parts *parts)
     memset(j->table.slots, 0xFF, (j->table.mask + 1) * sizeof *j->table.slots);
     number_of(parts, &j->table, origin);
     for (uint32_t t = 0; t < j->count; t++) {
-        const uint32_t root = find_root(j->parent, t); // no later than its triangles
+        const uint32_t root = find_root(j->parent, t); // the root is the first of its triangles
         if (root == t) {
             float anchor[3];
             any_small = choose_anchor(&extents[t], anchor) || any_small;
@@ -221,7 +221,7 @@ glint_status glint_parts_find(const double *exact, size_t count, glint_parts *pa
 {
     *parts = (glint_parts){0};
     if (count == 0 || count > (NONE - 1) / 3) {
-        return GLINT_OK; // corners are numbered with 32 bits
+        return GLINT_OK; // corner numbers have 32 bits
     }
     joining j = {exact, count, NULL, NULL, {NULL, 15}};
     while (j.table.mask < 6 * count) {
@@ -240,6 +240,7 @@ glint_status glint_parts_find(const double *exact, size_t count, glint_parts *pa
         !parts->part_of || !parts->positions) {
         status = glint_fail_memory(error, "the scene's small parts");
     } else {
+        // Join triangles by equal edges: first of exact positions, then of rounded positions.
         for (uint32_t t = 0; t < count; t++) {
             j.parent[t] = t;
         }

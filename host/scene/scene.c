@@ -1,4 +1,4 @@
-// The scene's life, and the choice of a camera. What fills it is gltf.cpp.
+// Frees scenes, computes their bounds, and finds cameras. gltf.cpp loads scenes.
 #include "scene/scene.h"
 
 #include <math.h>
@@ -97,7 +97,7 @@ static const glint_camera *find_camera(const glint_scene *scene, const char *nam
             return &scene->cameras[i];
         }
     }
-    // strtoul would take a sign and spaces, too.
+    // strtoul would also accept a sign and spaces.
     char *end;
     unsigned long index = strtoul(name, &end, 10);
     bool is_number = name[0] >= '0' && name[0] <= '9' && *end == '\0';
@@ -105,7 +105,7 @@ static const glint_camera *find_camera(const glint_scene *scene, const char *nam
     return found ? &scene->cameras[index] : NULL;
 }
 
-// A camera as it was found.
+// Copies the found camera; fails if it is lost at this time.
 static glint_status take_camera(const glint_scene *scene, const glint_camera *found,
                                 glint_camera *camera, glint_error *error)
 {

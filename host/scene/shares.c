@@ -1,6 +1,7 @@
-// How much of a picture shows which material. See shares.h.
+// Estimates how much of a picture each material fills. See shares.h.
 //
-// Each triangle is tried on the rays within its bounds in the picture; the nearest hits stay.
+// It tests each triangle against the rays within its bounds in the picture, and keeps the nearest
+// hits.
 #include "scene/shares.h"
 
 #include "base/memory.h"
@@ -10,22 +11,23 @@
 
 #define ROWS 64
 #define MOST_COLUMNS 256
-#define MOST_TRIES 1e8 // of rays and triangles: about a second
+#define MOST_TRIES 1e8 // ray-triangle tests, about a second
 
 typedef struct share_sample {
-    double distance; // along the view, over the ray's; INFINITY: nothing is met
+    double distance; // depth of the nearest hit; INFINITY: no hit
     uint32_t material;
 } share_sample;
 
 typedef struct share_grid {
     const glint_camera *camera;
-    double half_width, half_height; // of the picture: metres, or of a perspective camera at 1 metre
+    // Of the picture, in metres; in perspective, at a distance of 1 metre.
+    double half_width, half_height;
     int columns;
     double tries;
     share_sample *samples; // [ROWS][columns]
 } share_grid;
 
-// Right, up and forward from the eye.
+// Coordinates along right, up and forward, from the eye.
 static glint_vec3 seen_from(const glint_camera *camera, glint_vec3 point)
 {
     const glint_vec3 from_eye = glint_vec3_subtract(point, camera->eye);
@@ -62,7 +64,8 @@ static void try_ray(share_grid *grid, const glint_vec3 corners[3], int row, int 
     }
 }
 
-// The first sample at or after a place in the picture, −1 to 1, and one past the last before it.
+// The first sample at or after a place in the picture, −1 to 1; also one past the last sample
+// before it.
 static int sample_at(double place, int count)
 {
     const double i = ceil((place + 1) / 2 * count - 0.5);
@@ -87,7 +90,8 @@ static void add_triangle(share_grid *grid, const glint_vec3 corners[3], uint32_t
     if (behind == 3) {
         return;
     }
-    const bool is_cut = behind > 0 && !grid->camera->orthographic; // it may be seen anywhere
+    // A triangle that is partly behind the camera may be anywhere in the picture.
+    const bool is_cut = behind > 0 && !grid->camera->orthographic;
     const int left = is_cut ? 0 : sample_at(low[0], grid->columns);
     const int right =
         is_cut ? grid->columns : sample_at(nextafter(high[0], INFINITY), grid->columns);

@@ -1,4 +1,4 @@
-// What paths can meet. See sight.h.
+// Proves how many surfaces paths can meet. See sight.h.
 #include "scene/sight.h"
 
 #include "scene/convexity.h"
@@ -7,13 +7,13 @@
 #include <math.h>
 #include <stdio.h>
 
-// What becomes of a path at a surface.
+// What happens to a path at a surface.
 typedef enum fate {
     FATE_ENDS,
     FATE_REFLECTED,
-    FATE_PASSES,    // straight through a thin wall, or reflected
-    FATE_REFRACTED, // or reflected
-    FATE_UNKNOWN    // what is there in part lets paths pass, or not
+    FATE_PASSES,    // passes straight through a thin wall, or is reflected
+    FATE_REFRACTED, // is refracted or reflected
+    FATE_UNKNOWN    // partly covered surface: the path may pass or not
 } fate;
 
 static fate fate_at(const glint_material *m, bool rough)
@@ -32,7 +32,7 @@ static fate fate_at(const glint_material *m, bool rough)
 }
 
 typedef struct census {
-    size_t ends, reflected, passes, refracted, unknown; // triangles
+    size_t ends, reflected, passes, refracted, unknown; // numbers of triangles by fate
 } census;
 
 static census take_census(const glint_scene *scene, bool rough)
@@ -72,13 +72,13 @@ static glint_vec3 corner(const glint_scene *scene, size_t triangle, int k)
     return (glint_vec3){(double)p[0], (double)p[1], (double)p[2]};
 }
 
-// A plane through a triangle: n unit.
+// The plane of a triangle; n is a unit vector.
 typedef struct plane {
     glint_vec3 n;
     double offset;
 } plane;
 
-// As long as twice the triangle's area.
+// The normal; its length is twice the triangle's area.
 static glint_vec3 normal_of(const glint_scene *scene, size_t triangle)
 {
     const glint_vec3 a = corner(scene, triangle, 0);
@@ -94,15 +94,15 @@ static plane plane_of(const glint_scene *scene, size_t triangle)
     return (plane){unit, glint_vec3_dot(unit, a)};
 }
 
-// How far a point may be from a plane by `roundings` of its coordinates.
+// The distance that a point may be from a plane, for `roundings` of its coordinates.
 static double slack_at(const plane *p, glint_vec3 at, double roundings)
 {
     const double reach = fabs(p->n.x * at.x) + fabs(p->n.y * at.y) + fabs(p->n.z * at.z);
     return roundings * (double)FLT_EPSILON / 2 * reach;
 }
 
-// Whether all triangles where paths go on lie in one plane, that of the largest. Where light passes
-// through, no more than what storing the corners has rounded may lie between two sheets.
+// True if all triangles where paths go on lie in one plane, the plane of the largest triangle. If
+// light passes through, the distance of two sheets must be within the rounding of stored corners.
 static bool is_flat(const glint_scene *scene, bool rough, bool passes)
 {
     const double roundings = passes ? 2 : GLINT_POSITION_ROUNDINGS;
@@ -130,10 +130,10 @@ static bool is_flat(const glint_scene *scene, bool rough, bool passes)
 // ---- Convex bodies -----------------------------------------------------------------------------
 
 #define PROBES 64
-#define FAR_OFF (8 * GLINT_POSITION_ROUNDINGS * (double)FLT_EPSILON) // of coordinates of 1 at most
+#define FAR_OFF (8 * GLINT_POSITION_ROUNDINGS * (double)FLT_EPSILON) // for coordinates of at most 1
 
-// Whether a few corners of the mirrors lie on one side of the plane of each of their triangles,
-// which those of a convex body do.
+// Tests a few corners of the mirrors: in a convex body they lie on one side of each triangle's
+// plane.
 static bool may_be_convex(const glint_scene *scene, bool rough, size_t mirrors)
 {
     glint_vec3 probes[PROBES];
@@ -170,7 +170,7 @@ bool glint_sight_wants_topology(const glint_scene *scene, bool rough)
            may_be_convex(scene, rough, c.reflected);
 }
 
-// The only surface at which paths go on, if it is one and proved convex.
+// True if paths go on at one body only, and it is proved convex.
 static bool is_one_convex_body(const glint_scene *scene, const glint_topology *topology, bool rough)
 {
     size_t bodies = 0;

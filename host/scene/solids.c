@@ -1,4 +1,4 @@
-// Solids that touch or overlap. See solids.h.
+// Finds solids that touch or overlap, and ranks them. See solids.h.
 #include "scene/solids.h"
 
 #include "base/memory.h"
@@ -8,17 +8,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// More media than these leave paths too few entries for the solids that they are inside.
+// With more media, paths have too few entries for the solids that they are inside.
 #define MEDIA_MAX 63
 
 typedef struct ranked {
     double priority, volume;
-    uint32_t component;  // that has this volume
-    uint32_t belongs_to; // itself or, of a hollow, the solid that it is in
+    uint32_t component;  // the component with this volume
+    uint32_t belongs_to; // itself; for a hollow, the solid around it
     uint32_t material;
 } ranked;
 
-// From what gives way to all others on; hollows last. Of two alike the first in the file gives way.
+// Sorts by rank: the solid that yields to all others first, hollows last. Of two equal solids the
+// first in the file yields.
 static int compare_ranks(const void *left, const void *right)
 {
     const ranked *a = left;
@@ -36,8 +37,8 @@ static int compare_ranks(const void *left, const void *right)
     return a->component < b->component ? -1 : a->component > b->component;
 }
 
-// The solid that a component is a hollow of: of those of its material that hold its bounds, the one
-// of least volume. NULL: none, or it winds as solids do.
+// Finds the solid around a hollow. Of the solids of its material whose bounds hold the hollow's
+// bounds, this is the one of least volume. NULL: none, or the component winds like a solid.
 static ranked *solid_around(const glint_topology *topology, const ranked *hollow, ranked *all,
                             size_t count)
 {
@@ -57,7 +58,7 @@ static ranked *solid_around(const glint_topology *topology, const ranked *hollow
     return around;
 }
 
-// Fills `all` with the solids, and leaves the hollows of others to these.
+// Fills `all` with the solids, and assigns hollows to the solids around them.
 static size_t list_solids(const glint_scene *scene, const glint_topology *topology, ranked *all)
 {
     size_t listed = 0;
@@ -82,7 +83,7 @@ static size_t list_solids(const glint_scene *scene, const glint_topology *topolo
     return listed;
 }
 
-// The solids that are no hollows first, as they rank. Returns how many these are.
+// Sorts the solids by rank, hollows last. Returns the number of solids without the hollows.
 static size_t rank_solids(ranked *all, size_t listed)
 {
     qsort(all, listed, sizeof *all, compare_ranks);
@@ -93,7 +94,7 @@ static size_t rank_solids(ranked *all, size_t listed)
     return count;
 }
 
-// How many media there are if only neighbours in the ranking share one.
+// The number of media if only neighbours in the ranking share a medium.
 static size_t count_runs(const ranked *all, size_t count)
 {
     size_t runs = count > 0;
@@ -103,9 +104,9 @@ static size_t count_runs(const ranked *all, size_t count)
     return runs;
 }
 
-// Media, from the one that gives way on: solids of one material share one unless another comes
-// between them. Where that makes too many, all of a material rank with its largest. `medium_of` a
-// component is its medium's number.
+// Numbers the media by rank, the yielding one first. Solids of one material share a medium if no
+// other material ranks between them. If this makes too many media, all solids of a material share
+// the rank of its largest solid. Sets `medium_of` each component to its medium's number, from 1.
 static void rank_media(const ranked *all, size_t count, glint_solids *solids, uint32_t *medium_of)
 {
     const bool by_solid = count_runs(all, count) <= MEDIA_MAX;
@@ -203,7 +204,7 @@ bool glint_solids_have_priorities(const glint_scene *scene)
     return false;
 }
 
-// Nodes have names more often than not; what is in one node is told apart by its number.
+// Names a solid. Most nodes have names; the node's number distinguishes equal names.
 static void name_solid(const glint_scene *scene, uint32_t number, char *text, size_t capacity)
 {
     const glint_instance *instance = &scene->instances[number];

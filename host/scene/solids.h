@@ -1,10 +1,10 @@
-// Solids that touch or overlap, and which of them is there where several are.
+// Finds solids that touch or overlap, and decides which solid is present where several overlap.
 //
-// Priorities are those of Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images"
-// (2002): where solids overlap the one of the highest priority is there and the others are not. Of
-// equal priorities that of the least volume is: an ice cube in water, a bubble in the ice, and a
-// thin glass around its wine. Surfaces that bound no solid are met before those of solids that they
-// lie on: metal around a stone, or a table under a glass.
+// Priorities follow Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images" (2002).
+// Where solids overlap, only the solid of the highest priority is present. Of equal priorities, the
+// solid of the least volume is present: an ice cube in water, a bubble in the ice, a thin glass
+// around its wine. If a surface that bounds no solid lies on a solid's surface, light meets it
+// first: metal around a stone, or a table under a glass.
 #ifndef GLINT_SCENE_SOLIDS_H
 #define GLINT_SCENE_SOLIDS_H
 
@@ -23,20 +23,20 @@ extern "C" {
 
 // Two solids whose surfaces meet.
 typedef struct glint_contact {
-    uint32_t components[2]; // of the topology, the lower first; the same of one that touches itself
-    uint32_t instances[2];  // of the scene, likewise
-    bool overlap;           // the surfaces cross; else they only lie in each other's planes
-    int there;              // which of the two is there where both are
-    bool is_guess;          // by its volume: the materials differ, and their priorities do not
+    uint32_t components[2]; // of the topology, lower first; both equal if a solid touches itself
+    uint32_t instances[2];  // of the scene, in the same order
+    bool overlap;           // the surfaces cross; false: they only lie in one plane
+    int there;              // 0 or 1: the solid that is present where both are
+    bool is_guess;          // the volumes decided: the materials differ, their priorities do not
 } glint_contact;
 
 // Zero is valid: no solids.
 typedef struct glint_solids {
     size_t contact_count;
-    glint_contact *contacts; // in the order of their components
-    bool touch_others;       // a surface that bounds no solid lies in one place with some solid's
-    size_t component_count;  // of these solids
-    size_t medium_count;     // from the one that gives way to all others on
+    glint_contact *contacts; // sorted by their components
+    bool touch_others;       // a surface that bounds no solid coincides with a solid's surface
+    size_t component_count;  // components that bound solids, hollows included
+    size_t medium_count;     // media by rank: the first yields to all others
     uint32_t *material_of;   // [medium]
     glint_solid_record *of_triangle; // [triangle of the scene]
 } glint_solids;
@@ -46,20 +46,21 @@ glint_status glint_solids_find(const glint_scene *scene, const glint_topology *t
                                glint_solids *solids, glint_error *error);
 void glint_solids_free(glint_solids *solids);
 
-// Whether some solid's material has a priority of its own.
+// True if some solid's material has a priority of its own.
 bool glint_solids_have_priorities(const glint_scene *scene);
 
-#define GLINT_CONTACT_TEXT 400 // bytes that hold any text of a contact, and of guesses
+#define GLINT_CONTACT_TEXT 400 // enough bytes for the text of any contact or guess
 
-// ""wine" (node 2, water) touches "bowl" (node 1, glass)" into `text`.
+// Writes a contact to `text`, such as ""wine" (node 2, water) touches "bowl" (node 1, glass)".
 void glint_contact_describe(const glint_scene *scene, const glint_contact *contact, char *text,
                             size_t capacity);
 
-// The same of the first contact that is a guess, and how many more there are; empty: none is.
+// Writes the first contact that is a guess, and the number of further guesses. Empty: there is
+// none.
 void glint_solids_describe_guesses(const glint_scene *scene, const glint_solids *solids, char *text,
                                    size_t capacity);
 
-// Adds what to do about these guesses to the warnings.
+// Adds a warning that tells how to settle these guesses.
 void glint_solids_warn(const glint_scene *scene, const char *guesses, glint_warnings *warnings);
 
 #ifdef __cplusplus

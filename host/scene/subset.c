@@ -1,4 +1,4 @@
-// Scenes without some of their nodes. See subset.h.
+// Removes some of a scene's nodes, or all others. See subset.h.
 #include "scene/subset.h"
 
 #include "base/memory.h"
@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Whether an instance is of a node, or of one under it: by the node's name, or by its index where
-// `name` is NULL.
+// True if an instance belongs to a node or to a node below it. `name` names the node; if it is
+// NULL, its index counts.
 static bool stands_under(const glint_scene *scene, const glint_instance *instance, const char *name,
                          long long index)
 {
@@ -45,8 +45,9 @@ static bool has_name(const glint_scene *scene, const char *name)
     return has;
 }
 
-// Marks the instances of a node: of all that bear the name, else of that with the index, whatever
-// can be seen at this time. False where there is no such node, or it has no triangles at any time.
+// Marks the instances of a node: of all nodes with the name, else of the node with the index.
+// Returns false if there is no such node, or it has no triangles at any time. Visibility now does
+// not matter.
 static bool mark(const glint_scene *scene, const char *node, bool *is_marked)
 {
     if (has_name(scene, node)) {
@@ -65,7 +66,7 @@ static glint_status refuse(const glint_scene *scene, const char *node, glint_err
     int last = -1;
     for (size_t i = 0; i < scene->instance_count && length + 80 < sizeof names; i++) {
         const glint_instance *instance = &scene->instances[i];
-        if (instance->node_index == last) { // another primitive of the same
+        if (instance->node_index == last) { // another primitive of the same node
             continue;
         }
         last = instance->node_index;
@@ -80,7 +81,7 @@ static glint_status refuse(const glint_scene *scene, const char *node, glint_err
                       length > 0 ? names : "none that has");
 }
 
-// Marks the instances of all nodes of a list. The marks are for free() whatever the outcome.
+// Marks the instances of all nodes of a list. The caller frees the marks in any case.
 static glint_status mark_nodes(const glint_scene *scene, const char *nodes, bool **is_marked,
                                glint_error *error)
 {
@@ -101,7 +102,7 @@ static glint_status mark_nodes(const glint_scene *scene, const char *nodes, bool
     return status;
 }
 
-// The bounds of some instances: of those that are marked, or of the others.
+// Computes the bounds of the instances whose mark is `wanted`.
 static void find_bounds(const glint_scene *scene, const bool *is_marked, bool wanted,
                         glint_vec3 *low, glint_vec3 *high)
 {
@@ -121,7 +122,7 @@ static void find_bounds(const glint_scene *scene, const bool *is_marked, bool wa
     }
 }
 
-// Keeps the materials that are left.
+// Keeps only the materials still in use.
 static void drop_materials(glint_scene *scene, uint32_t *place)
 {
     enum { UNUSED, USED };
@@ -146,8 +147,8 @@ static void drop_materials(glint_scene *scene, uint32_t *place)
     }
 }
 
-// Drops the instances whose mark is `unwanted`, and moves what is left together. Instances stand in
-// the order of their triangles.
+// Removes the instances whose mark is `unwanted`, and closes the gaps. Instances stand in the order
+// of their triangles.
 static void drop(glint_scene *scene, const bool *is_marked, bool unwanted)
 {
     size_t triangles = 0, kept = 0;
@@ -184,7 +185,7 @@ static void drop(glint_scene *scene, const bool *is_marked, bool unwanted)
     scene->triangle_count = triangles;
 }
 
-// Takes away the nodes of a list, or all but those.
+// Removes the nodes of a list, or all others.
 static glint_status part(glint_scene *scene, const char *nodes, bool keeps, glint_error *error)
 {
     uint32_t *place = glint_allocate(scene->material_count + 1, sizeof *place);

@@ -1,4 +1,4 @@
-// Tangents of surfaces whose file has none. See tangents.h.
+// Computes tangents for surfaces whose file has none. See tangents.h.
 #include "scene/tangents.h"
 
 #include "base/memory.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What corners have in common that share one tangent: position, normal and texture coordinates as
-// bits, the instance, and which way the triangle winds in the texture.
+// The common facts of corners that share a tangent: the bits of position, normal and texture
+// coordinates, the instance, and the winding in the texture.
 enum { KEY_FLOATS = 8, KEY_WORDS = KEY_FLOATS + 2 };
 typedef struct corner_key {
     uint32_t words[KEY_WORDS];
@@ -23,17 +23,17 @@ typedef struct shared_tangent {
 
 typedef struct tangents {
     glint_scene *scene;
-    size_t stride, tangent_at; // floats of a corner; where its tangent begins
-    shared_tangent *table;     // a hash table, a power of two in size
+    size_t stride, tangent_at; // floats per corner; offset of the tangent
+    shared_tangent *table;     // hash table; its size is a power of two
     size_t mask;
 } tangents;
 
-// A triangle's corners, and how its texture coordinates lie on it.
+// A triangle's corners, and the direction of its texture coordinates.
 typedef struct sheet {
     glint_vec3 positions[3];
     const float *uv[3];
     glint_vec3 tangent; // unit, along u
-    int turn;           // 1 or −1: which way it winds in the texture; 0: it spans no area there
+    int turn;           // winding in the texture: 1 or −1; 0: no area in the texture
 } sheet;
 
 static glint_vec3 vector_of(const float *p)
@@ -97,13 +97,13 @@ static glint_vec3 normal_at(const glint_scene *scene, size_t triangle, int corne
     return glint_vec3_length(n) > 0 ? n : geometric;
 }
 
-// `v` without what of it runs along the unit vector n, unit; 0 where nothing is left.
+// The part of `v` perpendicular to the unit vector n, normalized; 0 if it vanishes.
 static glint_vec3 in_plane(glint_vec3 v, glint_vec3 n)
 {
     return glint_vec3_normalize(glint_vec3_subtract(v, glint_vec3_scale(n, glint_vec3_dot(v, n))));
 }
 
-// The angle at a corner, between the edges as they lie in the plane of its normal.
+// The angle at a corner between its edges, projected into the plane of the normal.
 static double angle_at(const sheet *s, int corner, glint_vec3 n)
 {
     const glint_vec3 p = s->positions[corner];
@@ -122,7 +122,7 @@ static uint32_t hash_of(const corner_key *key)
     return hash;
 }
 
-// The tangent that a corner shares, made where there is none yet.
+// Finds the tangent that a corner shares, or adds it.
 static shared_tangent *find(const tangents *t, const corner_key *key)
 {
     size_t slot = hash_of(key) & t->mask;
@@ -144,7 +144,7 @@ static corner_key key_of(const tangents *t, size_t triangle, int corner, uint32_
         p[0], p[1], p[2], (float)n.x, (float)n.y, (float)n.z, s->uv[corner][0], s->uv[corner][1]};
     corner_key key;
     for (int i = 0; i < KEY_FLOATS; i++) {
-        values[i] += 0.0F; // −0 and 0 are one
+        values[i] += 0.0F; // −0 becomes 0
     }
     memcpy(key.words, values, sizeof values);
     key.words[KEY_FLOATS] = instance;
@@ -177,7 +177,7 @@ static void take_tangents(const tangents *t, size_t triangle, uint32_t instance)
         stored[0] = (float)unit.x;
         stored[1] = (float)unit.y;
         stored[2] = (float)unit.z;
-        // MikkTSpace lets v rise upwards, and so does glTF's normal map: its green is up.
+        // In MikkTSpace v rises upwards, and also in glTF's normal map: green is up.
         stored[3] = glint_vec3_length(unit) > 0 ? (float)-s.turn : 0;
     }
 }

@@ -1,4 +1,4 @@
-// Tangents of surfaces whose file has none.
+// Computes tangents for surfaces whose file has none.
 #ifndef GLINT_SCENE_TANGENTS_H
 #define GLINT_SCENE_TANGENTS_H
 
@@ -8,12 +8,12 @@
 extern "C" {
 #endif
 
-// Computes the tangents of those triangles that have a normal texture and none, as MikkTSpace does
-// (Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008): a vertex's tangent is the mean of
-// those of the triangles around it that share its position, normal and texture coordinates and wind
-// alike in the texture, each turned into the vertex's plane and weighted by its angle. Where the
-// texture coordinates span no area there is none. The scene must have tangents among its
-// attributes. False where memory runs out.
+// Computes the tangents of triangles that have a normal texture but no tangents, as MikkTSpace does
+// (Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008). A vertex's tangent is a weighted
+// mean over the triangles around it. These triangles share its position, normal and texture
+// coordinates, and wind the same way in the texture. Each triangle's tangent is turned into the
+// vertex's plane and weighted by its angle. If the texture coordinates span no area, there is no
+// tangent. The scene's attributes must include tangents. Returns false if memory is short.
 bool glint_scene_complete_tangents(glint_scene *scene);
 
 #ifdef __cplusplus

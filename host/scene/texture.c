@@ -1,4 +1,4 @@
-// Reading images and computing their levels. See texture.h.
+// Reads images and makes their mip levels. See texture.h.
 #include "scene/texture.h"
 
 #include "base/memory.h"
@@ -34,7 +34,7 @@ const char *glint_texture_slot_name(glint_texture_slot slot)
 
 // ---- An image -----------------------------------------------------------------------------------
 
-// Leaves out the levels that are too large, and frees their memory before the next image is read.
+// Removes levels that are too large, so that their memory is free before the next image is read.
 static glint_status drop_large_levels(int largest, glint_texture_levels *levels, glint_error *error)
 {
     glint_texture *t = &levels->texture;
@@ -113,7 +113,7 @@ glint_status glint_textures_join(glint_texture_levels *images, size_t count,
     if (all != NULL) {
         all->owners = 1;
         all->textures = glint_allocate(count, sizeof *all->textures);
-        if (count == 1) { // it keeps its memory
+        if (count == 1) { // a single image keeps its memory
             all->texels = images->texels;
             images->texels = NULL;
         }
@@ -131,7 +131,8 @@ glint_status glint_textures_join(glint_texture_levels *images, size_t count,
         for (int k = 0; k < texture->levels; k++) {
             texture->first[k] += all->texel_count;
         }
-        if (images[i].texels != NULL) { // else they are there, or it could not be read
+        // NULL: the texels are in place, or the image could not be read.
+        if (images[i].texels != NULL) {
             memcpy(all->texels + all->texel_count, images[i].texels,
                    images[i].texel_count * sizeof *all->texels);
         }

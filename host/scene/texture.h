@@ -1,4 +1,4 @@
-// Images on surfaces: what a material says of one, and the images themselves.
+// Images on surfaces: how a material uses a texture, and the images themselves.
 #ifndef GLINT_SCENE_TEXTURE_H
 #define GLINT_SCENE_TEXTURE_H
 
@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-// Texels of a level with its border, and those from a row to the next.
+// Texels from one row of a level to the next; and texels of a whole level with its border.
 static inline size_t glint_texture_pitch(int width)
 {
     return (size_t)width + GLINT_TEXTURE_BORDER;
@@ -25,22 +25,22 @@ static inline size_t glint_texture_area(int width, int height)
     return glint_texture_pitch(width) * ((size_t)height + GLINT_TEXTURE_BORDER);
 }
 
-// What a material's textures are for.
+// The purposes of a material's textures, and how the channels apply.
 typedef enum glint_texture_slot {
     GLINT_TEXTURE_BASE_COLOR =
         GLINT_SLOT_BASE_COLOR, // R, G, B times the base colour; A its coverage
     GLINT_TEXTURE_METALLIC_ROUGHNESS = GLINT_SLOT_METALLIC_ROUGHNESS, // B times metallic, G times
                                                                       // roughness
-    GLINT_TEXTURE_OCCLUSION = GLINT_SLOT_OCCLUSION, // R: what is left of the irradiance
-    GLINT_TEXTURE_NORMAL = GLINT_SLOT_NORMAL,       // R, G, B: a normal in the tangent's frame
-    GLINT_TEXTURE_EMISSION = GLINT_SLOT_EMISSION,   // R, G, B times the emission
-    GLINT_TEXTURE_TRANSMISSION = GLINT_SLOT_TRANSMISSION,     // R times transmission
-    GLINT_TEXTURE_SPECULAR = GLINT_SLOT_SPECULAR,             // A times specular
+    GLINT_TEXTURE_OCCLUSION = GLINT_SLOT_OCCLUSION,                   // R scales the irradiance
+    GLINT_TEXTURE_NORMAL = GLINT_SLOT_NORMAL,             // R, G, B: a normal in the tangent frame
+    GLINT_TEXTURE_EMISSION = GLINT_SLOT_EMISSION,         // R, G, B times the emission
+    GLINT_TEXTURE_TRANSMISSION = GLINT_SLOT_TRANSMISSION, // R times transmission
+    GLINT_TEXTURE_SPECULAR = GLINT_SLOT_SPECULAR,         // A times specular
     GLINT_TEXTURE_SPECULAR_COLOR = GLINT_SLOT_SPECULAR_COLOR, // R, G, B times specular_color
     GLINT_TEXTURE_CLEARCOAT = GLINT_SLOT_CLEARCOAT,           // R times clearcoat
     GLINT_TEXTURE_CLEARCOAT_ROUGHNESS =
         GLINT_SLOT_CLEARCOAT_ROUGHNESS,                           // G times clearcoat_roughness
-    GLINT_TEXTURE_CLEARCOAT_NORMAL = GLINT_SLOT_CLEARCOAT_NORMAL, // as NORMAL, of the coat
+    GLINT_TEXTURE_CLEARCOAT_NORMAL = GLINT_SLOT_CLEARCOAT_NORMAL, // as NORMAL, for the coat
     GLINT_TEXTURE_IRIDESCENCE = GLINT_SLOT_IRIDESCENCE,           // R times iridescence
     GLINT_TEXTURE_IRIDESCENCE_THICKNESS = GLINT_SLOT_IRIDESCENCE_THICKNESS, // G, see material.h
     GLINT_TEXTURE_ANISOTROPY = GLINT_SLOT_ANISOTROPY,   // R, G a direction; B times anisotropy
@@ -61,29 +61,29 @@ typedef enum glint_wrap {
 } glint_wrap;
 
 typedef enum glint_mip_choice {
-    GLINT_MIP_LINEAR, // between two levels
+    GLINT_MIP_LINEAR, // interpolates between two levels
     GLINT_MIP_NEAREST,
-    GLINT_MIP_NONE, // the image itself, however small it is seen
+    GLINT_MIP_NONE, // always the full image, however small it appears
 } glint_mip_choice;
 
-// How a texture is looked up. Zero is valid: glTF's default.
+// How a texture is sampled. Zero is valid: glTF's default.
 typedef struct glint_texture_use {
-    uint32_t image; // its place in the textures, from 1; 0: none
+    uint32_t image; // index of the image in the textures, from 1; 0: none
     int texcoord;   // the set of texture coordinates, 0 or 1
     glint_wrap wrap_s, wrap_t;
-    bool magnified_nearest, minified_nearest; // else bilinear
+    bool magnified_nearest, minified_nearest; // false: bilinear
     glint_mip_choice mips;
-    // KHR_texture_transform: u' = transform[0] u + transform[1] v + transform[2], v' likewise from
-    // the other three. All zero: none.
+    // KHR_texture_transform: u' = transform[0] u + transform[1] v + transform[2]; v' from the other
+    // three in the same way. All zero: no transform.
     float transform[6];
 } glint_texture_use;
 
-// An image and its levels: each has half of the last one's width and height, rounded down, 1 at
-// least. Values are linear, as whole numbers of 1/65535, R, G, B, A; row 0 is at the top, v = 0.
-// kernels/layout.h says how texels stand.
+// An image and its mip levels. Each level has half the width and height of the last, rounded down,
+// at least 1. Values are linear, in units of 1/65535, R, G, B, A; row 0 is at the top, v = 0.
+// kernels/layout.h describes the order of the texels.
 typedef struct glint_texture {
     int width, height, levels;
-    size_t first[GLINT_TEXTURE_LEVELS]; // where each level begins, in texels of all textures
+    size_t first[GLINT_TEXTURE_LEVELS]; // start of each level, in texels of all textures
 } glint_texture;
 
 // The images of a file. Several scenes may share them: the last one frees them.
@@ -95,36 +95,36 @@ typedef struct glint_textures {
     unsigned owners;       // counted atomically
 } glint_textures;
 
-// What an image is read for.
+// An image to read, and its use.
 typedef struct glint_texture_request {
     glint_image_source source;
-    bool is_color;    // its R, G and B have the sRGB curve
-    bool is_coverage; // its A is coverage: transparent texels count less in coarser levels
-    int threads;      // that compute its levels; 0: one for each core
+    bool is_color;    // R, G and B are encoded by the sRGB curve
+    bool is_coverage; // A is coverage: transparent texels count less in coarser levels
+    int threads;      // threads that compute its levels; 0: one per core
 } glint_texture_request;
 
-// The levels of one image, in memory of its own.
+// The levels of one image, with their own memory.
 typedef struct glint_texture_levels {
     glint_texture texture; // `first` counts from this image's first texel
     size_t texel_count;
     uint16_t (*texels)[4]; // owned
 } glint_texture_levels;
 
-// Decodes an image and computes its levels. Levels wider or higher than `largest` texels are left
-// out; 0: none are. What the file says of its colour space and orientation does not count, as glTF
-// asks. Errors: GLINT_BAD_INPUT with the source's name; GLINT_OUT_OF_MEMORY.
+// Decodes an image and computes its levels. Leaves out levels wider or higher than `largest`
+// texels; 0: no limit. Ignores the file's colour space and orientation, as glTF requires. Errors:
+// GLINT_BAD_INPUT with the source's name; GLINT_OUT_OF_MEMORY.
 glint_status glint_texture_read(const glint_texture_request *request, int largest,
                                 glint_texture_levels *levels, glint_error *error);
 
-// Puts images into one array, and frees theirs; *textures has one owner. Errors:
+// Moves images into one array and frees their own memory; *textures has one owner. Errors:
 // GLINT_OUT_OF_MEMORY.
 glint_status glint_textures_join(glint_texture_levels *images, size_t count,
                                  glint_textures **textures, glint_error *error);
 
-// What the texels take; 0 of NULL.
+// Returns the bytes of the texels; 0 for NULL.
 size_t glint_textures_bytes(const glint_textures *textures);
 
-// One owner more, and one less; NULL is allowed.
+// Adds an owner, and removes an owner; NULL is allowed.
 glint_textures *glint_textures_share(glint_textures *textures);
 void glint_textures_release(glint_textures *textures);
 

@@ -1,4 +1,4 @@
-// From an image's rows to its levels. See texture_levels.h.
+// Makes mip levels from an image's rows. See texture_levels.h.
 #include "scene/texture_levels.h"
 
 #include "base/memory.h"
@@ -12,7 +12,7 @@
 
 // ---- Rows of the image --------------------------------------------------------------------------
 
-// What codes mean, in 1/65535, not rounded.
+// The values of codes, in 1/65535, not rounded.
 typedef struct meanings {
     float *of_color, *of_alpha; // [code]
 } meanings;
@@ -33,7 +33,7 @@ static glint_status make_meanings(int code_bits, bool is_color, meanings *of, gl
     return GLINT_OK;
 }
 
-// A row of 1 to 4 channels; grey is repeated.
+// Converts a row of 1 to 4 channels; grey is repeated.
 static void means_of_row(const meanings *of, const void *codes, const glint_stored_facts *facts,
                          float (*row)[4])
 {
@@ -53,8 +53,9 @@ static void means_of_row(const meanings *of, const void *codes, const glint_stor
 
 // ---- Levels -------------------------------------------------------------------------------------
 
-// Which texels of the finer level a texel of the coarser one covers along one axis, and how much of
-// each: of an even number two, of an odd one up to three, as half of it is rounded down.
+// The texels of the finer level that a texel of the coarser level covers along one axis, and their
+// shares. For an even size these are two texels. For an odd size there are up to three, because
+// half of the size is rounded down.
 typedef struct cover {
     int first, count;
     float share[3]; // sum 1
@@ -79,14 +80,14 @@ static int half_of(int size)
     return size > 1 ? size / 2 : 1;
 }
 
-// A level's means or texels, rows from the top.
+// The means or texels of a level, rows from the top.
 typedef struct level_rows {
     int width, height;
-    float (*means)[4]; // in 1/65535; NULL: those of the image, which are read
+    float (*means)[4]; // in 1/65535; NULL: level 0, whose rows are read from the image
     uint16_t (*texels)[4];
 } level_rows;
 
-// Values are in [0, 65535]. The row becomes texels, and part of the border.
+// Rounds a row, whose values are in [0, 65535], to texels. Sets part of the border too.
 static void round_row(const float (*row)[4], const level_rows *level, int y)
 {
     const size_t width = (size_t)level->width, pitch = glint_texture_pitch(level->width);
@@ -102,26 +103,27 @@ static void round_row(const float (*row)[4], const level_rows *level, int y)
     }
 }
 
-// A level that is made of the next finer one. Means are not rounded before they are averaged.
+// The work on a level, made from the next finer level. Means are averaged before they are rounded.
 typedef struct levels_work {
     const glint_stored *stored;
     meanings of;
-    bool is_coverage; // R, G and B are weighted by A
+    bool is_coverage; // weight R, G and B by A
     level_rows fine, coarse;
     cover *across; // [coarse.width]
     atomic_bool failed;
-    glint_status status; // of the thread that failed first
-    glint_error *error;  // its
+    glint_status status; // status of the first thread that failed
+    glint_error *error;  // error of the same thread
 } levels_work;
 
-// What a thread needs: a row of the image, as codes and as means; and the mean of the rows that
-// texels of the coarser level cover, plain and with R, G and B times alpha.
+// The working memory of a thread: a row of the image, as codes and as means; and the mean of some
+// rows, plain and with R, G and B times alpha. These are the rows that a row of the coarser level
+// covers.
 typedef struct strip {
     float (*row)[4], (*sum)[4], (*weighted)[4];
     uint8_t *codes;
 } strip;
 
-enum { STRIP_ROWS = 16 }; // of the coarser level, that a thread makes at once
+enum { STRIP_ROWS = 16 }; // rows of the coarser level that a thread makes at once
 
 static glint_status make_strip(size_t width, strip *s, glint_error *error)
 {
@@ -135,7 +137,7 @@ static glint_status make_strip(size_t width, strip *s, glint_error *error)
     return GLINT_OK;
 }
 
-// A row of the image. It becomes texels where `stays`.
+// Reads a row of the image. Writes it to the texels if `stays`.
 static glint_status read_row(const levels_work *w, strip *s, int y, bool stays, glint_error *error)
 {
     const glint_stored_facts *facts = &w->stored->facts;
@@ -163,7 +165,7 @@ static void add_row(const float (*row)[4], float share, bool is_coverage, size_t
     }
 }
 
-// The mean of what a texel covers.
+// Averages the texels that a coarser texel covers.
 static void average(const strip *s, const cover *across, bool is_coverage, float mean[4])
 {
     float sum[4] = {0}, weighted[3] = {0};
@@ -182,8 +184,8 @@ static void average(const strip *s, const cover *across, bool is_coverage, float
     }
 }
 
-// A row of the coarser level. The rows of the image under it become texels here, without the one
-// that the next row begins with.
+// Makes a row of the coarser level. Rows of the image below it become texels here, except a last
+// row that the next coarser row also covers.
 static glint_status make_row(const levels_work *w, strip *s, int y, glint_error *error)
 {
     const level_rows *fine = &w->fine, *coarse = &w->coarse;
@@ -242,7 +244,7 @@ static glint_status make_level(levels_work *w, int threads)
     return w->status;
 }
 
-// Sets sizes and places of all levels; returns the number of texels.
+// Sets the sizes and places of all levels. Returns the number of texels.
 static size_t plan_levels(int width, int height, glint_texture *texture)
 {
     *texture = (glint_texture){.width = width, .height = height};
@@ -258,7 +260,7 @@ static size_t plan_levels(int width, int height, glint_texture *texture)
     }
 }
 
-// Makes level 1 of the image, which sets level 0, then each level of the last.
+// Makes level 1 from the image, which also sets level 0; then each level from the finer one.
 static glint_status make_levels(levels_work *w, int threads, const glint_texture_levels *levels,
                                 float (*means)[4])
 {
@@ -281,7 +283,7 @@ glint_status glint_texture_levels_make(const glint_texture_request *request,
 {
     const glint_stored_facts *facts = &stored->facts;
     levels->texel_count = plan_levels(facts->width, facts->height, &levels->texture);
-    // An image of one texel gets a level 1 as well, which is not used.
+    // An image of one texel also gets a level 1, which stays unused.
     const size_t count = levels->texel_count + glint_texture_area(1, 1);
     const size_t coarser = count - glint_texture_area(facts->width, facts->height);
     float(*means)[4] = glint_allocate_unset(coarser, sizeof *means);

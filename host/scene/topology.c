@@ -1,19 +1,20 @@
-// What can be proved of the scene's surfaces. Instance by instance: corners are welded by position,
-// welded vertices are joined to components, half-edges are paired, and every pair says whether the
-// surface is open or bends inwards there. O(n log n) in time, about 60 bytes a triangle of the
-// largest instance in memory.
+// Proves facts about the scene's surfaces, instance by instance. It welds corners by position,
+// joins welded vertices to components, and pairs half-edges. Every pair tells whether the surface
+// is open or bends inwards there. O(n log n) in time, about 60 bytes in memory per triangle of the
+// largest instance.
 //
-// Why that proves convexity. About an inner point, let every triangle be seen from inside and the
-// solid angles add up to 4π. Then the surface, projected onto a sphere around that point, covers it
-// once: it is star-shaped and meets itself nowhere (a pentagram's pyramid bends outwards at every
-// edge, too, but covers the sphere twice). Such a surface that bends outwards at every edge is
-// convex in a neighbourhood of each of its points, and a closed surface of that kind bounds a
-// convex body (Tietze 1928, Nakajima 1928).
+// Why this proves convexity. Suppose that, from an inner point, every triangle is seen from inside,
+// and the solid angles add up to 4π. Then the surface, projected onto a sphere around this point,
+// covers the sphere once. So it is star-shaped and meets itself nowhere. (A pentagram's pyramid
+// also bends outwards at every edge, but covers the sphere twice.) If such a surface bends outwards
+// at every edge, it is convex in a neighbourhood of each of its points. A closed surface of this
+// kind bounds a convex body (Tietze 1928, Nakajima 1928).
 //
 // Rounding. Flat faces are cut into triangles, and their corners rounded to floats: half of these
-// edges bend inwards by less than the rounding. That much is allowed at each; but in a very fine
-// mesh a whole hollow can hide below it. So either all those bends together must be slight, or no
-// vertex may lie in a hollow, which is looked for across the whole body (convexity.h).
+// edges bend inwards by less than the rounding. Each edge may bend so much. But in a very fine mesh
+// a whole hollow can hide below this limit. So one of two conditions must hold. Either the sum of
+// these bends is slight, or no vertex lies in a hollow, by a search over the whole body
+// (convexity.h).
 #include "scene/topology.h"
 
 #include "base/memory.h"
@@ -25,44 +26,44 @@
 
 #define NONE 0xFFFFFFFFu
 
-// A half-edge, filed under the lesser of its two vertices.
+// A half-edge, stored under the lesser of its two vertices.
 typedef struct half_edge {
     uint32_t upper;  // the greater vertex
-    uint32_t corner; // where the half-edge begins: the triangle is corner / 3
+    uint32_t corner; // start of the half-edge: the triangle is corner / 3
 } half_edge;
 
-// What is gathered of a component and not handed out.
+// Sums over a component, for internal use.
 typedef struct component_sums {
     size_t vertices, edges;
-    glint_vec3 sum;        // of the vertices
-    bool bends_inwards;    // at an edge, by more than rounding
-    double rounding_bends; // radians: the sum of the inward bends that rounding explains
-    bool seen_from_inside; // every triangle, from the vertices' mean
-    double solid_angle;    // of all triangles, from there
-    bool look_for_hollows; // rounding could hide one
-    size_t end;            // of the vertices that are gathered for that
+    glint_vec3 sum;        // sum of the vertices
+    bool bends_inwards;    // some edge bends inwards by more than rounding
+    double rounding_bends; // radians: sum of the inward bends that rounding explains
+    bool seen_from_inside; // every triangle is seen from inside, from the vertices' mean
+    double solid_angle;    // sum over the triangles, seen from the vertices' mean
+    bool look_for_hollows; // rounding could hide a hollow
+    size_t end;            // end of the component's vertices in the gathered points
 } component_sums;
 
 // The work on one instance. Arrays are as large as the largest instance needs.
 typedef struct welding {
-    const float *positions;  // of the instance's first triangle, from its part's anchor
-    const uint32_t *part_of; // of that; NULL: there are no parts
+    const float *positions;  // of the instance's triangles, relative to their parts' anchors
+    const uint32_t *part_of; // part of each triangle; NULL: there are no parts
     const float (*anchors)[3];
-    uint32_t *component_of; // [triangle of the instance], among the topology's
+    uint32_t *component_of; // [triangle of the instance]: component in the topology
     uint32_t corner_count;
     uint32_t vertex_count;
     uint32_t *vertex_of;      // [corner]
-    uint32_t *corner_of;      // [vertex]: one of its corners
+    uint32_t *corner_of;      // [vertex]: one of the vertex's corners
     uint32_t *parent;         // [vertex]: union-find
-    uint32_t *component;      // [vertex]: index among the instance's components
+    uint32_t *component;      // [vertex]: component within the instance
     uint32_t *table;          // hash table of vertices, a power of two in size
-    uint32_t *first_edge;     // [vertex + 1]: into edges
+    uint32_t *first_edge;     // [vertex + 1]: index into edges
     half_edge *edges;         // [corner]
     component_sums *gathered; // [component of this instance]
     size_t gathered_capacity;
 } welding;
 
-// From the anchor of the corner's part: a component is in one.
+// The position relative to the anchor of the corner's part. A component lies in one part.
 static glint_vec3 position_at(const welding *weld, uint32_t corner)
 {
     const float *p = weld->positions + (size_t)corner * 3;
@@ -134,7 +135,7 @@ static void weld_corners(welding *weld)
     }
 }
 
-// Halving the path keeps it short without a stack.
+// Path halving keeps the paths short without a stack.
 static uint32_t find_root(welding *weld, uint32_t vertex)
 {
     while (weld->parent[vertex] != vertex) {
@@ -144,7 +145,7 @@ static uint32_t find_root(welding *weld, uint32_t vertex)
     return vertex;
 }
 
-// The lesser root stays: no ranks are needed for near-linear time beside halving.
+// The lesser root becomes the root. With path halving, near-linear time needs no ranks.
 static void join(welding *weld, uint32_t a, uint32_t b)
 {
     a = find_root(weld, a);
@@ -192,7 +193,7 @@ static bool make_room(welding *weld, size_t count)
     return true;
 }
 
-// Numbers the components by their first triangle, and sums up what concerns vertices. False when
+// Numbers the components by their first triangle, and sums up over their vertices. Returns false if
 // memory is short.
 static bool number_components(welding *weld, uint32_t instance, glint_topology *topology,
                               size_t *capacity)
@@ -234,7 +235,7 @@ static bool number_components(welding *weld, uint32_t instance, glint_topology *
     return true;
 }
 
-// Files every half-edge under its lesser vertex: a counting sort.
+// Stores every half-edge under its lesser vertex, by a counting sort.
 static void file_edges(welding *weld)
 {
     uint32_t *first = weld->first_edge;
@@ -247,7 +248,7 @@ static void file_edges(welding *weld)
             if (pass == 0) {
                 first[lower]++;
             } else {
-                // Filled from the end, so that first[] ends as the beginnings.
+                // Fill from the end, so that first[] holds the starts in the end.
                 weld->edges[--first[lower]] = (half_edge){a < b ? b : a, corner};
             }
         }
@@ -267,8 +268,8 @@ static int compare_edges(const void *left, const void *right)
     return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// How far the determinant of judge_edge can move when the coordinates of its four points are off by
-// some roundings: to first order the sum of |derivative| × |coordinate| × 2^-24.
+// Bounds the error of judge_edge's determinant if its four points are off by some roundings. To
+// first order it is the sum of |derivative| × |coordinate| × 2^-24.
 static double rounding_of(const glint_vec3 *points, const glint_vec3 *derivatives)
 {
     double sum = 0;
@@ -279,10 +280,10 @@ static double rounding_of(const glint_vec3 *points, const glint_vec3 *derivative
     return GLINT_POSITION_ROUNDINGS * ldexp(sum, -24);
 }
 
-// The edge from corner `left` to the next one, whose twin begins at corner `right`: (a, b, c) and
-// (b, a, d). The surface bends inwards there if d is above the plane of (a, b, c). Doubles hold the
-// differences of floats exactly, and the determinant's own rounding, 2^-50 or so, is lost in the
-// tolerance.
+// Judges the edge from corner `left` to the next corner; its twin begins at corner `right`. The
+// triangles are (a, b, c) and (b, a, d). The surface bends inwards if d is above the first one's
+// plane. Doubles hold the differences of floats exactly. The determinant's own rounding, about
+// 2^-50, is far below the tolerance.
 static void judge_edge(const welding *weld, uint32_t left, uint32_t right, component_sums *sums)
 {
     glint_vec3 a = position_at(weld, left);
@@ -299,14 +300,14 @@ static void judge_edge(const welding *weld, uint32_t left, uint32_t right, compo
         return;
     }
     glint_vec3 by_b = glint_vec3_cross(to_c, to_d);
-    glint_vec3 by_a = glint_vec3_add(by_b, glint_vec3_add(other, normal)); // its negative
+    glint_vec3 by_a = glint_vec3_add(by_b, glint_vec3_add(other, normal)); // negated
     const glint_vec3 points[4] = {a, b, c, d};
     const glint_vec3 derivatives[4] = {by_a, by_b, other, normal};
     if (!(height <= rounding_of(points, derivatives)) || !(glint_vec3_dot(normal, other) > 0)) {
         sums->bends_inwards = true;
         return;
     }
-    // The sine of the bend; it is small.
+    // The sine of the bend, which is small.
     sums->rounding_bends +=
         height * glint_vec3_length(edge) / (glint_vec3_length(normal) * glint_vec3_length(other));
 }
@@ -341,14 +342,14 @@ static bool is_simple(const glint_component *component, const component_sums *su
            sums->vertices + component->triangle_count == sums->edges + 2;
 }
 
-// Convex as far as edges tell.
+// True if the edges allow the component to be convex.
 static bool may_be_convex(const glint_component *component, const component_sums *sums)
 {
     return is_simple(component, sums) && !sums->bends_inwards;
 }
 
-// The solid angle of a triangle, seen from the origin, by Van Oosterom and Strackee (1983);
-// positive where it is seen from the inside.
+// The solid angle of a triangle, seen from the origin, by Van Oosterom and Strackee (1983).
+// Positive if seen from the inside.
 static double solid_angle(glint_vec3 a, glint_vec3 b, glint_vec3 c)
 {
     double la = glint_vec3_length(a);
@@ -360,7 +361,8 @@ static double solid_angle(glint_vec3 a, glint_vec3 b, glint_vec3 c)
     return 2 * atan2(numerator, denominator);
 }
 
-// Of the pyramids over the triangles, whose top is a corner of the bounds.
+// Adds the volumes of the pyramids over the triangles. Their apex is a corner of the component's
+// bounds.
 static void add_volumes(const welding *weld, glint_topology *topology)
 {
     for (uint32_t corner = 0; corner < weld->corner_count; corner += 3) {
@@ -393,29 +395,30 @@ static void look_from_inside(welding *weld, const glint_component *components)
     }
 }
 
-// Convex but for hollows that are everywhere gentler than rounding.
+// True if the component is convex, except for hollows that are shallower than rounding everywhere.
 static bool is_nearly_convex(const glint_component *component, const component_sums *sums)
 {
-    // Multiples of 4π are far apart; the sum's rounding is not.
+    // Multiples of 4π are far apart compared with the sum's rounding.
     return may_be_convex(component, sums) && sums->seen_from_inside &&
            fabs(sums->solid_angle - 4 * GLINT_PI) < 0.1;
 }
 
-// Where the bends that rounding explains add up to less, a line that has left the surface more
-// steeply than this does not meet it again: a hollow would have to bend that much.
+// True if the bends that rounding explains may hide a hollow. If they add up to less than the
+// limit, a line that leaves the surface more steeply than the limit does not meet it again. A
+// hollow would have to bend more than the limit.
 static bool bends_add_up(const component_sums *sums)
 {
     return sums->rounding_bends > 1.0 / 1024;
 }
 
-// The vertices of the components to look at, component by component; each ends at
+// Gathers the vertices of the components to search, component by component. Each ends at
 // component_sums.end.
 static void gather_points(welding *weld, glint_surface_point *points)
 {
     for (uint32_t vertex = 0; vertex < weld->vertex_count; vertex++) {
         component_sums *sums = &weld->gathered[weld->component[vertex]];
         if (sums->look_for_hollows) {
-            // Union-find is done with `parent`: it keeps where the vertex's point stands.
+            // Union-find no longer needs `parent`: reuse it for the place of the vertex's point.
             glint_surface_point *point = &points[sums->end];
             const float *p = weld->positions + (size_t)weld->corner_of[vertex] * 3;
             memcpy(point->position, p, sizeof point->position);
@@ -437,7 +440,7 @@ static void gather_points(welding *weld, glint_surface_point *points)
     }
 }
 
-// Where memory is short nothing is proved.
+// Clears `convex` of components that may have a hollow. If memory is short, none of them is proved.
 static void look_for_hollows(welding *weld, glint_component *components, size_t count)
 {
     size_t point_count = 0;
@@ -522,17 +525,19 @@ static glint_status find(const glint_scene *scene, bool solids_alone, glint_topo
     size_t capacity = 0;
     glint_status status = GLINT_OK;
     size_t largest = 0;
+    // Allocate for the largest instance.
     for (size_t i = 0; i < scene->instance_count; i++) {
         size_t count = scene->instances[i].triangle_count;
         largest = count > largest ? count : largest;
     }
     topology->component_of = glint_allocate(scene->triangle_count, sizeof *topology->component_of);
-    // Corners are numbered with 32 bits.
+    // Corner numbers have 32 bits.
     if (largest > (NONE - 1) / 3 || !allocate_weld(&weld, largest * 3) ||
         topology->component_of == NULL) {
         status = glint_fail_memory(error, "the topology of the scene");
         goto cleanup;
     }
+    // Find the components of each instance.
     for (size_t i = 0; i < scene->instance_count; i++) {
         const glint_instance *instance = &scene->instances[i];
         if (solids_alone && !glint_instance_is_solid(scene, instance)) {
