@@ -89,8 +89,7 @@ static const glint_option error_options[] = {
     {GLINT_OPTION_REAL, .name = "max-error", .argument = "E",
      .help = "For each frame, choose the fastest precision, depth and least weight that keep the "
              "picture within a relative RMSE of E (0.01, for example) of a reference in double "
-             "precision. The file names the choice and its error. Excludes --depth, --min-weight, "
-             "--precision, --mend, --fresnel, --texels, --irradiance, --roughness, --shading.",
+             "precision. The file names the choice and its error.",
      .instead_of = GLINT_SETTING_WEIGHS_ERRORS, .offset = offsetof(render_request, max_error),
      .minimum = 1e-9, .maximum = 10},
     GLINT_OPTION_END,
