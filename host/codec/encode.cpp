@@ -1,16 +1,15 @@
-// Encoding image files through OpenImageIO. See image/image_io.h.
+// Encodes image files through OpenImageIO. See image/image_io.h.
 //
-// A file is encoded in memory and put on the disk by image/output_file.c, which checks every write:
-// several of OpenImageIO's writers do not tell when the disk is full.
+// It encodes a file in memory. image/output_file.c writes it and checks every write, because
+// several of OpenImageIO's writers do not report a full disk.
 //
-// What becomes of values that a format cannot hold:
-//   EXR half   beyond ±65504, infinities too: ±65504. NaN stays NaN: it marks a fault, and a file
+// Values that a format cannot hold:
+//   EXR half   beyond ±65504, also infinite: ±65504. NaN stays NaN: it marks a fault, and a file
 //              that is fit for comparison must not hide it.
-//   EXR float  as they are.
-//   HDR        NaN and negative values become 0; infinity becomes 1.6e38, what RGBE can hold.
-//   8 bits     NaN and negative values become 0; above 1 is 1, unless a tone curve maps it.
-// Grey stays grey where the format has it (EXR, PNG, TIFF, JPEG). TIFF is written with 8 bits,
-// sRGB.
+//   EXR float  unchanged.
+//   HDR        NaN and negative values become 0; infinity becomes 1.6e38, the limit of RGBE.
+//   8 bits     NaN and negative values become 0; above 1 becomes 1, unless a tone curve maps it.
+// Grey stays grey if the format has it (EXR, PNG, TIFF, JPEG). TIFF is written with 8 bits, sRGB.
 #include "image/codec.h"
 #include "image/color.h"
 #include "image/formats.h"
@@ -48,15 +47,15 @@ float clamp_to_half(float value)
 }
 
 #if defined(__x86_64__)
-// Every processor with AVX2 has these conversions (and not every compiler can ask for them by
-// name).
+// Every processor with AVX2 has these conversions. (Not every compiler knows "f16c" in
+// __builtin_cpu_supports.)
 __attribute__((target("avx,f16c"))) std::size_t halves_by_eight(const float *from, half *to,
                                                                 std::size_t count)
 {
     const __m256 high = _mm256_set1_ps(half_max), low = _mm256_set1_ps(-half_max);
     std::size_t i = 0;
     for (; i + 8 <= count; i += 8) {
-        // min and max give their second operand where one is NaN: it stays.
+        // min and max return their second operand if one is NaN, so NaN stays.
         __m256 value = _mm256_max_ps(low, _mm256_min_ps(high, _mm256_loadu_ps(from + i)));
         _mm_storeu_si128(reinterpret_cast<__m128i *>(to + i),
                          _mm256_cvtps_ph(value, _MM_FROUND_TO_NEAREST_INT));
@@ -84,7 +83,7 @@ float clamp_to_rgbe(float value)
     return value > 0.0f ? std::min(value, most) : 0.0f;
 }
 
-// Which channels of the image the file's are: grey is repeated, alpha left out or kept.
+// The channels of the file: grey may be repeated, alpha may be left out.
 struct Channels {
     int color, total; // in the file
 };
@@ -115,8 +114,8 @@ void fill_rgbe(const glint_image &image, std::vector<unsigned char> &bytes)
     }
 }
 
-// Exposure, then unpremultiplied where alpha is kept, then the tone curve, then sRGB. Tone curves
-// are not linear: they must see the colour without its alpha.
+// Applies exposure, unpremultiplies if alpha is kept, then applies the tone curve and sRGB. Tone
+// curves are not linear: they must see the colour without its alpha.
 void fill_codes(const glint_image &image, Channels wanted, const glint_write_options &options,
                 std::vector<unsigned char> &bytes)
 {
@@ -130,7 +129,7 @@ void fill_codes(const glint_image &image, Channels wanted, const glint_write_opt
         float alpha = 1.0f;
         if (wanted.total > wanted.color) {
             alpha = from[image.channels - 1];
-            // A pixel of alpha 0 that still emits keeps its colour.
+            // An emitting pixel with alpha 0 keeps its colour.
             scale = alpha > 0.0f ? gain / alpha : gain;
         }
         float color[3];
@@ -168,7 +167,7 @@ void add_attribute(ImageSpec &spec, const glint_metadata &entry)
     }
 }
 
-// "name: value", a line each, for the formats that hold no typed attributes. Matrices are left out.
+// Writes "name: value" lines for formats without typed attributes. Leaves matrices out.
 std::string as_text(const glint_write_options &options)
 {
     std::string text;
@@ -177,7 +176,7 @@ std::string as_text(const glint_write_options &options)
         if (entry.type != GLINT_METADATA_MATRIX) {
             ImageSpec single;
             add_attribute(single, entry);
-            // Numbers too: get_string_attribute would give "" for them.
+            // get_string() also handles numbers; get_string_attribute would give "".
             const OIIO::ParamValue *value = single.find_attribute(entry.name);
             text += std::string(entry.name) + ": " +
                     (value != nullptr ? value->get_string() : std::string()) + "\n";
@@ -186,9 +185,9 @@ std::string as_text(const glint_write_options &options)
     return text;
 }
 
-// EXR holds everything. The others get the text as their description or comment, and no attribute
-// by name: one that OpenImageIO knows from EXIF would make it add a directory to a TIFF, for which
-// it must read back what it wrote, and from memory it cannot.
+// EXR holds all metadata as attributes. The other formats get it as text, in their description or
+// comment. A named attribute that OpenImageIO knows from EXIF would add a directory to a TIFF. For
+// it OpenImageIO must read back its output, which it cannot do from memory.
 void add_metadata(ImageSpec &spec, Format format, const glint_write_options &options)
 {
     if (format == GLINT_WRITTEN_EXR) {
@@ -226,12 +225,12 @@ void describe_codes(ImageSpec &spec, Format format, const glint_write_options &o
     if (format != GLINT_WRITTEN_TIFF) {
         spec.attribute("oiio:ColorSpace", "sRGB");
     }
-    // What is handed over is unpremultiplied already.
+    // The colours are already unpremultiplied.
     spec.attribute("oiio:UnassociatedAlpha", 1);
     const char *given = options.compression;
     if (format == GLINT_WRITTEN_PNG) {
-        // The time goes into the deflation: level 2 is three times as fast as the default of 6 and
-        // its files are some percent larger.
+        // Deflation takes most of the time. Level 2 is three times as fast as the default, 6. Its
+        // files are some percent larger.
         spec.attribute("png:compressionLevel", given != nullptr ? std::atoi(given) : 2);
     } else if (format == GLINT_WRITTEN_JPEG) {
         spec.attribute("CompressionQuality", given != nullptr ? std::atoi(given) : 95);
@@ -245,10 +244,10 @@ void describe_codes(ImageSpec &spec, Format format, const glint_write_options &o
 
 struct Encoded {
     ImageSpec spec;
-    std::vector<unsigned char> bytes; // as the file's type, or channel by channel as theirs
+    std::vector<unsigned char> bytes; // of the file's type, or of each channel's own type
 };
 
-// Puts the further channels behind the picture's, pixel by pixel.
+// Appends the additional channels to the picture's, pixel by pixel.
 void add_channels(const glint_write_options &options, Encoded &made)
 {
     ImageSpec &spec = made.spec;
@@ -275,6 +274,7 @@ void add_channels(const glint_write_options &options, Encoded &made)
 
 Encoded prepare(const glint_image &image, Format format, const glint_write_options &options)
 {
+    // Choose channels and type.
     Channels wanted = channels_of(format, image.channels);
     TypeDesc type = TypeDesc::UINT8;
     if (format == GLINT_WRITTEN_HDR || (format == GLINT_WRITTEN_EXR && options.exr_float)) {
@@ -286,6 +286,7 @@ Encoded prepare(const glint_image &image, Format format, const glint_write_optio
     name_channels(made.spec, wanted);
     std::size_t values =
         std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
+    // Convert the pixels.
     if (format == GLINT_WRITTEN_EXR) {
         describe_exr(made.spec, options);
         made.bytes.resize(values * type.size());
@@ -307,7 +308,7 @@ Encoded prepare(const glint_image &image, Format format, const glint_write_optio
     return made;
 }
 
-// The first line of what OpenImageIO says.
+// The first line of OpenImageIO's message.
 std::string cause_of(const ImageOutput &output)
 {
     std::string text = output.geterror();
@@ -325,7 +326,7 @@ glint_status encode_prepared(const char *path, const char *plugin, const Encoded
         return glint_fail(error, GLINT_OUTPUT_FAILED,
                           "%s: OpenImageIO was built without this format (choose another)", path);
     }
-    // An unknown type says that each channel comes as its own.
+    // An unknown type means that each channel has its own type.
     const TypeDesc type =
         made.spec.channelformats.empty() ? made.spec.format : TypeDesc(TypeDesc::UNKNOWN);
     if (!output->set_ioproxy(&file) || !output->open(path, made.spec) ||
@@ -371,7 +372,7 @@ glint_status encode_image(const char *path, const glint_image *image,
 void use_threads(int count)
 {
     OIIO::attribute("threads", count);
-    // There 0 is one for each core as well, and −1 none beside the caller's.
+    // Here too 0 is one thread for each core. −1 is the caller's thread alone.
     OIIO::attribute("exr_threads", count == 1 ? -1 : count);
 }
 

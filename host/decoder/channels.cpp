@@ -1,4 +1,4 @@
-// All channels of an EXR. See decode.hpp.
+// Decodes all channels of an EXR. See decode.hpp.
 #include "decoder/decode.hpp"
 
 #include <OpenImageIO/imageio.h>

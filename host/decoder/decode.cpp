@@ -1,4 +1,4 @@
-// The entry to decoding. See decode.h.
+// Decodes the file of a request. See decode.h.
 #include "decoder/decode.h"
 
 #include "decoder/decode.hpp"
@@ -48,7 +48,7 @@ void glint_decode_prepare(void)
 void glint_decode(const glint_decode_request *request, int memory, glint_decode_answer *answer)
 {
     OIIO::attribute("threads", request->threads);
-    // There 0 is one for each core as well, and −1 none beside the caller's.
+    // Here too 0 is one thread for each core. −1 is the caller's thread alone.
     OIIO::attribute("exr_threads", request->threads == 1 ? -1 : request->threads);
     glint::Memory values(memory);
     glint_error error = {};

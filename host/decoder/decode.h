@@ -1,4 +1,4 @@
-// Decoding one file, in a process that may die of it.
+// Decodes one file, in a process that a hostile file may kill.
 #ifndef GLINT_DECODER_DECODE_H
 #define GLINT_DECODER_DECODE_H
 
@@ -8,10 +8,10 @@
 extern "C" {
 #endif
 
-// Loads what decoding needs, once, before the process is divided.
+// Loads the libraries for decoding, once, before the process forks.
 void glint_decode_prepare(void);
 
-// Decodes into the memory file `memory` and fills in the answer. Keeps no limits but that on the
+// Decodes into the memory file `memory` and fills in the answer. Enforces only the limit on the
 // picture's size.
 void glint_decode(const glint_decode_request *request, int memory, glint_decode_answer *answer);
 

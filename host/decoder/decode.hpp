@@ -1,4 +1,4 @@
-// What the parts of the decoder share.
+// Declares what the parts of the decoder share.
 #ifndef GLINT_DECODER_DECODE_HPP
 #define GLINT_DECODER_DECODE_HPP
 
@@ -11,13 +11,13 @@
 namespace glint
 {
 
-// What is opened: the path, or the image in memory.
+// The path to open: the file, or the image in memory.
 inline std::string opened_path(const glint_decode_request &request)
 {
     return request.file < 0 ? request.path : "/proc/self/fd/" + std::to_string(request.file);
 }
 
-// The memory file into which values go. Owns its mapping.
+// The memory file that receives the values. Owns its mapping.
 class Memory
 {
   public:
@@ -31,7 +31,7 @@ class Memory
         return file_;
     }
 
-    // Makes it this large, and zero. Throws std::bad_alloc.
+    // Makes the file this large and zero. Throws std::bad_alloc.
     std::uint8_t *grow(std::size_t bytes);
 
   private:
@@ -40,13 +40,13 @@ class Memory
     std::size_t bytes_ = 0;
 };
 
-// Throw what OpenImageIO throws, and std::bad_alloc.
+// Decode a picture, or all channels. They throw OpenImageIO's exceptions and std::bad_alloc.
 glint_status decode_picture(const glint_decode_request &request, Memory &memory,
                             glint_decode_answer &answer, glint_error *error);
 glint_status decode_channels(const glint_decode_request &request, Memory &memory,
                              glint_decode_answer &answer, glint_error *error);
 
-// The memory file `file` holds the job, and gets the results.
+// Decodes a mesh. The memory file `file` holds the job and receives the results.
 glint_status decode_mesh(const glint_decode_request &request, int file, glint_decode_answer &answer,
                          glint_error *error);
 

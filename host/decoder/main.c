@@ -1,6 +1,7 @@
-// glint-decoder: decodes image files for glint, each in a child process. See image/decoding.h.
+// Runs glint-decoder, which decodes image files for glint, each in a child process. See
+// image/decoding.h.
 //
-// This process loads the libraries and never reads a file. So its children begin clean and fast.
+// This process loads the libraries and never reads a file. So its children start clean and fast.
 #include "decoder/decode.h"
 #include "decoder/sandbox.h"
 
@@ -16,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// A child, and the socket on which its answer is awaited.
+// A child, and the socket for its answer.
 typedef struct job {
     pid_t process;
     int socket;
@@ -47,9 +48,9 @@ static void say_death(int socket, int how)
 
 // ---- A child ------------------------------------------------------------------------------------
 
-// The descriptors of a request: a socket for the answer, a file for the values, the image.
+// The descriptors of a request: the socket for the answer, the file for the values, the image.
 typedef struct descriptors {
-    int socket, memory, image; // image −1: a path is read
+    int socket, memory, image; // image −1: read a path
 } descriptors;
 
 _Noreturn static void be_child(const glint_decode_request *request, const descriptors *given)
@@ -61,12 +62,12 @@ _Noreturn static void be_child(const glint_decode_request *request, const descri
     glint_sandbox_limit(&request->limits, request->threads);
     glint_decode(request, given->memory, &answer);
     send_answer(given->socket, &answer);
-    _exit(0); // without the handlers of libraries that may be broken
+    _exit(0); // skips the exit handlers of libraries that may be broken
 }
 
 // ---- Requests -----------------------------------------------------------------------------------
 
-// The descriptors that came with a request; false where there are none.
+// Finds the descriptors that came with a request. False if there are none.
 static bool find_descriptors(struct msghdr *message, descriptors *given)
 {
     const struct cmsghdr *rights = CMSG_FIRSTHDR(message);
@@ -83,7 +84,7 @@ static bool find_descriptors(struct msghdr *message, descriptors *given)
     return true;
 }
 
-// False once glint has ended.
+// Receives a request. False if glint has ended.
 static bool receive_request(glint_decode_request *request, descriptors *given)
 {
     union {
@@ -138,13 +139,13 @@ static void begin(const glint_decode_request *request, const descriptors *given)
         send_answer(given->socket, &refusal);
         close(given->socket);
     } else if (!remember(process, given->socket)) {
-        close(given->socket); // the child has it, too
+        close(given->socket); // the child has its own copy
     }
 }
 
 // ---- Deaths -------------------------------------------------------------------------------------
 
-// A child that answered before it ended has had its say: nobody reads what follows.
+// Reports a child's death. If the child answered before it ended, nobody reads the report.
 static void bury(pid_t process, int how)
 {
     for (size_t i = 0; i < running.count; i++) {
@@ -189,7 +190,7 @@ int main(void)
         if (waited[0].revents != 0) {
             descriptors given;
             if (!receive_request(&request, &given)) {
-                _exit(0); // children end with this process
+                _exit(0); // the children end with this process
             }
             begin(&request, &given);
         }

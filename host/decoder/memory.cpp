@@ -1,4 +1,4 @@
-// The memory file, and how large a picture may be. See decode.hpp.
+// Maps the memory file and limits the size of a picture. See decode.hpp.
 #include "decoder/decode.hpp"
 
 #include <new>
@@ -32,7 +32,7 @@ std::uint8_t *Memory::grow(std::size_t bytes)
     return static_cast<std::uint8_t *>(at);
 }
 
-// The most values (pixels times channels) that a picture may have: 4 GiB of float.
+// The most values (pixels times channels) of a picture: 4 GiB of floats.
 static constexpr std::uint64_t values_max = std::uint64_t(1) << 30;
 
 glint_status check_cost(const glint_decode_request &request, std::int64_t width,

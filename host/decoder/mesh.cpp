@@ -1,7 +1,7 @@
-// Meshes packed by Draco. See decode.hpp and image/mesh_decoding.h.
+// Decodes meshes packed by Draco. See decode.hpp and image/mesh_decoding.h.
 //
-// Fuzzing made Draco run for minutes and take gigabytes for a file of some hundred bytes. So it
-// runs here, within limits, and never in glint's process.
+// In fuzzing, files of some hundred bytes made Draco run for minutes and take gigabytes. So it runs
+// here, within limits, and never in glint's process.
 #include "decoder/decode.hpp"
 #include "image/mesh_decoding.h"
 
@@ -21,7 +21,7 @@ namespace glint
 namespace
 {
 
-// The memory file, with the job and room for the results.
+// Maps the memory file, which has the job and room for the results.
 class Mapping
 {
   public:

@@ -1,9 +1,9 @@
-// A picture through OpenImageIO, values as stored. See decode.hpp.
+// Decodes a picture through OpenImageIO, with values as stored. See decode.hpp.
 //
-// Of a file with several parts the first is read that has colour (R, G, B) or grey (Y); of a
-// mipmapped one, level 0. Deep pixels are refused. An EXR's pixels are put into its display window,
-// zero where it has none; one with the envmap attribute is its data window. ICC profiles are not
-// applied.
+// In a file with several parts it reads the first part with colour (R, G, B) or grey (Y); in a
+// mipmapped file, level 0. It refuses deep pixels. It puts an EXR's pixels into the display window;
+// pixels outside the data window are zero. An EXR with the envmap attribute is only its data
+// window. ICC profiles are not applied.
 #include "decoder/decode.hpp"
 
 #include "image/image_io.h"
@@ -29,7 +29,7 @@ namespace glint
 namespace
 {
 
-// The first line of what OpenImageIO says, without the file's name, which our message names.
+// The first line of OpenImageIO's message, without the file's name: our own message has it.
 std::string cause_of(ImageInput &input, const glint_decode_request &request)
 {
     const std::string path = opened_path(request);
@@ -46,7 +46,7 @@ std::string cause_of(ImageInput &input, const glint_decode_request &request)
 
 // ---- Channels by name ---------------------------------------------------------------------------
 
-// The places of grey or R, G, B and of alpha among the file's channels; −1 where there is none.
+// The places of R, G, B or of grey, and of alpha, among the file's channels; −1 if missing.
 struct Picked {
     int color[3] = {-1, -1, -1};
     int alpha = -1;
@@ -109,8 +109,8 @@ std::vector<std::string> layers_of(const ImageSpec &spec)
     return layers;
 }
 
-// The unnamed layer first, else the only one that has colour; a single channel is grey whatever its
-// name. `doubt` lists the layers where several could be meant.
+// Picks the unnamed layer, or else the only layer with colour. A single channel is grey, whatever
+// its name. If several layers are possible, `doubt` lists them.
 Picked pick(const ImageSpec &spec, std::string &doubt)
 {
     Picked picked = pick_layer(spec, "");
@@ -144,7 +144,7 @@ struct Part {
     Picked picked;
 };
 
-// For a message: the first names, and that there are more.
+// Lists names for a message: the first ones, then "…".
 void list_names(const std::vector<std::string> &from, std::string &names)
 {
     const std::size_t most = 8;
@@ -155,6 +155,7 @@ void list_names(const std::vector<std::string> &from, std::string &names)
 
 glint_status find_part(const char *path, ImageInput &input, Part &part, glint_error *error)
 {
+    // Find the first part with colour or grey.
     bool has_deep = false;
     std::string doubt, names;
     for (int index = 0; index < 1000 && input.seek_subimage(index, 0); index++) {
@@ -181,7 +182,8 @@ glint_status find_part(const char *path, ImageInput &input, Part &part, glint_er
         }
         list_names(spec.channelnames, names);
     }
-    (void)input.geterror(); // that there is no further part is no error
+    (void)input.geterror(); // the end of the parts is no error
+    // Say why there is none.
     if (has_deep) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: holds deep pixels, which are not read (flatten it)", path);
@@ -191,8 +193,8 @@ glint_status find_part(const char *path, ImageInput &input, Part &part, glint_er
                       names.c_str());
 }
 
-// How many bytes of pixels a byte of file may stand for. Deflation reaches 1,032; EXR's block
-// transforms and TIFF's newer methods more on flat pictures; DDS compresses by 8.
+// The most bytes of pixels for a byte of the file. Deflation reaches 1,032. EXR's block transforms
+// and TIFF's newer methods reach more on flat pictures. DDS compresses by 8.
 std::uint64_t expansion_max(const char *plugin)
 {
     if (std::strcmp(plugin, "openexr") == 0) {
@@ -204,7 +206,7 @@ std::uint64_t expansion_max(const char *plugin)
     return std::strcmp(plugin, "dds") == 0 ? 64 : 4096;
 }
 
-// Before anything of the image's size is allocated.
+// Checks the size before anything of this size is allocated.
 glint_status check_size(const glint_decode_request &request, const Part &part, glint_error *error)
 {
     const char *path = request.path;
@@ -239,7 +241,7 @@ void find_transfer(const char *plugin, const ImageSpec &spec, glint_stored_facts
     if (std::strcmp(plugin, "png") != 0) {
         return;
     }
-    // PNG's gAMA chunk: 1/2.2 is what its specification tells writers of sRGB to put there.
+    // PNG's gAMA chunk: its specification tells writers of sRGB to store 1/2.2.
     float gamma = spec.get_float_attribute("oiio:Gamma", 0.0f);
     if (std::fabs(gamma - 1.0f) < 0.01f) {
         facts.transfer = GLINT_TRANSFER_LINEAR;
@@ -257,11 +259,11 @@ void find_facts(const char *plugin, const Part &part, glint_stored_facts &facts)
     facts.channels = part.picked.channels();
     facts.code_bits = spec.format == TypeDesc::UINT8 ? 8 : spec.format == TypeDesc::UINT16 ? 16 : 0;
     find_transfer(plugin, spec, facts);
-    // A DDS does not say; what makes them keeps alpha beside the colour.
+    // A DDS does not say. Programs that write DDS do not multiply alpha into the colour.
     facts.is_unassociated =
         spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0 || std::strcmp(plugin, "dds") == 0;
     bool is_exr = std::strcmp(plugin, "openexr") == 0;
-    // OpenEXR knows no orientation; what other programs left there by that name means nothing.
+    // OpenEXR has no orientation. Other programs' attribute of this name means nothing.
     facts.orientation = is_exr ? 1 : spec.get_int_attribute("Orientation", 1);
     std::string texture = spec.get_string_attribute("textureformat");
     facts.envmap = GLINT_ENVMAP_NONE;
@@ -275,7 +277,8 @@ void find_facts(const char *plugin, const Part &part, glint_stored_facts &facts)
 
 // ---- Pixels -------------------------------------------------------------------------------------
 
-// Takes the picked channels out of pixels of `from_channels`, the first of which is `first`.
+// Takes the picked channels out of pixels with `from_channels` channels. `first` is the number of
+// their first channel in the file.
 template <typename T>
 void pick_values(const T *from, int first, int from_channels, const Part &part, T *to)
 {
@@ -313,7 +316,7 @@ bool read_pixels(ImageInput &input, const Part &part, TypeDesc type, T *to)
     return true;
 }
 
-// The pixels as they are in the file, without a frame.
+// Reads the pixels as they are in the file, without a frame.
 bool read_values(ImageInput &input, const Part &part, int code_bits, void *to)
 {
     return code_bits == 8
@@ -358,7 +361,7 @@ void frame_pixels(const ImageSpec &spec, const glint_stored_facts &window, const
     }
 }
 
-// Reads the pixels, and frames them. False where they cannot be read.
+// Reads and frames the pixels. False if that fails.
 bool read_framed(ImageInput &input, const Part &part, Memory &memory, glint_stored_facts &facts)
 {
     const ImageSpec &spec = part.spec;
@@ -399,9 +402,9 @@ glint_status decode_part(const glint_decode_request &request, ImageInput &input,
 
 // ---- JPEG ---------------------------------------------------------------------------------------
 
-// A JPEG that is cut short decodes without a complaint, grey where it ends: whether its end is
-// there must be looked for. Segments tell their length; after the start of scan (DA) the end (FF
-// D9) comes, which cannot be among the coded pixels.
+// Checks that a JPEG has its end: a truncated JPEG decodes without an error, grey where it ends.
+// Segments state their length. After the start of scan (DA) comes the end (FF D9), which cannot
+// occur in the coded pixels.
 bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
 {
     std::size_t at = 2;
@@ -414,7 +417,7 @@ bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
                                                     end, end + 2) != bytes.end();
         }
     }
-    // Not the usual structure: the decoder may judge.
+    // This is not the usual structure: leave the decision to the decoder.
     return at + 4 <= bytes.size();
 }
 
@@ -450,7 +453,7 @@ glint_status decode_picture(const glint_decode_request &request, Memory &memory,
                           path);
     }
     ImageSpec spec, wishes;
-    // Colour and alpha as stored: premultiplying comes after linearising.
+    // Ask for colour and alpha as stored: premultiplying comes after linearising.
     wishes.attribute("oiio:UnassociatedAlpha", 1);
     if (!input->open(opened_path(request), spec, wishes)) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,

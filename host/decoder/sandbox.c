@@ -1,4 +1,4 @@
-// What a decoder may do. See sandbox.h.
+// Restricts a decoder's system calls and resources. See sandbox.h.
 #include "decoder/sandbox.h"
 
 #include <errno.h>
@@ -24,8 +24,7 @@
 
 // ---- System calls -------------------------------------------------------------------------------
 
-// Refused with EPERM, whatever their arguments. Names that the machine does not have count for
-// nothing.
+// System calls that always fail with EPERM. Names that the machine does not have are ignored.
 static const char *const refused[] = {
     "execve",
     "execveat",
@@ -108,7 +107,8 @@ static const char *const refused[] = {
     "quotactl",
 };
 
-// Said not to exist, so that callers fall back on calls whose arguments can be judged.
+// System calls that report ENOSYS. Callers then use older calls, whose arguments the filter can
+// judge.
 static const char *const absent[] = {"clone3", "openat2"};
 
 static int refuse(scmp_filter_ctx filter, const char *name, uint32_t code)
@@ -118,7 +118,8 @@ static int refuse(scmp_filter_ctx filter, const char *name, uint32_t code)
                                      : seccomp_rule_add(filter, SCMP_ACT_ERRNO(code), number, 0);
 }
 
-// Opening for writing, processes that are no threads, signals and limits of other processes.
+// Refuses to open for writing, to start processes (not threads), and to reach other processes by
+// signals or limits.
 static int refuse_by_arguments(scmp_filter_ctx filter)
 {
     static const int writing[] = {O_WRONLY, O_RDWR, O_CREAT, O_TRUNC};
@@ -168,7 +169,7 @@ static void limit(int resource, uint64_t value)
     (void)setrlimit(resource, &both);
 }
 
-// Bytes of address space that the process has now; 0: unknown.
+// The process's current address space in bytes; 0: unknown.
 static uint64_t bytes_now(void)
 {
     unsigned long pages = 0;
@@ -182,7 +183,7 @@ static uint64_t bytes_now(void)
     return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-// Threads reserve little: stacks of THREAD_STACK, and one heap for all.
+// Limits the memory of threads: stacks of THREAD_STACK, and one heap for all.
 static void make_threads_small(void)
 {
     pthread_attr_t small;
@@ -199,14 +200,14 @@ void glint_sandbox_limit(const glint_decode_limits *limits, int threads)
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_NOFILE, FILES_MAX);
     if (limits->cpu_seconds > 0) {
-        // One second later SIGKILL follows SIGXCPU, which a process can ignore.
+        // A process can ignore SIGXCPU. SIGKILL follows one second later.
         const struct rlimit seconds = {limits->cpu_seconds, limits->cpu_seconds + 1};
         (void)setrlimit(RLIMIT_CPU, &seconds);
     }
     if (limits->seconds > 0) {
         alarm(limits->seconds);
     }
-    // The memory file does not count as address space when it is written to.
+    // Writing to the memory file takes no address space, so limit its size.
     if (limits->picture_bytes > 0) {
         limit(RLIMIT_FSIZE, limits->picture_bytes + GLINT_DECODE_NAMES_MAX);
     }

@@ -1,4 +1,4 @@
-// Buffers on the device. See buffer.h.
+// Creates and fills buffers on the device. See buffer.h.
 #include "device/buffer.h"
 
 #include "device/opencl_error.h"

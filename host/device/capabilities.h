@@ -1,4 +1,4 @@
-// What a device can do, as plain data: the plan is made from this and calls no OpenCL.
+// Describes a device as plain data. The plan is made from it and calls no OpenCL.
 #ifndef GLINT_DEVICE_CAPABILITIES_H
 #define GLINT_DEVICE_CAPABILITIES_H
 
@@ -12,9 +12,9 @@ typedef struct glint_capabilities {
     char driver[128];
     char opencl_version[128];
     bool is_cpu, is_gpu;
-    bool shares_memory;     // a CPU, whose buffers may be the host's own memory
+    bool shares_memory;     // a CPU: buffers may be the host's own memory
     bool has_double;        // cl_khr_fp64
-    int native_float_width; // lanes of the widest float vector, 1 where the device has none
+    int native_float_width; // lanes of the widest float vector; 1 if the device has none
     uint32_t compute_units;
     uint64_t memory_bytes;
     uint64_t largest_allocation_bytes; // one buffer's limit

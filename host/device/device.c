@@ -1,4 +1,4 @@
-// OpenCL devices. See device.h.
+// Lists and opens OpenCL devices. See device.h.
 #include "device/device.h"
 
 #include "device/driver_cache.h"
@@ -11,7 +11,7 @@
 #include <strings.h>
 
 #define MAX_PLATFORMS 32
-#define MAX_DEVICES 64 // of one platform
+#define MAX_DEVICES 64 // of a platform
 
 static void device_text(cl_device_id id, cl_device_info what, char *text, size_t capacity)
 {
@@ -76,7 +76,7 @@ typedef struct found_device {
     glint_capabilities capabilities;
 } found_device;
 
-// GPUs first, then CPUs, then what is neither; platforms keep the loader's order.
+// Sorts GPUs first, then CPUs, then others. Platforms keep the loader's order.
 static int rank(const glint_capabilities *c)
 {
     return c->is_gpu ? 0 : c->is_cpu ? 1 : 2;
@@ -105,11 +105,12 @@ static void sort_devices(found_device *devices, size_t count)
     }
 }
 
-// `*devices` is NULL if, and only if, that fails.
+// Sets *devices to NULL if, and only if, it fails.
 static glint_status find_devices(found_device **devices, size_t *count, glint_error *error)
 {
     *devices = NULL;
     *count = 0;
+    // Find the platforms.
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
     glint_driver_cache_prepare();
@@ -124,6 +125,7 @@ static glint_status find_devices(found_device **devices, size_t *count, glint_er
     if (list == NULL) {
         return glint_fail_memory(error, "the list of devices");
     }
+    // List their devices that compile.
     size_t found = 0;
     for (cl_uint p = 0; p < platform_count; p++) {
         cl_device_id ids[MAX_DEVICES];
@@ -189,7 +191,7 @@ static bool matches(const glint_capabilities *c, const char *selector)
     return strcasestr(c->name, selector) != NULL || strcasestr(c->platform, selector) != NULL;
 }
 
-// The devices by name, for messages: "0: A (cpu), 1: B (gpu)".
+// Lists the devices by name, for messages: "0: A, 1: B".
 static void list_names(const found_device *devices, size_t count, char *text, size_t capacity)
 {
     text[0] = '\0';
@@ -200,11 +202,12 @@ static void list_names(const found_device *devices, size_t count, char *text, si
     }
 }
 
-// The device that the selector names: the first of its kind for "cpu" and "gpu", else the only one.
+// Chooses the device that the selector names. "cpu" and "gpu" take the first of their kind; a name
+// must fit only one device.
 static glint_status choose(const found_device *devices, size_t count, const char *selector,
                            size_t *chosen, glint_error *error)
 {
-    *chosen = 0; // the list begins with what is wanted without a selector
+    *chosen = 0; // without a selector the first device is right
     if (selector == NULL) {
         return GLINT_OK;
     }
@@ -273,7 +276,7 @@ glint_status glint_device_open(const char *selector, glint_device **device, glin
     found_device *devices;
     size_t count, chosen;
     glint_status status = find_devices(&devices, &count, error);
-    if (devices == NULL) { // what a failure is to static analysis
+    if (devices == NULL) { // tells static analysis what a failure is
         return status;
     }
     status = choose(devices, count, selector, &chosen, error);

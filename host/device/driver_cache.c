@@ -1,4 +1,4 @@
-// The driver's cache of compiled kernels. See driver_cache.h.
+// Watches and repairs the driver's cache of compiled kernels. See driver_cache.h.
 #include "device/driver_cache.h"
 
 #include "base/status.h"
@@ -18,13 +18,13 @@
 #include <unistd.h>
 
 #define FOLDER_NAME "POCL_CACHE_DIR"
-#define MARK "glint-died"       // in the cache; holds when the run began to compile
-#define TOUCHED "last_accessed" // in an entry; PoCL touches it when it uses the entry
+#define MARK "glint-died"       // file in the cache: the time when the run began to compile
+#define TOUCHED "last_accessed" // file in an entry; PoCL touches it when it uses the entry
 #define LEAST_ROOM (UINT64_C(16) << 20)
-#define SLACK 2 // seconds that clocks of files may be behind
+#define SLACK 2 // seconds that the clocks of files may be behind
 
-static char folder[PATH_MAX];    // of the cache; "" before it is known
-static char temporary[PATH_MAX]; // of ours; "": none
+static char folder[PATH_MAX];    // the cache; "": not known yet
+static char temporary[PATH_MAX]; // our own folder; "": none
 static char note[GLINT_MESSAGE_CAPACITY];
 static char epitaph[GLINT_MESSAGE_CAPACITY];
 static char run_epitaph[GLINT_MESSAGE_CAPACITY];
@@ -37,7 +37,7 @@ static void (*watcher)(void);
 
 // ---- The folder ---------------------------------------------------------------------------------
 
-// As PoCL finds it.
+// Finds the folder as PoCL does.
 static void find_folder(void)
 {
     const char *given = getenv(FOLDER_NAME), *home = getenv("HOME");
@@ -72,7 +72,7 @@ void glint_driver_cache_set_device(const char *device)
         by);
 }
 
-// Makes the folder with those above it. False where that fails.
+// Makes the folder and the folders above it. False if that fails.
 static bool make_folder(const char *path)
 {
     char part[PATH_MAX];
@@ -85,7 +85,7 @@ static bool make_folder(const char *path)
     return mkdir(part, 0777) == 0 || errno == EEXIST;
 }
 
-// Why kernels cannot be kept there; NULL: they can.
+// Why the folder cannot keep kernels; NULL: it can.
 static const char *find_fault(void)
 {
     struct stat facts;
@@ -123,7 +123,7 @@ static void remove_tree(const char *path)
     }
 }
 
-// Entries are folders of folders of the cache.
+// Removes the entries used since `since`. An entry is a folder in a folder of the cache.
 static bool remove_used_since(time_t since)
 {
     bool is_any = false;
@@ -170,7 +170,7 @@ static void mend_after_death(void)
     }
 }
 
-// Kernels go to a folder of this run's.
+// Sends kernels to a temporary folder of this run.
 static void take_temporary(const char *fault)
 {
     const char *place = getenv("TMPDIR");

@@ -1,7 +1,7 @@
-// OpenCL's errors as messages. See opencl_error.h.
+// Turns OpenCL's errors into messages. See opencl_error.h.
 #include "device/opencl_error.h"
 
-// "CL_OUT_OF_RESOURCES"; a phrase for a code without a name here.
+// The name of a code, such as "CL_OUT_OF_RESOURCES". A phrase if the table lacks the code.
 static const char *error_name(cl_int code)
 {
     static const struct {

@@ -1,4 +1,4 @@
-// OpenCL's errors as messages.
+// Turns OpenCL's errors into messages.
 #ifndef GLINT_DEVICE_OPENCL_ERROR_H
 #define GLINT_DEVICE_OPENCL_ERROR_H
 
@@ -9,7 +9,7 @@
 glint_status glint_fail_opencl(glint_error *error, const struct glint_device *device,
                                const char *what, cl_int code);
 
-// GLINT_OK where `code` is CL_SUCCESS, else fails as above.
+// Returns GLINT_OK if `code` is CL_SUCCESS; else fails as above.
 static inline glint_status glint_check_opencl(glint_error *error, const struct glint_device *device,
                                               const char *what, cl_int code)
 {

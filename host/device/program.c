@@ -1,5 +1,5 @@
-// Compiling the kernels. See program.h. The driver's own cache (PoCL's, for one) makes the second
-// build of the same source with the same options fast.
+// Compiles the kernels. See program.h. A driver's own cache, such as PoCL's, makes a second build
+// of the same source and options fast.
 #include "device/program.h"
 
 #include "device/driver_cache.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// The build log, as a text for error->details; NULL where there is none.
+// The build log, as a text for error->details; NULL if there is none.
 static char *build_log(const struct glint_device *device, cl_program program)
 {
     size_t size = 0;
@@ -26,14 +26,15 @@ static char *build_log(const struct glint_device *device, cl_program program)
     return log;
 }
 
-// The program's text, and what its options need for that.
+// The program's text, and the options that it needs.
 typedef struct source {
     const char *parts[2];
     cl_uint count;
     char include_option[4200];
 } source;
 
-// With a folder, the parts are an #include each and the folder is the compiler's include path.
+// Finds the source. With a folder, each part is an #include, and the folder is the compiler's
+// include path.
 static glint_status find_source(const glint_program_request *request, source *found,
                                 glint_error *error)
 {
@@ -44,7 +45,7 @@ static glint_status find_source(const glint_program_request *request, source *fo
     }
     char path[4096];
     if (strpbrk(kernel_dir, " \t\"'\\") != NULL) {
-        // The build options are one string, split at spaces by the driver.
+        // The build options are one string, which the driver splits at spaces.
         return glint_fail(error, GLINT_BAD_INPUT,
                           "%s: a kernel folder's name may hold no spaces or quotes", kernel_dir);
     }
@@ -72,7 +73,7 @@ static cl_program find_built(const struct glint_device *device, const char *opti
     return NULL;
 }
 
-// Without memory for it the program is only built again another time.
+// Keeps a program. If memory is short, the program is built again at the next request.
 static void keep_built(struct glint_device *device, const char *options, cl_program program)
 {
     glint_built_program *kept = calloc(1, sizeof *kept);
@@ -90,7 +91,7 @@ static void keep_built(struct glint_device *device, const char *options, cl_prog
     device->programs = kept;
 }
 
-// A damaged cache may give programs without a kernel.
+// False if the program has no kernels: a damaged cache may give such programs.
 static bool has_kernels(cl_program program)
 {
     size_t count = 0;
@@ -123,7 +124,7 @@ static glint_status compile(const struct glint_device *device, source *found, co
     return GLINT_OK;
 }
 
-// Our own kernels compile: where they do not, the driver's cache may be damaged.
+// Compiles. Our own kernels compile, so a failure may mean that the driver's cache is damaged.
 static glint_status compile_or_mend(const struct glint_device *device, source *found,
                                     const char *options, cl_program *program, glint_error *error)
 {
@@ -142,8 +143,8 @@ static glint_status compile_or_mend(const struct glint_device *device, source *f
     return status;
 }
 
-// GPUs may divide and take roots less exactly, if not told. Then bits differ from those of CPUs,
-// and points that are found on triangles lie farther off.
+// GPUs may divide and take roots less exactly if the option is missing. Then bits differ from a
+// CPU's, and points on triangles lie farther off.
 static const char *rounding_option(const struct glint_device *device)
 {
     cl_device_fp_config config = 0;

@@ -1,4 +1,4 @@
-// The labelled axes. See axes.h.
+// Draws the labelled axes. See axes.h.
 #include "environment/axes.h"
 
 #include "kernels/layout.h"
@@ -7,7 +7,7 @@
 
 // ---- Signs, drawn as strokes --------------------------------------------------------------------
 
-// In a box from 0 to 1, y upwards.
+// A stroke in a box from 0 to 1, y upwards.
 typedef struct stroke {
     char sign;
     double x0, y0, x1, y1;
@@ -25,7 +25,7 @@ static double segment_distance(const stroke *s, double x, double y)
     double dx = s->x1 - s->x0;
     double dy = s->y1 - s->y0;
     double along = ((x - s->x0) * dx + (y - s->y0) * dy) / (dx * dx + dy * dy);
-    along = fmin(1, fmax(0, along)); // past its ends the distance is to the end: round caps
+    along = fmin(1, fmax(0, along)); // past an end the distance is to that end: round caps
     return hypot(x - s->x0 - along * dx, y - s->y0 - along * dy);
 }
 
@@ -61,7 +61,7 @@ static const axis_face faces[6] = {
 static const double line_color[3] = {0.06, 0.06, 0.07};
 static const double label_color[3] = {0.95, 0.95, 0.92};
 
-// 1 inside, 0 outside, a ramp of one pixel across the border.
+// The coverage of a line: 1 inside, 0 outside, a ramp of one pixel across the border.
 static double coverage(double distance, double half_width, double pixel)
 {
     return fmin(1, fmax(0, 0.5 + (half_width - distance) / pixel));
@@ -74,7 +74,7 @@ static void blend(double rgb[3], const double over[3], double share)
     }
 }
 
-// The distance of the label's strokes from (s, t) on the face, s to the right, t up, each in ±1.
+// The distance from (s, t) on the face to the label's strokes. s runs to the right and t up, in ±1.
 static double label_distance(const axis_face *face, double s, double t)
 {
     const double size = 0.5; // the height and width of a sign
@@ -96,7 +96,7 @@ void glint_axes_color(glint_vec3 d, double pixel, double rgb[3])
     double depth = glint_vec3_dot(d, face->axis);
     double s = glint_vec3_dot(d, face->right) / depth;
     double t = glint_vec3_dot(d, face->up) / depth;
-    pixel *= 1 + s * s + t * t; // stretched by the slant of the face there
+    pixel *= 1 + s * s + t * t; // the slant of the face stretches a pixel
     double edge = 1 - fmax(fabs(s), fabs(t));
     double grid = fmin(fabs(fabs(s) - 0.5), fabs(fabs(t) - 0.5));
     for (int i = 0; i < 3; i++) {
@@ -114,7 +114,8 @@ glint_status glint_axes_cube(int edge, glint_cube *cube, glint_error *error)
         const int face = k / edge / edge, i = k % edge, j = k / edge % edge;
         const double s = (2.0 * i + 1.0) / edge - 1.0, t = (2.0 * j + 1.0) / edge - 1.0;
         double rgb[3];
-        // 2/edge of the face's plane, which is nearer than that in the middle alone.
+        // A texel is 2/edge wide in the face's plane. Away from the middle the plane is farther
+        // off.
         glint_axes_color(glint_cube_direction(face, s, t), 2.0 / edge / (1 + s * s + t * t), rgb);
         glint_cube_store(cube, face, i, j, rgb);
     }

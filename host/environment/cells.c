@@ -1,4 +1,4 @@
-// The environment as a tree of cells. See cells.h.
+// Stores the environment as a tree of cells. See cells.h.
 #include "environment/cells.h"
 
 #include "base/parallel.h"
@@ -7,21 +7,21 @@
 #include <math.h>
 #include <string.h>
 
-// Along a face's edge, the cells whose brightness is the environment's.
+// Cells along a face's edge from which the environment's brightness is computed.
 #define BRIGHTNESS_EDGE 64
 
-// What a cell of no light weighs, by which its centroid is its middle.
+// The weight of a cell without light. It puts the cell's centroid in its middle.
 #define DARK_WEIGHT 1e-20
 
 typedef struct job {
     const glint_cube *cube;
     int edge;    // cells along a face's edge
-    int level;   // of them
-    int samples; // along a finest cell's edge
+    int level;   // number of the level of these cells
+    int samples; // samples along the edge of a finest cell
     float *cells;
 } job;
 
-// The even bits of a place in Morton order are the column's. Below 2¹⁶.
+// Spreads the bits of x < 2¹⁶ to even places. In Morton order the even bits are the column's.
 static size_t spread_bits(size_t x)
 {
     x = (x | x << 8) & 0x00ff00ff;
@@ -40,13 +40,13 @@ static float *cell_at(const job *j, int face, int column, int row)
 
 // Sums over a cell.
 typedef struct cell_sum {
-    double toward[3]; // directions, by how bright they are
-    double weight;    // of them
-    double variance;  // of the parts' own, weighted
+    double toward[3]; // sum of directions, weighted by brightness
+    double weight;    // sum of these weights
+    double variance;  // weighted sum of the variances within the parts
     double light[3];
 } cell_sum;
 
-// Adds light, and returns what its direction weighs.
+// Adds light to the sum and returns the weight of its direction.
 static double add_light(const double light[3], double times, cell_sum *sum)
 {
     const double bright = (light[0] + light[1] + light[2]) * times;
@@ -72,20 +72,20 @@ static void store_cell(const cell_sum *sum, double size, float *cell)
     cell[7] = (float)(sum->variance * share + (between > 0 ? between : 0));
 }
 
-// About (s, t) of a face, whose texels lie in the plane 1 from the middle: how far that is,
-// inverse.
+// The inverse of the distance from the cube's middle to (s, t) on a face. The face's plane is at
+// distance 1.
 static double inverse_distance(double s, double t)
 {
     return 1 / sqrt(1 + s * s + t * t);
 }
 
-// Of a cell of the given edge: its middle's.
+// The inverse distance of the middle of a cell, at the level of the given edge.
 static double middle_of(int edge, int column, int row)
 {
     return inverse_distance((2 * column + 1.0) / edge - 1, (2 * row + 1.0) / edge - 1);
 }
 
-// The map at (x, y) of a face, in texels.
+// Looks up the map at (x, y) of a face, in texels, bilinearly.
 static void sample_face(const glint_cube *cube, int face, double x, double y, double rgb[3])
 {
     const int i = (int)floor(x - 0.5), j = (int)floor(y - 0.5);
@@ -99,14 +99,14 @@ static void sample_face(const glint_cube *cube, int face, double x, double y, do
     }
 }
 
-// The solid angle of a square of edge h: its middle's, and h²/24 of the Laplacian there.
+// The solid angle of a square of edge h: its value in the middle and h²/24 of the Laplacian there.
 static double solid_angle(double h, double u)
 {
     const double squared = u * u;
     return h * h * squared * u * (1 + h * h / 24 * squared * (9 - 15 * squared));
 }
 
-// A direction from the middle through (s, t) of a face is linear in these.
+// The direction through (s, t) of a face is middle + s to_s + t to_t.
 typedef struct face_axes {
     glint_vec3 middle, to_s, to_t;
 } face_axes;
@@ -118,7 +118,7 @@ static face_axes axes_of(int face)
                        glint_vec3_subtract(glint_cube_direction(face, 0, 1), middle)};
 }
 
-// Adds u (1, s, t), by how bright it is there.
+// Adds u (1, s, t). u holds the brightness as a weight.
 static void add_direction(const face_axes *a, double u, double us, double ut, cell_sum *sum)
 {
     sum->toward[0] += a->middle.x * u + a->to_s.x * us + a->to_t.x * ut;
@@ -126,7 +126,7 @@ static void add_direction(const face_axes *a, double u, double us, double ut, ce
     sum->toward[2] += a->middle.z * u + a->to_s.z * us + a->to_t.z * ut;
 }
 
-// A cell that is one texel: its light is in its middle.
+// Fills a cell that is one texel. Its light lies in its middle.
 static void fill_texel(const job *j, const face_axes *axes, int face, int column, int row)
 {
     const double h = 2.0 / j->edge, s = (column + 0.5) * h - 1, t = (row + 0.5) * h - 1;
@@ -206,13 +206,13 @@ static void fill_row(size_t index, void *context)
     }
 }
 
-// One sample a texel where these fill the cells; else twice as many, so that none is left out.
+// One sample a texel if the texels fill the cells; else twice as many, so that every texel counts.
 static int samples_along(int texels, int cells)
 {
     return texels % cells == 0 ? texels / cells : 2 * (texels / cells + 1);
 }
 
-// The level of the given edge.
+// The environment's brightness, from the level of edge j->edge.
 static float brightness_of(const job *j)
 {
     double root = 0;

@@ -1,25 +1,26 @@
-// Where the pixels of a layout look. See chart.h.
+// Maps the pixels of a layout to directions, and back. See chart.h.
 //
-// Which way faces and axes point stands in kernels/layout.h.
+// kernels/layout.h defines which way faces and axes point.
 //
 // Six faces by name (posx …), crosses and strips follow the table of OpenGL, RenderMan and
-// Direct3D, which is left-handed: seen along world d = (x, y, z) it is asked for (x, y, −z).
-// Working that through its six lines gives layout.h's orientation for every face, with the two Z
-// faces exchanged.
+// Direct3D. The table is left-handed: along world direction d = (x, y, z) it is asked for (x, y,
+// −z). Its six lines then give layout.h's orientation for every face, with the two Z faces
+// exchanged.
 //
 // Lat-long: longitude = atan2(x, z), latitude = asin(y), u = ½ − longitude/2π, v = ½ − latitude/π.
 //
-// Discs: at the angle θ from +Z, which is in the centre, a direction is at p radii from it, in the
-// direction of (x, −y) in the picture (y runs downwards there).
+// Discs: +Z is in the centre. A direction at the angle θ from +Z is at p radii from the centre,
+// towards (x, −y) in the picture (y runs downwards there).
 //   Angular: p = θ/π.
 //   Ball, seen from far away: the lecture's (s, t) = (x, y)/√(x² + y² + (z + 1)²) for a unit
 //   direction, and OpenGL's sphere map: p = sin(θ/2). The surface faces half way, so that ψ = θ/2
 //   is the angle of incidence, and p = sin ψ.
-//   Ball, seen from D radii away along +Z by a camera that looks at its centre: a ray at γ from the
-//   axis meets the ball at the angle of incidence ψ with sin ψ = D sin γ (law of sines), where the
-//   surface's normal is at ψ − γ from the axis; it is reflected to θ = 2(ψ − γ) + γ = 2ψ − γ. The
-//   picture is flat: p = tan γ/tan α, sin α = 1/D, at the rim ψ = 90° and θ = 180° − α. A cone of
-//   the half angle α behind the ball is not in the picture.
+//
+//   Ball, seen from D radii away along +Z by a camera that looks at its centre. A ray at γ from the
+//   axis meets the ball at the angle of incidence ψ with sin ψ = D sin γ (law of sines). The
+//   surface's normal there is at ψ − γ from the axis, so the ray is reflected to
+//   θ = 2(ψ − γ) + γ = 2ψ − γ. The picture is flat: p = tan γ/tan α with sin α = 1/D. At the rim
+//   ψ = 90° and θ = 180° − α. The picture does not show a cone of half angle α behind the ball.
 #include "environment/chart.h"
 
 #include "environment/cube.h"
@@ -27,7 +28,7 @@
 #include <math.h>
 #include <stddef.h>
 
-// As large as can be read again: 2^28 pixels.
+// The largest sizes that glint can read again: 2^28 pixels.
 #define LATLONG_HEIGHT_MAX 11585
 #define DISC_SIZE_MAX 16384
 #define QUARTER (GLINT_PI / 2)
@@ -74,7 +75,7 @@ const glint_face_cell *glint_layout_cells(glint_layout layout, int *across, int 
     return picture->cells;
 }
 
-// A pixel's place along a face, from −1 to 1.
+// The place of a pixel along a face, from −1 to 1.
 static double along_face(const glint_chart *chart, int edge, double pixels)
 {
     if (chart->on_edges) {
@@ -107,7 +108,7 @@ static void latlong_direction(const glint_chart *chart, double x, double y, glin
     const double u = chart->on_edges ? (x - 0.5) / (chart->width - 1) : x / chart->width;
     const double v = chart->on_edges ? (y - 0.5) / (chart->height - 1) : y / chart->height;
     const double longitude = (0.5 - u) * 2.0 * GLINT_PI, latitude = (0.5 - v) * GLINT_PI;
-    // Beyond a pole the cosine is negative: the map goes on half a turn away.
+    // Beyond a pole the cosine is negative: the map continues half a turn away.
     *direction =
         (glint_vec3){sin(longitude) * cos(latitude), sin(latitude), cos(longitude) * cos(latitude)};
 }
@@ -128,8 +129,8 @@ static double disc_angle(const glint_chart *chart, double p)
 }
 
 // The angle of incidence at which a ball reflects the viewer's rays to θ: 2ψ − asin(sin ψ/D) = θ.
-// The left side's slope is between 1 and 2, and it bends one way only, so that Newton's method
-// converges from ψ = θ/2, which is too small, in a few steps.
+// The slope of the left side is between 1 and 2, and its curvature has one sign. So Newton's method
+// converges in a few steps from ψ = θ/2, which is too small.
 static double incidence(double distance, double theta)
 {
     double psi = 0.5 * theta;
@@ -146,7 +147,7 @@ static double incidence(double distance, double theta)
     return psi;
 }
 
-// Radii from the centre at which a direction at θ from the axis is shown, the rim at most.
+// Radii from the centre at which a disc shows a direction at θ from the axis, at most the rim.
 static double disc_radius(const glint_chart *chart, double theta)
 {
     if (chart->layout == GLINT_LAYOUT_ANGULAR) {
@@ -172,13 +173,13 @@ static bool disc_direction(const glint_chart *chart, double x, double y, glint_v
         return false;
     }
     const double theta = disc_angle(chart, p);
-    // At the centre the quotient is of no account: any finite one times 0.
+    // At the centre the quotient is multiplied by 0, so any finite value will do.
     const double share = p > 0.0 ? sin(theta) / p : 0.0;
     *direction = (glint_vec3){right * share, up * share, cos(theta)};
     return true;
 }
 
-// atan2 keeps all digits where the direction is near −Z, where the lecture's root cancels.
+// atan2 keeps all digits near −Z, where the lecture's root cancels.
 static double angle_from_axis(glint_vec3 d)
 {
     return atan2(hypot(d.x, d.y), d.z);
@@ -188,18 +189,18 @@ void glint_disc_place(const glint_chart *chart, glint_vec3 d, double place[2])
 {
     const double aside = hypot(d.x, d.y);
     const double p = disc_radius(chart, angle_from_axis(d));
-    // Straight behind, every point of the rim is right.
+    // For the direction straight behind, every point of the rim is right.
     const double right = aside > 0.0 ? d.x / aside : (p > 0.5 ? 1.0 : 0.0);
     const double up = aside > 0.0 ? d.y / aside : 0.0;
     place[0] = chart->center[0] + chart->radius * p * right;
     place[1] = chart->center[1] - chart->radius * p * up;
 }
 
-// A step along the axis goes with p's slope in θ, one around it with p/sin θ.
+// A step along the axis scales with p's slope in θ, a step around the axis with p/sin θ.
 static double disc_pixels(const glint_chart *chart, glint_vec3 d, glint_vec3 step)
 {
     const double theta = angle_from_axis(d), aside = hypot(d.x, d.y);
-    if (aside < 1e-6 && d.z > 0) { // the middle, where the two are one
+    if (aside < 1e-6 && d.z > 0) { // in the middle both scales are equal
         return chart->radius * disc_radius(chart, 1e-6) / 1e-6 * glint_vec3_length(step);
     }
     const double right = aside > 0 ? d.x / aside : 1, up = aside > 0 ? d.y / aside : 0;
@@ -211,7 +212,7 @@ static double disc_pixels(const glint_chart *chart, glint_vec3 d, glint_vec3 ste
     return chart->radius * hypot(outwards * slope, around * per_turn);
 }
 
-// ds = d(x/z) and its like, half a face's pixels to each unit.
+// ds = d(x/z), and dt by the same rule; one unit is half a face's pixels.
 static double face_pixels(double edge, glint_vec3 d, glint_vec3 step)
 {
     const double x[3] = {d.x, d.y, d.z}, dx[3] = {step.x, step.y, step.z};

@@ -1,4 +1,4 @@
-// The cube map: places, directions, border and look-up. See cube.h.
+// Implements the cube map: places, directions, border and look-up. See cube.h.
 #include "environment/cube.h"
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Far above what is useful, and below where an int overflows: (edge + 2)² × 6 × 4 < 2³¹.
+// Far above every useful size, and below an int's overflow: (edge + 2)² × 6 × 4 < 2³¹.
 #define EDGE_MAX 9000
 _Static_assert(EDGE_MAX >> GLINT_LEVELS_MAX == 0, "a cube of EDGE_MAX has too many levels");
 
@@ -87,14 +87,14 @@ int glint_cube_place(glint_vec3 direction, double *s, double *t)
 
 static int clamp_index(double place, int last)
 {
-    // NaN, of a direction that is zero or not finite, becomes 0.
+    // NaN, from a direction that is zero or not finite, becomes 0.
     return place > 0.0 ? (place < last ? (int)place : last) : 0;
 }
 
-// The neighbour's texel across the edge from border place (i, j): the one that the border's own
-// centre looks at. That direction runs from s = 1 + 1/N on this plane to N/(N + 1) on the
-// neighbour's, inside its outermost texels, and shifts by at most (N − 1)/(N(N + 1)) along the
-// edge, less than the half texel of 1/N.
+// The neighbour's texel across the edge from border place (i, j): the texel that the border's
+// centre looks at. This direction runs from s = 1 + 1/N on this plane to N/(N + 1) on the
+// neighbour's plane, inside its outermost texels. Along the edge it shifts by at most
+// (N − 1)/(N(N + 1)), less than the half texel of 1/N.
 static const float *texel_across(const glint_cube *cube, int face, int i, int j)
 {
     double n = cube->edge, s, t;
@@ -105,18 +105,18 @@ static const float *texel_across(const glint_cube *cube, int face, int i, int j)
     return glint_cube_texel(cube, neighbour, column, row);
 }
 
-// One side of a face: border place k is (i, j) + k (along_i, along_j), and the face's own texel
-// next to it is (into_i, into_j) further in.
+// One side of a face. Border place k is (i, j) + k (along_i, along_j). The face's own texel next to
+// it is (into_i, into_j) further in.
 typedef struct side {
     int i, j, along_i, along_j, into_i, into_j;
 } side;
 
-// On the edge at height t the value is e = ½(a(t′) + b(t′)) with t′ = t(1 − 1/2N), a and b the
-// outermost texels of the two faces: seen from the centre, the point half way between two such
-// texels lies a little further out along the edge than they do on their planes. Both faces have the
-// same e, so the look-up is continuous, and it is right to second order. The border is what makes
-// bilinear interpolation go through e: 2e − a. It may be negative beside a bright texel; what is
-// looked up, between a and e, never is.
+// On the edge at height t the value is e = ½(a(t′) + b(t′)) with t′ = t(1 − 1/2N); a and b are the
+// outermost texels of the two faces. Seen from the centre, the point half way between these two
+// texels lies a little further out along the edge than the texels do on their planes. Both faces
+// have the same e, so the look-up is continuous, and it is right to second order. The border 2e − a
+// makes bilinear interpolation go through e. It may be negative beside a bright texel. A look-up is
+// between a and e, so it is never negative.
 static void fill_side(glint_cube *cube, int face, const side *at)
 {
     int n = cube->edge;
@@ -141,7 +141,7 @@ static void fill_side(glint_cube *cube, int face, const side *at)
     }
 }
 
-// Three faces meet in a corner, and its value is the mean of their three texels, for all of them.
+// Three faces meet in a corner. For all of them its value is the mean of their three texels.
 static void fill_corner(glint_cube *cube, int face, int right, int down)
 {
     int n = cube->edge;
@@ -217,7 +217,7 @@ void glint_cube_sample(const glint_cube *cube, glint_vec3 direction, double rgb[
 {
     double s, t, n = cube->edge;
     int face = glint_cube_place(direction, &s, &t);
-    // In texels from the centre of the border's first; the last cell begins at column n.
+    // In texels from the centre of the first border texel; the last cell begins at column n.
     double column = (s + 1.0) * 0.5 * n + 0.5, row = (t + 1.0) * 0.5 * n + 0.5;
     int i = clamp_index(column, cube->edge), j = clamp_index(row, cube->edge);
     double right = column - i, down = row - j;

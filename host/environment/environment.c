@@ -1,4 +1,4 @@
-// Environments: cube maps of what files hold. See environment.h.
+// Loads environments: makes cube maps from files. See environment.h.
 #include "environment/environment.h"
 
 #include "environment/faces.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A disc's cube: through a picture of one.
+// Makes a cube of a disc's picture. First resamples the disc into a picture of six faces.
 static glint_status make_cube_of_disc(const glint_source *source, glint_cube *cube,
                                       glint_error *error)
 {
@@ -49,7 +49,7 @@ static glint_status set_name(const char *name, glint_environment *environment, g
     return environment->name != NULL ? GLINT_OK : glint_fail_memory(error, "an environment's name");
 }
 
-// Makes a cube of the source, which is freed.
+// Makes a cube of the source, and frees the source.
 static glint_status finish(const char *name, glint_source *source, glint_environment *environment,
                            glint_error *error)
 {

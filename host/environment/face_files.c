@@ -1,7 +1,7 @@
-// Six files that are the faces of a cube: found by their names. See face_files.h.
+// Finds the six files that are the faces of a cube, by their names. See face_files.h.
 //
-// A file belongs to a set by what stands before the face's name, the kind of name, and the
-// extension. One complete set is used; several are ambiguous and refused, as is none.
+// A set of files has a common beginning before the face's name, one kind of names and a common
+// extension. glint uses the one complete set. It refuses a folder or pattern with several or none.
 #include "environment/face_files.h"
 
 #include <ctype.h>
@@ -23,7 +23,7 @@ static const char *const face_names[KINDS][6] = {
     {"right", "left", "up", "down", "front", "back"},
     {"+x", "-x", "+y", "-y", "+z", "-z"},
 };
-#define KIND_SIGNS 4 // a sign parts itself from what stands before it
+#define KIND_SIGNS 4 // signs need no mark between them and the text before
 
 void glint_face_files_free(glint_face_files *files)
 {
@@ -59,8 +59,8 @@ static bool is_same_file(const char *a, const char *b)
 
 typedef enum letters { SMALL, CAPITAL, CAPITALISED, LAST_CAPITAL, LETTERS } letters;
 
-// "posx" as posx, POSX, Posx or posX; "right" as right, RIGHT, Right or righT, which nobody uses
-// and which hurts nobody.
+// Spells "posx" as posx, POSX, Posx or posX. For "right" it also gives righT, a harmless spelling
+// that nobody uses.
 static void spell(const char *name, letters how, char spelled[16])
 {
     size_t length = strlen(name);
@@ -71,7 +71,7 @@ static void spell(const char *name, letters how, char spelled[16])
     }
 }
 
-// Fills `files` with those of the set that exist.
+// Fills `files` with the existing files of the set.
 static void try_spelling(const char *pattern, int kind, letters how, glint_face_files *files)
 {
     const char *gap = strstr(pattern, "%s");
@@ -109,8 +109,8 @@ static glint_status refuse_ambiguous(const char *given, const char *one, const c
                       given, one, other);
 }
 
-// Keeps the better of two sets; complains of two complete ones that are not the same files (as they
-// are where a file system does not tell capitals).
+// Keeps the better of two sets. Complains if both are complete and are different files. (On a file
+// system that ignores case, two spellings name the same files.)
 static glint_status keep_better(const char *given, glint_face_files *best, glint_face_files *other,
                                 glint_error *error)
 {
@@ -171,10 +171,10 @@ glint_status glint_face_files_by_pattern(const char *pattern, glint_face_files *
 
 // ---- A folder -----------------------------------------------------------------------------------
 
-// A set that is being put together.
+// A set of files while it is collected.
 typedef struct set {
     int kind;
-    char *before;    // what stands before the face's name
+    char *before;    // text before the face's name
     char *extension; // with its dot
     glint_face_files files;
 } set;
@@ -195,8 +195,8 @@ static void sets_free(sets *all)
     *all = (sets){0};
 }
 
-// True if `stem` ends with the name of this face and what is before may stand there: nothing, or
-// something that ends with a mark; a sign needs none.
+// True if `stem` ends with the name of this face, and the text before it is empty or ends with a
+// mark. A sign needs no mark.
 static bool ends_with_face(const char *stem, size_t length, int kind, int face)
 {
     size_t part = strlen(face_names[kind][face]);
@@ -206,7 +206,7 @@ static bool ends_with_face(const char *stem, size_t length, int kind, int face)
     return length == part || kind == KIND_SIGNS || strchr("_-. ", stem[length - part - 1]) != NULL;
 }
 
-// The set of this kind, beginning and extension; NULL without memory.
+// Finds or adds the set of this kind, beginning and extension. NULL if there is no memory.
 static set *find_set(sets *all, const set *wanted, size_t before_length)
 {
     for (size_t k = 0; k < all->count; k++) {
@@ -245,7 +245,7 @@ static bool add_file(sets *all, const char *folder, const char *name)
                 (size_t)printed >= sizeof path || !is_regular(path)) {
                 continue;
             }
-            // The pointers only describe what is looked for.
+            // The pointers only describe the wanted set.
             set wanted = {.kind = kind, .before = (char *)name, .extension = (char *)dot};
             set *found = find_set(all, &wanted, length - strlen(face_names[kind][face]));
             if (found == NULL) {

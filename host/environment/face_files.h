@@ -1,4 +1,4 @@
-// Six files that are the faces of a cube: found by their names.
+// Finds the six files that are the faces of a cube, by their names.
 #ifndef GLINT_ENVIRONMENT_FACE_FILES_H
 #define GLINT_ENVIRONMENT_FACE_FILES_H
 
@@ -15,15 +15,15 @@ typedef struct glint_face_files {
 
 void glint_face_files_free(glint_face_files *files);
 
-// The faces that a pattern names: its %s stands for posx, negx …; px, nx …; right, left, top,
-// bottom, front, back (front is posz); right, left, up, down, front, back; or +x, −x …; each in
-// small letters, in capitals or capitalised. GLINT_BAD_INPUT where no set is complete (the missing
-// file is named) or more than one is.
+// Finds the faces that a pattern names. Its %s stands for posx, negx …; px, nx …; right, left, top,
+// bottom, front, back (front is posz); right, left, up, down, front, back; or +x, −x …. Names may
+// be in small letters, in capitals or capitalised. Fails with GLINT_BAD_INPUT if no set is complete
+// (the message names the missing file) or if several sets are complete.
 glint_status glint_face_files_by_pattern(const char *pattern, glint_face_files *files,
                                          glint_error *error);
 
-// The faces in a folder: files named as above, alone or after a common beginning, and with a common
-// extension: posx.png, xmas_posx.png, Sky-Right.hdr, env+x.exr.
+// Finds the faces in a folder. The file names end with a face's name as above. They may have a
+// common beginning and have a common extension: posx.png, xmas_posx.png, Sky-Right.hdr, env+x.exr.
 glint_status glint_face_files_in_folder(const char *folder, glint_face_files *files,
                                         glint_error *error);
 

@@ -1,4 +1,4 @@
-// Cube maps made of pictures of faces. See faces.h.
+// Makes cube maps from pictures of faces. See faces.h.
 #include "environment/faces.h"
 
 #include "kernels/layout.h"

@@ -1,4 +1,4 @@
-// Cube maps made of pictures that hold the six faces.
+// Makes cube maps from pictures that hold the six faces.
 #ifndef GLINT_ENVIRONMENT_FACES_H
 #define GLINT_ENVIRONMENT_FACES_H
 
@@ -11,12 +11,12 @@
 extern "C" {
 #endif
 
-// The bilinear look-up at (s, t), see kernels/layout.h, of a face of OpenEXR's cube whose outermost
-// centres lie on its edges: no neighbour is needed.
+// Looks up (s, t) of a face bilinearly (see kernels/layout.h). The picture is OpenEXR's cube with
+// the outermost centres on the faces' edges, so the look-up needs no neighbour.
 void glint_face_on_edges(const glint_image *image, int face, double s, double t, double rgb[3]);
 
-// A cube with the edge of a picture's faces; fills the border. Where the outermost centres lie on
-// the edges, its texels are interpolated.
+// Makes a cube with the edge of the picture's faces and fills its border. If the outermost centres
+// lie on the edges, the cube's texels are interpolated.
 glint_status glint_cube_from_faces(const glint_image *image, const glint_chart *chart,
                                    glint_cube *cube, glint_error *error);
 

@@ -1,4 +1,4 @@
-// Texels as halfs. See half_texels.h.
+// Stores texels as halfs and measures the error. See half_texels.h.
 #include "environment/half_texels.h"
 
 #include "base/half.h"
@@ -11,22 +11,22 @@
 
 // Sums over row j of all six faces, weighted by solid angle.
 typedef struct row_sums {
-    double weight;    // of R, G and B, each
-    double value;     // of magnitudes
-    double squared;   // of errors
-    double visible;   // of errors over the larger of value and mean
-    uint32_t largest; // bits of a magnitude: in their order NaN stands above ∞
+    double weight;    // sum of the weights, counted for R, G and B
+    double value;     // sum of magnitudes
+    double squared;   // sum of squared errors
+    double visible;   // sum of squared errors over the larger of value and mean
+    uint32_t largest; // bits of the largest magnitude; in this order NaN is above ∞
 } row_sums;
 
-// What the threads share.
+// The data that all threads share.
 typedef struct job {
     const glint_cube *cube;
-    row_sums *rows; // [edge + 2]: the border has no sums but the largest value
-    float mean;     // 0 in the first pass, which finds it
+    row_sums *rows; // [edge + 2]; a border row sets only `largest`
+    float mean;     // 0 in the first pass, which computes it
     uint16_t *texels;
 } job;
 
-// Columns that are weighed at once: the weights are the same on all six faces.
+// The number of columns weighed at once. The weights are the same on all six faces.
 #define CHUNK 64
 
 static size_t pitch_of(const glint_cube *cube)
@@ -34,7 +34,7 @@ static size_t pitch_of(const glint_cube *cube)
     return (size_t)cube->edge + 2 * GLINT_CUBE_BORDER;
 }
 
-// The solid angles of the texels (first …, j), but for a constant factor: (1 + s² + t²)^(−3/2).
+// The solid angles of the texels (first …, j), except for a constant factor: (1 + s² + t²)^(−3/2).
 static void weigh_texels(int edge, int j, int first, int count, double weights[CHUNK])
 {
     for (int k = 0; k < count; k++) {
@@ -115,7 +115,7 @@ static void sum_row(size_t index, void *context)
     }
 }
 
-// In the rows' order, so that the sums do not depend on the threads.
+// Sums in the rows' order, so that the result does not depend on the threads.
 static row_sums sum_rows(const job *shared)
 {
     row_sums all = {0};
@@ -146,7 +146,7 @@ glint_status glint_half_rounding_measure(const glint_cube *cube, glint_half_roun
     row_sums all = sum_rows(&shared);
     rounding->largest = glint_float_from_bits(all.largest);
     shared.mean = (float)(all.value / all.weight);
-    // Not where it is 0, nor NaN.
+    // Skip a mean of 0 or NaN.
     if (shared.mean > 0.0f) {
         all = sum_rows(&shared);
         rounding->relative_rmse = sqrt(all.squared / all.weight) / (double)shared.mean;

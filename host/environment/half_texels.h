@@ -1,5 +1,5 @@
-// A cube map's texels as halfs, which take half of the memory and of its time, and the error that
-// this adds.
+// Stores a cube map's texels as halfs, which halves memory and bandwidth, and measures the error
+// that rounding adds.
 #ifndef GLINT_ENVIRONMENT_HALF_TEXELS_H
 #define GLINT_ENVIRONMENT_HALF_TEXELS_H
 
@@ -12,20 +12,21 @@
 extern "C" {
 #endif
 
-// What rounding to half does to a map. Errors are root mean squares over R, G and B and over the
+// The error of rounding a map to half. Errors are root mean squares over R, G and B and over the
 // sphere, by solid angle.
 typedef struct glint_half_rounding {
-    // Over the mean of R, G and B: what a relative RMSE means of frames too. Bright lights decide
-    // it, although they err by no more of themselves than anything else.
+    // The error over the mean of R, G and B. It corresponds to the relative RMSE of frames. Bright
+    // lights decide it, although their own relative error is no larger.
     double relative_rmse;
-    // Each error taken of its own value or of the mean, whichever is larger, as it is seen beside
-    // them: at most 2⁻¹¹ where no denormal halfs matter, and 2e-4 where all is as bright as the
-    // mean.
+    // Each error is divided by its own value or by the mean, whichever is larger: this is how it
+    // looks beside them. At most 2⁻¹¹ if no denormal halfs matter, and 2e-4 if everything is as
+    // bright as the mean.
     double visible_rmse;
-    float largest; // magnitude of R, G or B of any texel, the border's too; NaN if one is
+    // The largest magnitude of R, G or B of any texel, border included. NaN if a texel is NaN.
+    float largest;
 } glint_half_rounding;
 
-// A map without texels, or all black, has no error.
+// Measures the rounding error. A map without texels, or all black, has no error.
 glint_status glint_half_rounding_measure(const glint_cube *cube, glint_half_rounding *rounding,
                                          glint_error *error);
 

@@ -1,4 +1,4 @@
-// Nine numbers for an environment's irradiance. See harmonics.h.
+// Computes nine coefficients of an environment's irradiance. See harmonics.h.
 #include "environment/harmonics.h"
 
 #include "base/memory.h"
@@ -7,15 +7,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The polynomials of kernels/layout.h are spherical harmonics but for a factor: Σ f²/∫f² takes what
-// of the radiance lies along f. ∫f² over the sphere; and what the cosine makes of the band, over π.
+// The polynomials of kernels/layout.h are spherical harmonics except for a factor. The projection
+// of the radiance on f is f · ∫ f L / ∫ f². `squares` is ∫f² over the sphere. `kept` is the
+// cosine's factor for the band, over π.
 static const double squares[GLINT_HARMONICS] = {
     4 * GLINT_PI,      4 * GLINT_PI / 3,  4 * GLINT_PI / 3,   4 * GLINT_PI / 3, 4 * GLINT_PI / 15,
     4 * GLINT_PI / 15, 4 * GLINT_PI / 15, 16 * GLINT_PI / 15, 16 * GLINT_PI / 5};
 static const double kept[GLINT_HARMONICS] = {1,       2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
                                              1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
 
-// A row of texels: ∫ f L for each polynomial and channel, and the solid angle.
+// Sums over a row of texels: ∫ f L for each polynomial and channel, and the solid angle.
 typedef struct row_sum {
     double value[GLINT_HARMONICS][3];
     double solid_angle;
@@ -26,12 +27,11 @@ typedef struct job {
     row_sum *rows; // [6][edge]
 } job;
 
-// Texels so small are taken as a point each: that errs by h²/24 of second derivatives, which are
-// under 8, with h = 2/edge: 2e-5. Larger ones by Gauss's rule, as four.
+// From this edge on, a texel is sampled at one point. The error is h²/24 of the second derivatives,
+// which are under 8: 2e-5 with h = 2/edge. Larger texels take four points of Gauss's rule.
 #define POINT_EDGE 256
 
-// What a texel brings: its points, each weighed by the solid angle that a part of the face has
-// there.
+// Adds a texel: its points, each weighed by the solid angle of its part of the face.
 static void add_texel(const glint_cube *cube, int face, int i, int j, row_sum *row)
 {
     const float *texel = glint_cube_texel(cube, face, i, j);
@@ -81,7 +81,7 @@ glint_status glint_irradiance_harmonics(const glint_cube *radiance,
     }
     glint_parallel_for(rows, sum_row, &work);
     row_sum all = {0};
-    for (size_t i = 0; i < rows; i++) { // in one order, whoever summed the rows
+    for (size_t i = 0; i < rows; i++) { // in a fixed order, so that threads do not matter
         all.solid_angle += work.rows[i].solid_angle;
         for (int k = 0; k < 3 * GLINT_HARMONICS; k++) {
             all.value[k / 3][k % 3] += work.rows[i].value[k / 3][k % 3];

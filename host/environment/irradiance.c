@@ -1,25 +1,25 @@
-// Irradiance of an environment, as its texels have it. See irradiance.h.
+// Computes the irradiance of an environment that is constant over each texel. See irradiance.h.
 //
 // Over a region of constant radiance L that lies wholly in front of n, ∫ L n·ω dω = n · (L m) with
-// the first moment m = ∫ ω dω. Moments add up. The faces are cut into blocks of whole texels (or of
-// parts of texels, where these are large), and of each row and each column of blocks the running
-// sums of L m are kept. n·ω is linear over a face, so the horizon of n is a straight line there,
-// which in each row (or column, whichever it crosses more steeply) parts the blocks in front from
-// those behind: one running sum is all that a row brings beside the blocks that are crossed.
+// the first moment m = ∫ ω dω. Moments add up. The faces are cut into blocks of whole texels, or of
+// parts of large texels. Each row and each column of blocks keeps running sums of L m. n·ω is
+// linear over a face, so the horizon of n is a straight line there. In each row it separates the
+// blocks in front from the blocks behind. (It does so in each column if it crosses columns more
+// steeply.) So a row costs one running sum and the blocks that the horizon crosses.
 //
 // The line crosses one or two blocks of a row. With g = n·ω/ω_z, linear on the face, and the weight
-// w = L ω_z, such a block brings ∫ w max(0, g) dω; of w only the sum W and of w g only the sum
-// P = n · Σ L m are known. g is taken as spread evenly over P/W ± a, with a so that the spread is
-// that of g over an evenly weighted block: (P + aW)²/(4aW). That is exact for an even weight and a
-// line along an axis, and 6% of aW/4 too much at worst for one along a diagonal. Half a block is
-// a ≤ h/2, h the width of a block, so a great circle through 2π/h blocks of h² errs by less than
-// 0.06 · h²/4 of the radiance near the horizon: 4e-6 with h = 2/GRID_MIN. However uneven the
-// weight, the part of P within the block is right to aW/4, h/8 of what it would bring from straight
-// above: that is what a single bright texel (the sun) may err by, when the horizon runs through its
-// block.
+// w = L ω_z, such a block adds ∫ w max(0, g) dω. Only two sums are known: W of w, and P = n · Σ L m
+// of w g. g is assumed to be spread evenly over P/W ± a, where a gives the spread of g over an
+// evenly weighted block: (P + aW)²/(4aW). This is exact for an even weight and a line along an
+// axis, and at most 6% of aW/4 too much for a diagonal line. Half a block is a ≤ h/2, h the width
+// of a block. So a great circle through 2π/h blocks of h² errs by less than 0.06 · h²/4 of the
+// radiance near the horizon: 4e-6 with h = 2/GRID_MIN. However uneven the weight, the part of P
+// within the block is right to aW/4: h/8 of the block's irradiance from straight above. This is the
+// largest error of a single bright texel (the sun), when the horizon runs through its block.
 //
-// Half of the normals follow from the others: max(0, x) − max(0, −x) = x, so E(n) − E(−n) is n · M
-// with M the first moment of the whole sphere. The opposite of a texel's normal is a texel's too.
+// Half of the normals follow from the other half: max(0, x) − max(0, −x) = x, so E(n) − E(−n) is
+// n · M. M is the first moment of the whole sphere. The opposite of a texel's normal is also a
+// texel's normal.
 #include "environment/irradiance.h"
 
 #include "base/memory.h"
@@ -30,28 +30,30 @@
 #include <stdlib.h>
 
 enum {
-    GRID_MIN = 128,  // blocks along a face's edge, at least
-    CELLS_MAX = 128, // along a block's edge; the largest cube has fewer
-    BAND = 4,        // rows of blocks that a thread sums at once: neighbours share cache lines
-    TILE = 8,        // normals along the edge of a square; their horizons pass the same blocks
-    AXES = 3,        // of a face: s, t and its own
+    GRID_MIN = 128,  // least number of blocks along a face's edge
+    CELLS_MAX = 128, // most cells along a block's edge; the largest cube has fewer
+    // Rows of blocks that a thread sums at once. Neighbouring rows share cache lines.
+    BAND = 4,
+    // Normals along the edge of a square. Their horizons pass the same blocks.
+    TILE = 8,
+    AXES = 3, // axes of a face: s, t and its normal
     CHANNELS = 3,
     PAIRS = (AXES * CHANNELS + 1) / 2,
 };
 
-// What a vector register of every x86-64 holds. Each lane is computed as a scalar would be.
+// Vectors that fit the registers of every x86-64. Each lane is computed as a scalar would be.
 typedef double pair __attribute__((vector_size(2 * sizeof(double))));
 typedef float quad __attribute__((vector_size(4 * sizeof(float))));
 typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(int32_t))));
 
-// Σ L m: [axis][channel], and a 0.
+// Σ L m: [axis][channel], padded with a 0.
 typedef struct moment_sum {
     pair of[PAIRS];
 } moment_sum;
 
-// A block, with a lane for each channel. In float: it is only read where a horizon crosses it.
+// A block, with a lane for each channel. Floats suffice: only horizons that cross it read it.
 typedef struct block {
-    quad s, t;   // P/W along the face's axes, 0 without light; along the face's own axis it is 1
+    quad s, t;   // P/W along s and t, 0 without light; along the normal it is 1
     quad weight; // W
 } block;
 
@@ -59,26 +61,26 @@ typedef struct block {
 enum { ALONG_S, ALONG_T, DIRECTIONS };
 
 typedef struct block_grid {
-    int cells;    // along a face's edge: parts of equal radiance
+    int cells;    // cells along a face's edge; a cell has constant radiance
     int parts;    // cells along a texel's edge
     int whole;    // cells along a block's edge; the last block may have fewer
-    int blocks;   // along a face's edge
-    double scale; // the same, but for what the last block lacks
-    // [face][line][-1 … blocks + 1]: the sums of the blocks of a line before the k-th; at the ends
-    // again those of 0 and of all.
+    int blocks;   // blocks along a face's edge
+    double scale; // the same, counting only the part of the last block that exists
+    // [face][line][-1 … blocks + 1]: the sum of the blocks of a line before block k. The ends
+    // repeat the sums of no block and of all blocks.
     moment_sum *before[DIRECTIONS];
-    block *lights[DIRECTIONS];     // [face][line][-1 … blocks + 1]: empty ones at the ends
-    moment_sum *above[DIRECTIONS]; // [face][blocks + 1]: the sums of the lines before the k-th
+    block *lights[DIRECTIONS];     // [face][line][-1 … blocks + 1]; empty blocks at the ends
+    moment_sum *above[DIRECTIONS]; // [face][blocks + 1]: the sum of the lines before line k
 } block_grid;
 
-// What the threads share.
+// The data that all threads share.
 typedef struct job {
     const glint_cube *radiance;
     glint_cube *irradiance;
     block_grid grid;
 } job;
 
-// Where block 0 of a line is, among the blocks and among the sums.
+// The index of block 0 of a line, in `lights` and in `before`.
 static size_t place_of(const block_grid *grid, int face, int line)
 {
     const size_t blocks = (size_t)grid->blocks;
@@ -90,7 +92,7 @@ static moment_sum *above_of(const block_grid *grid, int direction, int face)
     return grid->above[direction] + (size_t)face * ((size_t)grid->blocks + 1);
 }
 
-// Written out, because a loop would keep the sum in memory.
+// Unrolled: a loop would keep the sum in memory.
 static inline void add_sum(const moment_sum *a, moment_sum *to)
 {
     to->of[0] += a->of[0];
@@ -107,7 +109,7 @@ static void subtract_sum(const moment_sum *a, moment_sum *from)
     }
 }
 
-// n · Σ L m, added to the light.
+// Adds n · Σ L m to the light.
 static void add_light(const moment_sum *sum, const double n[AXES], double light[CHANNELS])
 {
     for (int k = 0; k < AXES * CHANNELS; k++) {
@@ -117,17 +119,18 @@ static void add_light(const moment_sum *sum, const double n[AXES], double light[
 
 // ---- Moments ------------------------------------------------------------------------------------
 
-// Moments of a row of cells of a block: s or t times `aside` along the axes of the face, `ahead`
-// along its own.
+// Moments of a row of cells of a block. Along s and t, the moment is s or t times `aside`; along
+// the face's normal it is `ahead`.
 typedef struct cell_row {
     int first, count; // cells
     double t;
     double s[CELLS_MAX], aside[CELLS_MAX], ahead[CELLS_MAX];
 } cell_row;
 
-// ω dω is (s, t, 1) u² ds dt with u = 1/(1 + s² + t²). Over a square of edge h a function's mean is
-// its value in the middle and h²/24 of its Laplacian there: 16u³ − 24u⁴ for u², and for s u²
-// s (8u³ − 24u⁴). What follows is less than 0.12 h⁴ of the whole: 7e-9 with h = 2/GRID_MIN.
+// ω dω is (s, t, 1) u² ds dt with u = 1/(1 + s² + t²). Over a square of edge h, a function's mean
+// is its value in the middle plus h²/24 of its Laplacian there: 16u³ − 24u⁴ for u², and
+// s (8u³ − 24u⁴) for s u². The remaining terms are less than 0.12 h⁴ of the whole: 7e-9 with
+// h = 2/GRID_MIN.
 static void weigh_cells(int cells, int row, cell_row *out)
 {
     const double h = 2.0 / cells, area = h * h;
@@ -141,7 +144,7 @@ static void weigh_cells(int cells, int row, cell_row *out)
     }
 }
 
-// R and G, B and what is beside it.
+// Sums of a block: a pair for R and G, a pair for B and the unused channel.
 typedef struct block_sum {
     pair along[AXES][2];
 } block_sum;
@@ -175,7 +178,7 @@ static int end_of_block(const block_grid *grid, int i)
     return end < grid->cells ? end : grid->cells;
 }
 
-// The block at a row and a column, of all faces.
+// Sums the block at a row and a column, for all faces.
 static void sum_block(const job *shared, int row, int column, block_sum sums[GLINT_CUBE_FACES])
 {
     const block_grid *grid = &shared->grid;
@@ -214,7 +217,7 @@ static block light_of(const block_sum *sum)
     return light;
 }
 
-// Of a line of blocks whose sums are complete.
+// Fills the ends of a line of blocks whose sums are complete.
 static void close_line(const block_grid *grid, int direction, size_t place)
 {
     moment_sum *before = grid->before[direction] + place;
@@ -224,7 +227,8 @@ static void close_line(const block_grid *grid, int direction, size_t place)
     lights[-1] = lights[grid->blocks] = (block){0};
 }
 
-// A row of blocks: its running sums, and the blocks themselves to where the columns' sums will be.
+// Sums a row of blocks. Stores its running sums, and the blocks themselves in the place of the
+// columns' sums.
 static void sum_row(const job *shared, int row)
 {
     const block_grid *grid = &shared->grid;
@@ -268,7 +272,7 @@ static void sum_column(size_t index, void *context)
     close_line(grid, ALONG_T, place);
 }
 
-// The sums of the lines of a face, in one direction.
+// Sums the lines of a face, in one direction.
 static void sum_lines(size_t index, void *context)
 {
     const job *shared = context;
@@ -319,11 +323,12 @@ static glint_status grid_create(int texels, block_grid *grid, glint_error *error
 // How a normal's horizon runs over a face, in the direction that it crosses more steeply. Places on
 // a line are in blocks · 2³².
 typedef struct horizon {
-    int64_t low, step, span; // the least place on line 0; how far it moves a line; |step|
-    int first, end;          // the lines that are crossed
-    bool rises;              // what is in front lies beyond the horizon on a line, not before it
-    double reach;            // a
-    quad s, t, ahead;        // n/2a, and ½ more ahead
+    // The least place on line 0; its change per line; |step|.
+    int64_t low, step, span;
+    int first, end;   // the range of lines that the horizon crosses
+    bool rises;       // on a line, the front is beyond the horizon, not before it
+    double reach;     // a
+    quad s, t, ahead; // n/2a, with ½ added to `ahead`
 } horizon;
 
 #define ONE_BLOCK ((int64_t)1 << 32)
@@ -373,7 +378,7 @@ static quad above_zero(quad value)
     return (quad)((value > 0.0f) & (quad_mask)value);
 }
 
-// What a crossed block brings, over a: W ((P/aW + 1)/2)², and the line through where P = aW beyond.
+// The light of a crossed block, over a: W ((P/aW + 1)/2)², and the straight line where P > aW.
 static quad light_of_crossed(const block *b, const horizon *h, quad weight)
 {
     const quad risen = above_zero(h->s * b->s + h->t * b->t + h->ahead);
@@ -381,8 +386,8 @@ static quad light_of_crossed(const block *b, const horizon *h, quad weight)
     return weight * (risen * risen - beyond * beyond);
 }
 
-// Adds what the crossed blocks bring, over a, and returns the sums before the first block of each
-// line that is not crossed any more (or not yet).
+// Adds the light of the crossed blocks, over a. Returns the sum of the blocks before the horizon,
+// over all crossed lines. It includes the crossed blocks if `rises`.
 static moment_sum walk_lines(const block_grid *grid, int direction, size_t place, const horizon *h,
                              quad *crossed)
 {
@@ -408,7 +413,7 @@ static moment_sum walk_lines(const block_grid *grid, int direction, size_t place
     return sum;
 }
 
-// One face, n in its axes.
+// Adds the light of one face; n is in the face's axes.
 static void gather_face(const block_grid *grid, int face, const double n[AXES],
                         double light[CHANNELS])
 {
@@ -425,7 +430,7 @@ static void gather_face(const block_grid *grid, int face, const double n[AXES],
     find_lines(&h, blocks);
     quad crossed;
     moment_sum sum = walk_lines(grid, direction, place_of(grid, face, 0), &h, &crossed);
-    // Of lines that are not crossed, all blocks lie before the horizon or none.
+    // In a line that is not crossed, either all blocks lie before the horizon or none.
     if (h.low >= blocks * ONE_BLOCK) {
         add_sum(&above[h.first], &sum);
     }
@@ -459,7 +464,7 @@ static void turn_to_face(const face_axes *axes, glint_vec3 n, double out[AXES])
     out[2] = glint_vec3_dot(n, axes->ahead);
 }
 
-// A normal of the map, and what it receives; then what its opposite does.
+// A normal of the map, the light that it receives, and the light that its opposite receives.
 typedef struct receiver {
     int i, j;
     glint_vec3 n;
@@ -489,7 +494,8 @@ static void store(float *texel, const double light[CHANNELS])
     texel[3] = 1.0f;
 }
 
-// Stores the same place, seen from the cube's middle, of a face and of the one opposite.
+// Stores the texel of a face and the opposite texel, seen from the cube's middle, on the opposite
+// face.
 static void store_receiver(const glint_cube *map, int face, const receiver *r)
 {
     const face_axes here = axes_of(face), there = axes_of(face + 1);
@@ -508,14 +514,14 @@ static int tiles_of(int edge)
     return (edge + 2 * GLINT_CUBE_BORDER + TILE - 1) / TILE;
 }
 
-// The border too: irradiance is smooth, and its own value in the plane of the face serves better
-// than a neighbour's texel, which stands up to half a texel aside. Both faces then agree on their
-// common edge up to the error of interpolation.
+// Fills the border too. Irradiance is smooth, so its own value in the plane of the face serves
+// better than a neighbour's texel, which is up to half a texel aside. Both faces then agree on
+// their common edge up to the error of interpolation.
 static void gather_tile(size_t index, void *context)
 {
     const job *shared = context;
     const int edge = shared->irradiance->edge, tiles = tiles_of(edge);
-    const int face = 2 * ((int)index / tiles / tiles); // and the next, opposite
+    const int face = 2 * ((int)index / tiles / tiles); // and the opposite face, face + 1
     const int first_i = (int)index % tiles * TILE - GLINT_CUBE_BORDER;
     const int first_j = (int)index / tiles % tiles * TILE - GLINT_CUBE_BORDER;
     receiver receivers[TILE * TILE];

@@ -1,10 +1,9 @@
-// Lat-long maps: look-ups, and resampling into a cube. See latlong.h.
+// Looks up lat-long maps and resamples them into a cube. See latlong.h. chart.c says which way they
+// face.
 //
-// Which way they face is in chart.c.
-//
-// A cube made of a lat-long map errs by second-order terms of the texels' spacing: one bilinear
-// look-up reads the map, another one reads the cube. The cube's border keeps that order over edges
-// and corners (see cube.c).
+// The cube's error is of second order in the spacing of texels: one bilinear look-up reads the map,
+// another one reads the cube. The cube's border keeps this order over edges and corners (see
+// cube.c).
 #include "environment/latlong.h"
 
 #include "base/parallel.h"
@@ -14,26 +13,26 @@
 #define LATLONG_EDGE_MIN 256 // keeps second-order errors of tiny maps below 10⁻⁴
 #define LATLONG_EDGE_MAX                                                                           \
     2048            // 0.4 GB of cube; maps of more than 3200 rows lose their finest detail
-#define TAPS_MAX 16 // an axis; a cap for the few texels at the poles
+#define TAPS_MAX 16 // along an axis; a cap for the few texels at the poles
 
 int glint_latlong_edge(int height)
 {
-    // At the middle of a face a texel of a cube with edge H spans 2/H, a row of the map π/H: a cube
-    // of 0.64 H would already hold as many texels as the map has there.
+    // In the middle of a face, a texel of a cube of edge H spans 2/H and a row of the map π/H. So a
+    // cube of edge 0.64 H has as many texels there as the map.
     if (height < LATLONG_EDGE_MIN) {
         return LATLONG_EDGE_MIN;
     }
     return height < LATLONG_EDGE_MAX ? height : LATLONG_EDGE_MAX;
 }
 
-// Of a value above −1. (floor is a call where the processor is not told.)
+// Rounds down a value above −1. (Without SSE4.1 the compiler emits a call for floor.)
 static int round_down(double value)
 {
     return (int)(value + 1.0) - 1;
 }
 
-// The map at column x, in [−½, 3/2 width), of row j, linear between pixels; a row beyond a pole is
-// the row as far on this side of it, half a turn away.
+// Looks up the map at column x, in [−½, 3/2 width), of row j, linearly between pixels. A row beyond
+// a pole is the mirrored row on this side of it, half a turn away.
 static void sample_row(const glint_image *image, int j, double x, double rgb[3])
 {
     int width = image->width, height = image->height;
@@ -55,7 +54,7 @@ static void sample_map(const glint_image *image, bool on_edges, double u, double
 {
     double x, y;
     if (on_edges) {
-        // u and v reach 1, where the fraction is 0: what lies beyond is read and weighs nothing.
+        // u and v reach 1. There the fraction is 0, so the pixel beyond has no weight.
         x = u * (image->width - 1);
         y = v * (image->height - 1);
     } else {
@@ -73,7 +72,7 @@ void glint_latlong_sample(const glint_image *image, bool on_edges, glint_vec3 di
                           double rgb[3])
 {
     double across = sqrt(direction.x * direction.x + direction.z * direction.z);
-    // atan2(0, 0) is 0: at the poles every longitude is right.
+    // atan2(0, 0) is 0. At the poles every longitude is right.
     double longitude = atan2(direction.x, direction.z);
     double latitude = atan2(direction.y, across);
     sample_map(image, on_edges, 0.5 - longitude / (2.0 * GLINT_PI), 0.5 - latitude / GLINT_PI, rgb);
@@ -85,13 +84,13 @@ typedef struct resampling {
     glint_cube *cube;
 } resampling;
 
-// How many look-ups along each axis the texel at (s, t) takes: the longest side of its footprint in
-// the map, in pixels, rounded. A bilinear look-up is good for one and a half.
+// The number of look-ups along each axis for a texel: the longest side of its footprint in the map,
+// in pixels, rounded. One bilinear look-up suffices for one and a half pixels.
 static int count_taps(const resampling *job, glint_vec3 d)
 {
     double length = sqrt(glint_vec3_dot(d, d));
     double size = 2.0 / job->cube->edge / length; // radians, or less
-    // Meridians crowd towards the poles; the middle of the texel's half nearer the equator counts.
+    // Meridians converge at the poles. Take the middle of the half nearer the equator.
     double from_axis = sqrt(d.x * d.x + d.z * d.z) / length + 0.25 * size;
     double rows = size * job->image->height / GLINT_PI;
     double columns = size * job->image->width / (2.0 * GLINT_PI * from_axis);
@@ -117,8 +116,9 @@ static void resample_texel(const resampling *job, int face, int i, int j, int ta
     glint_cube_store(job->cube, face, i, j, sum);
 }
 
-// One row of the four faces around the horizon. They see the same latitudes, and longitudes that
-// differ by quarter turns: the trigonometry, which is most of the work, is done once for all four.
+// Resamples one row of the four faces around the horizon. They see the same latitudes, and their
+// longitudes differ by quarter turns. So all four share the trigonometry, which is most of the
+// work.
 static void resample_sides(const resampling *job, int j)
 {
     static const struct {

@@ -1,4 +1,4 @@
-// The names of layouts. See layouts.h.
+// Holds the names of layouts. See layouts.h.
 #include "environment/layouts.h"
 
 #include <stddef.h>

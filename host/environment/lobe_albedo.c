@@ -1,4 +1,4 @@
-// How much of a white environment lobes reflect. See lobe_albedo.h.
+// Computes the share of a white environment that lobes reflect. See lobe_albedo.h.
 #include "environment/lobe_albedo.h"
 
 #include "base/parallel.h"
@@ -9,29 +9,30 @@
 
 enum { RINGS = 24, SECTORS = 16 };
 
-// Λ of Smith's shadowing.
+// Λ of Smith's shadowing function.
 static double lambda(double cosine, double alpha)
 {
     const double squared = cosine * cosine;
     return squared > 0 ? 0.5 * (sqrt(1 + alpha * alpha * (1 - squared) / squared) - 1) : INFINITY;
 }
 
-// v, in the plane of x and z, stretched by the roughness. The rest is set once for all surfaces.
+// v lies in the plane of x and z; `stretched` is v stretched by the roughness. Sines and cosines
+// are the same for all surfaces.
 typedef struct visible {
     glint_vec3 v, stretched;
     double alpha;
     double cosines[SECTORS], sines[SECTORS];
 } visible;
 
-// The half vector at a place of the disk that the visible normals are projected onto (Heitz,
-// Sampling the GGX Distribution of Visible Normals, 2018). `depth` is √(1 − radius²).
+// The half vector at a place of the disk onto which visible normals are projected (Heitz, Sampling
+// the GGX Distribution of Visible Normals, 2018). `depth` is √(1 − radius²).
 static glint_vec3 visible_normal(const visible *a, double depth, int sector)
 {
     const double radius = sqrt(1 - depth * depth), lean = 0.5 * (1 + a->stretched.z);
     const double first = radius * a->cosines[sector];
     const double second = (1 - lean) * sqrt(1 - first * first) + lean * radius * a->sines[sector];
     const double third = sqrt(fmax(0, 1 - first * first - second * second));
-    // The axes across v: y, and v turned up.
+    // The axes across v are y, and v turned up.
     return glint_vec3_normalize(
         (glint_vec3){a->alpha * (third * a->stretched.x - second * a->stretched.z),
                      a->alpha * first, fmax(0, third * a->stretched.z + second * a->stretched.x)});
@@ -42,7 +43,7 @@ static void integrate(const visible *a, float out[2])
     const double of_v = lambda(a->v.z, a->alpha);
     double base = 0, edge = 0;
     for (int i = 0; i < RINGS * SECTORS; i++) {
-        // Rings are dense near the disk's edge, where the normals of the lobe's wide skirts are.
+        // Rings are dense near the disk's edge, which holds the normals of the lobe's wide skirts.
         const int ring = i / SECTORS;
         const double depth = (ring + 0.5) / RINGS;
         const glint_vec3 h = visible_normal(a, depth, i % SECTORS);
@@ -64,7 +65,7 @@ static void fill_row(size_t row, void *context)
     const double roughness = fmax((double)row / (GLINT_ALBEDO_ROUGHNESSES - 1.0), 1e-3);
     visible a = {.alpha = roughness * roughness};
     for (int i = 0; i < SECTORS; i++) {
-        const double angle = ((i + 0.5) / SECTORS - 0.5) * GLINT_PI; // half: symmetric
+        const double angle = ((i + 0.5) / SECTORS - 0.5) * GLINT_PI; // half: it is symmetric
         a.cosines[i] = cos(angle);
         a.sines[i] = sin(angle);
     }

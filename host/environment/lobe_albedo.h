@@ -1,5 +1,5 @@
-// How much of a white environment the lobes of rough surfaces reflect: see kernels/layout.h,
-// Lobes.
+// Computes the share of a white environment that the lobes of rough surfaces reflect. See
+// kernels/layout.h, Lobes.
 #ifndef GLINT_ENVIRONMENT_LOBE_ALBEDO_H
 #define GLINT_ENVIRONMENT_LOBE_ALBEDO_H
 
@@ -9,10 +9,10 @@
 extern "C" {
 #endif
 
-// Fills the table of GLINT_ALBEDO_VALUES floats.
+// Fills the table of lobes, GLINT_ALBEDO_VALUES floats.
 void glint_lobe_albedo_fill(float *table);
 
-// Fills that of sheen, as large; with 0 where it is not wanted.
+// Fills the table of sheen, of the same size; with 0 if not `wanted`.
 void glint_sheen_albedo_fill(bool wanted, float *table);
 
 #ifdef __cplusplus

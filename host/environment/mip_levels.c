@@ -1,4 +1,4 @@
-// Coarser levels of a cube map. See mip_levels.h.
+// Computes coarser levels of a cube map. See mip_levels.h.
 #include "environment/mip_levels.h"
 
 #include "base/half.h"
@@ -17,8 +17,8 @@ size_t glint_mip_levels_size(int edge)
     return size;
 }
 
-// Which texels of a row of the finer level a texel of the coarser one covers, and how much of each:
-// two or, where an edge of 2m + 1 texels becomes one of m, three.
+// The texels of the finer level's row that a coarser texel covers, and how much of each. A texel
+// covers two; if the edge shrinks from 2m + 1 to m, it covers three.
 typedef struct span {
     int first, count;
     double shares[3];
@@ -51,7 +51,7 @@ typedef struct halving {
     glint_cube *to;
 } halving;
 
-// Texel (i, j) of all faces of the coarser level.
+// Computes texel (i, j) of the coarser level for all faces.
 static void halve_texel(const halving *h, int i, int j, const span *columns, const span *rows)
 {
     double sums[GLINT_CUBE_FACES][4] = {{0}}, weights = 0;

@@ -1,4 +1,4 @@
-// Mending values that are no radiance. See radiance.h.
+// Replaces values that are no radiance. See radiance.h.
 #include "environment/radiance.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static bool is_radiance(float value)
 typedef struct mending {
     size_t count; // texels
     bool has_infinity;
-    float largest; // of the finite values
+    float largest; // largest finite value
 } mending;
 
 static void inspect(const glint_image *image, mending *found)
@@ -78,7 +78,8 @@ size_t glint_radiance_mend(const char *path, glint_image *image, glint_warnings 
 
 size_t glint_cube_mend(const char *name, glint_cube *cube, glint_warnings *warnings)
 {
-    // The faces above each other, with borders that hold nothing until they are filled anew.
+    // Treat the faces as one picture, stacked vertically. Borders are zero until they are filled
+    // again.
     static const double nothing[3] = {0};
     const int edge = cube->edge, pitch = edge + 2;
     for (int k = 0; k < 6 * pitch; k++) {

@@ -1,15 +1,15 @@
-// Recognising the layout of an environment file. See recognise.h.
+// Recognises the layout of an environment file. See recognise.h.
 #include "environment/recognise.h"
 
 #include <math.h>
 
-// Whole squares, so many across and so many down.
+// True if the picture is across × down whole squares.
 static bool is_shape(const glint_image *image, int across, int down)
 {
     return (long)image->width * down == (long)image->height * across && image->width % across == 0;
 }
 
-// The layout that the shape alone makes certain.
+// The layout if the shape alone decides it.
 static glint_layout layout_of_shape(const glint_image *image, const char **reason)
 {
     static const struct {
@@ -46,7 +46,7 @@ static glint_status refuse_shape(const char *path, const glint_image *image, gli
                       image->height, meaning);
 }
 
-// Squares as many as the layout has, of an edge that can be held.
+// Checks that the picture has as many squares as the layout, and that their edge is not too large.
 static glint_status check_faces(const char *path, const glint_image *image, glint_layout layout,
                                 glint_error *error)
 {
@@ -67,7 +67,7 @@ static glint_status check_faces(const char *path, const glint_image *image, glin
     return GLINT_OK;
 }
 
-// The disc that the user gave, or the one that touches the picture's nearer sides.
+// Places the disc that the user gave, or the disc that touches the picture's nearer sides.
 static glint_status place_disc(const char *path, const glint_layout_request *request,
                                glint_chart *chart, glint_error *error)
 {
@@ -82,7 +82,7 @@ static glint_status place_disc(const char *path, const glint_layout_request *req
         chart->radius = circle[2];
     }
     const double left = chart->center[0] - chart->radius, top = chart->center[1] - chart->radius;
-    const double slack = 0.5; // of a pixel: circles are measured by eye
+    const double slack = 0.5; // half a pixel: users measure circles by eye
     if (!(left >= -slack && top >= -slack && left + 2 * chart->radius <= width + slack &&
           top + 2 * chart->radius <= height + slack)) {
         return glint_fail(error, GLINT_BAD_INPUT,
@@ -93,7 +93,7 @@ static glint_status place_disc(const char *path, const glint_layout_request *req
     if (request->ball_distance > 0) {
         chart->distance = request->ball_distance;
     } else if (request->ball_fov > 0) {
-        // The rim is seen at the angle α, sin α = 1/distance.
+        // The rim appears at the angle α with sin α = 1/distance.
         const double half = request->ball_fov * GLINT_PI / 360;
         const double tangent = tan(half) * chart->radius / (0.5 * height);
         chart->distance = sqrt(1 + 1 / (tangent * tangent));
@@ -101,7 +101,7 @@ static glint_status place_disc(const char *path, const glint_layout_request *req
     return GLINT_OK;
 }
 
-// The layout, as it was asked for or as the file says. UNKNOWN where neither does.
+// The layout that the user asked for, or else that the file names. UNKNOWN if neither does.
 static glint_layout layout_of_facts(const glint_image *image, const glint_image_facts *facts,
                                     glint_layout asked, const char **reason)
 {
@@ -113,8 +113,8 @@ static glint_layout layout_of_facts(const glint_image *image, const glint_image_
         *reason = "cube map of a DDS";
         return GLINT_LAYOUT_FACES;
     }
-    // OpenImageIO notes the attribute under another name as well, which programs that know nothing
-    // of it copy from their input: then the shape tells which of the two it is.
+    // OpenImageIO also stores the attribute under another name. Programs that do not know it copy
+    // it from their input, so it may be wrong. Then the shape decides.
     *reason = "envmap attribute";
     return facts->envmap == GLINT_ENVMAP_NONE                             ? GLINT_LAYOUT_UNKNOWN
            : is_shape(image, 1, 6)                                        ? GLINT_LAYOUT_CUBE

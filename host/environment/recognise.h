@@ -1,4 +1,4 @@
-// Which layout an environment file has, and where its pixels look.
+// Recognises the layout of an environment file and makes its chart.
 #ifndef GLINT_ENVIRONMENT_RECOGNISE_H
 #define GLINT_ENVIRONMENT_RECOGNISE_H
 
@@ -11,22 +11,22 @@
 extern "C" {
 #endif
 
-// A single file as it was read.
+// The content of a single file.
 typedef struct glint_image_file {
     const char *name; // for messages
     glint_image image;
     glint_image_facts facts;
 } glint_image_file;
 
-// What it is.
+// The result: the chart and how glint knows it.
 typedef struct glint_recognised {
     glint_chart chart;
     const char *reason; // static text
 } glint_recognised;
 
-// What a single file is: what the user named, else what the envmap attribute says, else its shape.
-// GLINT_BAD_INPUT, naming the file and the choices, for a shape that does not suit or says too
-// little, and for a disc that leaves the picture.
+// Recognises a single file: the user's layout comes first, then the envmap attribute, then the
+// shape. Fails with GLINT_BAD_INPUT if the shape does not suit the layout or is ambiguous, or if a
+// disc leaves the picture. The message names the file and the choices.
 glint_status glint_layout_recognise(const glint_image_file *file,
                                     const glint_layout_request *request,
                                     glint_recognised *recognised, glint_error *error);

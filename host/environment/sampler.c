@@ -1,7 +1,7 @@
-// Look-ups in pictures of any layout, and resampling. See sampler.h.
+// Looks up pictures of any layout and resamples them. See sampler.h.
 //
-// Bilinear interpolation of a map that is twice differentiable errs by second-order terms of the
-// texels' spacing, over the edges of a cube too (see cube.c).
+// The error of bilinear interpolation in a twice differentiable map is of second order in the
+// spacing of texels, over the edges of a cube too (see cube.c).
 #include "environment/sampler.h"
 
 #include "base/parallel.h"
@@ -11,9 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-// Of a pixel, along both axes: every pixel of the source counts in reductions to 1:512. At poles
-// and rims, where a step may be any number of pixels long, it keeps the few that are there from
-// taking all the time.
+// The most look-ups for a pixel, over both axes. In reductions to 1:512 every pixel of the source
+// counts. At poles and rims a step may be any number of pixels long. The cap keeps the few pixels
+// there from taking all the time.
 #define TAPS_MAX (1 << 18)
 
 const glint_turn glint_turn_none = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -57,8 +57,8 @@ static void add_pixel(const glint_image *image, int i, int j, double weight, dou
     }
 }
 
-// Bilinear at a place in a picture; of the four pixels those count that are in it and have their
-// centres inside the disc; their weights make 1. False where none has any weight.
+// Interpolates bilinearly at a place in a picture. A pixel counts if it is in the picture and its
+// centre is inside the disc; the weights are normalised to 1. False if no pixel has weight.
 static bool mix_pixels(const glint_image *image, const glint_chart *disc, double x, double y,
                        double rgb[3])
 {
@@ -82,7 +82,8 @@ static bool mix_pixels(const glint_image *image, const glint_chart *disc, double
     return total > 0;
 }
 
-// At the rim there may be no pixel's centre inside: then the place moves inwards until there is.
+// At the rim, possibly no pixel's centre is inside. Then the place moves inwards until there is
+// one.
 static void look_up_disc(const glint_sampler *sampler, glint_vec3 direction, double rgb[3])
 {
     const glint_chart *chart = &sampler->chart;
@@ -120,7 +121,7 @@ void glint_sampler_look_up(const glint_sampler *sampler, glint_vec3 direction, d
 
 glint_turn glint_turn_of(double degrees, const char *flip)
 {
-    // What is asked for at d stood at d turned back, and before it was mirrored on the other side.
+    // The pixel asked for at d stood at d turned back and, before that, mirrored.
     const double angle = fmod(degrees, 360) * GLINT_PI / 180, c = cos(angle), s = sin(angle);
     glint_turn turn = {{{c, 0, -s}, {0, 1, 0}, {s, 0, c}}};
     for (int axis = 0; axis < 3; axis++) {
@@ -146,9 +147,9 @@ typedef struct resampling {
     glint_image *image;
 } resampling;
 
-// How many look-ups a pixel takes along one of its sides: as many as the side is pixels of the
-// source long, rounded. A bilinear look-up is good for one and a half. Where one end of the side is
-// not in the layout, the other half counts twice.
+// The number of look-ups along one side of a pixel: the length of the side in pixels of the source,
+// rounded. One bilinear look-up suffices for one and a half pixels. If one end of the side is
+// outside the layout, the other half counts twice.
 static int count_taps(const resampling *job, const glint_chart_place *high_at, glint_vec3 center)
 {
     glint_vec3 low = center, high = center;
@@ -168,7 +169,7 @@ static void resample_pixel(const resampling *job, int i, int j)
     glint_vec3 direction;
     float *pixel = glint_image_pixel(job->image, i, j);
     if (!glint_chart_direction(job->to, &(glint_chart_place){i, j, 0, 0}, &direction)) {
-        return; // 0, as it was made
+        return; // stays 0
     }
     int columns = count_taps(job, &(glint_chart_place){i, j, 0.5, 0}, direction);
     int rows = count_taps(job, &(glint_chart_place){i, j, 0, 0.5}, direction);

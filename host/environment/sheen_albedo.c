@@ -1,5 +1,5 @@
-// How much of a white environment sheen reflects. See lobe_albedo.h; the rule is 17 of
-// ARCHITECTURE.md, "Light transport".
+// Computes the share of a white environment that sheen reflects. See lobe_albedo.h and rule 17 of
+// docs/light_transport.md.
 #include "base/parallel.h"
 #include "base/vector.h"
 #include "environment/lobe_albedo.h"
@@ -10,7 +10,7 @@
 
 enum { RINGS = 48, SECTORS = 24 };
 
-// Fibres of a roughness.
+// Constants of fibres of one roughness.
 typedef struct fibres {
     double power; // 1/α
     double a, b, c, d, e;
@@ -32,14 +32,14 @@ static double fit(const fibres *f, double x)
     return f->a / (1 + f->b * pow(x, f->c)) + f->d * x + f->e;
 }
 
-// Λ.
+// Λ of the fibres' shadowing.
 static double hidden(const fibres *f, double cosine)
 {
     return exp(cosine < 0.5 ? fit(f, cosine) : 2 * fit(f, 0.5) - fit(f, 1 - cosine));
 }
 
-// ∫ D V n·l dl by rings of directions, which are dense where they graze the surface: the cosine of
-// a ring is the square of its place.
+// ∫ D V n·l dl, by rings of directions. The cosine of a ring is the square of its place, so rings
+// are dense near grazing angles.
 static double albedo_of(const fibres *f, double cosine, const double hidden_at[RINGS])
 {
     const double sine = sqrt(1 - cosine * cosine);
@@ -49,7 +49,7 @@ static double albedo_of(const fibres *f, double cosine, const double hidden_at[R
         const double beside = sqrt(1 - up * up);
         double spread = 0;
         for (int sector = 0; sector < SECTORS; sector++) {
-            const double turn = (sector + 0.5) / SECTORS * GLINT_PI; // half: symmetric
+            const double turn = (sector + 0.5) / SECTORS * GLINT_PI; // half: it is symmetric
             const double first = sine + beside * cos(turn), second = beside * sin(turn);
             const double across = first * first + second * second, along = up + cosine;
             spread += pow(across / (across + along * along), 0.5 * f->power);

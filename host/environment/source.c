@@ -1,6 +1,6 @@
-// Loading an environment's picture. See source.h.
+// Loads an environment's picture. See source.h.
 //
-// An alpha channel is not used: the colour is taken as it was multiplied by alpha.
+// The alpha channel is not used: colours stay multiplied by alpha.
 #include "environment/source.h"
 
 #include "environment/face_files.h"
@@ -69,7 +69,7 @@ static glint_status check_face(const glint_face_files *files, int face, const gl
     return GLINT_OK;
 }
 
-// Reads a face and puts it at its place in the strip, which the first one makes.
+// Reads a face and copies it to its place in the strip. The first face creates the strip.
 static glint_status read_face(const glint_face_files *files, int face, glint_image *strip,
                               glint_error *error)
 {
@@ -105,7 +105,7 @@ static glint_status check_asked(const char *path, bool is_folder, glint_layout a
                       is_folder ? "folder" : "pattern", glint_layout_name(asked));
 }
 
-// Reads the six into one picture.
+// Reads the six faces into one picture.
 static glint_status read_faces(const char *path, bool is_folder, glint_image *strip,
                                glint_error *error)
 {

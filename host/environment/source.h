@@ -1,4 +1,4 @@
-// An environment's picture as its files hold it, before it becomes a cube map.
+// Loads an environment's picture from its files, before it becomes a cube map.
 #ifndef GLINT_ENVIRONMENT_SOURCE_H
 #define GLINT_ENVIRONMENT_SOURCE_H
 
@@ -13,17 +13,17 @@ extern "C" {
 
 // Zero is valid: no picture.
 typedef struct glint_source {
-    glint_image image; // radiance; six files are one picture, of the layout FACES
+    glint_image image; // radiance; six files become one picture of layout FACES
     glint_chart chart;
-    const char *reason;   // how the layout was known; static text
-    size_t mended_texels; // NaN, infinite or negative ones, replaced (see radiance.h)
+    const char *reason;   // how glint knows the layout; static text
+    size_t mended_texels; // NaN, infinite or negative texels, replaced (see radiance.h)
 } glint_source;
 
-// As glint_environment_load, which makes a cube map of it.
+// Loads the picture of `path`. Arguments and errors: as glint_environment_load.
 glint_status glint_source_load(const char *path, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 
-// The same from a single file's content, whose image is taken over (and freed on failure, too).
+// Does the same with a single file's content. Takes the image over, and frees it on failure.
 glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 

@@ -1,12 +1,15 @@
-// The built-in studio: an environment for product pictures, computed from a formula. See studio.h.
+// Computes the built-in studio, an environment for product pictures, from a formula. See studio.h.
 //
-// What metal and glass show is what stands around them. So: a dark room, for contrast; a large soft
-// box overhead on the left, in front, as the key light; a tall cool strip on the right and a warm
-// one behind on the left, whose long reflections draw an object's outline; a lit backdrop straight
-// ahead, for glass to refract; a floor that darkens towards the viewer and meets the backdrop in a
-// horizon; and three small lamps, for the sparkle of cut stones. Lights 7 to 20, walls 0.03 to 0.6;
-// white paint is about 1 on the lit side. All edges are soft over several texels, so that the map
-// is free of steps at any zoom.
+// Metal and glass show their surroundings, so the studio has:
+//   a dark room, for contrast;
+//   the key light: a large soft box overhead, in front, on the left;
+//   a tall cool strip on the right and a warm strip behind on the left: their long reflections draw
+//   an object's outline;
+//   a lit backdrop straight ahead, for glass to refract;
+//   a floor that darkens towards the viewer and meets the backdrop in a horizon;
+//   three small lamps, for the sparkle of cut stones.
+// Lights have a radiance of 7 to 20, walls of 0.03 to 0.6. White paint is about 1 on the lit side.
+// All edges are soft over several texels, so the map has no steps at any zoom.
 #include "environment/studio.h"
 
 #include "base/parallel.h"
@@ -18,14 +21,14 @@
 
 typedef struct panel {
     double center[3];   // direction, not normalised
-    double half_width;  // in the plane at distance 1, sideways
-    double half_height; // … and upwards
+    double half_width;  // sideways, in the plane at distance 1
+    double half_height; // upwards, in the same plane
     double softness;    // width of the soft edge, in that plane
-    double falloff;     // what the light loses from the centre to the edge, [0, 1)
+    double falloff;     // share of the light lost from centre to edge, [0, 1)
     double color[3];    // radiance at the centre
 } panel;
 
-// Positions by the camera that looks along −Z: −X is on its left, +Z behind it.
+// Positions are for a camera that looks along −Z: −X is on its left, +Z behind it.
 static const panel panels[] = {
     // The key: a soft box.
     {{-0.64, 0.78, 0.42}, 0.44, 0.30, 0.08, 0.40, {9.6, 9.1, 8.3}},
@@ -42,8 +45,8 @@ static const panel panels[] = {
 };
 #define PANELS (sizeof panels / sizeof panels[0])
 
-// A panel's plane: unit vectors towards its centre, to its right and upwards; and the cosine of the
-// angle from the centre to its farthest corner, beyond which it has no light.
+// A panel's plane: unit vectors towards its centre, to its right and upwards. `farthest` is the
+// cosine of the angle from the centre to the farthest corner; beyond it the panel has no light.
 typedef struct frame {
     glint_vec3 forward, right, up;
     double farthest;
@@ -80,7 +83,7 @@ static frame frame_of(const panel *which)
     return made;
 }
 
-// How much of the panel's light comes along d, [0, 1].
+// The share of the panel's light along d, [0, 1].
 static double panel_share(const panel *which, const frame *plane, glint_vec3 d)
 {
     double ahead = glint_vec3_dot(d, plane->forward);
@@ -97,7 +100,7 @@ static double panel_share(const panel *which, const frame *plane, glint_vec3 d)
     return inside * (1.0 - which->falloff * (far < 1.0 ? far : 1.0));
 }
 
-// The room without its lights.
+// Draws the room without its lights.
 static void room(glint_vec3 d, double rgb[3])
 {
     // The backdrop glows around a point a little above the horizon, straight ahead.

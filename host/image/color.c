@@ -1,4 +1,4 @@
-// The sRGB transfer function (IEC 61966-2-1:1999). See color.h.
+// Computes the sRGB transfer function (IEC 61966-2-1:1999). See color.h.
 #include "image/color.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-// Where the straight piece meets the power.
+// The point where the linear part meets the power.
 #define CODE_KNEE 0.04045
 #define LINEAR_KNEE 0.0031308
 
@@ -33,15 +33,15 @@ float glint_linear_to_srgb(float linear)
     return (float)(l <= LINEAR_KNEE ? 12.92 * l : 1.055 * pow(l, 1.0 / 2.4) - 0.055);
 }
 
-// The codes by the upper bits of the float: sign, exponent and 8 bits of the mantissa name a range
-// so narrow (2⁻⁸ of the value, at most half a code wide) that it holds no more than one threshold
-// between two codes. The entry is the code at the range's lower end; one comparison finishes.
+// Codes, indexed by the upper bits of the float: sign, exponent and 8 bits of the mantissa. Such a
+// range is 2⁻⁸ of the value, at most half a code wide, so it holds at most one threshold between
+// two codes. The entry is the code at the range's lower end. One comparison finishes the look-up.
 #define KEPT_BITS 8
 #define DROPPED_BITS (23 - KEPT_BITS)
 #define FIRST_EXPONENT (127 - 13) // 2⁻¹³ is below the first threshold, 1.5e-4
 #define TABLE_SIZE (13 << KEPT_BITS)
 static unsigned char code_at[TABLE_SIZE];
-static float threshold[257]; // threshold[c]: the smallest float that gets code c
+static float threshold[257]; // threshold[c]: the smallest float with code c
 static pthread_once_t table_once = PTHREAD_ONCE_INIT;
 
 static void fill_table(void)

@@ -1,4 +1,4 @@
-// Decoding image files in another process: glint's side. See decoder.h and decoding.h.
+// Decodes image files in another process: glint's side. See decoder.h and decoding.h.
 #include "image/decoder.h"
 
 #include "image/image_io.h"
@@ -31,10 +31,10 @@
 #define PICTURE_BYTES_LEAST (512 * MIB)
 #define PICTURE_BYTES_EACH 64
 // Decoders hold up to two copies of a picture (a progressive JPEG's coefficients, a TIFF's strip),
-// and what they need for themselves.
+// and memory of their own.
 #define PICTURE_COPIES 2
 #define MEMORY_BYTES (128 * MIB)
-// A second decodes 2 MiB of a file, at the slowest.
+// A decoder decodes at least 2 MiB of a file in a second.
 #define CPU_SECONDS_LEAST 5
 #define FILE_BYTES_A_SECOND (2 * MIB)
 // Other work may keep the cores busy.
@@ -57,7 +57,7 @@ glint_decode_limits glint_decoder_limits(uint64_t file_bytes)
     };
 }
 
-static atomic_int threads_each; // as glint_decoder_use_threads has it
+static atomic_int threads_each; // set by glint_decoder_use_threads
 
 // ---- The decoder's process ----------------------------------------------------------------------
 
@@ -66,12 +66,12 @@ static struct {
     pthread_mutex_t lock;
     pid_t owner;   // the process that started the decoder; a fork of it must start its own
     pid_t process; // the decoder
-    int socket;    // to it; meaningful where owner is this process
-    bool is_ready; // it has said so
+    int socket;    // to the decoder; valid if owner is this process
+    bool is_ready; // the decoder has reported that it is ready
 } decoder = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-// The decoder is installed where the codec is (CMakeLists.txt), and stands beside the program, or
-// above it, in the build.
+// The decoder is installed beside the codec (CMakeLists.txt). In the build it is beside the
+// program, or above it.
 static bool find_program(char path[PATH_MAX])
 {
     static const char *const places[] = {"/../" GLINT_LIBRARY_FOLDER "/", "/", "/../"};
@@ -91,8 +91,8 @@ static bool find_program(char path[PATH_MAX])
     return false;
 }
 
-// Starts `path` with `socket` as its only descriptor beside /dev/null. Signals of a terminal or a
-// batch system are glint's to deal with: they stay blocked there.
+// Starts `path`. Its only descriptors are `socket` and /dev/null. Signals stay blocked there: glint
+// handles the signals of a terminal or a batch system.
 static int spawn(const char *path, int socket, pid_t *process)
 {
     posix_spawn_file_actions_t files;
@@ -122,7 +122,7 @@ static int spawn(const char *path, int socket, pid_t *process)
     return fault;
 }
 
-// Under the lock. Does nothing where the decoder runs.
+// Starts the decoder unless it runs. The caller holds the lock.
 static glint_status start(glint_error *error)
 {
     if (decoder.owner == getpid()) {
@@ -151,7 +151,7 @@ static glint_status start(glint_error *error)
     return GLINT_OK;
 }
 
-// Under the lock.
+// Stops the decoder. The caller holds the lock.
 static int stop(void)
 {
     int how = 0;
@@ -163,7 +163,8 @@ static int stop(void)
     return how;
 }
 
-// One answer; false where the other end is gone, or does not answer for so long (−1: for ever).
+// Receives one answer. False if the other end is gone, or does not answer in time (−1: wait for
+// ever).
 static bool receive(int socket, int milliseconds, glint_decode_answer *answer)
 {
     struct pollfd waited = {.fd = socket, .events = POLLIN};
@@ -176,7 +177,7 @@ static bool receive(int socket, int milliseconds, glint_decode_answer *answer)
     return length == (ssize_t)sizeof *answer;
 }
 
-// Under the lock. Waits until the decoder has loaded its libraries.
+// Waits until the decoder has loaded its libraries. The caller holds the lock.
 static glint_status await_ready(glint_error *error)
 {
     glint_decode_answer *answer = malloc(sizeof *answer);
@@ -199,7 +200,7 @@ static glint_status await_ready(glint_error *error)
                       WIFEXITED(how) ? WEXITSTATUS(how) : -1);
 }
 
-// The descriptors that go with a request.
+// The descriptors of a request.
 typedef struct descriptors {
     int files[GLINT_DECODE_DESCRIPTORS];
     size_t count;
@@ -230,7 +231,7 @@ static bool send_request(int socket, const glint_decode_request *request, const 
     return sent == (ssize_t)sizeof *request;
 }
 
-// Under the lock. A decoder that is gone is started once more.
+// Submits a request. If the decoder is gone, starts it once more. The caller holds the lock.
 static glint_status submit(const glint_decode_request *request, const descriptors *given,
                            glint_error *error)
 {
@@ -248,7 +249,7 @@ static glint_status submit(const glint_decode_request *request, const descriptor
 
 // ---- Answers ------------------------------------------------------------------------------------
 
-// What to do about a file that costs too much.
+// Advice for a file that exceeds its limits.
 static const char *way_out(const glint_decode_request *request)
 {
     return request->is_mesh ? "export it without Draco" : "give --allow-large-images";
@@ -318,7 +319,7 @@ static glint_status take(const glint_decode_request *request, const glint_decode
     return GLINT_OK;
 }
 
-// `image` is a file with the image's bytes; −1: the decoder opens the path.
+// Asks the decoder. `image` is a file with the image's bytes; −1: the decoder opens the path.
 static glint_status ask(const glint_decode_request *request, int image, glint_stored *stored,
                         glint_error *error)
 {
@@ -361,7 +362,7 @@ static bool write_all(int file, const char *bytes, size_t count)
     return true;
 }
 
-// A file with the bytes of an image in memory; −1 where there is none to be had.
+// Makes a file with the bytes of an image in memory; −1 if that fails.
 static int open_bytes(const glint_image_source *source)
 {
     const int file = memfd_create("glint image", MFD_CLOEXEC);

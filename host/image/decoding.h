@@ -1,12 +1,11 @@
-// What glint and its decoder say to each other. The decoder is a program of its own
-// (host/decoder/). It decodes image files, so that a hostile file meets neither glint's memory nor
-// its threads.
+// Defines the messages between glint and its decoder, a program of its own (host/decoder/). The
+// decoder decodes image files, so that a hostile file meets neither glint's memory nor its threads.
 //
-// glint starts the decoder once, and talks to it over a socket of packets. The decoder forks a
-// child for each file: no child has seen another file. With each request glint sends two
-// descriptors: a socket for the answer, and a memory file. A third is sent if the image lies in
-// memory: a file with its bytes. The child puts the values into the memory file, and answers. If
-// the child dies, the decoder says how.
+// glint starts the decoder once and talks to it over a socket of packets. The decoder forks a child
+// for each file, so no child has seen another file. With each request glint sends two descriptors:
+// a socket for the answer, and a memory file. If the image lies in memory, it sends a third: a file
+// with its bytes. The child puts the values into the memory file and answers. If the child dies,
+// the decoder says how.
 #ifndef GLINT_IMAGE_DECODING_H
 #define GLINT_IMAGE_DECODING_H
 
@@ -21,27 +20,27 @@ extern "C" {
 
 #define GLINT_DECODER_SOCKET 3 // the decoder's descriptor of the socket to glint
 #define GLINT_DECODE_PATH 4096
-#define GLINT_DECODE_DESCRIPTORS 3 // sent with a request, at most
+#define GLINT_DECODE_DESCRIPTORS 3 // most descriptors of a request
 #define GLINT_PICTURE_CHANNELS_MAX 4096
 #define GLINT_DECODE_NAMES_MAX (UINT64_C(16) << 20) // bytes of channels' names
 
-// What a file may cost. 0: no limit.
+// Limits for one file. 0: no limit.
 typedef struct glint_decode_limits {
-    uint64_t picture_bytes; // of the picture as floats
-    uint64_t memory_bytes;  // address space beside the program's own
+    uint64_t picture_bytes; // of the picture in floats
+    uint64_t memory_bytes;  // address space, beside the program's own
     uint32_t cpu_seconds;   // of all threads together
-    uint32_t seconds;       // on the clock
+    uint32_t seconds;       // wall-clock time
 } glint_decode_limits;
 
 typedef struct glint_decode_request {
-    char path[GLINT_DECODE_PATH]; // of an image in memory: its name for messages
+    char path[GLINT_DECODE_PATH]; // for an image in memory: its name in messages
     char plugin[16];              // OpenImageIO's name of the format
     uint64_t file_bytes;          // the file's size
     glint_decode_limits limits;
-    int32_t file;         // set by the decoder: the image in memory; −1: the path is read
+    int32_t file;         // the decoder sets it: the image in memory; −1: read the path
     int32_t threads;      // 0: one for each core
-    int32_t is_mesh;      // a mesh of Draco's in the memory file (mesh_decoding.h), no image
-    int32_t all_channels; // an EXR's channels by name, instead of a picture
+    int32_t is_mesh;      // decode a Draco mesh in the memory file (mesh_decoding.h)
+    int32_t all_channels; // decode all channels of an EXR, instead of a picture
 } glint_decode_request;
 
 typedef enum glint_transfer {
@@ -53,10 +52,10 @@ typedef enum glint_transfer {
 // A picture as its file stores it.
 typedef struct glint_stored_facts {
     int32_t width, height, channels; // pictures have 1 to 4 channels
-    int32_t code_bits;               // 8 or 16: whole numbers; 0: floats
+    int32_t code_bits;               // 8 or 16: integers; 0: floats
     int32_t transfer;                // a glint_transfer
-    float gamma;                     // of GLINT_TRANSFER_POWER: linear = code^gamma
-    int32_t is_unassociated;         // alpha is stored beside the colour, not multiplied in
+    float gamma;                     // for GLINT_TRANSFER_POWER: linear = code^gamma
+    int32_t is_unassociated;         // alpha is not multiplied into the colour
     int32_t orientation;             // 1 to 8 as in TIFF and EXIF
     int32_t envmap;                  // a glint_envmap
     int32_t is_direct3d_cube;
@@ -68,14 +67,14 @@ typedef enum glint_decode_kind {
     GLINT_DECODER_DIED,     // a child ended; if it did not answer, this is the answer
 } glint_decode_kind;
 
-// All values are checked before they are believed: a child may have gone wrong in any way.
+// glint checks all values before it uses them: a child may have failed in any way.
 typedef struct glint_decode_answer {
     int32_t kind;   // a glint_decode_kind
-    int32_t status; // a glint_status; of GLINT_DECODER_DIED, what waitpid says
+    int32_t status; // a glint_status; for GLINT_DECODER_DIED, waitpid's status
     char message[GLINT_MESSAGE_CAPACITY];
     glint_stored_facts facts;
     uint64_t value_bytes; // from the beginning of the memory file
-    uint64_t name_bytes;  // after them: the channels' names, each with its zero
+    uint64_t name_bytes;  // after the values: the channels' names, each with its zero
 } glint_decode_answer;
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Image formats. See formats.h.
+// Recognises image formats. See formats.h.
 #include "image/formats.h"
 
 #include "base/regular_file.h"
@@ -13,12 +13,12 @@
 
 // ---- What is read -------------------------------------------------------------------------------
 
-// How files of a format begin.
+// The first bytes of a format's files.
 typedef struct magic {
     const char *bytes;
     size_t offset, length;
     const char *name;
-    const char *plugin; // NULL: known and not read
+    const char *plugin; // NULL: known, but glint does not read it
 } magic;
 
 static const magic magics[] = {
@@ -60,7 +60,7 @@ static const magic *magic_of(const char *start, size_t length)
     return NULL;
 }
 
-// Sets the plugin by how the file starts.
+// Sets the plugin by the file's first bytes.
 static glint_status recognise(const char *start, size_t length, glint_image_source *source,
                               glint_error *error)
 {
@@ -128,11 +128,11 @@ const glint_written_format *glint_image_written_format(const char *path)
     return NULL;
 }
 
-// What may be given as compression: words, or a whole number in [low, high].
+// The choices for compression: words, or an integer in [low, high].
 typedef struct compressions {
     const char *words[11]; // NULL at the end
     int low, high;
-    const char *said; // for the message; NULL: nothing may be given
+    const char *said; // for messages; NULL: no compression may be given
 } compressions;
 
 static const compressions compressions_of[] = {

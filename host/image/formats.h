@@ -1,4 +1,4 @@
-// Image formats: which file is of which, and what may be written.
+// Recognises the formats of image files, and lists the formats to write.
 #ifndef GLINT_IMAGE_FORMATS_H
 #define GLINT_IMAGE_FORMATS_H
 
@@ -10,20 +10,20 @@
 extern "C" {
 #endif
 
-// A file to be read, of one of the formats that are, or its bytes in memory.
+// A file of a known format to read, or its bytes in memory.
 typedef struct glint_image_source {
-    const char *path;   // borrowed; of an image in memory: its name for messages
+    const char *path;   // borrowed; for an image in memory: its name in messages
     const char *plugin; // OpenImageIO's name of the format
-    uint64_t size;      // of the file, bytes
-    const void *bytes;  // [size], borrowed; NULL: the path is read
+    uint64_t size;      // of the file, in bytes
+    const void *bytes;  // [size], borrowed; NULL: read the path
 } glint_image_source;
 
-// Finds out what the file at `path` is, by its content. Errors: GLINT_BAD_INPUT with the file's
-// name where it is no regular file, empty, or of no format that is read.
+// Recognises the file at `path` by its content. Errors: GLINT_BAD_INPUT with the file's name, if it
+// is no regular file, is empty, or has no format that glint reads.
 glint_status glint_image_find_source(const char *path, glint_image_source *source,
                                      glint_error *error);
 
-// The same of a file's bytes. `name` stands for it in messages. Both must outlive the source.
+// Recognises a file's bytes. `name` is its name in messages. Both must outlive the source.
 glint_status glint_image_find_source_in_memory(const char *name, const void *bytes, uint64_t size,
                                                glint_image_source *source, glint_error *error);
 
@@ -41,10 +41,11 @@ typedef struct glint_written_format {
     const char *plugin; // OpenImageIO's name of the format
 } glint_written_format;
 
-// By the extension of `path`, whatever its case; NULL where that names none.
+// The format for the extension of `path`, in any case; NULL if there is none.
 const glint_written_format *glint_image_written_format(const char *path);
 
-// GLINT_USAGE (naming what may be given) unless `compression` suits the format. NULL does.
+// Fails with GLINT_USAGE, naming the choices, if `compression` does not suit the format. NULL suits
+// all.
 glint_status glint_image_check_compression(const char *path, const glint_written_format *format,
                                            const char *compression, glint_error *error);
 

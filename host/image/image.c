@@ -1,4 +1,4 @@
-// An image in memory. See image.h.
+// Implements an image in memory. See image.h.
 #include "image/image.h"
 
 #include "base/memory.h"
@@ -7,7 +7,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-// Gives `made`, of which all but the pixels is set, its pixels; *image becomes it, or empty.
+// Allocates the pixels of `made`, whose other members are set. *image becomes it, or empty on
+// failure.
 static glint_status make(glint_image made, void *(*allocate)(size_t, size_t), glint_image *image,
                          glint_error *error)
 {

@@ -1,4 +1,4 @@
-// An image in memory: rows of float pixels.
+// Defines an image in memory: rows of float pixels.
 #ifndef GLINT_IMAGE_IMAGE_H
 #define GLINT_IMAGE_IMAGE_H
 
@@ -18,11 +18,11 @@ typedef struct glint_image {
     float *pixels;     // [height][width][channels], owned; linear Rec.709 radiance
 } glint_image;
 
-// Zeroed pixels. Fails on sizes that are not positive or whose product overflows.
+// Makes an image of zeros. Fails if a size is not positive or if their product overflows.
 glint_status glint_image_create(int width, int height, int channels, glint_image *image,
                                 glint_error *error);
-// The same, but keeps the pixels that *image has (zero, or an image) where it is of that shape and
-// aligned already, and leaves new ones unset. On failure *image is empty.
+// Makes an image whose pixels are not set. *image is zero, or an image. Keeps its pixels if its
+// shape fits and they are aligned. On failure *image is empty.
 glint_status glint_image_reuse(int width, int height, int channels, glint_image *image,
                                glint_error *error);
 void glint_image_free(glint_image *image);
@@ -52,12 +52,12 @@ static inline void glint_rgb_mix(const double a[3], const double b[3], double we
     }
 }
 
-// How many pixels have a value that is NaN or infinite, or overflow when their values are added.
+// Counts the pixels with a NaN or infinite value, or whose values overflow when added.
 size_t glint_image_count_nonfinite(const glint_image *image);
 
-// Puts a picture behind one that is premultiplied: front + (1 − alpha)·back, linear, alpha 1. Where
-// the front covers all nothing of the back counts, not even what is not finite. The two have the
-// same size; the back's alpha says nothing more than its premultiplied colour does.
+// Puts a picture behind a premultiplied picture: front + (1 − alpha)·back, linear, alpha 1. Where
+// the front is opaque, the back does not count, not even if it is not finite. Both have the same
+// size. The back's alpha is ignored: its colour is premultiplied.
 void glint_image_put_behind(const glint_image *front, const glint_image *back);
 
 static inline bool glint_image_has_alpha(const glint_image *image)

@@ -1,4 +1,5 @@
-// Image files. The decoder reads them (decoder.h), the codec writes them (codec.h). See image_io.h.
+// Reads image files with the decoder (decoder.h) and writes them with the codec (codec.h). See
+// image_io.h.
 #include "image/image_io.h"
 
 #include "base/memory.h"
@@ -21,10 +22,10 @@
 // `lock` guards the other members.
 static struct {
     pthread_mutex_t lock;
-    const glint_codec *codec; // NULL: not tried yet, or not to be had
+    const glint_codec *codec; // NULL: not loaded yet, or not available
     bool is_tried;
-    char fault[GLINT_MESSAGE_CAPACITY]; // why it is not to be had
-    int threads;                        // as asked for; 0: one for each core
+    char fault[GLINT_MESSAGE_CAPACITY]; // why the codec is not available
+    int threads;                        // requested number; 0: one for each core
 } loaded = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 // The program's run path says where the library is. RTLD_LOCAL hides the symbols of OpenImageIO's
@@ -124,7 +125,7 @@ glint_status glint_image_read(const char *path, glint_image *image, glint_image_
     return status;
 }
 
-// The channels' names, from texts that end at `end`, each with a zero of its own.
+// Splits the channels' names. The texts end at `end`; each has its own final zero.
 static glint_status split_names(const char *path, const char *texts, const char *end,
                                 glint_channels *channels, glint_error *error)
 {

@@ -1,5 +1,5 @@
-// Image files, through OpenImageIO: another process reads them (decoder.h), a library that is
-// loaded when first needed writes them (codec.h).
+// Reads and writes image files through OpenImageIO. Another process reads them (decoder.h). A
+// library, loaded when first needed, writes them (codec.h).
 #ifndef GLINT_IMAGE_IMAGE_IO_H
 #define GLINT_IMAGE_IMAGE_IO_H
 
@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-// What OpenEXR's standard attribute `envmap` says of a file.
+// The value of OpenEXR's standard attribute `envmap`.
 typedef enum glint_envmap {
     GLINT_ENVMAP_NONE,
     GLINT_ENVMAP_LATLONG,
@@ -23,26 +23,28 @@ typedef enum glint_envmap {
 
 typedef struct glint_image_facts {
     glint_envmap envmap;
-    bool was_encoded;      // 8- or 16-bit integers with the sRGB curve, linearised on reading
-    bool is_direct3d_cube; // DDS: six faces above each other, +X −X +Y −Y +Z −Z of Direct3D
+    bool was_encoded; // 8- or 16-bit integers with the sRGB curve, linearised on reading
+    // DDS: six faces stacked vertically, +X −X +Y −Y +Z −Z of Direct3D.
+    bool is_direct3d_cube;
 } glint_image_facts;
 
-// Reads exr, hdr, png, tiff, dds, jpeg or webp as linear Rec.709 with 1 to 4 channels. Files with
-// more have R, G, B, A by name. Integer files tagged or assumed sRGB are linearised here, before
-// any filtering; alpha is premultiplied, orientation applied. The content decides what the file is,
-// not its extension. Another process decodes it (decoder.h), within limits on time and memory.
-// Errors: GLINT_BAD_INPUT with the file's name and what is wrong. `facts` may be NULL.
+// Reads exr, hdr, png, tiff, dds, jpeg or webp as linear Rec.709 with 1 to 4 channels. From files
+// with more channels it takes R, G, B, A by name. It linearises integer files that are tagged or
+// assumed sRGB, before any filtering. It premultiplies alpha and applies the orientation. The
+// content decides the format, not the extension. Another process decodes the file (decoder.h),
+// within limits on time and memory. Errors: GLINT_BAD_INPUT with the file's name and the fault.
+// `facts` may be NULL.
 glint_status glint_image_read(const char *path, glint_image *image, glint_image_facts *facts,
                               glint_error *error);
 
-// All channels of an EXR, whatever their names, as they are. Zero is valid: none.
+// All channels of an EXR, unconverted. Zero is valid: no channels.
 typedef struct glint_channels {
     int width, height, count;
     char **names;  // [count], owned
     float *values; // [height][width][count], owned
 } glint_channels;
 
-// Errors: GLINT_BAD_INPUT with the file's name, also for files of other formats.
+// Reads all channels. Errors: GLINT_BAD_INPUT with the file's name, also for other formats.
 glint_status glint_image_read_channels(const char *path, glint_channels *channels,
                                        glint_error *error);
 void glint_channels_free(glint_channels *channels);
@@ -63,47 +65,49 @@ typedef struct glint_metadata {
     float matrix[16];
 } glint_metadata;
 
-// A further channel of an EXR, of 32-bit floats whatever the picture's are. (Not UINT: readers
-// disagree on it. OpenEXR turns 5 into 5.0, OpenImageIO into 5/(2³² − 1).)
+// An additional channel of an EXR, always of 32-bit floats. (Not UINT, because readers disagree:
+// OpenEXR turns 5 into 5.0, OpenImageIO into 5/(2³² − 1).)
 typedef struct glint_channel {
-    const char *name;    // "depth.surfaces"; none of the picture's R, G, B, A and Y
+    const char *name;    // "depth.surfaces"; not the picture's R, G, B, A or Y
     const float *values; // [height][width], borrowed
 } glint_channel;
 
 // All-zero means the defaults.
 typedef struct glint_write_options {
-    bool exr_float;          // EXR: 32-bit float channels instead of half
-    const char *compression; // EXR: none rle zip zips piz pxr24 b44 b44a dwaa dwab; TIFF: none lzw
-                             // zip packbits; PNG: a level "0".."9"; JPEG: a quality "1".."100".
-                             // NULL: the format's default
-    float exposure;          // stops, applied to PNG, JPEG and TIFF only; EXR and HDR stay linear
-    glint_tone tone;         // likewise, after exposure
+    bool exr_float; // EXR: 32-bit float channels instead of half
+    // EXR: none rle zip zips piz pxr24 b44 b44a dwaa dwab; TIFF: none lzw zip packbits; PNG: a
+    // level "0".."9"; JPEG: a quality "1".."100". NULL: the format's default.
+    const char *compression;
+    float exposure;                 // stops; only for PNG, JPEG and TIFF: EXR and HDR stay linear
+    glint_tone tone;                // only for PNG, JPEG and TIFF; after exposure
     const glint_metadata *metadata; // EXR: typed; PNG, JPEG and TIFF: as text, without matrices
     size_t metadata_count;
-    glint_envmap envmap;           // EXR: written as the standard attribute
-    const glint_channel *channels; // EXR: written after the picture's; other formats leave them out
+    glint_envmap envmap; // EXR: written as the standard attribute
+    // EXR: additional channels, written after the picture's. Other formats leave them out.
+    const glint_channel *channels;
     size_t channel_count;
 } glint_write_options;
 
-// True if the path's extension is one that can be written: exr hdr png jpg jpeg tif tiff.
+// True if glint can write the path's extension: exr hdr png jpg jpeg tif tiff.
 bool glint_image_can_write(const char *path);
 
-// Whether the path's extension names a format that is written linear: exr hdr.
+// True if the path's extension names a linear format: exr hdr.
 bool glint_image_stays_linear(const char *path);
 
-// GLINT_USAGE (naming what may be given) when the extension cannot be written or the compression
-// does not suit the format. Called before any work is done.
+// Fails with GLINT_USAGE, naming the choices, if glint cannot write the extension or if the
+// compression does not suit the format. Call it before any work.
 glint_status glint_image_check_output(const char *path, const glint_write_options *options,
                                       glint_error *error);
 
-// Writes linear premultiplied pixels. EXR and HDR as they are; PNG, JPEG and 8-bit TIFF after
-// exposure, unpremultiplied where the format keeps alpha, the tone curve and the sRGB curve (HDR
-// and JPEG keep no alpha: what is written is the premultiplied colour, over black). The file
-// appears whole or not at all: a temporary name in the same folder, fsync, rename; stale
-// temporaries of the same output whose process is gone are removed. A symbolic link is followed and
-// stays; devices and pipes are refused. Values that a format cannot hold: see image_write.cpp.
-// `options` may be NULL. Errors: GLINT_OUTPUT_FAILED with the file's name and the cause; nothing is
-// left behind.
+// Writes linear premultiplied pixels. EXR and HDR get them unchanged. PNG, JPEG and 8-bit TIFF get
+// exposure, then unpremultiplied colours if the format keeps alpha, then the tone curve and the
+// sRGB curve. (HDR and JPEG keep no alpha: they get the premultiplied colour, over black.)
+//
+// The file appears whole or not at all: a temporary name in the same folder, fsync, rename. Stale
+// temporaries of dead processes are removed. A symbolic link is followed and stays; devices and
+// pipes are refused. host/codec/encode.cpp says what becomes of values that a format cannot hold.
+// `options` may be NULL. Errors: GLINT_OUTPUT_FAILED with the file's name and the cause; then no
+// file is left behind.
 glint_status glint_image_write(const char *path, const glint_image *image,
                                const glint_write_options *options, glint_error *error);
 
@@ -113,21 +117,21 @@ typedef struct glint_encoded {
     size_t size;
 } glint_encoded;
 
-// The bytes of the file that glint_image_write would put at `path`, of which the extension counts
-// alone. Errors: as glint_image_write, GLINT_OUT_OF_MEMORY.
+// Encodes the file that glint_image_write would write to `path`. Only the extension of `path`
+// matters. Errors: as glint_image_write, GLINT_OUT_OF_MEMORY.
 glint_status glint_image_encode(const char *path, const glint_image *image,
                                 const glint_write_options *options, glint_encoded *encoded,
                                 glint_error *error);
 
 // glint_image_load_ahead starts a thread that loads OpenImageIO, for a caller who writes an image
-// later. The caller must call glint_image_end_loading, which joins the thread, before the
-// process exits: exit handlers unload libraries, and must not while the thread loads them. Both
-// functions belong to the main thread.
+// later. The caller must call glint_image_end_loading, which joins the thread, before the process
+// exits. Exit handlers unload libraries, and must not do so while the thread loads them. Only the
+// main thread calls both.
 void glint_image_load_ahead(void);
 void glint_image_end_loading(void);
 
-// How many threads each read or write may use: 0 is one for each core, as it begins; 1 the caller's
-// alone, for those who encode several images side by side.
+// Sets the number of threads for each read or write. 0, the default, is one for each core. 1 is the
+// caller's thread alone, for callers that encode several images in parallel.
 void glint_image_use_threads(int count);
 
 #ifdef __cplusplus

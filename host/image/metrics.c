@@ -1,4 +1,4 @@
-// How far a picture is from the one that it should be. See metrics.h.
+// Measures the difference between a picture and its reference. See metrics.h.
 #include "image/metrics.h"
 
 #include "base/memory.h"
@@ -13,8 +13,7 @@ static size_t pixel_count(const glint_image *image)
     return (size_t)image->width * (size_t)image->height;
 }
 
-// R, G, B and alpha of a pixel, whatever the channels: grey three times, 1 for an alpha that is
-// not there.
+// R, G, B and alpha of a pixel of any image. Grey is repeated; a missing alpha is 1.
 typedef struct rgba {
     float rgb[3], alpha;
 } rgba;
@@ -55,7 +54,7 @@ static glint_pixel_error error_between(const rgba *image, const rgba *reference,
         double difference = (double)image->rgb[k] - (double)reference->rgb[k];
         double scale = fmax(fabs((double)reference->rgb[k]), fabs(mean));
         error.difference[k] = difference;
-        // Equal is equal, also where the scale is 0.
+        // Equal values have no error, even if the scale is 0.
         error.relative[k] = difference != 0 ? difference / scale : 0;
         error.absolute_most = fmax(error.absolute_most, fabs(difference));
         error.relative_most = fmax(error.relative_most, fabs(error.relative[k]));
@@ -102,10 +101,10 @@ static void count_defects(const rgba *image, const rgba *reference, glint_metric
     metrics->in_either.infinite += a.infinite | b.infinite;
 }
 
-// What is added up over the pixels that are compared.
+// Sums over the compared pixels.
 typedef struct tally {
     double squares, magnitudes; // over R, G and B
-    double *differences;        // the largest of each pixel, [compared]
+    double *differences;        // largest difference of each pixel, [compared]
 } tally;
 
 static void set_worst(const rgba *image, const rgba *reference, size_t pixel, int width,

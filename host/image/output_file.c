@@ -1,11 +1,11 @@
-// Bytes to a file that appears whole or not at all. See output_file.h.
+// Writes a file that appears whole or not at all. See output_file.h.
 //
-// The temporary is named .NAME.PID-HOST-N.tmp.EXT: PID tells whether its process still lives, HOST
-// (a hash of the machine's name) keeps machines that share a folder from judging each other's
-// processes, N tells the temporaries of one process apart.
+// The temporary is named .NAME.PID-HOST-N.tmp.EXT. PID tells whether its process still lives. HOST,
+// a hash of the machine's name, separates machines that share a folder: they cannot judge each
+// other's processes. N separates the temporaries of one process.
 //
-// Limits: no more than SLOTS temporaries in flight are known to the signal handler, and none whose
-// path is longer than SLOT_PATH; such a one is left for the next run to remove.
+// Limits: the signal handler knows at most SLOTS temporaries in flight, with paths up to SLOT_PATH.
+// The next run removes the others.
 #include "image/output_file.h"
 
 #include <dirent.h>
@@ -26,19 +26,19 @@
 
 #define SLOTS (GLINT_OUTPUT_FILES_AT_ONCE + 8)
 #define SLOT_PATH 1024
-#define OPENING_MS 1000 // the most that discarding waits for a file that is being created
+#define OPENING_MS 1000 // longest wait of discarding for a file under creation
 
 // ---- Temporaries in flight ----------------------------------------------------------------------
 
 typedef enum slot_state {
     SLOT_EMPTY,
-    SLOT_OPENING, // the file may exist any moment; the thread that creates it blocks all signals
-    SLOT_THERE,   // it exists
+    SLOT_OPENING, // the file may appear any moment; its thread blocks all signals
+    SLOT_THERE,   // the file exists
 } slot_state;
 
 typedef struct slot {
     atomic_int state; // a slot_state
-    bool taken;       // under slots_lock
+    bool taken;       // guarded by slots_lock
     char path[SLOT_PATH];
 } slot;
 
@@ -47,8 +47,8 @@ static pthread_mutex_t slots_lock = PTHREAD_MUTEX_INITIALIZER;
 static atomic_int unregistered; // temporaries in flight without a slot
 static atomic_int discarding;
 
-// False once temporaries are discarded: a path must not change while it is read. *found is NULL
-// when there is no room: the file is then counted in `unregistered`.
+// Takes a slot. Returns false once temporaries are discarded, because a path must not change while
+// it is read. If there is no slot, *found is NULL and `unregistered` counts the file.
 static bool slot_take(const char *path, slot **found)
 {
     *found = NULL;
@@ -96,7 +96,8 @@ void glint_output_file_discard_all(void)
 {
     atomic_store(&discarding, 1);
     for (int i = 0; i < SLOTS; i++) {
-        // Another thread is between its look at `discarding` and the file: this one has no handler.
+        // A thread may be between its check of `discarding` and the file's creation. Signals are
+        // blocked there, so wait.
         for (int waited = 0; waited < OPENING_MS && atomic_load(&slots[i].state) == SLOT_OPENING;
              waited++) {
             poll(NULL, 0, 1);
@@ -109,7 +110,7 @@ void glint_output_file_discard_all(void)
 
 // ---- Where the file goes ------------------------------------------------------------------------
 
-// A path taken apart; zero is valid.
+// The parts of a path; zero is valid.
 typedef struct place {
     char *path;   // the file itself, links followed
     char *folder; // its folder
@@ -137,8 +138,8 @@ static glint_status place_split(place *where, glint_error *error)
     return GLINT_OK;
 }
 
-// What stands at the path decides: nothing or a regular file may be replaced, a link is followed to
-// its file. A device or a pipe cannot appear whole by renaming; a folder is a mistake.
+// Checks what stands at the path. A regular file may be replaced; a link leads to its file. A
+// device or a pipe cannot appear whole by renaming. A folder is a mistake.
 static glint_status check_target(const char *path, const place *where, glint_error *error)
 {
     struct stat facts;
@@ -233,8 +234,8 @@ static uint32_t host_hash(void)
 }
 
 // The fixed parts of a temporary's name: ".NAME." and ".tmp.EXT". A name near the file system's
-// limit is shortened; NAME then stands for all names that begin alike, which the process and the
-// number still tell apart.
+// limit is shortened. Then NAME stands for all names with this beginning; process and number still
+// separate them.
 #define NAME_ROOM 150
 static void temporary_parts(const place *where, char before[NAME_MAX], char after[NAME_MAX])
 {
@@ -244,7 +245,7 @@ static void temporary_parts(const place *where, char before[NAME_MAX], char afte
     snprintf(after, NAME_MAX, ".tmp%s", extension);
 }
 
-// The last ".tmp" in a name; NULL where there is none.
+// The last ".tmp" in a name; NULL if there is none.
 static const char *find_ending(const char *name)
 {
     const char *found = NULL;
@@ -254,8 +255,8 @@ static const char *find_ending(const char *name)
     return found;
 }
 
-// True for the temporary, of whatever output, of a process that is gone, or of an earlier one that
-// had our number.
+// True if `name` is a temporary, of any output, whose process is gone, or of an earlier process
+// with our number.
 static bool is_stale(const place *where, const char *name)
 {
     const char *ending = find_ending(name);
@@ -281,8 +282,8 @@ static bool is_stale(const place *where, const char *name)
     return printed > 0 && (size_t)printed < sizeof path && !slot_holds(path);
 }
 
-// Whether this process has looked through the folder before. Looking at it for every file of a long
-// sequence would take longer than writing them.
+// Returns whether this process looked through this folder last time. Doing so for every file of a
+// long sequence would take longer than writing them.
 static bool was_swept(const place *where)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -298,7 +299,7 @@ static void remove_stale(const place *where)
 {
     DIR *folder = was_swept(where) ? NULL : opendir(where->folder);
     if (folder == NULL) {
-        return; // also a folder that may be written but not listed
+        return; // also if the folder may be written but not listed
     }
     for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
         if (entry->d_name[0] == '.' && is_stale(where, entry->d_name)) {
@@ -310,7 +311,7 @@ static void remove_stale(const place *where)
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// The folder is held open, so that a temporary is found again though the folder be moved meanwhile.
+// `folder` is held open, so that the temporary is found even if somebody moves the folder.
 typedef struct temporary {
     char path[PATH_MAX]; // for the signal handler
     const char *name;    // within the folder
@@ -319,8 +320,8 @@ typedef struct temporary {
     int folder, file;
 } temporary;
 
-// Creates the temporary of made->path: 0, or why not. It is registered before it exists, and known
-// to exist before a signal can come to this thread.
+// Creates the temporary of made->path. Returns 0 or errno. It is registered before it exists. No
+// signal comes to this thread until its existence is recorded.
 static int create_temporary(temporary *made)
 {
     sigset_t all, before;
@@ -372,7 +373,7 @@ static int open_temporary(const place *where, temporary *made)
 static int write_all(int file, const unsigned char *bytes, size_t size)
 {
     while (size > 0) {
-        // Linux moves at most 2 GiB a call.
+        // Linux writes at most 2 GiB a call.
         ssize_t done = write(file, bytes, size < (1u << 30) ? size : (1u << 30));
         if (done < 0 && errno != EINTR) {
             return errno;
@@ -382,14 +383,14 @@ static int write_all(int file, const unsigned char *bytes, size_t size)
             size -= (size_t)done;
         }
     }
-    // Some file systems cannot sync, and say so; others report here what went wrong in writing.
+    // Some file systems cannot sync and say so. Others report an earlier write error here.
     if (fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP) {
         return errno;
     }
     return 0;
 }
 
-// The new name itself reaches the disk with its folder. The file is whole either way.
+// Syncs the folder, so that the new name reaches the disk. The file is whole either way.
 static void sync_folder(int folder)
 {
     int file = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -422,11 +423,13 @@ glint_status glint_output_file_write(const char *path, const void *bytes, size_t
     place where = {0};
     temporary made = {.folder = -1, .file = -1};
     int cause = 0;
+    // Find the folder, and clean it.
     glint_status status = place_find(path, &where, error);
     if (status != GLINT_OK) {
         goto cleanup;
     }
     remove_stale(&where);
+    // Write a temporary file.
     cause = open_temporary(&where, &made);
     if (cause == 0) {
         cause = write_all(made.file, bytes, size);
@@ -434,6 +437,7 @@ glint_status glint_output_file_write(const char *path, const void *bytes, size_t
     if (made.file >= 0 && close(made.file) != 0 && cause == 0 && errno != EINTR) {
         cause = errno;
     }
+    // Give it its name.
     if (cause == 0 && renameat(made.folder, made.name, made.folder, where.name) != 0) {
         cause = errno;
     }

@@ -1,4 +1,4 @@
-// Pictures as stored. See stored.h.
+// Converts stored pictures to images. See stored.h.
 #include "image/stored.h"
 
 #include "base/memory.h"
@@ -17,8 +17,8 @@ static float linear_of(const glint_stored_facts *facts, float code)
                                                      : code;
 }
 
-// One pixel as read. Alpha is never curved. A colour that was multiplied by alpha before the curve
-// is divided first: the curve belongs to the colour.
+// Converts one pixel. Alpha never has a curve. If a colour was multiplied by alpha before the
+// curve, it is divided first, because the curve belongs to the colour.
 static void develop_pixel(const glint_stored_facts *facts, const float *linear, const float *codes,
                           float *pixel)
 {
@@ -43,20 +43,20 @@ static size_t count_pixels(const glint_stored_facts *facts)
     return (size_t)facts->width * (size_t)facts->height;
 }
 
-// What codes mean: values as they are, and with the curve taken off.
+// The value of each code: unchanged, and linearised.
 typedef struct meanings {
     float *plain, *linear;
 } meanings;
 
-#define CHUNK 4096 // pixels that are read at a time
+#define CHUNK 4096 // number of pixels read at a time
 
-// Pixels as they were read: 8 bits a code, or 16.
+// Pixels as read, with 8 or 16 bits a code.
 typedef struct chunk {
     uint16_t codes[CHUNK * 4];
     size_t pixels;
 } chunk;
 
-// Compiled once for each width of codes.
+// Is compiled once for each width of codes.
 static inline void develop_each(const glint_stored_facts *facts, const meanings *of,
                                 const chunk *from, bool is_wide, float *pixels)
 {
@@ -126,8 +126,8 @@ static glint_status develop_floats(const glint_stored *stored, float *pixels, gl
     return GLINT_OK;
 }
 
-// Where pixel (x, y) of an upright image of `width` × `height` lies in the stored one, by EXIF's
-// numbers: 2 mirrored, 3 half a turn, 4 upside down, 5 to 8 with rows and columns exchanged.
+// The stored place of pixel (x, y) of an upright image of `width` × `height`. EXIF's numbers: 2
+// mirrored, 3 half a turn, 4 upside down, 5 to 8 with rows and columns exchanged.
 static void stored_place(int orientation, int width, int height, int place[2])
 {
     const int x = place[0], y = place[1];
@@ -136,7 +136,7 @@ static void stored_place(int orientation, int width, int height, int place[2])
     const bool flips_y =
         orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
     if (orientation >= 5) {
-        // Upright (x, y) comes from stored (y, x), 6 and 8 being quarter turns.
+        // Upright (x, y) comes from stored (y, x). 6 and 8 are quarter turns.
         place[0] = flips_y ? height - 1 - y : y;
         place[1] = flips_x ? width - 1 - x : x;
     } else {

@@ -1,4 +1,4 @@
-// From a picture as its file stores it to an image: linear, premultiplied, upright.
+// Converts a picture as its file stores it to an image: linear, premultiplied, upright.
 #ifndef GLINT_IMAGE_STORED_H
 #define GLINT_IMAGE_STORED_H
 
@@ -6,7 +6,7 @@
 #include "image/decoder.h"
 #include "image/image.h"
 
-// `stored` has 1 to 4 channels. Errors: GLINT_OUT_OF_MEMORY.
+// Converts `stored`, which has 1 to 4 channels. Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_stored_develop(const glint_stored *stored, glint_image *image,
                                   glint_error *error);
 

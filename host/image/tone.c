@@ -1,4 +1,4 @@
-// Tone curves. See tone.h.
+// Applies tone curves. See tone.h.
 #include "image/tone.h"
 
 #include <float.h>
@@ -7,13 +7,13 @@
 
 const char *const glint_tone_names[] = {"none", "pbr-neutral", "agx", NULL};
 
-// Written so that NaN becomes 0. Infinity would become NaN in the curves.
+// NaN becomes 0. Infinity becomes the largest float, since the curves would make it NaN.
 static float as_light(float value)
 {
     return value > 0.0f ? fminf(value, FLT_MAX) : 0.0f;
 }
 
-// The names and the equations are the specification's: f is `offset`, p `peak`, p_n `new_peak`, g
+// The equations follow the specification. Its names: f is `offset`, p `peak`, p_n `new_peak`, g
 // `kept`.
 static void map_pbr_neutral(float rgb[3])
 {
@@ -58,11 +58,11 @@ static void multiply(const double matrix[3][3], double v[3])
     }
 }
 
-// The exponent within the curve's range, and the contrast curve: Benjamin Wrensch's polynomial
-// ("Minimal AgX Implementation", 2023), a fit to Troy Sobotka's curve.
+// Computes the exponent within the curve's range, then the contrast curve: Benjamin Wrensch's
+// polynomial ("Minimal AgX Implementation", 2023), a fit to Troy Sobotka's curve.
 static double agx_curve(double light)
 {
-    const double low = -12.47393, high = 4.026069; // log2 of what becomes black and white
+    const double low = -12.47393, high = 4.026069; // log2 of the light that becomes black and white
     const double exponent = (double)log2f((float)fmax(light, 1e-10));
     const double x = fmin(fmax((exponent - low) / (high - low), 0), 1);
     return -0.00232 +

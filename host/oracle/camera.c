@@ -1,4 +1,4 @@
-// The oracle's camera: primary rays and their cones.
+// Makes the oracle's primary rays and their cones.
 #include "oracle/surface.h"
 #include "oracle/vector.h"
 

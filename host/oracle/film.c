@@ -1,4 +1,4 @@
-// Interference in thin films, by Airy's formula at many wave numbers. See film.h.
+// Computes interference in thin films, by Airy's formula at many wave numbers. See film.h.
 #include "oracle/film.h"
 
 #include <complex.h>
@@ -6,8 +6,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-// What the standard observer sees of wave numbers (1/m), as Belcour and Barla fit it (2017): bells
-// by height, middle and half their variance; two are X's, then Y's and Z's.
+// The standard observer's response to wave numbers (1/m), as Belcour and Barla fit it (2017): bells
+// given by height, middle and half their variance. Two bells are X's, the others are Y's and Z's.
 static const struct bell {
     double height, middle, spread;
     int of; // X, Y or Z
@@ -23,13 +23,13 @@ static const double rec709[3][3] = {{3.2404542, -1.5371385, -0.4985314},
                                     {-0.9692660, 1.8760108, 0.0415560},
                                     {0.0556434, -0.2040259, 1.0572252}};
 
-// The cosine in a medium, from the sine in empty space that Snell's law keeps.
+// The cosine in a medium, from n sin θ, which Snell's law keeps.
 static double cosine_in(double index, double kept)
 {
     return sqrt(fmax(0.0, 1.0 - kept * kept / (index * index)));
 }
 
-// Airy's reflectance at a phase of the film, one way that light swings.
+// Airy's reflectance at a phase of the film, for one polarisation.
 static double airy(double r12, double r23, double phase)
 {
     double complex wave = cexp(I * phase);
@@ -37,7 +37,7 @@ static double airy(double r12, double r23, double phase)
     return creal(r) * creal(r) + cimag(r) * cimag(r);
 }
 
-// Unpolarised, with both amplitudes by Fresnel.
+// The unpolarised reflectance, with both amplitudes by Fresnel.
 static double reflectance(const film_stack *f, double base, double cosine, double wave_number)
 {
     double kept = f->above * sqrt(fmax(0.0, 1.0 - cosine * cosine));

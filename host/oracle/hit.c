@@ -1,24 +1,25 @@
-// Where the oracle's rays meet triangles: by trying all of them, or by a binary tree that is there
-// for speed alone and must find the same.
+// Intersects rays with triangles. It tries all of them, or uses a binary tree, which only saves
+// time and finds the same hits.
 #include "oracle/hit.h"
 
 #include <float.h>
 #include <limits.h>
 #include <stdlib.h>
 
-// Two distances are one where they agree to this: the 16 roundings, at most, of a triangle's plane
-// equation, amplified by up to 2⁸ at grazing incidence. Coincident faces meet it; any gap that
-// float positions can hold (2⁻²⁴) is 2¹⁶ times as wide.
+// The relative difference at which two distances count as equal. It is 16 roundings, at most, of a
+// triangle's plane equation, amplified by up to 2⁸ at grazing incidence. Coincident faces are
+// within it. Any gap that float positions can hold (2⁻²⁴) is 2¹⁶ times as wide.
 #define TIE (16.0 * 256.0 * DBL_EPSILON)
 
-// A start point on a triangle is the weighted mean of its vertices: 3 products, 2 sums and the
-// weights' own error, each half an ulp of the largest coordinate. Doubled for the other plane.
+// A start point on a triangle is the weighted mean of its vertices. It rounds in 3 products, 2 sums
+// and the weights themselves: each half an ulp of the largest coordinate. Doubled for the other
+// plane.
 #define START_ERROR (16.0 * DBL_EPSILON)
 
 enum { LEAF_SIZE = 4, TREE_STACK = 64 };
 
-// Inner nodes: children at `first` and `first` + 1, count 0. Leaves: `count` entries of
-// order[first…].
+// An inner node has count 0 and its children at `first` and `first` + 1. A leaf has `count` entries
+// of order[first…].
 typedef struct node {
     vector low, high;
     int first, count;
@@ -47,7 +48,7 @@ query oracle_query_from(const oracle_scene *scene, const oracle_ray *ray, int le
         q.shear[i] = ray->direction[q.across[i]] / ray->direction[q.along];
     }
     if (left >= 0) {
-        // How far the start point may lie from the plane that it is meant to be in.
+        // The distance of the start point from the plane that it should lie in, at most.
         for (int i = 0; i < 3; i++)
             q.start_error =
                 fmax(q.start_error, largest_magnitude(corner(&scene->triangles[left], i)));
@@ -56,8 +57,8 @@ query oracle_query_from(const oracle_scene *scene, const oracle_ray *ray, int le
     return q;
 }
 
-// The point seen along the ray: moved so that the ray's origin is 0, and sheared so that its
-// direction is an axis.
+// Projects a point along the ray: moves the ray's origin to 0 and shears its direction onto an
+// axis.
 static void project(const query *q, vector point, double seen[2])
 {
     for (int i = 0; i < 2; i++)
@@ -65,24 +66,27 @@ static void project(const query *q, vector point, double seen[2])
 }
 
 // Twice the signed area of the triangle of 0, b and a. Products and their difference round
-// monotonically, so the sign is right or the result 0.
+// monotonically, so the sign is right or the result is 0.
 static double edge_function(const double a[2], const double b[2])
 {
     return a[0] * b[1] - a[1] * b[0];
 }
 
-// Woop, Benthin, Wald 2013, in double: vertices are projected once and alike for every triangle,
-// and an edge function never has the wrong sign, so with "≥ 0" a ray passes between no two
-// triangles that share an edge or a vertex. (3D triple products do not keep this at vertices.)
+// Intersects watertight (Woop, Benthin, Wald 2013), in double. Each vertex is projected once and in
+// the same way for every triangle, and an edge function never has the wrong sign. So with "≥ 0" no
+// ray passes between two triangles that share an edge or a vertex. (3D triple products do not
+// ensure this at vertices.)
 static bool meets(const query *q, const oracle_triangle *triangle, oracle_hit *hit)
 {
     vector a = minus(corner(triangle, 0), q->origin);
     vector b = minus(corner(triangle, 1), q->origin);
     vector c = minus(corner(triangle, 2), q->origin);
     double seen_a[2], seen_b[2], seen_c[2];
+    // Project the corners along the ray.
     project(q, a, seen_a);
     project(q, b, seen_b);
     project(q, c, seen_c);
+    // Test the signs of the edge functions.
     double u = edge_function(seen_c, seen_b);
     double v = edge_function(seen_a, seen_c);
     double w = edge_function(seen_b, seen_a);
@@ -91,17 +95,18 @@ static bool meets(const query *q, const oracle_triangle *triangle, oracle_hit *h
     if (!all_in || area == 0.0 || !isfinite(area))
         return false; // NaN and edge-on triangles miss
 
-    // Distance from the plane, by the corner nearest to the origin: the least cancellation.
+    // Take the distance from the plane, by the corner nearest to the origin: it cancels least.
     vector across = cross(minus(b, a), minus(c, a));
     vector near = dot(a, a) <= dot(b, b) ? a : b;
     near = dot(c, c) < dot(near, near) ? c : near;
     double height = dot(across, near);
     double slope = dot(across, q->direction);
     if (slope == 0.0 || fabs(height) <= q->start_error * length(across))
-        return false; // starts in this triangle's plane: a neighbour's, or a coincident face
+        return false; // starts in this triangle's plane (a neighbour or a coincident face)
     hit->distance = height / slope;
     if (!(hit->distance > 0.0) || !isfinite(hit->distance))
         return false;
+    // Weight the corners.
     hit->barycentric[0] = u / area;
     hit->barycentric[1] = v / area;
     hit->barycentric[2] = w / area;
@@ -119,8 +124,8 @@ static void try_triangle(const oracle_scene *scene, const query *q, int index, o
         *best = hit;
 }
 
-// Does the ray pass the box, grown by the edge margin, before `limit`? Growing by a few ulp keeps
-// rays that run in a face of it.
+// Tests whether the ray passes the box, grown by the edge margin, before `limit`. A few ulp more
+// keep rays that run in one of its faces.
 static bool passes(const query *q, const node *box, double limit)
 {
     double enter = 0.0, leave = limit;
@@ -202,8 +207,8 @@ void oracle_each_hit(const oracle_scene *scene, const query *q, const double ran
     }
 }
 
-// Building: halves by count along the longest axis of the centroids, until LEAF_SIZE. Depth is
-// log₂ of the count, so 64 levels never fill.
+// Building: nodes are halved by count along the longest axis of the centroids, down to LEAF_SIZE.
+// The depth is log₂ of the count, so 64 levels suffice.
 
 typedef struct entry {
     vector centroid;

@@ -1,13 +1,14 @@
-// Punctual lights, by the text of KHR_lights_punctual: a shadow ray for each, surface by surface.
+// Computes punctual lights as KHR_lights_punctual says, with a shadow ray for each, surface by
+// surface.
 #include "oracle/lights.h"
 #include "oracle/overlaps.h"
 
 static const double PI = 3.14159265358979323846;
 
-// A surface nearer to the light than this share of the way holds the light.
+// A surface within this share of the way from the light contains the light and casts no shadow.
 #define HOLDS 1e-9
 
-// Most surfaces that light passes.
+// The largest number of surfaces that light passes.
 enum { PASSED_MOST = 64 };
 
 static double clamped(double x)
@@ -30,7 +31,7 @@ static double angular_attenuation(const oracle_punctual *light, vector to_light)
     return attenuation * attenuation;
 }
 
-// What the walk of a shadow ray needs beside the receiver.
+// The state of a shadow ray, beside the receiver.
 typedef struct shadow_ray {
     vector to_light;
     double distance;
@@ -76,7 +77,7 @@ static void measure_edge(const receiver *r, vector to_light, double distance)
     oracle_ray ray = ray_of(r, to_light);
     query q = oracle_query_from(r->scene, &ray, r->triangle);
     double edge = oracle_ray_edge(r->scene, q, r->travelled, distance);
-    // Behind the plane there is no light, whatever the interpolated normal says.
+    // Behind the triangle's plane there is no light, whatever the interpolated normal is.
     edge = fmin(edge, fabs(dot(to_light, r->geometric)));
     r->report->edge = fmin(r->report->edge, edge);
 }

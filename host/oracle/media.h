@@ -1,4 +1,4 @@
-// Between the oracle's own files: rule 5, the solids that a path is inside.
+// Tracks the solids that a path is inside (rule 5). Internal to the oracle.
 #ifndef GLINT_ORACLE_MEDIA_H
 #define GLINT_ORACLE_MEDIA_H
 
@@ -6,14 +6,14 @@
 
 #include <string.h>
 
-// By material, innermost last. A path meets at most ORACLE_DEPTH_LIMIT surfaces and enters at most
-// one solid at each; one more for where it began.
+// A stack of materials, innermost last. A path meets at most ORACLE_DEPTH_LIMIT surfaces and enters
+// at most one solid at each. One more entry is for the solid in which it began.
 typedef struct media {
     int solid[ORACLE_DEPTH_LIMIT + 1];
     int count;
 } media;
 
-// The material of the solid on top; NULL: empty space.
+// The material of the innermost solid. NULL: empty space.
 static inline const oracle_material *top_material(const oracle_scene *scene, const media *inside)
 {
     return inside->count > 0 ? &scene->materials[inside->solid[inside->count - 1]] : NULL;
@@ -25,7 +25,7 @@ static inline void media_enter(media *inside, int material)
         inside->solid[inside->count++] = material;
 }
 
-// Inside one solid alone, or none: −1.
+// The media of a path inside one solid; −1: inside none.
 static inline media media_of(int material)
 {
     media inside = {.count = 0};
@@ -34,7 +34,7 @@ static inline media media_of(int material)
     return inside;
 }
 
-// Removes the topmost entry of the material, if there is one.
+// Removes the topmost entry of the material if there is one.
 static inline void media_leave(media *inside, int material)
 {
     for (int i = inside->count - 1; i >= 0; i--) {

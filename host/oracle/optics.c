@@ -1,4 +1,4 @@
-// The oracle's optics: reflection, refraction, Fresnel, absorption.
+// Computes reflection, refraction, Fresnel's term and absorption.
 #include "oracle/film.h"
 #include "oracle/surface.h"
 #include "oracle/vector.h"
@@ -13,7 +13,7 @@ bool oracle_refract(const double normal[3], const double viewer[3], double eta, 
 {
     vector n = vector_of(normal), v = vector_of(viewer);
     double cos_incident = fmin(dot(n, v), 1.0);
-    // Snell: sin θt = η sin θi, so cos²θt = 1 − η²(1 − cos²θi); negative: total reflection.
+    // Snell: sin θt = η sin θi, so cos²θt = 1 − η²(1 − cos²θi). Negative: total reflection.
     double cos_squared = 1.0 - eta * eta * (1.0 - cos_incident * cos_incident);
     if (!(cos_squared >= 0.0))
         return false;
@@ -25,14 +25,14 @@ bool oracle_refract(const double normal[3], const double viewer[3], double eta, 
 double oracle_fresnel(double cos_incident, double ior_incident, double ior_transmitted)
 {
     if (ior_incident == ior_transmitted)
-        return 0.0; // no interface, even at 90°, where the quotients would be 0/0
+        return 0.0; // no interface, also at 90°, where the quotients would be 0/0
     double c = fmin(fmax(cos_incident, 0.0), 1.0);
     double eta = ior_incident / ior_transmitted;
     double cos_squared = 1.0 - eta * eta * (1.0 - c * c);
     if (!(cos_squared >= 0.0))
         return 1.0;
     double ct = sqrt(cos_squared);
-    // Amplitudes for light polarised across (s) and within (p) the plane of incidence.
+    // Amplitudes for light polarised perpendicular (s) and parallel (p) to the plane of incidence.
     double rs =
         (ior_incident * c - ior_transmitted * ct) / (ior_incident * c + ior_transmitted * ct);
     double rp =
@@ -57,7 +57,7 @@ vector oracle_tinted(const surface *s, double f0)
     return f;
 }
 
-// What a film on it makes of a dielectric, which light meets from the medium `here`.
+// The reflectance of a dielectric with its film, for light from the medium `here`.
 static vector filmed(const surface *s, double here, double there)
 {
     film_stack stack = {

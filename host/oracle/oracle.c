@@ -1,5 +1,4 @@
-// The oracle's walk along the tree of paths, rule by rule as ARCHITECTURE.md ("Light
-// transport") counts them.
+// Walks along the tree of paths, rule by rule (docs/light_transport.md).
 #include "oracle/oracle.h"
 #include "oracle/hit.h"
 #include "oracle/overlaps.h"
@@ -8,7 +7,7 @@
 
 #include <string.h>
 
-// What is nearer to an eye than this many metres is no edge in the way, where eyes may be on edges.
+// If eyes may be on edges, edges within this distance of an eye do not count. Metres.
 #define EYE_REACH 1e-5
 
 static void report_clear(oracle_report *report)
@@ -17,9 +16,10 @@ static void report_clear(oracle_report *report)
         .edge = ORACLE_EDGE_REACH, .critical = INFINITY, .threshold = INFINITY, .jump = INFINITY};
 }
 
-// Traces a path's ray and goes on from the surface that it meets.
+// Traces a path's ray and continues from the surface that it meets.
 static void follow(walk *w, const path *p)
 {
+    // Find the hit.
     oracle_ray ray = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     vector_store(p->origin, ray.origin);
     vector_store(p->direction, ray.direction);
@@ -29,7 +29,7 @@ static void follow(walk *w, const path *p)
     oracle_report *report = w->report;
     report->rays++;
     if (w->view->edges) {
-        // An edge that the eye is on is near to no ray but those that run along it.
+        // If the eye is on an edge, this edge is near only to rays that run along it.
         double skipped = w->scene->overlaps && p->met == 0 ? EYE_REACH : 0.0;
         oracle_ray from = ray;
         vector_store(plus(p->origin, scaled(p->direction, skipped)), from.origin);
@@ -42,6 +42,7 @@ static void follow(walk *w, const path *p)
         return;
     }
 
+    // Arrive at the surface, with the media on both sides.
     path here = *p;
     here.holds = false;
     bool there = true;
@@ -53,6 +54,7 @@ static void follow(walk *w, const path *p)
     }
     here.travelled += hit.distance;
     here.cone.width += here.cone.spread * hit.distance;
+    // Evaluate the surface.
     arrival by = {p->direction, here.cone.width, here.travelled, w->view->anisotropy};
     surface s = oracle_surface_at(w->scene, &hit, &by);
     report->jump = fmin(report->jump, s.jump);
@@ -63,6 +65,7 @@ static void follow(walk *w, const path *p)
         report->surfaces++;
         report->deepest = here.met > report->deepest ? here.met : report->deepest;
     }
+    // Absorb, disperse, and scatter the light.
     oracle_absorb(w->scene, &here, &s, hit.distance);
     oracle_disperse(w, &here, &s);
     if (largest(here.weight) > 0.0)
@@ -105,8 +108,8 @@ static void report_add(oracle_report *sum, const oracle_report *sample, double s
     sum->jump = fmin(sum->jump, sample->jump);
 }
 
-// The mean of the walks along a ray: one or, where it meets rough glass, one for each of its
-// facets; and where it meets a solid that disperses light, as many for each wavelength.
+// The mean of the walks along a ray. There is one walk, or one for each facet if the ray meets
+// rough glass. If it meets a solid that disperses light, each wavelength has these walks.
 static walk mean_walk(const oracle_scene *scene, const oracle_view *view, const oracle_ray *ray,
                       oracle_report *report)
 {

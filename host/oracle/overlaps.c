@@ -1,6 +1,7 @@
-// Rule 5: what absorbs a path's light, and, where solids touch or overlap, which of them is there.
-// That is found by points: a solid is there where its surface is seen all around. No stack is kept,
-// and no order of triangles matters.
+// Finds which solid absorbs a path's light, also where solids touch or overlap (rule 5).
+//
+// It looks at points: a solid is there if its surface surrounds the point. So there is no stack,
+// and the order of triangles does not matter.
 #include "oracle/overlaps.h"
 #include "oracle/hit.h"
 #include "oracle/surface.h"
@@ -10,16 +11,17 @@
 
 static const double PI = 3.14159265358979323846;
 
-enum { MATERIALS = 64 }; // of solids, at most
+enum { MATERIALS = 64 }; // most materials of solids
 
-// How far beside a surface its sides are looked at, and rays leave it: of the largest coordinate.
+// The distance beside a surface at which its sides are examined, and at which rays leave it. Both
+// are shares of the largest coordinate.
 #define BESIDE 2e-5
 #define LEAVING 2e-6
 
-// What is summed up over the triangles of a material.
+// Sums over the triangles of a material.
 typedef struct solid_sum {
-    double angle;  // that its surface takes of the view from a point; 4π from inside
-    double volume; // six times
+    double angle;  // solid angle of its surface seen from a point; 4π from inside
+    double volume; // six times the volume
 } solid_sum;
 
 static vector corner_from(const oracle_triangle *t, int i, vector point)
@@ -27,7 +29,7 @@ static vector corner_from(const oracle_triangle *t, int i, vector point)
     return minus(vector_of(t->position[i]), point);
 }
 
-// Van Oosterom and Strackee 1983.
+// The signed solid angle of a triangle (Van Oosterom and Strackee 1983).
 static void add_triangle(const oracle_triangle *t, vector point, solid_sum *sum)
 {
     vector a = corner_from(t, 0, point), b = corner_from(t, 1, point), c = corner_from(t, 2, point);
@@ -47,8 +49,8 @@ static void add_solids(const oracle_scene *scene, vector point, solid_sum sums[M
     }
 }
 
-// Whether of two materials the first is there: the one of higher priority, or of less volume. −1 is
-// none, and yields to all.
+// True if the first of two materials wins: higher priority, or the same and less volume. −1 (none)
+// loses to all.
 static bool is_over(const oracle_scene *scene, const solid_sum *sums, int one, int other)
 {
     if (one < 0 || other < 0)
@@ -57,7 +59,7 @@ static bool is_over(const oracle_scene *scene, const solid_sum *sums, int one, i
     return more > 0.0 || (more == 0.0 && sums[one].volume < sums[other].volume);
 }
 
-// The solid that is at a point: its material, or −1.
+// The material of the solid at a point, or −1.
 static int solid_at(const oracle_scene *scene, const solid_sum *sums)
 {
     int best = -1;
@@ -68,9 +70,9 @@ static int solid_at(const oracle_scene *scene, const solid_sum *sums)
     return best;
 }
 
-enum { NO_SOLID = -2 }; // in place of a material: one that bounds no solid
+enum { NO_SOLID = -2 }; // in place of a material: a surface that bounds no solid
 
-// The triangle of lowest number of a material, of those in one place.
+// Selects the triangle of a material with the lowest number among those in one place.
 typedef struct choice {
     const oracle_scene *scene;
     int material;
@@ -159,8 +161,8 @@ vector oracle_start_beside(const oracle_scene *scene, int triangle, vector point
     return plus(point, scaled(n, dot(direction, n) < 0.0 ? -step : step));
 }
 
-// The segment that ends at this surface was inside the topmost solid. Meeting a solid's back face
-// while inside none means that the path began inside that solid.
+// The segment that ends at this surface was inside the topmost solid. If the path is inside none
+// and meets the back face of a solid, it began inside this solid.
 void oracle_absorb(const oracle_scene *scene, path *p, const surface *s, double distance)
 {
     if (p->inside.count == 0 && !s->front && oracle_is_solid(s->material) && !scene->overlaps)

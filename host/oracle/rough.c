@@ -1,11 +1,11 @@
-// Rough surfaces: the integral over their lobe, by plain quadrature over directions. See rough.h.
+// Integrates over the lobes of rough surfaces, by plain quadrature over directions. See rough.h.
 #include "oracle/rough.h"
 
 #include <stddef.h>
 
 static const double PI = 3.14159265358979323846;
 
-// How long a vector is whose parts along and across the brush, and along n, are multiplied.
+// The length of a vector after scaling its components along and across the brush, and along n.
 static double stretched(const surface *s, double along, double across, double up, vector a)
 {
     double x = dot(s->along, a) * along, n = dot(s->normal, a), z = n * up;
@@ -13,7 +13,7 @@ static double stretched(const surface *s, double along, double across, double up
     return sqrt(x * x + fmax(0.0, squared) * across * across + z * z);
 }
 
-// The same where it is rougher along a direction: α + (1 − α) anisotropy² there.
+// lobe_weight of an anisotropic surface: α + (1 − α) anisotropy² along the brush, α across it.
 static double brushed_weight(const surface *s, double alpha, vector l, vector h)
 {
     double nl = dot(s->normal, l), nv = s->cosine;
@@ -25,7 +25,7 @@ static double brushed_weight(const surface *s, double alpha, vector l, vector h)
     return d * 0.5 / (nl * of_v + nv * of_l) * nl;
 }
 
-// D V n·l, with GGX's D and the height-correlated V of Smith's shadowing.
+// D V n·l, with GGX's D and the height-correlated V of Smith's shadowing function.
 static double lobe_weight(const surface *s, double alpha, vector l, vector h)
 {
     double nl = dot(s->normal, l), nv = s->cosine;
@@ -34,7 +34,7 @@ static double lobe_weight(const surface *s, double alpha, vector l, vector h)
     if (s->anisotropy > 0.0)
         return brushed_weight(s, alpha, l, h);
     double a2 = alpha * alpha;
-    // 1 − (n·h)² as |n × h|², which does not cancel near the lobe's middle.
+    // Compute 1 − (n·h)² as |n × h|², which does not cancel near the lobe's middle.
     vector across = cross(s->normal, h);
     double cos_squared = dot(s->normal, h) * dot(s->normal, h);
     double q = a2 * cos_squared + dot(across, across);
@@ -51,7 +51,7 @@ lobe_integrals oracle_lobe_towards(const surface *s, double roughness, vector di
     return (lobe_integrals){.white_base = weight * (1.0 - m), .white_edge = weight * m};
 }
 
-// By a film's table, see rough.h; NULL: there is none.
+// Interpolates a film's table. See rough.h.
 static vector from_table(const vector *table, double cosine)
 {
     double at = fmin(fmax(cosine, 0.0), 1.0) * ORACLE_FILM_STEPS;
@@ -83,7 +83,7 @@ lobe_integrals oracle_film_lobe(const surface *s, int strata, const vector *tabl
     vector axis = {{0.0, 0.0, 0.0}};
     oracle_reflect(s->normal.at, s->viewer.at, axis.at);
     axis = unit(axis);
-    // Across the plane of incidence, and in it.
+    // The axes across the plane of incidence and in it.
     vector across = cross(s->normal, s->viewer);
     if (!(largest_magnitude(across) > 1e-6))
         across = cross(axis, fabs(axis.at[0]) < 0.6 ? (vector){{1, 0, 0}} : (vector){{0, 1, 0}});
@@ -115,29 +115,30 @@ lobe_integrals oracle_lobe(const surface *s, int strata, seen_light light, const
     return oracle_film_lobe(s, strata, NULL, light, context);
 }
 
-// The place of a path's `met`th facet among `count`: each comes once, in another order at each
-// surface.
+// The place of a path's `met`th facet among `count` facets. It is a permutation that differs from
+// surface to surface.
 static int place_at(int number, int count, int met)
 {
-    // Odd multiples run through a power of two; the next one holds the count.
+    // An odd multiplier permutes the numbers below a power of two. `size` is the next one that
+    // holds count.
     unsigned size = 1, at = (unsigned)number;
     while (size < (unsigned)count)
         size *= 2;
     for (int turn = 1; met > 1 && turn <= 3;) {
         at = (at * (2654435769u + 2u * (unsigned)met) + (unsigned)(turn * 40503 * met)) % size;
         at ^= at / 32;
-        turn += at < (unsigned)count; // else once more, until it is one of them
+        turn += at < (unsigned)count; // repeat until it is below count
     }
     return (int)at;
 }
 
 surface oracle_facet(const surface *s, int number, int count, int met)
 {
-    // A spiral of points that fills a disk evenly.
+    // The points form a spiral that fills a disk evenly.
     int at = place_at(number, count, met);
     double radius = sqrt((at + 0.5) / count), turn = at * PI * (3.0 - sqrt(5.0));
-    // Heitz, Sampling the GGX distribution of visible normals, 2018: stretched to a hemisphere,
-    // what v sees is a half disk and half an ellipse, across v.
+    // Heitz, Sampling the GGX distribution of visible normals, 2018: stretched to a hemisphere, v
+    // sees half a disk and half an ellipse, across v.
     double alpha = s->roughness * s->roughness;
     vector n = s->normal, v = s->viewer, least = {{0.0, 0.0, 0.0}};
     vector stretched = unit(plus(scaled(v, alpha), scaled(n, (1.0 - alpha) * s->cosine)));

@@ -1,5 +1,5 @@
-// What surfaces do with light on the oracle's walk, rules 2 to 4, 6 and 9 to 15 as ARCHITECTURE.md
-// ("Light transport") counts them.
+// Scatters light at surfaces on the oracle's walk: rules 2 to 4, 6 and 9 to 18 of
+// docs/light_transport.md.
 #include "oracle/film.h"
 #include "oracle/lights.h"
 #include "oracle/overlaps.h"
@@ -30,7 +30,7 @@ static void add(walk *w, vector weight, vector radiance)
     w->radiance = plus(w->radiance, times(weight, radiance));
 }
 
-// What a path takes along its direction where it ends; rule 9 where it has met nothing.
+// Adds a path's light where it ends. Rule 9 applies if the path has met nothing.
 void oracle_escape(walk *w, const path *p, vector direction, vector weight)
 {
     if (p->holds)
@@ -41,7 +41,7 @@ void oracle_escape(walk *w, const path *p, vector direction, vector weight)
         add(w, weight, environment(w->scene, w->scene->radiance, direction));
 }
 
-// Rule 7: the end, or on to the next surface.
+// Rule 7: ends the path or continues to the next surface.
 static void branch(walk *w, const path *from, const surface *s, vector direction, vector weight)
 {
     double share = largest(weight);
@@ -74,8 +74,8 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
 
 // Rule 2.
 
-// q ← q − 2(q·n_g)n_g where q ends on the wrong side: `side` is +1 for reflected directions,
-// −1 for refracted ones.
+// Folds q back if it ends on the wrong side: q ← q − 2(q·n_g)n_g. `side` is +1 for reflected
+// directions, −1 for refracted directions.
 static vector folded(vector q, vector geometric, double side)
 {
     double height = dot(q, geometric);
@@ -89,8 +89,8 @@ static vector mirror_direction(const surface *s)
     return folded(r, s->geometric, 1.0);
 }
 
-// What leaves a surface: the path, with its cone. `scaled` is what becomes of the spread by itself,
-// `bend` how much the ray turns for each turn of the normal.
+// The path that leaves a surface, with its cone. `by_itself` scales the cone's spread. `bend` is
+// the turn of the ray per turn of the normal.
 static path leaving(const path *here, const surface *s, double by_itself, double bend)
 {
     path next = *here;
@@ -122,7 +122,7 @@ static bool is_dispersive(const oracle_material *m)
 void oracle_disperse(walk *w, path *p, const surface *s)
 {
     bool disperses = oracle_is_solid(s->material) && s->material->dispersion != 0.0;
-    if (w->scene->overlaps) // what is there on one side, whose surface it may not be
+    if (w->scene->overlaps) // use the solids on both sides; the surface may be another solid's
         disperses = is_dispersive(top_material(w->scene, &p->inside)) ||
                     (p->beyond >= 0 && is_dispersive(&w->scene->materials[p->beyond]));
     if (w->view->wavelengths == 0 || p->dispersed || !disperses)
@@ -133,18 +133,19 @@ void oracle_disperse(walk *w, path *p, const surface *s)
     p->dispersed = w->disperses = true;
 }
 
-// Rule 4: what glass does with light that meets it, F and the way through.
+// Rule 4: the light at an interface of glass: F and the way through.
 typedef struct interface {
     vector fresnel;
-    vector through;  // t, where not all is reflected
+    vector through;  // t, without total reflection
     vector unfolded; // t before it is folded
-    path beyond;     // what goes through: with the media on the other side
+    path beyond;     // path of the transmitted light, with the media on the other side
 } interface;
 
 static interface interface_at(walk *w, const path *p, const surface *s)
 {
     interface glass = {.beyond = *p};
-    double ior_here = 1.0, ior_there = s->material->ior; // a thin wall, from both sides
+    double ior_here = 1.0, ior_there = s->material->ior; // for a thin wall, from both sides
+    // Find the media on both sides.
     bool solid = oracle_is_solid(s->material);
     if (solid && w->scene->overlaps) {
         glass.beyond.inside = media_of(p->beyond);
@@ -159,6 +160,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
         media_leave(&glass.beyond.inside, s->index);
         ior_there = ior_of(w, top_material(w->scene, &glass.beyond.inside));
     }
+    // Compute Fresnel's term, and how near the critical angle is.
     double eta = ior_here / ior_there;
     if (!w->view->no_fresnel)
         glass.fresnel = oracle_dielectric(s, ior_here, ior_there);
@@ -167,6 +169,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
     glass.through = scaled(s->viewer, -1.0);
     if (!solid)
         return glass;
+    // Refract.
     bool passes = oracle_refract(s->normal.at, s->viewer.at, eta, glass.through.at);
     if (!passes) {
         glass.fresnel = (vector){{1.0, 1.0, 1.0}};
@@ -179,7 +182,7 @@ static interface interface_at(walk *w, const path *p, const surface *s)
     return glass;
 }
 
-// Rule 15: a film in empty space, on what reflects f0 at right angles.
+// Rule 15: a film in empty space, on a base that reflects f0 at right angles.
 static film_stack stack_on(const surface *s, vector f0)
 {
     film_stack stack = {
@@ -189,7 +192,7 @@ static film_stack stack_on(const surface *s, vector f0)
     return stack;
 }
 
-// Rule 3: F0 + (1 − F0)(1 − n·v)⁵, or what a film makes of it.
+// Rule 3: F0 + (1 − F0)(1 − n·v)⁵, mixed with the film's reflectance.
 static vector schlick(const walk *w, const surface *s)
 {
     vector f = s->base;
@@ -204,7 +207,7 @@ static vector schlick(const walk *w, const surface *s)
     return f;
 }
 
-// E(n)/π, as the occlusion leaves it.
+// E(n)/π, scaled by occlusion.
 static vector irradiance(const walk *w, const surface *s)
 {
     return scaled(environment(w->scene, w->scene->irradiance, s->lit), s->occlusion);
@@ -224,7 +227,7 @@ static receiver receiver_at(walk *w, const path *p, const surface *s, vector lit
                       .report = w->report};
 }
 
-// Adds what the lights send to paint, of which `matte` comes back.
+// Adds the lights' light on paint; `matte` is the share that comes back.
 static void add_lights(walk *w, const path *p, const surface *s, vector matte)
 {
     receiver r = receiver_at(w, p, s, s->lit);
@@ -235,8 +238,7 @@ static void add_lights(walk *w, const path *p, const surface *s, vector matte)
     }
 }
 
-// What comes back of the light that paint receives: of the environment's, as the occlusion leaves
-// it, and of the lights'.
+// Adds the light that paint sends back: the environment's, scaled by occlusion, and the lights'.
 static void add_matte(walk *w, const path *p, const surface *s, vector matte)
 {
     if (largest(matte) > 0.0) {
@@ -245,7 +247,7 @@ static void add_matte(walk *w, const path *p, const surface *s, vector matte)
     }
 }
 
-// Rule 18: a share of paint, of which a part is lit from behind.
+// Rule 18: adds a share of paint, partly lit from behind.
 static void add_paint(walk *w, const path *p, const surface *s, double share)
 {
     add_matte(w, p, s, scaled(s->base, share * (1.0 - s->through)));
@@ -255,7 +257,7 @@ static void add_paint(walk *w, const path *p, const surface *s, double share)
     add_matte(w, p, &back, scaled(s->through_color, share * s->through));
 }
 
-// The reflected branch, which brings `held` where it ends, if that is not NULL.
+// Follows the reflected branch. If `held` is not NULL, the branch adds it at its end.
 static void reflect(walk *w, const path *p, const surface *s, vector weight, const vector *held)
 {
     path back = leaving(p, s, 1.0, 2.0);
@@ -268,7 +270,8 @@ static void reflect(walk *w, const path *p, const surface *s, vector weight, con
     branch(w, &back, s, mirror_direction(s), weight);
 }
 
-// Rule 9: the light that goes straight on past what is not there. It has not met the surface.
+// Rule 9: passes the light straight on past the share that is not there. The path has not met the
+// surface.
 static void pass(walk *w, const path *p, const surface *s, vector weight)
 {
     path past = *p;
@@ -293,11 +296,11 @@ static bool is_rough(const walk *w, const surface *s)
     return w->view->roughness > 0 && (s->roughness >= 0.01 || s->anisotropy > 0.0);
 }
 
-// A light as lobes see it.
+// A punctual light as lobes see it.
 typedef struct lamp {
-    bool before;  // in front of the surface; else nothing comes
-    vector to;    // unit, the way there
-    vector light; // irradiance of what faces the light
+    bool before;  // in front of the surface; if not, it adds nothing
+    vector to;    // unit direction to the light
+    vector light; // irradiance of a surface that faces the light
 } lamp;
 
 static lamp lamp_at(walk *w, const path *p, const surface *s, int number)
@@ -315,8 +318,8 @@ static lamp lamp_at(walk *w, const path *p, const surface *s, int number)
     return seen;
 }
 
-// Adds what lobes show of the lights: of their two parts `base` and `edge`. A light is a point, and
-// so lobes have a least width.
+// Adds the lights' highlights in lobes; `base` and `edge` scale the lobe's two parts. A light is a
+// point, so lobes have a least width.
 static void add_highlights(walk *w, const path *p, const surface *s, vector base, vector edge)
 {
     for (int i = 0; i < w->scene->light_count; i++) {
@@ -329,12 +332,12 @@ static void add_highlights(walk *w, const path *p, const surface *s, vector base
     }
 }
 
-// What a lobe sees of the environment, and of a white one.
+// A lobe's view of the environment, and of a white environment.
 typedef struct seen_lobe {
     vector light, white;
 } seen_lobe;
 
-// The lobe of a surface with this F0, with its film.
+// Evaluates the lobe of a surface with this F0, with its film.
 static seen_lobe see_lobe(const walk *w, const surface *s, const lobe_integrals *lobe, vector f0,
                           vector f90)
 {
@@ -352,7 +355,7 @@ static seen_lobe see_lobe(const walk *w, const surface *s, const lobe_integrals 
     return seen;
 }
 
-// Metal and the coat of paint as lobes.
+// Scatters light at metal and at the coat of paint, as lobes.
 static void scatter_lobes(walk *w, const path *p, const surface *s)
 {
     double as_metal = s->coverage * s->metallic, as_paint = s->coverage * (1.0 - s->metallic);
@@ -360,10 +363,12 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
     double n = s->material->ior;
     vector f0 = oracle_tinted(s, (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0)));
     vector white = {{1.0, 1.0, 1.0}};
-    // Turquin 2019: of what leaves to other microfacets F0 is reflected again, and so on.
+    // Turquin 2019: of the light that goes on to other microfacets, F0 is reflected again, and so
+    // on.
     double lost = w->view->all_scattering ? 1.0 / (lobe.white_base + lobe.white_edge) - 1.0 : 0.0;
     vector coat = scaled(plus(white, scaled(f0, lost)), w->view->no_fresnel ? 0.0 : s->specular);
-    double by_path = fmin(1.0, fmax(0.0, (0.6 - s->roughness) / 0.3)); // the rest as matte light
+    // The rest is added like matte light.
+    double by_path = fmin(1.0, fmax(0.0, (0.6 - s->roughness) / 0.3));
     vector paths = scaled(coat, as_paint * by_path),
            matte = scaled(coat, as_paint * (1.0 - by_path));
     vector metal = scaled(plus(white, scaled(s->base, lost)), as_metal);
@@ -380,10 +385,10 @@ static void scatter_lobes(walk *w, const path *p, const surface *s)
     reflect(w, p, s, times(p->weight, weight), &held);
 }
 
-// Rules 3, 4 and 6, mixed: metallic first, then transmission. What a surface sends on of light that
-// meets it. The reflected parts share one direction and so are one branch.
+// Rules 3, 4 and 6, mixed: metallic first, then transmission. The shares of light that a surface
+// sends on. The reflected parts share one direction, so they are one branch.
 typedef struct shares {
-    double paint; // how much of it is lit
+    double paint; // share that is lit as paint
     vector reflected, through;
     interface glass;
 } shares;
@@ -397,7 +402,7 @@ static shares shares_at(walk *w, const path *p, const surface *s)
     shares of = {.reflected = scaled(schlick(w, s), as_metal),
                  .glass = {.through = scaled(s->viewer, -1.0), .beyond = *p}};
     if (as_paint > 0.0) {
-        bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // and shown without a coat
+        bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // then paint has no coat
         vector coat = {{0.0, 0.0, 0.0}};
         if (!rough && !w->view->no_fresnel)
             coat = oracle_dielectric(s, 1.0, m->ior);
@@ -417,8 +422,8 @@ int oracle_facets_of(const oracle_view *view)
     return view->roughness * view->roughness;
 }
 
-// Rule 12, rough glass, by one of its facets. A thin wall transmits the mirror image of what it
-// reflects.
+// Rule 12: scatters light at one facet of rough glass. A thin wall transmits the mirror image of
+// its reflection.
 static void scatter_by_facet(walk *w, const path *p, const surface *s)
 {
     w->faceted = true;
@@ -438,8 +443,8 @@ static void scatter_by_facet(walk *w, const path *p, const surface *s)
            times(p->weight, scaled(of.through, transmits)));
 }
 
-// Of what comes in `left` gets past a clear coat. What a thin wall transmits and what passes it
-// (`past`) are one branch.
+// Scatters the share `left` of the light, which gets past a clear coat. The light that a thin wall
+// transmits and the light that passes beside it (`past`) are one branch.
 static void scatter(walk *w, const path *p, const surface *s, double left, vector past)
 {
     shares of = shares_at(w, p, s);
@@ -457,8 +462,8 @@ static void blend(walk *w, const path *p, const surface *s)
     reflect(w, p, s, scaled(p->weight, s->coverage * m), NULL);
 }
 
-// Rule 13: a clear coat is paint of index 1.5 without a base. Adds what it shows, and returns what
-// it leaves of the light. Without roughness it is a smooth one.
+// Rule 13: adds the light of a clear coat, which is paint of index 1.5 without a base. Returns the
+// share of light that it leaves. If the view has no roughness, the coat is smooth.
 static double add_clearcoat(walk *w, const path *p, const surface *s)
 {
     double there = oracle_clearcoat_of(w, s);
@@ -485,8 +490,8 @@ static double add_clearcoat(walk *w, const path *p, const surface *s)
     return 1.0 - there * (1.0 + 0.04 * lost) * (0.04 * lobe.white_base + lobe.white_edge);
 }
 
-// Rule 17: what sheen above metal and paint shows of the environment and of the lights. Returns
-// what it leaves of the light.
+// Rule 17: adds sheen above metal and paint, from the environment and the lights. Returns the share
+// of light that it leaves.
 static double add_sheen(walk *w, const path *p, const surface *s)
 {
     double most = largest(s->sheen_color);
@@ -503,7 +508,7 @@ static double add_sheen(walk *w, const path *p, const surface *s)
     return fmax(0.0, 1.0 - most * seen.white_base);
 }
 
-// What a surface does with the light of a path that has met it.
+// Scatters the light of a path that has met a surface.
 void oracle_meet(walk *w, const path *p, const surface *s)
 {
     double gone = 1.0 - s->coverage;

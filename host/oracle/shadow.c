@@ -1,4 +1,4 @@
-// What is left of a light on its straight way to a surface, rule 10.
+// Computes the light that is left on a light's straight way to a surface (rule 10).
 #include "oracle/shadow.h"
 #include "oracle/overlaps.h"
 #include "oracle/vector.h"
@@ -11,7 +11,7 @@ double oracle_clearcoat_of(const walk *w, const surface *s)
     return none ? 0.0 : s->clearcoat;
 }
 
-// What is there of the surfaces that a shadow's ray meets in one place, where solids may overlap.
+// Finds the surface that a shadow ray meets among those in one place, where solids may overlap.
 static bool shows(oracle_shadow *to_light, oracle_hit *hit, vector direction)
 {
     const oracle_scene *scene = to_light->walk->scene;
@@ -28,7 +28,7 @@ static bool shows(oracle_shadow *to_light, oracle_hit *hit, vector direction)
     return there;
 }
 
-// Through what is not there, and through glass by its Fresnel term and colour.
+// Passes the share that is not there, and glass by its Fresnel term and colour.
 vector oracle_pass_straight(void *state, const oracle_hit *hit, vector direction)
 {
     oracle_shadow *to_light = state;

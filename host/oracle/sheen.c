@@ -1,4 +1,4 @@
-// Sheen: fibres that stand on a surface, by plain quadrature over directions. See rough.h.
+// Computes sheen, fibres that stand on a surface, by plain quadrature over directions. See rough.h.
 #include "oracle/rough.h"
 
 static const double PI = 3.14159265358979323846;
@@ -8,7 +8,7 @@ static double mixed(double at_0, double at_1, double share)
     return at_0 + (at_1 - at_0) * share;
 }
 
-// L(x) and Λ of KHR_materials_sheen.
+// L(x) of KHR_materials_sheen; lambda below is its Λ.
 static double helper(double x, double alpha)
 {
     double share = pow(1.0 - alpha, 2.0);
@@ -40,7 +40,8 @@ double oracle_sheen_towards(const surface *s, vector direction)
 
 lobe_integrals oracle_sheen(const surface *s, int strata, seen_light light, const void *context)
 {
-    // Angles about the normal; those above the surface are t², dense at the horizon.
+    // Directions by angle about the normal and height above the surface. The height ~ t² is dense
+    // at the horizon.
     vector first = cross(s->normal, s->viewer);
     if (!(largest_magnitude(first) > 1e-6))
         first = cross(s->normal,

@@ -1,5 +1,5 @@
-// Surfaces where paths meet them: rule 1, and what textures, colours and alpha make of a material.
-// See surface.h.
+// Evaluates surfaces where paths meet them: rule 1, and materials after textures, colours and
+// alpha. See surface.h.
 #include "oracle/surface.h"
 
 #include <stddef.h>
@@ -19,15 +19,15 @@ const oracle_material oracle_material_default = {
     .occlusion_strength = 1.0,
 };
 
-// What is known of the triangle that was met.
+// The hit triangle and the place on it.
 typedef struct place {
     const oracle_triangle *triangle;
-    const oracle_corner *corners; // [3]; NULL: they hold nothing
+    const oracle_corner *corners; // [3]; NULL: no attributes
     const double *weights;        // barycentric
-    vector edges[2];              // from the first vertex
-    vector winding;               // n_g on the side from which the triangle winds left
-    // How the weights of the second and third vertex change where the ray moves aside by 1, along
-    // the surface's slant and across it.
+    vector edges[2];              // from the first vertex to the others
+    vector winding;               // n_g on the side from which the winding is counter-clockwise
+    // Change of the second and third vertex's weight if the ray moves aside by 1, along the
+    // surface's slant and across it.
     double moved[2][2]; // [axis][vertex]
 } place;
 
@@ -43,10 +43,10 @@ bool oracle_is_thin(const oracle_material *m)
            !(m->thickness > 0.0);
 }
 
-// ---- What the pixel sees of the triangle --------------------------------------------------------
+// ---- The pixel's view of the triangle -----------------------------------------------------------
 
-// The two axes of the cone's section with the triangle's plane, per width of the cone: one runs
-// across the ray, the other is as much longer as the ray is slanted.
+// The two axes of the cone's section with the triangle's plane, per width of the cone. One axis
+// runs across the ray. The other axis is longer, by the slant of the ray.
 static void find_axes(place *p, vector direction)
 {
     vector across = cross(p->winding, direction);
@@ -60,13 +60,14 @@ static void find_axes(place *p, vector direction)
             p->moved[axis][k] = dot(axes[axis], dual[k]) / dot(p->edges[k], dual[k]);
 }
 
-// A number that the corners hold, here; exactly that which all three hold.
+// Interpolates an attribute of the corners. If all three are equal, the result is exactly equal
+// too.
 static double here(const place *p, const double of[3])
 {
     return of[0] + p->weights[1] * (of[1] - of[0]) + p->weights[2] * (of[2] - of[0]);
 }
 
-// How it changes along an axis.
+// The attribute's change along an axis.
 static double change(const place *p, int axis, const double of[3])
 {
     return p->moved[axis][0] * (of[1] - of[0]) + p->moved[axis][1] * (of[2] - of[0]);
@@ -88,7 +89,7 @@ static oracle_spot spot_of(const place *p, int set, const arrival *by)
 
 // ---- Materials ----------------------------------------------------------------------------------
 
-// What a texture says, white where there is none. Notes how near it is to saying something else.
+// Looks up a texture; white if there is none. Records how near the look-up is to a jump.
 static oracle_glance glance_at(const place *p, const arrival *by, oracle_role role, surface *s)
 {
     const oracle_texture *texture = &s->material->texture[role];
@@ -101,7 +102,7 @@ static oracle_glance glance_at(const place *p, const arrival *by, oracle_role ro
     return glance;
 }
 
-// Rule 9: how much of the surface is there. `slope` bounds how fast alpha changes.
+// Computes coverage (rule 9). `slope` bounds the change of alpha.
 static void cover(double alpha, double slope, const arrival *by, surface *s)
 {
     const oracle_material *m = s->material;
@@ -115,7 +116,7 @@ static void cover(double alpha, double slope, const arrival *by, surface *s)
     }
 }
 
-// The colours of the vertices, and how fast their alpha changes.
+// Interpolates the vertices' colours, and bounds the change of their alpha.
 static void take_colors(const place *p, double rgba[4], double *slope)
 {
     for (int c = 0; c < 4; c++) {
@@ -132,12 +133,14 @@ static void take_material(const place *p, const arrival *by, surface *s)
     const oracle_material *m = s->material;
     double color[4], slope;
     take_colors(p, color, &slope);
+    // Base colour and emission.
     oracle_glance base = glance_at(p, by, ORACLE_BASE, s);
     oracle_glance emission = glance_at(p, by, ORACLE_EMISSION, s);
     for (int c = 0; c < 3; c++) {
         s->base.at[c] = m->base[c] * color[c] * base.rgba[c];
         s->emission.at[c] = m->emission[c] * emission.rgba[c];
     }
+    // Metallic, roughness, transmission and specular.
     oracle_glance metal = glance_at(p, by, ORACLE_METALLIC, s);
     s->metallic = m->metallic * metal.rgba[2];
     s->roughness = m->roughness * metal.rgba[1];
@@ -146,10 +149,12 @@ static void take_material(const place *p, const arrival *by, surface *s)
     oracle_glance tint = glance_at(p, by, ORACLE_SPECULAR_COLOR, s);
     for (int c = 0; c < 3; c++)
         s->specular_color.at[c] = m->specular_color[c] * tint.rgba[c];
+    // Clear coat and film.
     s->clearcoat = m->clearcoat * glance_at(p, by, ORACLE_CLEARCOAT, s).rgba[0];
     s->film = m->film * glance_at(p, by, ORACLE_IRIDESCENCE, s).rgba[0];
     double far = glance_at(p, by, ORACLE_IRIDESCENCE_THICKNESS, s).rgba[1];
     s->film_thickness = m->film_thickness[0] + far * (m->film_thickness[1] - m->film_thickness[0]);
+    // Diffuse transmission and sheen.
     s->through = m->diffuse_transmission * glance_at(p, by, ORACLE_DIFFUSE_TRANSMISSION, s).rgba[3];
     oracle_glance through = glance_at(p, by, ORACLE_DIFFUSE_TRANSMISSION_COLOR, s);
     for (int c = 0; c < 3; c++)
@@ -160,6 +165,7 @@ static void take_material(const place *p, const arrival *by, surface *s)
     s->sheen_roughness = m->sheen_roughness * glance_at(p, by, ORACLE_SHEEN_ROUGHNESS, s).rgba[3];
     s->clearcoat_roughness =
         m->clearcoat_roughness * glance_at(p, by, ORACLE_CLEARCOAT_ROUGHNESS, s).rgba[1];
+    // Occlusion and coverage.
     double open = glance_at(p, by, ORACLE_OCCLUSION, s).rgba[0];
     s->occlusion = 1.0 - m->occlusion_strength * (1.0 - open);
     cover(m->alpha * color[3] * base.rgba[3], m->alpha * (slope + base.slope), by, s);
@@ -167,7 +173,7 @@ static void take_material(const place *p, const arrival *by, surface *s)
 
 // ---- Normals ------------------------------------------------------------------------------------
 
-// The vertices' normals, interpolated and made unit; false where that can't be.
+// Interpolates the vertices' normals and normalises. False if that is impossible.
 static bool interpolated_normal(const place *p, vector *n)
 {
     vector sum = {{0.0, 0.0, 0.0}};
@@ -181,7 +187,7 @@ static bool interpolated_normal(const place *p, vector *n)
     return isfinite(n->at[0] + n->at[1] + n->at[2]);
 }
 
-// Tangent and bitangent; false where a corner has none, or where they turn different ways.
+// Interpolates tangent and bitangent. False if a corner has none, or if their signs differ.
 static bool find_tangents(const place *p, vector n, vector *tangent, vector *bitangent)
 {
     double turn = p->corners ? p->corners[0].tangent[3] : 0.0;
@@ -196,7 +202,7 @@ static bool find_tangents(const place *p, vector n, vector *tangent, vector *bit
     return true;
 }
 
-// The normal as a texture bends it. It stays where there are no tangents.
+// Bends a normal by a texture. Without tangents the normal stays.
 static vector bent(const place *p, const arrival *by, oracle_role role, vector n, surface *s)
 {
     const oracle_material *m = s->material;
@@ -213,7 +219,7 @@ static vector bent(const place *p, const arrival *by, oracle_role role, vector n
     return !flat && isfinite(to.at[0] + to.at[1] + to.at[2]) ? to : n;
 }
 
-// How much rougher it is along a direction, and which.
+// Sets the strength and direction of anisotropy.
 static void take_brush(const place *p, const arrival *by, vector own, surface *s)
 {
     const oracle_material *m = s->material;
@@ -234,8 +240,8 @@ static void take_brush(const place *p, const arrival *by, vector own, surface *s
         s->anisotropy = strength;
 }
 
-// The root mean square, over the triangle's edges, of how much normals turn per length; less than 0
-// where they lean towards each other.
+// The root mean square, over the triangle's edges, of the normals' change per length. Negative if
+// the normals lean towards each other.
 static double curvature_of(const oracle_triangle *triangle)
 {
     double turned = 0.0, parted = 0.0, squares = 0.0;
@@ -250,7 +256,8 @@ static double curvature_of(const oracle_triangle *triangle)
     return copysign(sqrt(turned / squares), parted < 0.0 ? -1.0 : 1.0);
 }
 
-// Rule 1. Textures bend a normal as the file has it; then it is turned as the file's own is.
+// Rule 1: a texture bends the normal as the file has it. Then it is turned to the side of n_g like
+// the unbent normal.
 static void take_normals(const place *p, const arrival *by, surface *s)
 {
     vector own = p->winding;
@@ -269,7 +276,7 @@ static void take_normals(const place *p, const arrival *by, surface *s)
     if (smooth)
         s->curvature = curvature_of(p->triangle) * (dot(own, s->normal) < 0.0 ? -1.0 : 1.0);
     if (smooth && p->corners)
-        s->jump = fmin(s->jump, s->cosine); // where the curvature changes its sign
+        s->jump = fmin(s->jump, s->cosine); // here the curvature changes its sign
 }
 
 surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, const arrival *by)
@@ -279,7 +286,7 @@ surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, cons
     p.corners = scene->corners ? scene->corners[hit->triangle] : NULL;
     surface s = {.triangle = hit->triangle, .index = triangle->material, .jump = INFINITY};
     s.material = &scene->materials[s.index];
-    // By the vertices' weights, not by origin + distance·direction: exact in the plane.
+    // Use the vertices' weights, not origin + distance·direction: the point is exact in the plane.
     vector corners[3];
     for (int i = 0; i < 3; i++) {
         corners[i] = vector_of(triangle->position[i]);

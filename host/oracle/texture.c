@@ -1,4 +1,4 @@
-// Levels of images, and look-ups in them. See texture.h.
+// Computes the levels of images and looks them up. See texture.h.
 #include "oracle/texture.h"
 
 #include <math.h>
@@ -32,13 +32,13 @@ void oracle_image_free(oracle_image *image)
     *image = (oracle_image){0};
 }
 
-// How much of [i, i + 1] lies within [low, high].
+// The part of [i, i + 1] within [low, high].
 static double overlap(int i, double low, double high)
 {
     return fmax(0.0, fmin(i + 1, high) - fmax(i, low));
 }
 
-// The mean of what texel (x, y) of a level covers of the level before.
+// The mean over the area that texel (x, y) of a level covers in the level before.
 static void average(const oracle_image *image, int level, const int at[2], bool coverage,
                     double mean[4])
 {
@@ -74,7 +74,7 @@ void oracle_image_average(oracle_image *image, bool coverage)
     }
 }
 
-// A texel's number in a row or column, from any whole number.
+// The index of a texel in a row or column, from any whole number.
 static int wrapped(double i, int size, oracle_wrap how)
 {
     if (how == ORACLE_CLAMP)
@@ -84,7 +84,7 @@ static int wrapped(double i, int size, oracle_wrap how)
     return (int)(i >= size ? period - 1.0 - i : i);
 }
 
-// One level at (u, v): adds `share` times the mean of four texels, or of the nearest.
+// Use of one level at (u, v): adds `share` times the mean of four texels, or of the nearest texel.
 typedef struct use {
     int level;
     bool nearest;
@@ -119,7 +119,7 @@ static void look_up_level(const oracle_texture *t, const use *of, const double u
     }
 }
 
-// How far u and v, transformed, are from the border of a texel of a level, as a distance aside.
+// The distance aside from the transformed u and v to the border of a level's texel.
 static double nearest_border(const oracle_texture *t, int level, const double uv[2],
                              const double speed[2])
 {
@@ -133,7 +133,7 @@ static double nearest_border(const oracle_texture *t, int level, const double uv
     return least;
 }
 
-// Which levels, by how many texels of the first a tap covers.
+// The levels to look up, by the number of finest texels that a tap covers.
 typedef struct choice {
     use fine, coarse;
     double turn;
@@ -161,17 +161,17 @@ static choice choose(const oracle_texture *t, double texels)
     return c;
 }
 
-// The ellipse that the pixel sees, in texels: its longer axis, and the taps along it.
+// The pixel's ellipse in texels: its longer axis, and the taps along it.
 typedef struct ellipse {
-    double width;    // of a tap
-    double length;   // of the row of taps, in taps: 1 or more
+    double width;    // width of a tap
+    double length;   // length of the row of taps, in taps: at least 1
     double along[2]; // from tap to tap, in texture coordinates
 } ellipse;
 
-// `axes` are conjugate: the ellipse is what they make of a circle.
+// `axes` are conjugate semi-axes: a linear map takes a circle's axes to them.
 static ellipse ellipse_of(const oracle_texture *t, double axes[2][2], int most)
 {
-    double uu = 0.0, uv = 0.0, vv = 0.0; // of the ellipse's matrix
+    double uu = 0.0, uv = 0.0, vv = 0.0; // entries of the ellipse's matrix
     for (int axis = 0; axis < 2; axis++) {
         uu += axes[axis][0] * axes[axis][0];
         uv += axes[axis][0] * axes[axis][1];
@@ -192,15 +192,15 @@ static ellipse ellipse_of(const oracle_texture *t, double axes[2][2], int most)
     return e;
 }
 
-// A look-up under way.
+// The state of a look-up.
 typedef struct look {
     const oracle_texture *texture;
     choice choice;
-    double speed[2]; // of u and v, per distance aside
+    double speed[2]; // change of u and of v per distance aside
     oracle_glance found;
 } look;
 
-// Adds `share` of a tap to what was found.
+// Adds `share` of a tap to the result.
 static void add_tap(look *l, const double uv[2], double share)
 {
     use fine = l->choice.fine, coarse = l->choice.coarse;
@@ -215,8 +215,8 @@ static void add_tap(look *l, const double uv[2], double share)
     }
 }
 
-// The mean along the ellipse: 2 taps up to a length of 2, where they are 1 apart; then 4, of which
-// the outer two count in part; and so on.
+// Adds the mean along the ellipse. Up to a length of 2 there are two taps, length − 1 apart. Then
+// there are 4 taps, 1 apart, and the outer two count in part; and so on.
 static void add_taps(look *l, const ellipse *e, const double uv[2])
 {
     if (e->length == 1.0) {

@@ -1,4 +1,4 @@
-// The oracle's own vectors: three doubles by value, for directions, points and colours.
+// Defines the oracle's own vectors: three doubles by value, for directions, points and colours.
 #ifndef GLINT_ORACLE_VECTOR_H
 #define GLINT_ORACLE_VECTOR_H
 
@@ -34,7 +34,7 @@ static inline vector scaled(vector a, double s)
     return (vector){{a.at[0] * s, a.at[1] * s, a.at[2] * s}};
 }
 
-// Component by component: colours.
+// Multiplies componentwise, for colours.
 static inline vector times(vector a, vector b)
 {
     return (vector){{a.at[0] * b.at[0], a.at[1] * b.at[1], a.at[2] * b.at[2]}};
@@ -67,8 +67,8 @@ static inline double largest_magnitude(vector a)
     return fmax(fabs(a.at[0]), fmax(fabs(a.at[1]), fabs(a.at[2])));
 }
 
-// Unit vector along a. Divides by the largest component first, so that neither 10⁻²⁰⁰ nor 10²⁰⁰
-// leaves the range of squares; the zero vector gives NaN.
+// The unit vector along a. Divides by the largest component first, so the squares of 10⁻²⁰⁰ and
+// 10²⁰⁰ stay in range. The zero vector gives NaN.
 static inline vector unit(vector a)
 {
     vector b = scaled(a, 1.0 / largest_magnitude(a));

@@ -1,5 +1,6 @@
-// Hard cases of the environment: ties between the cube's faces, its edges and corners, texels'
-// centres and borders, the poles and the seam of a lat-long map, values that are no radiance.
+// Tests hard cases of the environment: ties between the cube's faces, its edges and corners,
+// centres and borders of texels, the poles and the seam of a lat-long map, values that are no
+// radiance.
 #include "selftest/trial.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 #define EDGE 16 // texels of the linear environment
 
-// The environment along directions, looked up on the device.
+// Looks up the environment along directions on the device.
 static glint_status look_up(trial *t, const glint_environment *environment, double (*in)[4],
                             double (*out)[4], size_t count)
 {
@@ -24,7 +25,7 @@ cleanup:
     return status;
 }
 
-// ½ + ½d of a direction of any length.
+// ½ + ½d, for d of any length.
 static void linear_color(const double d[3], double rgb[3])
 {
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -37,7 +38,7 @@ static double largest_difference(const double a[3], const double b[3])
 {
     double largest = 0;
     for (int k = 0; k < 3; k++) {
-        // Written so that NaN is the largest.
+        // NaN is the largest.
         const double difference = fabs(a[k] - b[k]);
         largest = difference <= largest ? largest : difference;
     }
@@ -52,9 +53,10 @@ static bool same_color(const double a[3], const double b[3])
 // ---- Ties --------------------------------------------------------------------------------------
 
 #define TIES 288
-#define ODD 8 // directions that are none
+#define ODD 8 // directions that are zero or not finite
 
-// Two of the components alike or all three, of all signs, the third from 0 to as large.
+// Makes a direction with two or three equal magnitudes, in all signs. The third is from 0 to as
+// large.
 static void tie(int number, double d[3])
 {
     static const double thirds[] = {0, -0.0, 1e-30, 0.25, 0.75, 1};
@@ -65,7 +67,7 @@ static void tie(int number, double d[3])
     d[(axis + 2) % 3] = (signs & 4 ? -1 : 1) * size;
 }
 
-// The order x, y, z decides, as in ImfEnvmap.h.
+// The face of a tie. The order x, y, z decides, as in ImfEnvmap.h.
 static int face_of_tie(const double d[3])
 {
     const double x = fabs(d[0]), y = fabs(d[1]), z = fabs(d[2]);
@@ -81,10 +83,10 @@ static void measure_odd(glint_measure *wild, const double d[3], const double v[3
                   v[2]);
 }
 
-// The face and the place there, in texels, that a tie falls on.
+// Measures the face of a tie, and its place there in texels.
 static void measure_face(trial *t, glint_measure *others, const double d[3], const double f[4])
 {
-    // With the rounding of the place.
+    // Allow for the rounding of the place.
     const double low = 0.5 - 2 * t->u * EDGE, high = EDGE + 0.5 + 2 * t->u * EDGE;
     const bool inside = f[1] >= low && f[1] <= high && f[2] >= low && f[2] <= high;
     measure_event(others, f[0] != face_of_tie(d) || !inside,
@@ -92,9 +94,9 @@ static void measure_face(trial *t, glint_measure *others, const double d[3], con
                   face_of_tie(d), f[0], f[1], f[2]);
 }
 
-// Both faces of a tie have the same value there but for the rounding of the border's texels, which
-// are floats, so that a step over it is no larger than one within a face: a few rounding errors of
-// the place, which the map turns into EDGE times as much.
+// Measures steps over ties. Both faces have the same value there, except for the rounding of the
+// border's texels to float. So a step over a tie is no larger than a step within a face: a few
+// rounding errors of the place, times EDGE.
 static glint_status measure_jumps(trial *t, glint_measure *jumps, glint_measure *wild)
 {
     static const double odd[ODD][3] = {{NAN, 0, -1},
@@ -106,6 +108,7 @@ static glint_status measure_jumps(trial *t, glint_measure *jumps, glint_measure 
                                        {1, INFINITY, -INFINITY},
                                        {-0.0, 0, NAN}};
     static double in[3 * TIES + ODD][4], out[3 * TIES + ODD][4];
+    // Try each tie three times: as it is, and a little to either side.
     for (int i = 0; i < TIES; i++) {
         double d[3];
         tie(i, d);
@@ -119,6 +122,7 @@ static glint_status measure_jumps(trial *t, glint_measure *jumps, glint_measure 
     for (int i = 0; i < ODD; i++) {
         memcpy(in[3 * TIES + i], odd[i], sizeof odd[i]);
     }
+    // Look up and compare.
     glint_environment environment;
     glint_status status;
     TRY_OR(cleanup, status, trial_linear_environment(EDGE, &environment, t->error));
@@ -170,7 +174,7 @@ static glint_status seams_of_edge(trial *t, int edge, glint_measure *errors)
 {
     static double in[SEAM_LOOKUPS][4], out[SEAM_LOOKUPS][4];
     for (int i = 0; i < SEAM_LOOKUPS; i++) {
-        // Within a texel of an edge, every other one of a corner.
+        // Within a texel of an edge. Every other direction is within a texel of a corner.
         double d[3];
         tie(i % 24, d);
         const int axis = i % 3;
@@ -216,9 +220,10 @@ static glint_status texel_centres(trial *t)
     glint_environment environment;
     glint_status status;
     TRY_OR(cleanup, status, trial_linear_environment(EDGE, &environment, t->error));
+    // Aim at the centre of each texel, and half a texel to the right.
     for (int i = 0; i < COUNT; i++) {
         const int face = i / (EDGE * EDGE), row = i / EDGE % EDGE, column = i % EDGE;
-        // All are multiples of 1/16: exact.
+        // All are multiples of 1/16, so they are exact.
         const double s = (2.0 * column + 1) / EDGE - 1, v = (2.0 * row + 1) / EDGE - 1;
         const glint_vec3 centre = glint_cube_direction(face, s, v);
         const glint_vec3 border = glint_cube_direction(face, s + 1.0 / EDGE, v);
@@ -227,13 +232,14 @@ static glint_status texel_centres(trial *t)
         memcpy(in[COUNT + i], b, sizeof b);
     }
     TRY_OR(cleanup, status, look_up(t, &environment, in, out, 2 * COUNT));
+    // A centre gives the texel; half-way gives the mean of two texels.
     for (int i = 0; i < COUNT; i++) {
         const int face = i / (EDGE * EDGE), row = i / EDGE % EDGE, column = i % EDGE;
         const float *texel = glint_cube_texel(&environment.radiance, face, column, row);
         for (int k = 0; k < 3; k++) {
             measure_value(centres, out[i][k], (double)texel[k], t->u, "face %d, column %d, row %d",
                           face, column, row);
-            // The last column's border lies on the cube's edge, where another face may answer.
+            // The last column's border lies on the cube's edge. Another face may answer there.
             if (column + 1 < EDGE) {
                 measure_value(
                     borders, out[COUNT + i][k], ((double)texel[k] + (double)texel[4 + k]) / 2, t->u,
@@ -250,7 +256,7 @@ cleanup:
 
 #define ROWS 128
 
-// ½ + ½d by direction; +Y up, +Z in the middle, +X a quarter in from the left.
+// Makes a lat-long map of ½ + ½d; +Y up, +Z in the middle, +X a quarter in from the left.
 static glint_status latlong_environment(trial *t, glint_environment *environment)
 {
     glint_image image;
@@ -278,10 +284,11 @@ static glint_status latlong_poles(trial *t)
     enum { COUNT = 4096 };
     static double in[COUNT][4], out[COUNT][4];
     // Bilinear look-ups err by an eighth of the second derivative, ½, times the square of a step,
-    // π/ROWS, each way; twice that next to a pole, where rows end.
+    // π/ROWS, each way. Next to a pole, where rows end, they err by twice as much.
     glint_measure *errors = trial_error(t, "error at the poles and the seam", "(π/rows)²/4", 1);
     for (int i = 0; i < COUNT; i++) {
-        // The poles and what is near them; the seam at −Z and a column to either side.
+        // Half of the directions are at a pole or near it, half near the seam at −Z, within a
+        // column.
         const double small = pow(10, trial_random(t, -12, 0)), turn = trial_random(t, 0, 7);
         const double pole[3] = {i < 8 ? 0 : small * cos(turn), i % 2 ? -1 : 1,
                                 i < 8 ? 0 : small * sin(turn)};
@@ -318,7 +325,7 @@ static const struct {
                   {4, 4, 12, 65504, 65504}};
 #define BAD_TEXELS 5
 
-// A strip of six faces, as it is or with the bad texels in it.
+// Makes a strip of six faces, with or without the bad texels.
 static glint_status strip_environment(trial *t, bool spoilt, glint_environment *environment)
 {
     glint_environment linear = {0};
@@ -346,7 +353,7 @@ cleanup:
     return status;
 }
 
-// Whether a texel without radiance has a part in the look-up along d.
+// True if a bad texel is in the footprint of the look-up along d.
 static bool in_footprint(const double d[3])
 {
     bool inside = false;
@@ -374,6 +381,7 @@ static glint_status bad_radiance(trial *t)
     glint_measure *changed = trial_events(t, "look-ups changed away from bad texels", 0);
     glint_measure *wild = trial_events(t, "look-ups that are not finite or below 0", 0);
     glint_environment whole = {0}, spoilt = {0};
+    // Aim at the bad texels, and anywhere.
     for (int i = 0; i < COUNT; i++) {
         const glint_vec3 d = glint_random_direction(&t->random);
         const int b = i % BAD_TEXELS;
@@ -383,11 +391,13 @@ static glint_status bad_radiance(trial *t)
         const double random[3] = {d.x, d.y, d.z}, at[3] = {centre.x, centre.y, centre.z};
         memcpy(in[i], i < BAD_TEXELS ? at : random, sizeof at);
     }
+    // Look up the whole map and the spoilt map.
     glint_status status;
     TRY_OR(cleanup, status, strip_environment(t, false, &whole));
     TRY_OR(cleanup, status, strip_environment(t, true, &spoilt));
     TRY_OR(cleanup, status, look_up(t, &whole, in, clean, COUNT));
     TRY_OR(cleanup, status, look_up(t, &spoilt, in, found, COUNT));
+    // Only bad texels may differ.
     measure_value(count, (double)spoilt.mended_texels, 4, 1, "of 5 texels");
     for (int i = 0; i < COUNT; i++) {
         const double *v = found[i];
@@ -408,8 +418,8 @@ cleanup:
     return status;
 }
 
-// Radiance up to 10⁻³⁷, of which the lower tenth is denormal in float: right but for what flushing
-// takes, a denormal number for each of the texels of a look-up, 1.2·10⁻³⁸ at most all together.
+// Looks up radiance up to 10⁻³⁷. The lowest tenth is denormal in float. Flushing may take a
+// denormal number for each texel of a look-up: together at most 1.2·10⁻³⁸.
 static glint_status denormal_radiance(trial *t)
 {
     enum { COUNT = 4096 };

@@ -1,5 +1,5 @@
-// Hard cases of what rays hit: edges, vertices, slivers, degenerate and coincident triangles,
-// places where naive slab tests give NaN, scenes far from the origin.
+// Tests hard cases of hits: edges, vertices, slivers, degenerate and coincident triangles, places
+// where naive slab tests give NaN, scenes far from the origin.
 #include "base/memory.h"
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BATCH 32768 // of rays
+#define BATCH 32768 // rays in a batch
 
 // ---- Closed meshes -----------------------------------------------------------------------------
 
@@ -24,7 +24,7 @@ static double bumpy(const double u[3])
     return 0.8 + 0.1 * sin(5 * u[0]) * sin(4 * u[1] + 1) * sin(6 * u[2] + 2);
 }
 
-// Bodies that are star-shaped about their middle, so that every ray from there must hit.
+// Makes a closed body, star-shaped about its middle: every ray from there must hit.
 static glint_status closed_scene(trial *t, int which, glint_scene *scene)
 {
     static const double origin[3] = {0, 0, 0}, aside[3] = {0.6, -0.7, 0.55},
@@ -43,7 +43,7 @@ static glint_status closed_scene(trial *t, int which, glint_scene *scene)
     case 3:
         shape_add_ball(&s, &(shape_ball){origin, 0x1p-10, 4, MATERIAL_TINTED, true, NULL});
         break;
-    case 4: // with an origin of its own
+    case 4: // gets an origin of its own
         shape_add_ball(&s, &(shape_ball){aside, 0x1p-10, 4, MATERIAL_TINTED, true, bumpy});
         return shape_end_with_parts(&s, 1, scene, NULL, t->error);
     default:
@@ -54,7 +54,7 @@ static glint_status closed_scene(trial *t, int which, glint_scene *scene)
 }
 #define CLOSED_SCENES 6
 
-// A point on an edge of a random triangle, or a vertex.
+// Picks a point on an edge of a random triangle, or a vertex.
 static void random_target(trial *t, const glint_scene *scene, bool at_vertex, double target[3])
 {
     const size_t number = (size_t)(glint_random_number(&t->random) * (double)scene->triangle_count);
@@ -70,7 +70,7 @@ static void random_target(trial *t, const glint_scene *scene, bool at_vertex, do
     }
 }
 
-// From somewhere near the middle, inside.
+// A ray that starts inside, near the middle.
 static glint_probe_ray ray_from_inside(trial *t, const glint_scene *scene, const double target[3])
 {
     const double size = 0.05 * (scene->high.x - scene->low.x);
@@ -80,7 +80,7 @@ static glint_probe_ray ray_from_inside(trial *t, const glint_scene *scene, const
     return trial_aim(t, from, target);
 }
 
-// `in` and `out` hold a batch.
+// Traces a batch. `in` and `out` hold it.
 static glint_status trace_batch(trial *t, glint_probe *probe, const glint_scene *scene,
                                 bool at_vertex, glint_measure *leaks)
 {
@@ -160,7 +160,7 @@ cleanup:
     return status;
 }
 
-// What the probe and the oracle say of the rays, into arrays of `count`.
+// Gets the oracle's hits of the rays, an array of `count`.
 static glint_status trace_by_oracle(trial *t, const glint_scene *scene, const glint_probe_ray *rays,
                                     oracle_hit *wanted, size_t count)
 {
@@ -178,13 +178,13 @@ static glint_status trace_by_oracle(trial *t, const glint_scene *scene, const gl
 #define SHEET 128 // pixels across and down
 #define SHEET_YFOV (0.5 * GLINT_PI)
 
-// A sheet whose vertices stand on the rays through pixels' middles, to the last place: on those of
-// every pixel or, with a step of 2, of every other one, so that the rest look at edges.
+// Makes a sheet whose vertices stand exactly on the rays through pixels' middles. With step 1 every
+// such ray meets a vertex. With step 2 every other ray does, and the rest meet edges.
 static glint_status sheet_scene(trial *t, int step, bool orthographic, glint_scene *scene)
 {
     enum { COUNT = SHEET + 5 };
     static double at[COUNT][COUNT][3];
-    const double pixel = 2.0 / SHEET; // 2 tan(45°): all products here are exact in float
+    const double pixel = 2.0 / SHEET; // 2 tan(45°); all products here are exact in float
     for (int j = 0; j < COUNT; j++) {
         for (int i = 0; i < COUNT; i++) {
             const double depth = orthographic ? 1 : floor(trial_random(t, 16, 32)) / 64;
@@ -208,11 +208,12 @@ static glint_status sheet_scene(trial *t, int step, bool orthographic, glint_sce
     return shape_end_with_unit(&s, orthographic ? 2 : 1, scene, t->error);
 }
 
-// Frames of the sheet, each seen with an angle that is another by an ulp or a few.
+// Renders frames of the sheet. Each frame's angle of view differs by some ulp.
 static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthographic,
                                 uint64_t rays, glint_measure *leaks)
 {
     static const double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1};
+    // Set up a renderer that shows hits.
     glint_environment environment;
     glint_settings settings = trial_settings(t);
     settings.width = settings.height = SHEET;
@@ -223,8 +224,9 @@ static glint_status watch_sheet(trial *t, const glint_scene *scene, bool orthogr
     TRY_OR(cleanup, status, trial_uniform_environment(1, &environment, t->error));
     const glint_renderer_inputs inputs = trial_inputs(t, scene, &environment, &settings);
     TRY_OR(cleanup, status, glint_renderer_create(&inputs, &renderer, t->error));
+    // Render with a nudged angle. Every pixel must hit the sheet.
     for (uint64_t done = 0; done < rays; done += SHEET * SHEET) {
-        // 0, 1, −1, 2, −2 and so on.
+        // The nudge is 0, 1, −1, 2, −2 and so on.
         const int frame = (int)(done / (SHEET * SHEET) % 17), off = (frame + 1) / 2;
         const double nudge = 1 + t->u * (frame % 2 == 1 ? off : -off);
         const glint_camera camera = shape_camera(eye, target, orthographic ? 0 : SHEET_YFOV * nudge,
@@ -268,9 +270,10 @@ static glint_status primary_rays_at_edges(trial *t)
 
 // ---- Zeros and NaN -----------------------------------------------------------------------------
 
-#define GRID 16 // origins' coordinates are multiples of 1/GRID, as the boxes' corners are
+#define GRID 16 // origins and the boxes' corners are multiples of 1/GRID
 
-// Along an axis, from a point on the grid; the other components are 0 or −0, in all ways.
+// A ray along an axis, from a point on the grid. The other components are 0 or −0, in all
+// combinations.
 static glint_probe_ray axis_ray(int number)
 {
     const int axis = number % 3, sign = number / 3 % 2, zeros = number / 6 % 4;
@@ -285,7 +288,7 @@ static glint_probe_ray axis_ray(int number)
     return ray;
 }
 
-// Boxes inside each other: walls all along the grid's planes, on which rays run and begin.
+// Makes boxes inside each other. Rays run and start on their walls, which lie in the grid's planes.
 static glint_status nested_boxes(trial *t, glint_scene *scene)
 {
     shape s = shape_begin();
@@ -304,7 +307,8 @@ static glint_status directions_with_zeros(trial *t)
     static glint_probe_hit found[COUNT];
     static oracle_hit wanted[COUNT];
     glint_measure *others = trial_events(t, "rays that meet another triangle", 0);
-    glint_measure *distances = trial_error(t, "error of the distance", "u", 4); // of a division
+    // A division errs by this much.
+    glint_measure *distances = trial_error(t, "error of the distance", "u", 4);
     for (int i = 0; i < COUNT; i++) {
         rays[i] = axis_ray(i);
     }
@@ -328,11 +332,12 @@ cleanup:
     return status;
 }
 
-// A bumpy ball; with `spoilt`, a triangle without area follows each of its own.
+// Makes a bumpy ball. With `spoilt`, a triangle without area follows each of its triangles.
 static glint_status ball_scene(trial *t, bool spoilt, glint_scene *scene)
 {
     static const double centre[3] = {0, 0, 0};
     glint_scene clean;
+    // Make the plain ball.
     shape plain = shape_begin();
     shape_add_ball(&plain, &(shape_ball){centre, 1, 3, MATERIAL_TINTED, false, bumpy});
     glint_status status = shape_end(&plain, &clean, t->error);
@@ -340,13 +345,15 @@ static glint_status ball_scene(trial *t, bool spoilt, glint_scene *scene)
         *scene = clean;
         return status;
     }
+    // Copy it, with empty triangles between.
     shape s = shape_begin();
     for (size_t i = 0; i < clean.triangle_count; i++) {
         double own[3][3], empty[3][3];
         for (size_t k = 0; k < 9; k++) {
             own[k / 3][k % 3] = (double)clean.positions[9 * i + k];
         }
-        // A point; an edge there and back; three points of an edge along an axis.
+        // The empty triangle is a point, an edge there and back, or three points of an edge along
+        // an axis.
         for (size_t k = 0; k < 9; k++) {
             const size_t corner = i % 3 == 0 ? 0 : k / 3 == 2 ? 0 : k / 3;
             empty[k / 3][k % 3] = own[corner][k % 3];
@@ -405,7 +412,7 @@ cleanup:
 #define STRIPS 256
 #define STRIP_WIDTH 1e-6
 
-// A closed column along y, a side of which is divided into strips a millionth as wide as long; the
+// Makes a closed column along y. One side consists of strips, a million times as long as wide. The
 // caps are fans.
 static glint_status sliver_scene(trial *t, glint_scene *scene)
 {
@@ -430,7 +437,7 @@ static glint_status sliver_scene(trial *t, glint_scene *scene)
     return shape_end(&s, scene, t->error);
 }
 
-// How far the ray passes from the point of the triangle that the weights name.
+// The distance from the ray to the point of the triangle that the weights describe.
 static double distance_to_point(const glint_scene *scene, const glint_probe_ray *ray,
                                 const glint_probe_hit *hit)
 {
@@ -449,13 +456,13 @@ static double distance_to_point(const glint_scene *scene, const glint_probe_ray 
     return sqrt(squares);
 }
 
-// How far a hit's weights lie outside of the triangle, in u.
+// Measures how far a hit's weights lie outside of the triangle, in u.
 static void judge_weights(glint_measure *weights, const trial *t, const glint_probe_hit *hit,
                           int ray)
 {
     const double b1 = hit->barycentric[0], b2 = hit->barycentric[1];
-    // All together, which is NaN if one of them is. Weights are quotients, good to 2u each, and the
-    // third is what they leave of 1.
+    // Add all up, so that NaN stays. Each weight is a quotient, good to 2u; the third is the rest
+    // to 1.
     const double outside = above_zero(-b1) + above_zero(-b2) + above_zero(b1 + b2 - 1);
     measure_error(weights, outside / t->u, "ray %d, triangle %g: %.9g, %.9g", ray, hit->triangle,
                   b1, b2);
@@ -467,10 +474,10 @@ static glint_status slivers(trial *t)
     static glint_probe_ray rays[COUNT];
     static glint_probe_hit found[COUNT];
     glint_measure *leaks = trial_events(t, "rays that pass between slivers", 0);
-    // The hit's corners are known to about 4u after the shear, and the ray's own direction is a
-    // unit vector to 2u.
+    // After the shear, the hit's corners are known to about 4u. The ray's direction is a unit
+    // vector to 2u.
     glint_measure *distances = trial_error(t, "from the ray to the point that was hit", "u", 16);
-    // With that, the point lies in the triangle that is said to be hit.
+    // Then the point lies in the triangle that is reported as hit.
     glint_measure *weights = trial_error(t, "barycentric weights outside of [0, 1]", "u", 4);
     glint_scene scene;
     glint_status status;
@@ -494,8 +501,8 @@ cleanup:
 
 // ---- Triangles seen edge-on --------------------------------------------------------------------
 
-// From places next to nothing off the planes of a box's walls, to other places like that: walls are
-// met edge-on, where rounding decides what is hit.
+// Aims rays from places very near the planes of a box's walls to other such places. They meet walls
+// edge-on, where rounding decides about the hit.
 static void aim_along_walls(trial *t, glint_probe_ray *rays, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -519,6 +526,7 @@ static glint_status edge_on_triangles(trial *t)
     glint_measure *company = trial_events(t, "hits that depend on the rays beside", 0);
     glint_measure *weights = trial_error(t, "barycentric weights outside of [0, 1]", "u", 4);
     glint_scene scene;
+    // Trace the rays in two orders.
     glint_probe *probe;
     shape s = shape_begin();
     shape_add_box(&s, &(shape_box){low, high, 2, MATERIAL_TINTED, false});
@@ -530,6 +538,7 @@ static glint_status edge_on_triangles(trial *t)
     }
     TRY_OR(cleanup, status, trial_trace(t, probe, rays, found, COUNT));
     TRY_OR(cleanup, status, trial_trace(t, probe, reversed, again, COUNT));
+    // A hit must not depend on the order.
     for (int i = 0; i < COUNT; i++) {
         const glint_probe_hit *a = &found[i], *b = &again[COUNT - 1 - i];
         measure_event(company, a->triangle != b->triangle || a->distance != b->distance,

@@ -1,5 +1,5 @@
-// Hard cases of cameras and sizes: parallel rays, angles of 0.01° and 179°, pictures of one pixel
-// and of one row, numbers beyond 2^31.
+// Tests hard cases of cameras and sizes: parallel rays, angles of 0.01° and 179°, pictures of one
+// pixel and of one row, numbers beyond 2^31.
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 
@@ -17,7 +17,7 @@ static double component(glint_vec3 v, int k)
     return k == 0 ? v.x : k == 1 ? v.y : v.z;
 }
 
-// The unit direction through a pixel's middle, in long double.
+// The unit direction through a pixel's middle, computed in long double.
 static void direction_of(const glint_camera *camera, const int size[2], double column, double row,
                          double d[3])
 {
@@ -35,7 +35,7 @@ static void direction_of(const glint_camera *camera, const int size[2], double c
     }
 }
 
-// A probe of the frame that the camera would see, and what it would be rendered with.
+// Makes a probe and the frame record of a camera's frame.
 static glint_status view_probe(trial *t, const glint_camera *camera, const int size[2],
                                glint_probe **probe, glint_frame_record *frame)
 {
@@ -47,16 +47,16 @@ static glint_status view_probe(trial *t, const glint_camera *camera, const int s
     return GLINT_OK;
 }
 
-// What rounding leaves of a direction, which is forward + X right + Y up, each rounded, then made a
-// unit vector, and of a start, which is such a sum too. In double precision the three come as sums
-// of two floats, good to 2^-49, 16u.
+// The error of a direction: forward + X right + Y up is rounded term by term, then normalised. A
+// start is such a sum too. In double precision the three vectors are sums of two floats, good to
+// 2^-49: 16u.
 static double sum_bound(const trial *t)
 {
     return t->options->precision == GLINT_PRECISION_DOUBLE ? 16 : 4;
 }
 
-// How far a primary ray's start lies from the half-line on which it should, in long double; it may
-// be anywhere on it, as kernels begin where the scene does. In terms of the farthest coordinate.
+// The distance of a primary ray's start from its exact half-line, in long double, over the farthest
+// coordinate. The start may be anywhere on the line: kernels start where the scene begins.
 static double start_error(const glint_camera *camera, const int size[2], const double pixel[2],
                           const double start[3])
 {
@@ -92,12 +92,13 @@ static ray_measures measures_of_rays(trial *t)
     };
 }
 
-// Corners, edges' middles, the middle, and anywhere.
+// Measures rays at the corners, the edges' middles, the middle, and anywhere.
 static glint_status measure_rays(trial *t, const glint_camera *camera, const int size[2],
                                  const ray_measures *judged, const char *what)
 {
     enum { COUNT = 512 };
     static double in[COUNT][4], out[COUNT][4], from[COUNT][4];
+    // Choose the pixels.
     glint_probe *probe;
     glint_frame_record frame;
     glint_status status;
@@ -109,6 +110,7 @@ static glint_status measure_rays(trial *t, const glint_camera *camera, const int
         const int which = i / 3 % 3;
         in[i][1] = i < 9 ? rows[which] : floor(trial_random(t, 0, size[1]));
     }
+    // Get directions and starts.
     TRY_OR(cleanup, status,
            glint_probe_call(probe,
                             &(glint_probe_work){GLINT_PROBE_PRIMARY, &frame, in[0], out[0], COUNT},
@@ -118,6 +120,7 @@ static glint_status measure_rays(trial *t, const glint_camera *camera, const int
                probe,
                &(glint_probe_work){GLINT_PROBE_PRIMARY_ORIGIN, &frame, in[0], from[0], COUNT},
                t->error));
+    // Compare them with long double.
     for (int i = 0; i < COUNT; i++) {
         double expected[3];
         direction_of(camera, size, in[i][0], in[i][1], expected);
@@ -151,7 +154,7 @@ static glint_status extreme_cameras(trial *t)
 
 // ---- Odd sizes ---------------------------------------------------------------------------------
 
-// The picture of nothing at all, which shows the environment alone.
+// Renders an empty scene, which shows only the environment.
 static glint_status measure_sky(trial *t, const glint_camera *camera, const int size[2],
                                 const glint_environment *environment, glint_measure *pixels)
 {
@@ -202,8 +205,8 @@ cleanup:
 
 #define TILES 64
 
-// Places in the picture of tiles of a square one, from the first to the last, where an int would
-// overflow.
+// Checks the places of tiles in a square picture, from the first to the last. An int would overflow
+// there.
 static glint_status measure_places(trial *t, int edge, glint_measure *wrong)
 {
     static double in[TILES][4], out[TILES][4];
@@ -211,12 +214,14 @@ static glint_status measure_places(trial *t, int edge, glint_measure *wrong)
     glint_probe *probe;
     glint_frame_record frame;
     TRY(view_probe(t, NULL, size, &probe, &frame));
+    // Describe a frame of bands of tiles.
     const glint_plan *plan = glint_probe_plan(probe);
     const int lanes = plan->kernel_width, side = GLINT_TILE_SIDE(plan->tiles);
     const int width = GLINT_PACKET_COLUMNS(lanes) * side, height = GLINT_PACKET_ROWS(lanes) * side;
     frame.width = frame.height = edge;
     frame.band = 4;
     frame.first_band = 3;
+    // Choose tiles over the whole picture.
     for (int p = 0; p < TILES; p++) {
         const int column = p % 8 * ((edge - 1) / width) / 7;
         const int row = p / 8 * ((edge - 1) / height) / 7 - frame.first_band * frame.band;
@@ -230,6 +235,7 @@ static glint_status measure_places(trial *t, int edge, glint_measure *wrong)
            glint_probe_call(
                probe, &(glint_probe_work){GLINT_PROBE_TILE_PLACE, &frame, in[0], out[0], TILES},
                t->error));
+    // Compare their places with 64-bit arithmetic.
     for (int p = 0; p < TILES; p++) {
         const int64_t across = (int64_t)in[p][0], down = (int64_t)in[p][1];
         const int64_t column = across / frame.band * width;

@@ -1,5 +1,6 @@
-// Hard cases of punctual lights: in a surface, close above one, at the edge of a cone and of a
-// range, in mirrors and through glass, and in scenes of any size. The environment is black.
+// Tests hard cases of punctual lights: in a surface, close above a surface, at the edge of a cone
+// and of a range, in mirrors and through glass, and in scenes of any size. The environment is
+// black.
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
@@ -7,12 +8,12 @@
 
 #include <math.h>
 
-// A few dozen roundings of a point's coordinates, each of which counts by up to 1/distance.
+// The roundings of a point's coordinates: a few dozen, each weighed by up to 1/distance.
 #define ROUNDINGS 256
 
 #define FLOOR (-0.5)
 
-// A sheet about the y axis in 12 × 12 quads, with y = height + slope·x, that faces up or down.
+// Adds a sheet about the y axis, 12 × 12 quads with y = height + slope·x, that faces up or down.
 static void add_sheet(shape *s, double height, double slope, bool faces_down)
 {
     enum { PARTS = 12 };
@@ -28,7 +29,7 @@ static void add_sheet(shape *s, double height, double slope, bool faces_down)
     }
 }
 
-// At distance 1 it sends an irradiance of π.
+// A lamp whose irradiance at distance 1 is π.
 static glint_punctual_light white_lamp(double x, double y, double z)
 {
     return (glint_punctual_light){.kind = GLINT_PUNCTUAL_POINT,
@@ -38,7 +39,7 @@ static glint_punctual_light white_lamp(double x, double y, double z)
                                   .range = INFINITY};
 }
 
-// Ends the shape with lights. Failed or not, the scene is the caller's to free.
+// Ends the shape with lights. The caller frees the scene, even after a failure.
 static glint_status end_lit(trial *t, shape *s, const glint_punctual_light *lights, size_t count,
                             glint_scene *scene)
 {
@@ -60,14 +61,14 @@ cleanup:
     return status;
 }
 
-// Seen along parallel rays from height y, down or up.
+// A camera with parallel rays from height y, down or up.
 static glint_camera looking(double y, bool up)
 {
     const double eye[3] = {0, y, 0}, target[3] = {0, up ? y + 1 : y - 1, 0};
     return shape_camera(eye, target, 0, 0.4);
 }
 
-// Where a pixel's ray of such a camera meets a sheet.
+// The point where a pixel's ray of this camera meets a sheet.
 static void point_of(const glint_camera *camera, const trial_picture *picture, int pixel,
                      const double sheet[2], double p[3])
 {
@@ -89,7 +90,7 @@ static double irradiance(const glint_punctual_light *lamp, const double p[3], do
     return fmax(height, 0) / pow(dot(to, to), 1.5);
 }
 
-// What its range and its cone, about −y, leave of that.
+// The share of light that the lamp's range and its cone, about −y, leave.
 static double share_left(const glint_punctual_light *lamp, const double p[3])
 {
     const double to[3] = {lamp->position.x - p[0], lamp->position.y - p[1],
@@ -112,8 +113,8 @@ typedef struct lit_sheet {
     bool up;
 } lit_sheet;
 
-// Renders a shape with a lamp, and compares every pixel with what the lamp sends to the sheet. The
-// unit of errors is u of what a point without range and cone would send there.
+// Renders a shape with a lamp and compares every pixel with the lamp's light on the sheet. Errors
+// are in u of the light of the same lamp without range and cone.
 static glint_status compare_sheet(trial *t, shape *s, const glint_punctual_light *lamp,
                                   const lit_sheet *sheet, glint_measure *errors)
 {
@@ -140,7 +141,7 @@ cleanup:
 
 // ---- In a surface -------------------------------------------------------------------------------
 
-// It lights the floor, and nothing of the ceiling that it lies in: also not where rounding puts a
+// The lamp lights the floor. It must not light the ceiling that it lies in, even if rounding puts a
 // ray's hit of the ceiling before the lamp. Its range ends within the picture, or nowhere.
 static glint_status lamp_on_a_ceiling(trial *t)
 {
@@ -165,8 +166,8 @@ static glint_status lamp_on_a_ceiling(trial *t)
 
 // ---- Close above a surface ---------------------------------------------------------------------
 
-// Slopes are powers of two, so that the sheets' corners are floats. Shadow rays start off a sheet
-// by nothing where it goes through the origin of coordinates.
+// Slopes are powers of two, so the sheets' corners are floats. On a sheet through the origin of
+// coordinates, shadow rays start with an offset of 0.
 static glint_status grazing_lamps(trial *t)
 {
     static const double sheets[][2] = {{FLOOR, 0.125}, {0, 0.125}, {0, 0}};
@@ -204,7 +205,7 @@ static glint_status spot_edges(trial *t)
         spot.kind = GLINT_PUNCTUAL_SPOT;
         spot.inner_angle = cones[i].inner;
         spot.outer_angle = cones[i].outer;
-        // An error of the cosine counts by 1/(cos inner − cos outer), and twice as it is squared.
+        // An error of the cosine is divided by cos inner − cos outer, and doubled by the square.
         const double soft = fmax(0.001, cos(spot.inner_angle) - cos(spot.outer_angle));
         glint_measure *errors = trial_error(t, cones[i].name, "u", ROUNDINGS + 16 / soft);
         const lit_sheet sheet = {{FLOOR, 0}, 0.9, false};
@@ -224,10 +225,10 @@ static void no_light(const void *context, const double direction[3], double rgb[
     rgb[0] = rgb[1] = rgb[2] = 0;
 }
 
-// Pixels that come this near to an edge or to the critical angle may show the other side of it: as
-// rounding of some u grows by what curved surfaces bend.
+// Pixels this near to an edge or to the critical angle may show its other side. Curved surfaces
+// multiply the rounding error u.
 #define MARGIN 2048
-// The same rounding in a colour: near such an edge it changes the faster.
+// The same rounding in a colour. Near such an edge the colour changes faster.
 #define MIRRORED_ROUNDINGS 16384
 
 static glint_status compare_mirrored(trial *t, const glint_scene *scene, glint_measure *errors,
@@ -264,8 +265,8 @@ cleanup:
     return status;
 }
 
-// Paint is lit past a mirror and glass, and seen in the one and through the other. The lamp hangs
-// below a ceiling, which takes none of its light; the sun comes from beside.
+// Lights paint past a mirror and glass; both show the paint. The lamp hangs below a ceiling, which
+// takes none of its light. The sun shines from the side.
 static glint_status lights_in_mirrors(trial *t)
 {
     static const double left[3] = {-0.35, -0.19, 0}, right[3] = {0.35, -0.19, 0.1};
@@ -292,7 +293,7 @@ cleanup:
 
 // ---- Of any size -------------------------------------------------------------------------------
 
-// A scene with this unit, and a light that is brighter by its square.
+// Renders a scene of this unit; the light is brighter by the unit's square.
 static glint_status render_sized(trial *t, double unit, trial_picture *picture)
 {
     static const double middle[3] = {0, 0, 0};

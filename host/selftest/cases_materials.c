@@ -1,5 +1,6 @@
-// Hard cases of materials and of what settings make of a frame: each is a small scene that cannot
-// look right where one rule of ARCHITECTURE.md, "Light transport", is broken. The oracle's colours.
+// Tests hard cases of materials and of settings that change a frame. Each is a small scene that
+// looks wrong if a rule of docs/light_transport.md is broken. The oracle gives the expected
+// colours.
 #include "selftest/judged.h"
 #include "selftest/shapes.h"
 
@@ -12,7 +13,7 @@ typedef struct look {
     void (*set)(glint_settings *settings);    // may be NULL
     double eye[3];
     int depth;
-    bool is_lit; // by a lamp
+    bool is_lit; // a lamp lights it
 } look;
 
 // ---- Scenes -------------------------------------------------------------------------------------
@@ -23,7 +24,7 @@ static void add_ball(shape *s, double x, double z, double size, shape_material m
     shape_add_ball(s, &(shape_ball){centre, size, 3, material, true, NULL});
 }
 
-// Upright, from left to right; its right end is `slant` farther away.
+// Adds an upright wall, from left to right. Its right end is `slant` farther away.
 static void add_wall(shape *s, double half, double z, double slant, shape_material material)
 {
     const double corners[4][3] = {
@@ -41,7 +42,7 @@ static void build_back(shape *s)
 {
     const double corners[4][3] = {
         {0.6, -0.5, 0.2}, {-0.6, -0.5, 0}, {-0.6, 0.5, 0}, {0.6, 0.5, 0.2}};
-    shape_add_quad(s, corners, MATERIAL_CORE); // winds left as seen from behind
+    shape_add_quad(s, corners, MATERIAL_CORE); // counter-clockwise as seen from behind
     add_ball(s, -0.2, -0.7, 0.25, MATERIAL_TINTED);
 }
 
@@ -110,7 +111,7 @@ static void make_mixed(glint_material *m)
     set_color(m[MATERIAL_TINTED].emission, 0, 0.05F, 0.1F);
 }
 
-// The lecture's blend, colours without light, and paint that shines.
+// The lecture's blend, an unlit colour, and glossy paint.
 static void make_plain(glint_material *m)
 {
     m[MATERIAL_TINTED].mirror = 0.35F;
@@ -121,7 +122,7 @@ static void make_plain(glint_material *m)
     set_color(m[MATERIAL_PAINT].base_color, 0.8F, 0.5F, 0.2F);
 }
 
-// All that changes what surfaces reflect.
+// Everything that changes the reflection of surfaces.
 static void make_coated(glint_material *m)
 {
     glint_material *paint = &m[MATERIAL_PAINT], *metal = &m[MATERIAL_TINTED],
@@ -154,7 +155,7 @@ static void cut_by_weight(glint_settings *settings)
     settings->min_weight = 0.1;
 }
 
-// The whole depth, which is proved to be exact; and nothing that is not needed.
+// Leaves the depth to glint, which proves it, and compiles only the needed features.
 static void leave_to_plan(glint_settings *settings)
 {
     settings->depth = 0;
@@ -200,7 +201,7 @@ static const look looks[] = {
     {"an environment turned by 37°", build_two_balls, make_plain, turn, {0.2, 0.3, 2}, 3, false},
 };
 
-// With kernels of their own.
+// These looks need kernels of their own.
 static const look more_looks[] = {
     {"paint in absorbing glass, under a lamp",
      build_paint_in_glass,
@@ -233,7 +234,8 @@ static const look more_looks[] = {
      false},
 };
 
-// Above, to the right and before it: it shines through the glass onto what is in it and behind it.
+// The lamp is above, to the right and in front. It shines through the glass onto things in it and
+// behind it.
 static const glint_punctual_light lamp = {.kind = GLINT_PUNCTUAL_POINT,
                                           .position = {0.8, 1.3, 1.5},
                                           .direction = {0, -1, 0},
@@ -242,12 +244,11 @@ static const glint_punctual_light lamp = {.kind = GLINT_PUNCTUAL_POINT,
 
 // ---- Judging ------------------------------------------------------------------------------------
 
-// A look-up in the environment errs by 2/edge² at most, and what is divided by half a wavelength's
-// weight by twice that; the irradiance's map by as much. Rounding grows by what curved surfaces
-// bend.
+// A look-up in the environment errs by at most 2/edge². Dividing by half a wavelength's weight
+// doubles this. The irradiance map errs by as much. Curved surfaces multiply the rounding error.
 #define LOOK_BOUND 4e-4
 
-// Pixels where rounding may decide otherwise are left out.
+// False for pixels where rounding may decide otherwise. They are left out.
 static bool is_decided(const oracle_report *report)
 {
     return report->edge >= 1e-6 && report->critical > 1e-4 && report->threshold > 1e-4 &&
@@ -260,6 +261,7 @@ static glint_status judge_look(trial *t, const look *of)
     glint_measure *m = trial_error(t, of->what, "of white", LOOK_BOUND);
     glint_scene scene = {0};
     judged frame = {0};
+    // Set up the frame.
     glint_settings settings = trial_settings(t);
     settings.width = 32;
     settings.height = 24;
@@ -269,6 +271,7 @@ static glint_status judge_look(trial *t, const look *of)
         of->set(&settings);
     }
     const glint_camera camera = shape_camera(of->eye, target, 0.8, 0);
+    // Build the scene.
     glint_status status;
     shape s = shape_begin();
     of->build(&s);
@@ -279,6 +282,7 @@ static glint_status judge_look(trial *t, const look *of)
     if (of->is_lit) {
         TRY_OR(cleanup, status, shape_set_lights(&lamp, 1, &scene, t->error));
     }
+    // Render it and compare it with the oracle.
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
     frame.view.edges = true;
     for (int p = 0; p < settings.width * settings.height; p++) {

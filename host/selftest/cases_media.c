@@ -1,5 +1,5 @@
-// Hard cases of solids that touch, overlap and hold the eye. The oracle judges, pixel by pixel: it
-// finds media by points on both sides of a surface, and keeps no stack.
+// Tests hard cases of solids that touch, overlap and contain the eye. The oracle judges, pixel by
+// pixel: it finds media from points on both sides of a surface, without a stack.
 #include "selftest/judged.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
@@ -19,7 +19,7 @@ static void add_box(shape *s, const double bounds[2][3], shape_material material
     shape_add_box(s, &(shape_box){bounds[0], bounds[1], 2, material, inward});
 }
 
-// A hollow block of glass, whose hollow a core fills to its middle, on metal.
+// A hollow block of glass on metal. A core fills its hollow to the middle.
 static void build_filled(shape *s)
 {
     static const double outer[2][3] = {{-0.5, -0.4, -0.5}, {0.5, 0.5, 0.5}};
@@ -32,7 +32,7 @@ static void build_filled(shape *s)
     add_box(s, stand, MATERIAL_TINTED, false);
 }
 
-// Blocks that reach into each other, and a lesser one of the first one's glass that lies beside it.
+// Blocks that reach into each other, and a smaller block beside, of the first one's glass.
 static void build_crossed(shape *s)
 {
     static const double one[2][3] = {{-0.6, -0.3, -0.3}, {0.2, 0.3, 0.3}};
@@ -43,7 +43,7 @@ static void build_crossed(shape *s)
     add_box(s, other, MATERIAL_CORE, false);
 }
 
-// One in another.
+// One box inside another.
 static void build_nested(shape *s)
 {
     static const double outer[2][3] = {{-0.6, -0.5, -0.5}, {0.6, 0.5, 0.5}};
@@ -62,10 +62,10 @@ static const media_view views[] = {
     {"parallel rays from inside", build_nested, {0.1, 0.05, 0.2}, 0, 0, 0.6F},
 };
 
-// The oracle leaves surfaces 2e-6 beside them. Texels err by a ten-thousandth.
+// The oracle starts rays 2e-6 beside surfaces. Texels err by a ten-thousandth.
 #define MEDIA_BOUND 5e-4
 
-// Pixels that see an edge may differ freely.
+// Measures all pixels, except those that see an edge: they may differ.
 static void measure_pixels(trial *t, const media_view *of, const judged *frame)
 {
     const trial_picture *picture = &frame->picture;
@@ -99,7 +99,7 @@ static glint_status render_view(trial *t, const media_view *of)
     of->build(&s);
     TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
     scene.materials[MATERIAL_GLASS].priority = -of->priority;
-    scene.materials[MATERIAL_CORE].base_color[2] = 0.8F; // it matters whose surface is met
+    scene.materials[MATERIAL_CORE].base_color[2] = 0.8F; // shows whose surface is met
     scene.materials[MATERIAL_CORE].attenuation_distance = 1;
     scene.materials[MATERIAL_CORE].attenuation_color[1] = of->attenuation;
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));

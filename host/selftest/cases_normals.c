@@ -1,5 +1,5 @@
-// Hard cases of shading normals: such as send light under the surface, have no direction or an odd
-// length; and what a thousand bounces leave of a unit vector.
+// Tests hard cases of shading normals: they lean under the surface, have no direction or an odd
+// length. Also tests unit vectors after a thousand bounces.
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 #include "selftest/vectors.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// A square in the plane z = 0 whose vertices all have this normal.
+// Adds a square in the plane z = 0. All its vertices have this normal.
 static void add_square(shape *s, const double normal[3])
 {
     static const double corners[2][3][3] = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}},
@@ -21,7 +21,7 @@ static void add_square(shape *s, const double normal[3])
     }
 }
 
-// What becomes of rays at such a square.
+// Bounces rays off such a square.
 static glint_status bounce_off(trial *t, const double normal[3], const glint_probe_ray *rays,
                                glint_probe_bounce *bounces, size_t count)
 {
@@ -38,7 +38,7 @@ cleanup:
     return status;
 }
 
-// Towards the middle of the square, from the side of +Z, `angle` from the axis.
+// A ray to the middle of the square, from the side of +Z, at `angle` from the axis.
 static glint_probe_ray from_above(const trial *t, double angle, double azimuth)
 {
     glint_probe_ray ray = {.from = -1};
@@ -54,9 +54,9 @@ static glint_probe_ray from_above(const trial *t, double angle, double azimuth)
 
 #define STEPS 2048
 
-// From one edge of the sky to the other: reflections stay above the surface, and follow without a
-// jump. A reflection is an isometry in the viewer's direction and folding too, so that directions
-// that differ by δ give such that differ by δ, and rounding.
+// Moves the ray from one horizon to the other. Reflections must stay above the surface and must not
+// jump. Reflection and folding are isometries in the viewer's direction: directions that differ by
+// δ give directions that differ by δ, except for rounding.
 static glint_status leaning_normals(trial *t)
 {
     static glint_probe_ray rays[STEPS];
@@ -71,6 +71,7 @@ static glint_status leaning_normals(trial *t)
             rays[i] = from_above(t, (2.0 * (i + 0.5) / STEPS - 1) * 89.9 * GLINT_PI / 180, azimuth);
         }
         TRY(bounce_off(t, normal, rays, bounces, STEPS));
+        // Judge each reflection, and its step from the previous one.
         for (int i = 0; i < STEPS; i++) {
             const glint_probe_bounce *b = &bounces[i];
             const double along = dot(b->reflected, b->geometric_normal);
@@ -93,7 +94,7 @@ static glint_status leaning_normals(trial *t)
 
 // ---- Lengths -----------------------------------------------------------------------------------
 
-// The vector functions by themselves, over all exponents.
+// Tests the vector functions alone, over all exponents.
 static glint_status measure_lengths(trial *t, glint_measure *lengths, glint_measure *hopeless)
 {
     enum { COUNT = 4096 };
@@ -104,6 +105,7 @@ static glint_status measure_lengths(trial *t, glint_measure *lengths, glint_meas
     static double in[COUNT][4], out[COUNT][4];
     const bool is_double = t->options->precision == GLINT_PRECISION_DOUBLE;
     const double reach = is_double ? 300 : 37;
+    // Make vectors of all lengths, and vectors without a direction.
     for (int i = 0; i < COUNT; i++) {
         const glint_vec3 d = glint_random_direction(&t->random);
         const double length = pow(10, trial_random(t, -reach, reach));
@@ -127,7 +129,7 @@ static glint_status measure_lengths(trial *t, glint_measure *lengths, glint_meas
         double expected[3] = {in[i][0], in[i][1], in[i][2]};
         const double largest = fmax(fabs(expected[0]), fmax(fabs(expected[1]), fabs(expected[2])));
         for (int k = 0; k < 3; k++) {
-            expected[k] /= largest; // so that squares do not overflow
+            expected[k] /= largest; // prevents overflow of squares
         }
         make_unit(expected);
         measure_vector(lengths, v, expected, t->u, "along (%g, %g, %g)", in[i][0], in[i][1],
@@ -149,7 +151,7 @@ static glint_status odd_normals(trial *t)
     static glint_probe_ray rays[COUNT];
     static glint_probe_bounce bounces[COUNT];
     glint_measure *lengths = trial_error(t, "unit vectors, and |r| beside 1", "u", 4);
-    // Three products with weights that add up to 1 within 2u, added up, then made a unit vector.
+    // Three products with weights that add up to 1 within 2u, a sum, then a normalisation.
     glint_measure *taken = trial_error(t, "the normal that is taken", "u", 8);
     glint_measure *hopeless = trial_events(t, "vectors misjudged", 0);
     TRY(measure_lengths(t, lengths, hopeless));
@@ -159,7 +161,7 @@ static glint_status odd_normals(trial *t)
             rays[i] = from_above(t, trial_random(t, 0, 1.5), trial_random(t, 0, 2 * GLINT_PI));
         }
         TRY(bounce_off(t, normal, rays, bounces, COUNT));
-        // What is wanted: along the vertices' normal as it is stored, towards the viewer, or the
+        // The expected normal is along the stored vertices' normal, towards the viewer; or the
         // square's own.
         double wanted[3] = {(double)(float)normal[0], (double)(float)normal[1],
                             (double)(float)normal[2]};
@@ -168,6 +170,7 @@ static glint_status odd_normals(trial *t)
             memcpy(wanted, axis, sizeof wanted);
         }
         make_unit(wanted);
+        // Compare the normal that the kernel used.
         for (int i = 0; i < COUNT; i++) {
             const glint_probe_bounce *b = &bounces[i];
             const double above = wanted[2] < 0 ? -1 : 1;
@@ -184,7 +187,7 @@ static glint_status odd_normals(trial *t)
 
 // ---- Drift -------------------------------------------------------------------------------------
 
-// A mirrored cube whose normals are all a little too long.
+// Makes a mirrored cube whose normals are all a little too long.
 static glint_status mirrored_room(trial *t, double length, glint_scene *scene)
 {
     static const double low[3] = {-0.75, -0.75, -0.75}, high[3] = {0.75, 0.75, 0.75};
@@ -194,7 +197,8 @@ static glint_status mirrored_room(trial *t, double length, glint_scene *scene)
     for (size_t i = 0; i < scene->triangle_count; i++) {
         const float *p = scene->positions + 9 * i;
         for (size_t k = 0; k < 3; k++) {
-            // The axis along which all three corners agree, inwards.
+            // Find the axis along which all three corners agree. The normal points inwards along
+            // it.
             const bool flat = p[k] == p[3 + k] && p[k] == p[6 + k];
             for (size_t v = 0; flat && v < 3; v++) {
                 scene->normals[9 * i + 3 * v + k] = (float)(p[k] > 0 ? -length : length);
@@ -215,10 +219,12 @@ static glint_status drift(trial *t)
     glint_scene scene;
     glint_probe *probe = NULL;
     glint_status status;
+    // Start in the middle.
     TRY_OR(cleanup, status, mirrored_room(t, 1 + 1e-6, &scene));
     for (int i = 0; i < COUNT; i++) {
         rays[i] = trial_random_ray(t, middle);
     }
+    // Bounce a thousand times.
     TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
     for (int n = 0; n < BOUNCES; n++) {
         TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, COUNT));

@@ -1,16 +1,16 @@
-// Hard cases of what frames are besides colours that every pixel shades by itself: layers, terms,
-// lists of pixels, shading at vertices, and environments that are near or averaged.
+// Tests hard cases of frames beyond the colours of independent pixels: layers, terms, lists of
+// pixels, shading at vertices, and environments that are near or averaged.
 #include "selftest/judged.h"
 #include "selftest/shapes.h"
 
 #include <math.h>
 #include <string.h>
 
-#define UNIT 2 // metres per stored unit, so that layers in metres are not stored units by chance
+#define UNIT 2 // metres per stored unit; not 1, so that layers in metres differ from stored units
 
 static const double eye[3] = {0.3 * UNIT, 0.25 * UNIT, 2.1 * UNIT}, target[3] = {0, 0, 0};
 
-// A ball of tinted metal and one of paint before glass.
+// Builds a ball of tinted metal and a ball of paint in front of glass.
 static glint_status build_scene(trial *t, int level, glint_scene *scene)
 {
     static const double metal[3] = {-0.45, 0, 0}, paint[3] = {0.45, 0, 0.1},
@@ -37,7 +37,7 @@ static glint_settings small_frame(const trial *t, int depth)
     return settings;
 }
 
-// Renders the scene, its balls divided so finely, beside the oracle. Both are the caller's to free,
+// Renders the scene beside the oracle, with balls of this subdivision level. The caller frees both,
 // whatever the outcome.
 static glint_status show(trial *t, int level, const glint_settings *settings, glint_scene *scene,
                          judged *frame)
@@ -63,7 +63,7 @@ typedef struct layer_measures {
     glint_measure *triangles, *surfaces, *depths, *colors;
 } layer_measures;
 
-// What the oracle says of the surface that a pixel shows first.
+// Compares a pixel's layers with the first surface that the oracle sees.
 static void measure_layers(const glint_scene *scene, const judged *frame, int p,
                            const layer_measures *of)
 {
@@ -121,10 +121,10 @@ cleanup:
 
 // ---- Terms --------------------------------------------------------------------------------------
 
-// Terms as they are stored: see terms.h.
+// Number and layout of the stored terms: see terms.h.
 enum { TERMS = 8, OF_PIXEL = 4, OF_TERM = 7 };
 
-// The sum of a pixel's terms under E(d) = ½ + ½d, whose irradiance over π is ½ + ⅓n.
+// Sums a pixel's terms under E(d) = ½ + ½d, whose irradiance over π is ½ + ⅓n.
 static void sum_terms(const glint_layers *layers, int p, double sum[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -165,7 +165,7 @@ cleanup:
 
 // ---- Truncation ---------------------------------------------------------------------------------
 
-// What is cut off by depth and by weight is counted as the oracle counts it.
+// Light cut off by depth and by weight is counted as the oracle counts it.
 static glint_status counted_light(trial *t)
 {
     glint_measure *m = trial_error(t, "light that is cut off", "of all", 2e-5);
@@ -199,7 +199,7 @@ cleanup:
 
 // ---- Lists of pixels ----------------------------------------------------------------------------
 
-// Every third pixel, backwards, is what it is in the whole frame, to the last bit.
+// Every third pixel, listed backwards, equals the whole frame's pixel to the last bit.
 static glint_status listed_pixels(trial *t)
 {
     enum { ROWS = 16, COUNT = ROWS * GLINT_LIST_COLUMNS };
@@ -247,8 +247,8 @@ static glint_status shade_at_vertices(trial *t, const glint_scene *scene, glint_
     return status;
 }
 
-// Triangles are an eightieth across: what is interpolated between their corners errs by that,
-// squared. Of the pane colours are found at its four corners alone.
+// Triangles are an eightieth across. Interpolation between their corners errs by its square. The
+// pane has colours only at its four corners.
 static glint_status shaded_vertices(trial *t)
 {
     glint_measure *directions = trial_error(t, "directions at vertices", "relative RMSE", 0.002);
@@ -266,7 +266,7 @@ cleanup:
 
 // ---- Environments -------------------------------------------------------------------------------
 
-// Coarser levels of E(d) = ½ + ½d are the same but for what a texel is wide.
+// Coarser levels of E(d) = ½ + ½d are the same, except for an error of a texel's width.
 static glint_status averaged_environment(trial *t)
 {
     glint_measure *m = trial_error(t, "beside the oracle", "relative RMSE", 0.008);
@@ -283,7 +283,7 @@ cleanup:
     return status;
 }
 
-// Where a ray from o along d leaves the sphere or the box about `middle`.
+// Finds the point where a ray from o along d leaves the sphere or box about `middle`.
 static void leave_proxy(const glint_proxy *proxy, const double o[3], const double d[3],
                         double place[3])
 {
@@ -304,7 +304,8 @@ static void leave_proxy(const glint_proxy *proxy, const double o[3], const doubl
     }
 }
 
-// What an eye within a proxy sees of it, and in a mirror, whose image of the eye is beyond it.
+// Compares the view from inside a proxy, directly and in a mirror. The mirror image of the eye is
+// outside.
 static glint_status see_proxy(trial *t, const glint_proxy *proxy, glint_measure *m)
 {
     static const double within[3] = {0.3, 0.25, 2.1};
@@ -314,12 +315,14 @@ static glint_status see_proxy(trial *t, const glint_proxy *proxy, glint_measure 
     judged frame = {.proxy = proxy};
     glint_settings settings = small_frame(t, 2);
     settings.proxy = true;
+    // Render a mirror inside the proxy.
     const glint_camera camera = shape_camera(within, target, 0.8, 0);
     glint_status status;
     shape s = shape_begin();
     shape_add_quad(&s, corners, MATERIAL_MIRROR);
     TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    // Follow each pixel's ray by formula, to the proxy.
     for (int p = 0; p < settings.width * settings.height; p++) {
         const int column = p % settings.width, row = p / settings.width;
         const double at[2] = {column + 0.5, row + 0.5};
@@ -336,6 +339,7 @@ static glint_status see_proxy(trial *t, const glint_proxy *proxy, glint_measure 
             place[k] -= center[k];
             length += place[k] * place[k];
         }
+        // Compare the colours.
         for (int k = 0; k < 3; k++) {
             measure_value(m, frame.picture.values[4 * p + k], 0.5 + 0.5 * place[k] / sqrt(length),
                           1, "pixel (%d, %d), value %d", column, row, k);

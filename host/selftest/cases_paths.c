@@ -1,5 +1,5 @@
-// Hard cases of whole paths: a hundred bounces, rooms without a way out, a furnace without loss,
-// coincident surfaces, scenes of nothing and of one triangle.
+// Tests hard cases of whole paths: a hundred bounces, rooms without a way out, a furnace without
+// loss, coincident surfaces, scenes of nothing and of one triangle.
 #include "base/memory.h"
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
@@ -39,6 +39,7 @@ static glint_status parallel_mirrors(trial *t)
     static const double ahead[3] = {0, 0, -1};
     glint_measure *errors = trial_error(t, "tint^N beside what is seen, N up to 100", "N·u", 2);
     glint_scene scene;
+    // Place two mirrors face to face.
     shape s = shape_begin();
     shape_add_quad(&s, mirrors[0], MATERIAL_TINTED);
     shape_add_quad(&s, mirrors[1], MATERIAL_TINTED);
@@ -46,6 +47,7 @@ static glint_status parallel_mirrors(trial *t)
     glint_status status;
     TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
     const glint_camera camera = shape_camera(middle, ahead, 0, 0.25);
+    // After N reflections the colour is tint^N.
     for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
         const int n = depths[i];
         glint_settings settings = trial_settings(t);
@@ -76,12 +78,14 @@ static glint_status closed_room(trial *t)
     glint_measure *shares =
         trial_error(t, "share of light said to be cut off, beside 1", "2⁻³²", 1);
     glint_measure *colors = trial_events(t, "pixels that are not 1", 0);
+    // Make a closed room of mirrors.
     glint_scene scene;
     shape s = shape_begin();
     shape_add_box(&s, &(shape_box){low, high, 3, MATERIAL_MIRROR, true});
     glint_status status;
     TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
     const glint_camera camera = shape_camera(middle, ahead, 1.5, 0);
+    // Every path meets just N mirrors and is then cut off.
     for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
         glint_settings settings = trial_settings(t);
         settings.depth = depths[i];
@@ -108,7 +112,7 @@ cleanup:
 
 // ---- The white furnace -------------------------------------------------------------------------
 
-// Glass, glass in glass and mirrors, all without loss, in a mirrored room or in the open.
+// Makes glass, glass in glass and mirrors, all without loss, in a mirrored room or in the open.
 static glint_status furnace_scene(trial *t, bool closed, glint_scene *scene)
 {
     static const double left[3] = {-0.3, 0, 0}, right[3] = {0.3, 0, 0.1};
@@ -125,9 +129,9 @@ static glint_status furnace_scene(trial *t, bool closed, glint_scene *scene)
     return shape_end(&s, scene, t->error);
 }
 
-// At each surface what arrives is divided into F and 1 − F, which rounding makes not quite 1: by u,
-// and by another when each is multiplied with the weight. Adding up the ends errs by less than u
-// for each of those on the way of the largest.
+// At each surface the light is split into F and 1 − F. Rounding makes their sum 1 within u. The
+// product with the weight adds another u. Adding up the ends errs by less than u for each surface
+// on the way of the largest.
 static glint_status measure_furnace(trial *t, bool closed, bool deep, glint_measure *errors,
                                     glint_measure *lost)
 {
@@ -168,8 +172,8 @@ static glint_status white_furnace(trial *t)
 
 #define COPIES 3
 
-// A ball COPIES times in the same place, its triangles in another order each time: those of the
-// first copy have the lowest numbers.
+// Makes a ball COPIES times in the same place, with its triangles in different orders. The first
+// copy's triangles have the lowest numbers.
 static glint_status coincident_balls(trial *t, glint_scene *scene)
 {
     glint_scene one;
@@ -181,7 +185,7 @@ static glint_status coincident_balls(trial *t, glint_scene *scene)
     }
     const size_t count = one.triangle_count;
     shape s = shape_begin();
-    // Strides that have no divisor in common with 20 × 4³ visit all.
+    // Strides without a common divisor with 20 × 4³ visit all triangles.
     static const size_t strides[COPIES] = {7, 1, 321};
     for (size_t i = 0; i < COPIES * count; i++) {
         const size_t copy = i / count, which = i * strides[copy] % count;
@@ -208,6 +212,7 @@ static glint_status coincident_faces(trial *t)
     glint_probe *probe = NULL;
     trial_picture picture = {0};
     glint_status status;
+    // A frame shows the lowest numbers.
     TRY_OR(cleanup, status, coincident_balls(t, &scene));
     const size_t lowest = scene.triangle_count / COPIES;
     const glint_camera camera = shape_camera(eye, middle, 0.8, 0);
@@ -218,6 +223,7 @@ static glint_status coincident_faces(trial *t)
         measure_event(higher, !(picture.values[4 * p + 3] < (double)lowest),
                       "pixel %d shows triangle %g", p, picture.values[4 * p + 3]);
     }
+    // Rays that start inside hit the lowest numbers too.
     for (int i = 0; i < COUNT; i++) {
         rays[i] = trial_random_ray(t, middle);
     }
@@ -236,7 +242,7 @@ cleanup:
 
 // ---- Next to nothing ---------------------------------------------------------------------------
 
-// Where its triangles are: before the eye, behind it, or before it without area.
+// The position of the triangles: before the eye, behind it, or before it without area.
 typedef enum small_kind { BEFORE, BEHIND, FLAT } small_kind;
 
 static glint_status small_scene(trial *t, int triangles, small_kind kind, glint_scene *scene)
@@ -271,9 +277,9 @@ cleanup:
     return status;
 }
 
-// No triangle, one behind the eye, and one without area: the same bits. One triangle, and as many
-// as a leaf holds: the triangles that the oracle sees.
-// A triangle that is not to be seen, beside no triangle at all.
+// Compares a hidden triangle with no triangle at all. No triangle, one behind the eye, and one
+// without area give the same bits. (With one triangle, and with a full leaf, the hits are the
+// oracle's: compare_with_oracle.)
 static glint_status compare_with_nothing(trial *t, const glint_settings *settings,
                                          glint_measure *different)
 {

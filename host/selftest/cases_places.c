@@ -1,5 +1,5 @@
-// Hard cases of things that are small beside their scene: a bead on a wide floor, wherever on it.
-// The oracle takes corners that were never rounded.
+// Tests hard cases of small things in a large scene: a bead anywhere on a wide floor. The oracle
+// takes corners that were never rounded.
 #include "selftest/judged.h"
 #include "selftest/shapes.h"
 
@@ -10,8 +10,8 @@
 
 typedef struct floor_view {
     const char *what;
-    double half;  // of the floor's edge, metres
-    double place; // of the bead, on the way from the middle to a corner
+    double half;  // half of the floor's edge, metres
+    double place; // the bead's place on the way from the middle to a corner
     bool is_tilted;
     shape_material material;
 } floor_view;
@@ -23,7 +23,7 @@ static const floor_view views[] = {
     {"a mirror of 1 mm at a corner of 10 m, tilted", 5, 0.95, true, MATERIAL_MIRROR},
 };
 
-// A direction or a place as the floor lies: turned about (0.6, 0, 0.8) by 0.4 where it is tilted.
+// Turns a direction or a place with the floor: by 0.4 about (0.6, 0, 0.8), if it is tilted.
 static void lay(const floor_view *of, const double p[3], double laid[3])
 {
     static const double axis[3] = {0.6, 0, 0.8};
@@ -35,7 +35,7 @@ static void lay(const floor_view *of, const double p[3], double laid[3])
     }
 }
 
-// A place `offset` from the bead's lowest point, metres.
+// A place `offset` metres from the bead's lowest point.
 static void place_at(const floor_view *of, const double offset[3], double place[3])
 {
     const double p[3] = {of->place * of->half + offset[0], offset[1],
@@ -43,7 +43,7 @@ static void place_at(const floor_view *of, const double offset[3], double place[
     lay(of, p, place);
 }
 
-// In stored units: the unit is at the floor's size.
+// Builds the scene in stored units. The unit fits the floor's size.
 static glint_status build_floor(trial *t, const floor_view *of, glint_scene *scene, double **exact)
 {
     static const double around[4][2] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
@@ -65,7 +65,7 @@ static glint_status build_floor(trial *t, const floor_view *of, glint_scene *sce
     return shape_end_with_parts(&s, unit, scene, exact, t->error);
 }
 
-// Edges of facets may show the other side in a pixel that rounding decides: at most one in a
+// If rounding decides a pixel, an edge of a facet may show its other side. At most one pixel in a
 // thousand may be off by more than 0.001.
 static glint_status see_bead(trial *t, const floor_view *of)
 {
@@ -74,6 +74,7 @@ static glint_status see_bead(trial *t, const floor_view *of)
     glint_scene scene = {0};
     judged frame = {0};
     double *exact = NULL, eye[3], target[3];
+    // Set up the frame.
     glint_settings settings = trial_settings(t);
     settings.width = 48;
     settings.height = 36;
@@ -83,9 +84,11 @@ static glint_status see_bead(trial *t, const floor_view *of)
     place_at(of, to_bead, target);
     const glint_camera camera = shape_camera(eye, target, 0.3, 0);
     glint_status status;
+    // Render it; give the oracle the exact corners.
     TRY_OR(cleanup, status, build_floor(t, of, &scene, &exact));
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
     TRY_OR(cleanup, status, judge_move(&frame.judge, &scene, exact, t->error));
+    // Compare every pixel.
     for (int p = 0; p < settings.width * settings.height; p++) {
         double expected[4], off = 0;
         oracle_report report;

@@ -1,5 +1,5 @@
-// Hard cases of refraction at one interface: the critical angle, indices next to each other and far
-// apart, Fresnel's term at its ends.
+// Tests hard cases of refraction at one interface: the critical angle, indices next to each other
+// and far apart, both ends of Fresnel's term.
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 
@@ -8,14 +8,14 @@
 static const double indices[] = {1.1, 1.33, 1.5, 2.42, 10};
 #define INDEX_COUNT (sizeof indices / sizeof *indices)
 
-// 1 − η²(1 − c²) of the numbers as the device got them.
+// 1 − η²(1 − c²) of the numbers that the device gets.
 static double transmitted_squared(double cosine, double eta)
 {
     const long double c = cosine, e = eta;
     return (double)(1 - e * e * (1 - c) * (1 + c));
 }
 
-// The unpolarised reflectance by Fresnel's equations, beyond the critical angle 1.
+// The unpolarised reflectance by Fresnel's equations; 1 beyond the critical angle.
 static double reflectance(double cosine, double eta)
 {
     const double squared = transmitted_squared(cosine, eta);
@@ -49,10 +49,11 @@ static glint_status critical_formulas(trial *t, double exempt)
     enum { PER_INDEX = 1024, COUNT = INDEX_COUNT * PER_INDEX };
     static double in[COUNT][4], out[COUNT][4];
     glint_measure *wrong = trial_events(t, "cosines on the wrong side beyond the exempt band", 0);
-    // cos² θt, which is about 2η times the distance, is known to about 4u·η², its root to that over
+    // cos² θt is about 2η times the distance. It is known to about 4u·η², its root to that over
     // twice the root.
     glint_measure *errors = trial_error(t, "error of the reflectance", "u/√distance", 16);
     glint_measure *beyond = trial_error(t, "and beyond ten times the band, η up to 2.42", "", 2e-3);
+    // Choose angles on both sides of the critical angle.
     for (int i = 0; i < COUNT; i++) {
         const int which = i / PER_INDEX;
         const double eta = trial_rounded(t, indices[which]), critical = asin(1 / eta);
@@ -60,6 +61,7 @@ static glint_status critical_formulas(trial *t, double exempt)
         in[i][0] = cos(fmin(fmax(critical + distance, 0), GLINT_PI / 2));
         in[i][1] = eta;
     }
+    // Compare cos² θt and the reflectance.
     TRY(call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT));
     for (int i = 0; i < COUNT; i++) {
         const double cosine = in[i][0], eta = in[i][1];
@@ -71,7 +73,7 @@ static glint_status critical_formulas(trial *t, double exempt)
         measure_event(wrong, isnan(out[i][0]) || (out[i][0] >= 0) != (squared >= 0),
                       "cos θ %.9g, η %.9g: cos² θt expected %.3g, got %.3g", cosine, eta, squared,
                       out[i][0]);
-        // What scatter() makes of it: all is reflected where the square is below 0.
+        // As in scatter(): if the square is below 0, all light is reflected.
         const double got = out[i][0] < 0 ? 1 : out[i][1];
         measure_value(errors, got, reflectance(cosine, eta), t->u * eta * eta / sqrt(distance),
                       "cos θ %.9g, η %.9g", cosine, eta);
@@ -83,8 +85,9 @@ static glint_status critical_formulas(trial *t, double exempt)
     return GLINT_OK;
 }
 
-// Nearer to it than the rounding of the cosine itself, nobody knows the side; that is 10⁻⁶ for
-// float, of angles near which a unit in the last place of the cosine is a turn of u/sin θ.
+// Tests rays near the critical angle. Nearer than the rounding of the cosine, the side is
+// undefined. This band is 10⁻⁶ in float: near such angles, an ulp of the cosine is a turn of u/sin
+// θ.
 static glint_status critical_angle(trial *t)
 {
     enum { COUNT = 8192 };
@@ -100,7 +103,7 @@ static glint_status critical_angle(trial *t)
     shape s = shape_begin();
     shape_add_box(&s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
     TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
-    // From the middle of a glass box to its upper face.
+    // Rays go from the middle of a glass box to its upper face.
     const double critical = asin(1 / SHAPE_GLASS_IOR);
     for (int i = 0; i < COUNT; i++) {
         const double distance = pow(10, trial_random(t, -16, -1.2)) * (i % 2 ? 1 : -1);
@@ -112,6 +115,7 @@ static glint_status critical_angle(trial *t)
         }
     }
     TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, COUNT));
+    // Every ray outside the exempt band must be on the right side.
     for (int i = 0; i < COUNT; i++) {
         const double *d = rays[i].direction, angle = atan2(hypot(d[0], d[1]), d[2]);
         if (fabs(angle - critical) > exempt) {
@@ -171,9 +175,10 @@ static glint_status extreme_indices(trial *t)
     glint_measure *lengths = trial_error(t, "|t| beside 1", "u·max(1, η²)/cos θt", 8);
     glint_measure *mirrored = trial_error(t, "the reflected direction", "u", 4);
     glint_measure *sides = trial_events(t, "rays on the wrong side of 5.739° from 10 to 1", 0);
+    // Directions for η = 10 and η = 1/10.
     for (int i = 0; i < COUNT; i++) {
         in[i][1] = i % 2 ? 10 : 0.1;
-        // From the index 10 most is reflected: of the rest.
+        // From index 10 most rays are totally reflected. Take the others.
         in[i][0] = i % 2 ? cos(trial_random(t, 0, 0.0995)) : trial_random(t, 0, 1);
     }
     TRY(call_functions(t, GLINT_PROBE_DIRECTIONS, in, out, COUNT));
@@ -187,6 +192,7 @@ static glint_status extreme_indices(trial *t)
         measure_value(lengths, hypot(out[i][0], out[i][1]), 1, t->u * fmax(1, eta * eta) / root,
                       "cos θ %.9g, η %g", cosine, eta);
     }
+    // The side of the critical angle from index 10.
     for (int i = 0; i < COUNT; i++) {
         const double away = trial_random(t, 1e-4, 5);
         in[i][1] = 10;
@@ -210,15 +216,18 @@ static glint_status fresnel_at_its_ends(trial *t)
     glint_measure *grazing = trial_error(t, "1 at 90°", "u", 16);
     glint_measure *brewster = trial_error(t, "R_p = 0 at Brewster's angle", "u", 16);
     glint_measure *between = trial_error(t, "in between", "u", 16);
-    // 1/η twice more, by divisions that OpenCL lets err by 5u each; R moves by no more than η does.
+    // This takes 1/η by two more divisions. OpenCL lets each err by 5u; R changes by no more than η
+    // does.
     glint_measure *surfaces =
         trial_error(t, "all of these from an index, as paint takes it", "u", 16);
+    // Choose angles at both ends, at Brewster's angle and between.
     for (size_t i = 0; i < COUNT; i++) {
         const double n = indices[i / 8];
         const double angles[] = {0, GLINT_PI / 2, atan(n), 0.2, 0.6, 1, 1.3, 1.5};
         in[i][0] = i % 8 == 1 ? 0 : cos(angles[i % 8]);
         in[i][1] = 1 / n;
     }
+    // Compare with the closed forms.
     TRY(call_functions(t, GLINT_PROBE_FRESNEL, in, out, COUNT));
     for (size_t i = 0; i < COUNT; i++) {
         const double n = indices[i / 8], got = out[i][1];
@@ -227,7 +236,8 @@ static glint_status fresnel_at_its_ends(trial *t)
         } else if (i % 8 == 1) {
             measure_value(grazing, got, 1, t->u, "n %g", n);
         } else if (i % 8 == 2) {
-            // sin(θi − θt), where θi + θt is a right angle: −cos 2θi; half of its square is left.
+            // r_s is sin(θi − θt). With θi + θt a right angle it is −cos 2θi. Half of its square
+            // remains.
             measure_value(brewster, got, 0.5 * pow((n * n - 1) / (n * n + 1), 2), t->u, "n %g", n);
         } else {
             measure_value(between, got, reflectance(in[i][0], in[i][1]), t->u, "n %g, cos θ %.9g",

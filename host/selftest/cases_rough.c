@@ -1,5 +1,5 @@
-// Hard cases of surfaces that send light in many directions: lobes of metal and paint, facets of
-// glass, clear coats, dispersion, thin films. The oracle judges, by plain quadrature.
+// Tests hard cases of surfaces that send light in many directions: lobes of metal and paint, facets
+// of glass, clear coats, dispersion, thin films. The oracle judges, by plain quadrature.
 #include "base/memory.h"
 #include "selftest/judged.h"
 #include "selftest/shapes.h"
@@ -11,14 +11,14 @@ typedef struct rough_ball {
     const char *what;
     shape_material material;
     float roughness;
-    int depth, strata; // of the oracle, along each axis
+    int depth, strata; // the oracle's directions along each axis
     double bound;
     bool half_specular;
     float clearcoat, clearcoat_roughness, dispersion, film, anisotropy, sheen, sheen_roughness,
         through;
 } rough_ball;
 
-// A ball's tangents run around it.
+// Sets a ball's tangents, which run around it.
 static glint_status brush_ball(glint_scene *scene, glint_error *error)
 {
     scene->attribute_set = (glint_attributes){.texcoords = true, .tangents = true};
@@ -64,7 +64,7 @@ static glint_status make_ball(const rough_ball *of, glint_scene *scene, glint_er
     return of->anisotropy > 0 ? brush_ball(scene, error) : GLINT_OK;
 }
 
-// Relative RMSE of the pixels that show the ball.
+// Measures the relative RMSE of the pixels that show the ball.
 static void measure_ball(trial *t, const judged *frame, const rough_ball *ball)
 {
     const trial_picture *picture = &frame->picture;
@@ -107,8 +107,9 @@ cleanup:
     return status;
 }
 
-// Exact lobes err by a few thousandths; 1024 facets of one surface by a thousandth, and of two by
-// about a hundredth, as the oracle's do. The environment's texels err by a ten-thousandth.
+// Bounds: exact lobes err by a few thousandths. 1024 facets err by a thousandth at one surface and
+// by about a hundredth at two, as do the oracle's. The environment's texels err by a
+// ten-thousandth.
 static const rough_ball balls[] = {
     {.what = "metal, roughness 0.6",
      .material = MATERIAL_TINTED,

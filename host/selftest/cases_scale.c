@@ -1,4 +1,4 @@
-// Hard cases of size and place: far from the origin, tiny beside huge, all of it scaled.
+// Tests hard cases of size and place: far from the origin, tiny beside huge, and everything scaled.
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
@@ -11,11 +11,11 @@ static const double middle[3] = {0, 0, 0};
 typedef struct watched {
     const glint_camera *camera;
     int size[2];
-    double last; // triangles from this one on are not told apart
+    double last; // triangles from this number on count as one
 } watched;
 
-// Judges the pixels: which show another triangle than the oracle's. Triangles from `last` on count
-// as one.
+// Counts the pixels that show another triangle than the oracle's. Triangles from `last` on count as
+// one.
 static glint_status compare_hits(trial *t, const glint_scene *scene, const watched *view,
                                  glint_measure *others)
 {
@@ -49,8 +49,7 @@ cleanup:
     return status;
 }
 
-// Puts a ball's scene at a place, and judges what an eye near it sees, `size` times (10, 5, 14)
-// away.
+// Moves a ball's scene to a place and judges the view of an eye near it, `size` × (10, 5, 14) away.
 static glint_status watch_ball(trial *t, glint_scene *scene, const double place[3], double size,
                                glint_measure *others)
 {
@@ -62,8 +61,8 @@ static glint_status watch_ball(trial *t, glint_scene *scene, const double place[
     return compare_hits(t, scene, &view, others);
 }
 
-// A ball a million metres from the origin, where a float steps by 1/16 of a metre: all that single
-// precision leaves of it is what its vertices were rounded to.
+// A ball a million metres from the origin, where a float steps by 1/16 of a metre. Single precision
+// leaves only its rounded vertices.
 static glint_status rounded_ball(trial *t, glint_measure *others)
 {
     enum { UNIT = 8 };
@@ -83,9 +82,9 @@ cleanup:
     return status;
 }
 
-// A ball of 4 mm at ten million metres, as loaders place it whose transforms are double: its own
-// coordinates are small, and its place and the eye's, which double has to 2⁻³⁰ m there, are 2·10⁻⁵
-// of a pixel off.
+// A ball of 4 mm at ten million metres, as loaders place it with transforms in double. Its own
+// coordinates are small. Its place and the eye's are double, exact to 2⁻³⁰ m there: 2·10⁻⁵ of a
+// pixel.
 static glint_status small_ball(trial *t, glint_measure *others)
 {
     static const double unit = 0x1p-8, far[3] = {1e7, -1e7, 1e7};
@@ -108,8 +107,8 @@ static glint_status far_from_origin(trial *t)
     return small_ball(t, small);
 }
 
-// A ball of a millimetre on a plane of twenty kilometres. The plane's halves count as one: where
-// the line between them runs is known, seen from so near, to a rounding error of its far ends.
+// A ball of a millimetre on a plane of twenty kilometres. The plane's two triangles count as one.
+// Seen from so near, the line between them is only known to a rounding error of its far ends.
 static glint_status tiny_on_huge(trial *t)
 {
     static const double unit = 0x1p14, radius = 5e-4, half = 1e4;
@@ -132,7 +131,8 @@ cleanup:
     return status;
 }
 
-// A glass ball before a mirror, in a world 2^k times as large, whose unit is 2^unit times as large.
+// Renders a glass ball before a mirror, in a world 2^k times as large, with a unit 2^unit times as
+// large.
 static glint_status scaled_picture(trial *t, const glint_environment *environment, int k, int unit,
                                    trial_picture *picture)
 {
@@ -163,7 +163,7 @@ cleanup:
 
 static glint_status powers_of_two(trial *t)
 {
-    // The last two leave the unit alone, so that the kernels get coordinates as small.
+    // The last two keep the unit, so the kernels get small coordinates.
     static const struct {
         int scale, unit;
     } scales[] = {{-20, -20}, {20, 20}, {-60, -60}, {60, 60}, {-10, 0}, {-20, 0}};

@@ -1,5 +1,5 @@
-// Hard cases of solids, in closed form: slabs, prisms, balls, a ball in a ball, and the corner of
-// three mirrors.
+// Tests hard cases of solids against closed forms: slabs, prisms, balls, a ball in a ball, and the
+// corner of three mirrors.
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 #include "selftest/vectors.h"
@@ -14,7 +14,7 @@ static double angle_between(const double a[3], const double b[3])
     return atan2(sqrt(dot(product, product)), dot(a, b));
 }
 
-// How far a point lies from the line through the origin along d, a unit vector.
+// The distance of a point from the line through the origin along d, a unit vector.
 static double distance_from_line(const double point[3], const double d[3])
 {
     double product[3];
@@ -22,7 +22,7 @@ static double distance_from_line(const double point[3], const double d[3])
     return sqrt(dot(product, product));
 }
 
-// Two unit vectors at right angles to each other, anyhow.
+// Makes two random unit vectors at right angles to each other.
 static void random_frame(trial *t, double along[3], double across[3])
 {
     const glint_vec3 a = glint_random_direction(&t->random), b = glint_random_direction(&t->random);
@@ -34,7 +34,7 @@ static void random_frame(trial *t, double along[3], double across[3])
     make_unit(across);
 }
 
-// Rays on their way through a scene, and what the last surface did to each.
+// Rays on their way through a scene, and the bounces at the last surface.
 typedef struct flock {
     glint_probe *probe;
     glint_probe_ray *rays;
@@ -42,8 +42,9 @@ typedef struct flock {
     size_t count;
 } flock;
 
-// Sends `count` rays through `surfaces` surfaces one after the other: transmitted at all but the
-// reflected ones (bits). In the end *rays is what leaves the last of them.
+// Sends `count` rays through `surfaces` surfaces, one after the other. They are transmitted, except
+// at the surfaces whose bit is set in `reflected`. At the end *rays are the rays that leave the
+// last surface.
 static glint_status follow(trial *t, const flock *f, int surfaces, unsigned reflected)
 {
     glint_probe_ray *rays = f->rays;
@@ -56,7 +57,7 @@ static glint_status follow(trial *t, const flock *f, int surfaces, unsigned refl
             for (int k = 0; k < 3; k++) {
                 rays[i].origin[k] = back ? b->reflected_origin[k] : b->transmitted_origin[k];
                 rays[i].origin_low[k] = back ? b->reflected_low[k] : b->transmitted_low[k];
-                // A ray that met nothing has no direction any more: NaN fails every measure.
+                // A ray that met nothing gets the direction NaN, which fails every measure.
                 rays[i].direction[k] = !met ? NAN : back ? b->reflected[k] : b->transmitted[k];
             }
             rays[i].from = b->place;
@@ -74,7 +75,8 @@ static glint_status slab(trial *t)
     static const double low[3] = {-1, -1, 0}, high[3] = {1, 1, 0.25};
     static glint_probe_ray rays[COUNT], begun[COUNT];
     static glint_probe_bounce bounces[COUNT];
-    // The exit's cosine is the root of 1 − n²(1 − c²), which makes n²c/cos θ of an error of c.
+    // The exit's cosine is the root of 1 − n²(1 − c²). An error of c becomes n²c/cos θ times as
+    // large.
     glint_measure *directions = trial_error(t, "exit beside entry direction", "n²u/cos θ", 4);
     glint_measure *shifts = trial_error(t, "sideways shift", "u/cos θ", 8);
     glint_scene scene;
@@ -83,6 +85,7 @@ static glint_status slab(trial *t)
     shape_add_box(&s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
     glint_status status;
     TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
+    // Aim rays at all angles.
     for (int i = 0; i < COUNT; i++) {
         const double angle = trial_random(t, 0, 1.4), azimuth = trial_random(t, 0, 2 * GLINT_PI);
         const double d[3] = {sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), -cos(angle)};
@@ -92,8 +95,10 @@ static glint_status slab(trial *t)
             rays[i].origin[k] = trial_rounded(t, (k == 2 ? 0.25 : 0) - 0.125 * d[k]);
         }
     }
+    // Send them through both faces.
     memcpy(begun, rays, sizeof rays);
     TRY_OR(cleanup, status, follow(t, &(flock){probe, rays, bounces, COUNT}, 2, 0));
+    // Compare directions and shifts.
     for (int i = 0; i < COUNT; i++) {
         const double *d = begun[i].direction, n = SHAPE_GLASS_IOR;
         const double sine = hypot(d[0], d[1]), cosine = -d[2];
@@ -114,7 +119,7 @@ cleanup:
     return status;
 }
 
-// A prism of 60° with its edge along z, upwards.
+// Makes a prism of 60° whose edge, along z, is on top.
 static glint_status prism_scene(trial *t, glint_scene *scene)
 {
     const double h = 0.75, w = h * tan(GLINT_PI / 6);
@@ -148,9 +153,10 @@ static glint_status prism(trial *t)
     glint_scene scene;
     glint_probe *probe = NULL;
     glint_status status;
+    // Make the prism.
     TRY_OR(cleanup, status, prism_scene(t, &scene));
     for (int i = 0; i < COUNT; i++) {
-        // Onto the left face, whose normal is 150° from +x, from below its normal.
+        // Aim at the left face, whose normal is 150° from +x, from below its normal.
         const double incidence = (30.0 + 50.0 * i / (COUNT - 1)) * degrees;
         const double heading = -30 * degrees + incidence;
         const double d[3] = {cos(heading), sin(heading), 0};
@@ -161,9 +167,11 @@ static glint_status prism(trial *t)
             rays[i].origin[k] = trial_rounded(t, at[k] - 0.25 * d[k]);
         }
     }
+    // Send the rays through both faces.
     memcpy(begun, rays, sizeof rays);
     TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
     TRY_OR(cleanup, status, follow(t, &(flock){probe, rays, bounces, COUNT}, 2, 0));
+    // Compare with the closed form; find the least deviation.
     double smallest = INFINITY;
     for (int i = 0; i < COUNT; i++) {
         const double got = angle_between(begun[i].direction, rays[i].direction);
@@ -186,11 +194,11 @@ cleanup:
 #define BALL_RAYS 4096
 #define BALL_RADIUS 0.5
 #define CORE_RADIUS 0.25
-// h²/8 of an icosphere of level 5, whose edges are seen from the middle under 63.4°/32: how far
-// facets stay below the ball, and the order of what smooth normals leave of that.
+// h²/8 of an icosphere of level 5. Seen from the middle, its edges are under 63.4°/32. Facets stay
+// this far below the ball, and smooth normals leave an error of this order.
 #define SAGITTA 1.5e-4
 
-// Rays past the balls' middle at a distance of up to `most` radii of the outer one.
+// Aims rays past the balls' middle, at a distance of up to `most` radii of the outer ball.
 static void aim_at_ball(trial *t, double most, glint_probe_ray *rays, double *impacts)
 {
     for (int i = 0; i < BALL_RAYS; i++) {
@@ -211,12 +219,12 @@ static void aim_at_ball(trial *t, double most, glint_probe_ray *rays, double *im
 }
 
 typedef struct glass_ball {
-    int internal; // reflections inside
+    int internal; // number of reflections inside
     bool smooth, core;
 } glass_ball;
 
-// The mean of the errors of the deviations, in radians. `internal` reflections happen inside;
-// `core` adds the inner ball, whose index is lower.
+// The mean error of the deviations, in radians. `internal` reflections happen inside. `core` adds
+// the inner ball, whose index is lower.
 static glint_status ball_error(trial *t, const glass_ball *of, int level, double *mean)
 {
     const bool core = of->core;
@@ -225,6 +233,7 @@ static glint_status ball_error(trial *t, const glass_ball *of, int level, double
     static glint_probe_ray rays[BALL_RAYS], begun[BALL_RAYS];
     static glint_probe_bounce bounces[BALL_RAYS];
     static double impacts[BALL_RAYS];
+    // Make the balls.
     glint_scene scene;
     glint_probe *probe;
     shape s = shape_begin();
@@ -235,20 +244,22 @@ static glint_status ball_error(trial *t, const glass_ball *of, int level, double
     }
     glint_status status;
     TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
+    // Send the rays through.
     aim_at_ball(t, core ? 0.55 : 0.85, rays, impacts);
     memcpy(begun, rays, sizeof rays);
-    // Reflected at the surfaces after the first, before the last.
+    // Reflect at the surfaces after the first and before the last.
     const unsigned reflected = ((1u << internal) - 1) << 1;
     TRY_OR(
         cleanup, status,
         follow(t, &(flock){probe, rays, bounces, BALL_RAYS}, (core ? 4 : 2) + internal, reflected));
+    // Compare with the closed form.
     double sum = 0;
     for (int i = 0; i < BALL_RAYS; i++) {
         const double b = impacts[i], n = SHAPE_GLASS_IOR, m = SHAPE_CORE_IOR;
         double turned = 2 * (asin(b / BALL_RADIUS) - asin(b / (n * BALL_RADIUS)));
         turned += internal * (GLINT_PI - 2 * asin(b / (n * BALL_RADIUS)));
         turned += core ? 2 * (asin(b / (n * CORE_RADIUS)) - asin(b / (m * CORE_RADIUS))) : 0;
-        // Of the whole turn, what an angle between two directions shows.
+        // Turn the sum into the angle between two directions.
         const double expected = acos(cos(turned));
         sum += fabs(angle_between(begun[i].direction, rays[i].direction) - expected);
     }
@@ -259,7 +270,7 @@ cleanup:
     return status;
 }
 
-// How the mean error falls from one level to the next, where edges are half as long: as h^order.
+// Measures how the mean error falls if edges halve from level to level: as h^order.
 static glint_status measure_order(trial *t, const glass_ball *of, double order,
                                   glint_measure *orders, double *last)
 {
@@ -324,7 +335,7 @@ static void reflect_by_plane(const glint_scene *scene, double triangle, double d
     }
 }
 
-// Three mirrors at right angles, turned anyhow; the corner is the origin.
+// Makes three mirrors at right angles, turned at random. The corner is the origin.
 static glint_status corner_scene(trial *t, double axes[3][3], glint_scene *scene)
 {
     random_frame(t, axes[0], axes[1]);
@@ -344,7 +355,8 @@ static glint_status corner_scene(trial *t, double axes[3][3], glint_scene *scene
     return shape_end(&s, scene, t->error);
 }
 
-// From a place in front of all three mirrors, to one near the corner beyond the first.
+// Aims a ray from a place in front of all three mirrors to a place near the corner beyond the
+// first.
 static glint_probe_ray aim_at_corner(trial *t, const double axes[3][3])
 {
     const double from[3] = {0.06, 0.12, 0.2},
@@ -371,14 +383,15 @@ static glint_status corner_of_mirrors(trial *t)
     enum { COUNT = 1024 };
     static glint_probe_ray rays[COUNT], begun[COUNT];
     static glint_probe_bounce bounces[COUNT];
-    static double judged[COUNT][3]; // directions, reflected by the oracle
-    // Corners of mirrors are floats, which puts them out of square by about 2⁻²³ themselves.
+    static double judged[COUNT][3]; // directions, reflected at the stored planes
+    // Corners of mirrors are floats. This alone puts them out of square by about 2⁻²³.
     glint_measure *back = trial_error(t, "exit beside −entry", "2⁻²⁴", 16);
     glint_measure *planes = trial_error(t, "exit beside what the stored planes give", "u", 16);
     double axes[3][3];
     glint_scene scene;
     glint_probe *probe = NULL;
     glint_status status;
+    // Make the mirrors and aim the rays.
     TRY_OR(cleanup, status, corner_scene(t, axes, &scene));
     for (int i = 0; i < COUNT; i++) {
         rays[i] = aim_at_corner(t, (const double(*)[3])axes);
@@ -386,12 +399,14 @@ static glint_status corner_of_mirrors(trial *t)
     }
     memcpy(begun, rays, sizeof rays);
     TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    // Bounce three times.
     for (int n = 0; n < 3; n++) {
         TRY_OR(cleanup, status, follow(t, &(flock){probe, rays, bounces, COUNT}, 1, 1));
         for (int i = 0; i < COUNT && bounces[i].hit.triangle >= 0; i++) {
             reflect_by_plane(&scene, bounces[i].hit.triangle, judged[i]);
         }
     }
+    // The rays must go back.
     for (int i = 0; i < COUNT; i++) {
         double reversed[3];
         for (int k = 0; k < 3; k++) {

@@ -1,4 +1,4 @@
-// Hard cases of rays that leave surfaces: self-hits, gaps and slabs next to nothing, grazing rays,
+// Tests hard cases of rays that leave surfaces: self-hits, very small gaps and slabs, grazing rays,
 // eyes inside glass and on a surface.
 #include "base/memory.h"
 #include "selftest/shapes.h"
@@ -14,7 +14,7 @@ static void copy3(double to[3], const double from[3])
     memcpy(to, from, 3 * sizeof *to);
 }
 
-// The reflected branch of a bounce as a ray, or the transmitted one.
+// The reflected or the transmitted branch of a bounce, as a ray.
 static glint_probe_ray branch_of(const glint_probe_bounce *b, bool transmitted)
 {
     glint_probe_ray ray = {.from = b->place,
@@ -29,11 +29,11 @@ static glint_probe_ray branch_of(const glint_probe_bounce *b, bool transmitted)
 
 #define QUADS 500
 
-// Parallelograms of two triangles that lie in one plane exactly, however they are turned: corners
-// are whole multiples of 2⁻²³, which floats hold. From a millionth to a tenth of the scene's size,
-// of glass and of mirrors in turn. Every other pair lies in the plane x = 0, y = 0 or z = 0, where
-// places have no rounding error at right angles to it, so that rays start in the plane itself.
-// With parts the small ones have origins of their own.
+// Makes parallelograms of two triangles each, which lie exactly in one plane, in any orientation.
+// Their corners are multiples of 2⁻²³, which floats hold. They are a millionth to a tenth of the
+// scene's size, of glass and of mirrors in turn. Every other pair lies in the plane x = 0, y = 0 or
+// z = 0. There places have no rounding error at right angles to the plane, so rays start in the
+// plane itself. With parts, small parallelograms have their own origins.
 static glint_status random_quads(trial *t, bool with_parts, glint_scene *scene)
 {
     shape s = shape_begin();
@@ -62,7 +62,7 @@ static void aim_at_quads(trial *t, const glint_scene *scene, glint_probe_ray *ra
         const float *p = scene->positions + 9 * (i % scene->triangle_count);
         const glint_vec3 away = glint_random_direction(&t->random);
         const double b1 = trial_random(t, 0, 1), b2 = trial_random(t, 0, 1 - b1);
-        // From a distance like the triangle's size, so that most rays get to it.
+        // Start at about the triangle's size away, so that most rays reach it.
         double size = 1e-6;
         for (int k = 0; k < 3; k++) {
             size = fmax(size, fabs((double)p[3 + k] - (double)p[k]));
@@ -93,11 +93,13 @@ static glint_status judge_departures(trial *t, glint_probe *probe,
         status = glint_fail_memory(t->error, "a self-test");
         goto cleanup;
     }
+    // Trace both branches of every bounce.
     for (size_t i = 0; i < 2 * count; i++) {
         const glint_probe_bounce *b = &bounces[i / 2];
         rays[i] = branch_of(b, i % 2 == 1 && !(b->transmitted_weight <= 0));
     }
     TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, 2 * count));
+    // A branch must not hit the plane that it leaves.
     for (size_t i = 0; i < 2 * count; i++) {
         const glint_probe_bounce *b = &bounces[i / 2];
         const bool leaves = i % 2 == 0 || !(b->transmitted_weight <= 0);
@@ -147,7 +149,7 @@ cleanup:
 
 static glint_status no_second_hit(trial *t)
 {
-    // |t|² is η² sin² θi + cos² θt, either of which errs by some 4u·η² here.
+    // |t|² is η² sin² θi + cos² θt. Each term errs by some 4u·η² here.
     const departures judged = {trial_events(t, "rays that hit the plane they leave", 0),
                                trial_error(t, "length of their directions beside 1", "u", 16)};
     for (int with_parts = 0; with_parts < 2; with_parts++) {
@@ -158,11 +160,11 @@ static glint_status no_second_hit(trial *t)
 
 // ---- Gaps --------------------------------------------------------------------------------------
 
-// Between two mirrors that face each other along an axis.
+// The gap between two mirrors that face each other along an axis.
 typedef struct gap {
     int axis;
-    double size;   // of the mirrors
-    double height; // of the lower one
+    double size;   // size of the mirrors
+    double height; // height of the lower mirror
     double width;
 } gap;
 
@@ -187,7 +189,7 @@ static glint_status facing_mirrors(trial *t, const gap *between, glint_scene *sc
 
 #define GAP_RAYS 256
 
-// Whether all rays that start in the gap meet the lower mirror and then the upper one.
+// Tests whether all rays that start in the gap meet the lower mirror and then the upper mirror.
 static glint_status gap_is_seen(trial *t, const gap *between, bool *seen)
 {
     const int axis = between->axis;
@@ -199,6 +201,7 @@ static glint_status gap_is_seen(trial *t, const gap *between, bool *seen)
     glint_probe *probe = NULL;
     glint_status status;
     TRY_OR(cleanup, status, facing_mirrors(t, between, &scene));
+    // Start in the middle of the gap, towards the lower mirror.
     for (int i = 0; i < GAP_RAYS; i++) {
         double from[3], to[3];
         for (int k = 0; k < 3; k++) {
@@ -209,12 +212,14 @@ static glint_status gap_is_seen(trial *t, const gap *between, bool *seen)
         to[axis] = height - size / 8;
         rays[i] = trial_aim(t, from, to);
     }
+    // Reflect, and trace the reflected rays.
     TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
     TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, GAP_RAYS));
     for (int i = 0; i < GAP_RAYS; i++) {
         rays[i] = branch_of(&bounces[i], false);
     }
     TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, GAP_RAYS));
+    // See what they met.
     *seen = true;
     for (int i = 0; i < GAP_RAYS; i++) {
         *seen =
@@ -226,8 +231,9 @@ cleanup:
     return status;
 }
 
-// A ray starts off its surface by 8 rounding errors of its coordinates (place_on_triangle), at a
-// place that is known to about 3: with 16 between the mirrors no start may lie beyond the other.
+// A ray starts off its surface by 8 rounding errors of its coordinates (place_on_triangle). Its
+// place is known to about 3. So with 16 between the mirrors, no start may lie beyond the other
+// mirror.
 static glint_status smallest_gap(trial *t)
 {
     static const double sizes[] = {1, 0x1p-10, 0x1p-20};
@@ -240,7 +246,7 @@ static glint_status smallest_gap(trial *t)
             const gap between = {i % 3, size, height, ldexp(height, k - 24)};
             TRY(gap_is_seen(t, &between, &seen));
         }
-        // The last one tried is the first that is not seen, if any.
+        // The last gap tried is the first that is not seen, if any.
         const int last = seen ? 0 : k + 2;
         measure_error(smallest, ldexp(1, last), "along axis %d, mirrors of %g: 2^%d", i % 3, size,
                       last);
@@ -250,8 +256,8 @@ static glint_status smallest_gap(trial *t)
 
 // ---- Grazing rays ------------------------------------------------------------------------------
 
-// A square about the origin, at right angles to `normal` but for the rounding of its corners; sets
-// the normal of its first triangle as it is stored.
+// Makes a square about the origin, at right angles to `normal` except for the rounding of its
+// corners. Sets `normal` to the stored normal of its first triangle.
 static glint_status tilted_square(trial *t, double normal[3], glint_scene *scene)
 {
     const double other[3] = {normal[1], normal[2], -normal[0]};
@@ -277,9 +283,9 @@ static glint_status tilted_square(trial *t, double normal[3], glint_scene *scene
     return GLINT_OK;
 }
 
-#define GRAZING_RAYS 3072 // of six angles
+#define GRAZING_RAYS 3072 // six angles, in turn
 
-// To the middle of the square's first triangle, 10⁻ᵏ degrees above it.
+// Aims at the middle of the square's first triangle, from 10⁻ᵏ degrees above it.
 static void aim_grazing(trial *t, const glint_scene *scene, const double normal[3],
                         glint_probe_ray *rays)
 {
@@ -302,8 +308,8 @@ static void aim_grazing(trial *t, const glint_scene *scene, const double normal[
     }
 }
 
-// How far the plane of the scene's first triangle is along a ray, and the cosine between the ray
-// and its normal: from the stored corners, in long double.
+// The distance along a ray to the plane of the scene's first triangle, and the cosine between ray
+// and normal. Computed from the stored corners, in long double.
 static double distance_to_plane(const glint_scene *scene, const glint_probe_ray *ray,
                                 double *cosine)
 {
@@ -324,8 +330,8 @@ static double distance_to_plane(const glint_scene *scene, const glint_probe_ray 
     return (double)(away / along);
 }
 
-// The numerator of the distance errs by a few u of the coordinates, which the division by cos θ
-// multiplies.
+// The numerator of the distance errs by a few u of the coordinates. The division by cos θ
+// multiplies it.
 static glint_status graze_plane(trial *t, int plane, glint_measure *errors, glint_measure *others)
 {
     static glint_probe_ray rays[GRAZING_RAYS];
@@ -342,8 +348,8 @@ static glint_status graze_plane(trial *t, int plane, glint_measure *errors, glin
     for (int i = 0; i < GRAZING_RAYS; i++) {
         double cosine;
         const double wanted = distance_to_plane(&scene, &rays[i], &cosine);
-        // Where the rounded ray still meets the triangle well inside; where the bound is half
-        // of the distance itself, below 10⁻⁴ degrees in float, anything may be true of it.
+        // Judge only rays that, rounded, still meet the triangle well inside. In float, below 10⁻⁴
+        // degrees, the bound is half of the distance; there anything may be true.
         const bool known = 8 * t->u / fabs(cosine) < 0.5;
         if (!(cosine > 0 && wanted > 0.3 && wanted < 0.5 && known)) {
             continue;
@@ -385,11 +391,13 @@ static glint_status pass_slab(trial *t, double thickness, glint_measure *others)
     shape_add_box(&s, &(shape_box){low, high, 1, MATERIAL_GLASS, false});
     glint_status status;
     TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
+    // Aim at the upper face.
     for (int i = 0; i < COUNT; i++) {
         const double from[3] = {trial_random(t, -0.9, 0.9), trial_random(t, -0.9, 0.9), 0.9};
         const double to[3] = {trial_random(t, -0.4, 0.4), trial_random(t, -0.4, 0.4), 0.7};
         rays[i] = trial_aim(t, from, to);
     }
+    // Refract at both faces, then trace.
     TRY_OR(cleanup, status, trial_bounce(t, probe, rays, first, COUNT));
     for (int i = 0; i < COUNT; i++) {
         rays[i] = branch_of(&first[i], true);
@@ -399,6 +407,7 @@ static glint_status pass_slab(trial *t, double thickness, glint_measure *others)
         rays[i] = branch_of(&second[i], true);
     }
     TRY_OR(cleanup, status, trial_trace(t, probe, rays, hits, COUNT));
+    // Each ray must enter, leave and meet nothing more.
     for (int i = 0; i < COUNT; i++) {
         const bool right = first[i].outside == 1 && second[i].hit.triangle >= 0 &&
                            second[i].outside == 0 && hits[i].triangle < 0;
@@ -424,7 +433,7 @@ static glint_status thin_slabs(trial *t)
 
 // ---- Eyes in odd places ------------------------------------------------------------------------
 
-// In a smooth ball's centre every ray runs along its normal, and is not bent.
+// From a smooth ball's centre every ray runs along its normal and is not bent.
 static glint_status eye_inside_glass(trial *t)
 {
     enum { COUNT = 4096 };
@@ -440,10 +449,12 @@ static glint_status eye_inside_glass(trial *t)
     shape_add_ball(&s, &(shape_ball){centre, 0.75, 3, MATERIAL_GLASS, true, NULL});
     glint_status status;
     TRY_OR(cleanup, status, trial_build(t, &s, &scene, &probe));
+    // Shoot rays from the centre.
     for (int i = 0; i < COUNT; i++) {
         rays[i] = trial_random_ray(t, centre);
     }
     TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, COUNT));
+    // They leave the glass without a bend.
     for (int i = 0; i < COUNT; i++) {
         const glint_probe_bounce *b = &bounces[i];
         measure_event(media,
@@ -459,9 +470,9 @@ cleanup:
     return status;
 }
 
-// Eyes on a face, on an edge and on a corner of a box, of glass or of mirrors, which look along the
-// surface, away from it and into it. Each colour is a mean of the environment's, which lie in
-// [0, 1], with weights that add up to 1 within 4u a surface: six, each path.
+// Places eyes on a face, on an edge and on a corner of a box, of glass or of mirrors. They look
+// along the surface, away from it and into it. Each colour is a mean of the environment's colours,
+// which lie in [0, 1]. Its weights add up to 1 within 4u a surface, and each path has six surfaces.
 static glint_status look_from_surface(trial *t, const glint_environment *environment,
                                       const glint_camera *camera, shape_material material,
                                       glint_measure *bad)

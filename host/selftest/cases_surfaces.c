@@ -1,5 +1,5 @@
-// Hard cases of what surfaces hold: textures of all roles and samplers, bent normals, colours and
-// alpha of vertices, seen at once, in mirrors and through glass. The oracle judges.
+// Tests hard cases of attributes of surfaces: textures of all roles and samplers, bent normals,
+// vertex colours and vertex alpha, seen directly, in mirrors and through glass. The oracle judges.
 #include "base/memory.h"
 #include "selftest/judge.h"
 #include "selftest/shapes.h"
@@ -9,14 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What the room is made of, in place of the materials that shapes have.
+// The materials of the room. They replace the materials of shapes.h.
 enum {
     FLOOR,  // matte paint: base colour, occlusion by the second texture coordinates
-    WALL,   // glossy paint: colours of vertices, emission
-    MIRROR, // tinted metal that is paint in places, with bent normals
+    WALL,   // glossy paint: vertex colours, emission
+    MIRROR, // tinted metal, in places paint, with bent normals
     BALL,   // tinted metal, textured
     LEAVES, // MASK by a texture's alpha
-    EVEN,   // MASK with just the cutoff's alpha
+    EVEN,   // MASK with exactly the cutoff's alpha
     VEIL,   // BLEND by the vertices' alpha, glossy
     PANE,   // thin glass, a little metal, BLEND by a texture's alpha, which transmits in places
     SLAB,   // solid glass, which transmits in places
@@ -30,7 +30,7 @@ enum {
 enum { IMAGES = 4, COVERAGE_IMAGE = 1 };
 static const int image_sizes[IMAGES][2] = {{16, 16}, {12, 8}, {9, 5}, {16, 16}};
 
-// Texels that differ from their neighbours by a few parts in ten, in another way in each channel.
+// A texel. It differs from its neighbours by a few tenths, differently in each channel.
 static double texel(int image, int x, int y, int channel)
 {
     const double w = image_sizes[image][0], h = image_sizes[image][1];
@@ -39,7 +39,7 @@ static double texel(int image, int x, int y, int channel)
     return 0.6 + 0.4 * wave;
 }
 
-// With its border.
+// Copies a level with its border.
 static void copy_level(const oracle_image *image, int level, uint16_t (*texels)[4])
 {
     const int width = oracle_image_side(image->width, level);
@@ -98,7 +98,7 @@ cleanup:
 
 // ---- Materials ----------------------------------------------------------------------------------
 
-// The `variant` goes through the samplers: 3 × 3 ways to wrap, 2 × 2 × 3 filters.
+// Makes a use of an image. `variant` selects the sampler: 3 × 3 wrap modes, 2 × 2 × 3 filters.
 static glint_texture_use use_of(int image, int variant)
 {
     glint_texture_use use = {.image = (uint32_t)image + 1,
@@ -116,7 +116,7 @@ static glint_texture_use use_of(int image, int variant)
     return use;
 }
 
-// What is not said of a material: white paint, smooth.
+// Resets a material to smooth white paint, with the given values.
 static void set_material(glint_material *m, const float color[3], float metallic, float alpha)
 {
     *m = (glint_material){GLINT_MATERIAL_CLEAR,
@@ -153,7 +153,7 @@ static void add_factors(glint_material *m)
     }
 }
 
-// The mirror's two textures are looked up alike.
+// Sets the textures. Both textures of the mirror have the same look-up.
 static void add_textures(glint_material *m, int variant)
 {
     static const struct {
@@ -181,7 +181,8 @@ static void add_textures(glint_material *m, int variant)
 
 // ---- The room -----------------------------------------------------------------------------------
 
-// A sheet from one corner to the opposite one, in a plane across one axis, seen from its upper end.
+// Adds a sheet from one corner to the opposite corner, across one axis, seen from the axis's upper
+// end.
 static void add_sheet(shape *s, const double low[3], const double high[3], int material)
 {
     const int axis = low[0] == high[0] ? 0 : low[1] == high[1] ? 1 : 2;
@@ -209,7 +210,7 @@ static void add_room(shape *s)
         {{-0.05, -0.6, -0.45}, {0.1, 0.3, -0.45}, EVEN},
         {{-0.2, 0.15, -0.25}, {0.55, 0.55, -0.25}, VEIL},
         {{0.2, -0.55, 0.2}, {0.75, 0.3, 0.2}, PANE},
-        {{0.3, 0.65, -0.3}, {0.8, 0.95, -0.3}, VEIL}, // before the open sky
+        {{0.3, 0.65, -0.3}, {0.8, 0.95, -0.3}, VEIL}, // in front of the open sky
         {{0.72, -0.6, -0.7}, {0.72, 0.5, -0.1}, SHEEN},
         {{-0.75, 0.3, -0.5}, {-0.3, 0.6, -0.5}, SIGN},
     };
@@ -223,9 +224,9 @@ static void add_room(shape *s)
     shape_add_box(s, &(shape_box){low, high, 1, (shape_material)SLAB, false});
 }
 
-enum { CORNER = 12 }; // numbers, in the order of glint_attributes
+enum { CORNER = 12 }; // numbers of a corner, in the order of glint_attributes
 
-// A unit vector in the plane of the normal, which may be 0.
+// Makes a unit vector at right angles to the normal. The normal may be 0.
 static void make_tangent(const float *normal, double tangent[3])
 {
     static const double toward[3] = {0.2, 0.3, 0.9};
@@ -256,7 +257,7 @@ static void fill_corner(const glint_scene *scene, size_t corner, float *stored)
                              0.75 + 0.25 * z,
                              is_even ? 1 : 0.6 + 0.3 * x - 0.2 * y};
     make_tangent(scene->normals + 3 * corner, values + 8);
-    values[11] = corner / 3 % 2 == 0 ? 1 : -1; // the bitangent's side
+    values[11] = corner / 3 % 2 == 0 ? 1 : -1; // side of the bitangent
     for (int i = 0; i < CORNER; i++) {
         stored[i] = (float)values[i];
     }
@@ -293,7 +294,8 @@ static glint_status make_room(int variant, glint_scene *scene, glint_error *erro
     return add_attributes(scene, error);
 }
 
-// A lamp before the leaves and a sun from the upper right: both shine past and through the rest.
+// Adds a lamp in front of the leaves and a sun from the upper right. Both shine past and through
+// the rest.
 static glint_status add_lights(glint_scene *scene, glint_error *error)
 {
     static const glint_punctual_light lights[] = {
@@ -322,17 +324,17 @@ typedef struct surface_measures {
     glint_measure *errors, *undecided;
 } surface_measures;
 
-// How a room is seen.
+// A view of the room.
 typedef struct room_view {
     int variant, depth;
     bool transparent, lit;
 } room_view;
 
-// Pixels that come this near to an edge, to the critical angle, or to where a texture or alpha
-// jumps may show the other side of it: as rounding of some u grows by what curved surfaces bend.
+// Pixels this near to an edge, to the critical angle, or to a jump of a texture or alpha may show
+// its other side. Curved surfaces multiply the rounding error u.
 #define MARGIN 1024
 
-// What rounding makes of a colour on the way there. The map of the irradiance holds floats.
+// The rounding of a colour on its way. The irradiance map holds floats.
 #define ROUNDING(u) (4096 * (u) + 0x1p-23)
 
 static void measure_pixels(trial *t, const oracle_scene *scene, const oracle_view *view,
@@ -361,11 +363,13 @@ static glint_status measure_room(trial *t, const room_view *room, const surface_
     glint_environment environment = {0};
     trial_picture picture = {0};
     judge j = {0};
+    // Set up the frame.
     glint_settings settings = trial_settings(t);
     settings.depth = room->depth;
     settings.transparent = room->transparent;
     const glint_camera camera = shape_camera(eye, target, 0.85, 0);
     glint_status status;
+    // Make the room and render it.
     TRY_OR(cleanup, status, make_room(room->variant, &scene, t->error));
     if (room->lit) {
         TRY_OR(cleanup, status, add_lights(&scene, t->error));
@@ -373,6 +377,7 @@ static glint_status measure_room(trial *t, const room_view *room, const surface_
     TRY_OR(cleanup, status, trial_uniform_environment((float)light, &environment, t->error));
     const glint_renderer_inputs inputs = trial_inputs(t, &scene, &environment, &settings);
     TRY_OR(cleanup, status, trial_frame(t, &inputs, &camera, &picture));
+    // Ask the oracle.
     TRY_OR(cleanup, status, judge_begin(&scene, &j, t->error));
     j.scene.radiance = j.scene.irradiance = uniform_light;
     j.scene.context = &light;
@@ -411,7 +416,7 @@ static glint_status dressed_room(trial *t)
     return GLINT_OK;
 }
 
-// Edges of shadows are edges, too: rounding decides more of the pixels.
+// Edges of shadows are edges too, so rounding decides more pixels.
 static glint_status lit_room(trial *t)
 {
     const surface_measures of = {

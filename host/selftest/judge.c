@@ -1,4 +1,4 @@
-// The oracle as the self-test asks it. See judge.h.
+// Gives scenes to the oracle. See judge.h.
 #include "selftest/judge.h"
 
 #include "render/wavelengths.h"
@@ -28,7 +28,7 @@ static const float *copy_numbers(const float *from, size_t count, double *to)
     return from + count;
 }
 
-// Returns where the next corner's attributes stand.
+// Returns the attributes of the next corner.
 static const float *copy_corner(const glint_attributes *set, const float *from,
                                 oracle_corner *corner)
 {
@@ -45,7 +45,7 @@ static bool copy_image(const glint_textures *textures, size_t number, oracle_ima
     if (!oracle_image_create(t->width, t->height, image)) {
         return false;
     }
-    for (int level = 0; level < t->levels; level++) { // 0 where it could not be read
+    for (int level = 0; level < t->levels; level++) { // a level that glint could not read stays 0
         const int width = oracle_image_side(t->width, level);
         const int height = oracle_image_side(t->height, level);
         for (int i = 0; i < width * height; i++) {
@@ -85,7 +85,7 @@ static oracle_texture texture_of(const glint_texture_use *use, const oracle_imag
     return t;
 }
 
-// What lies above a surface, and within it.
+// Copies the layers above a surface and the light within it.
 static void copy_layers(const glint_material *m, oracle_material *o)
 {
     o->clearcoat = (double)m->clearcoat;
@@ -131,6 +131,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
     static const oracle_alpha modes[] = {[GLINT_ALPHA_OPAQUE] = ORACLE_OPAQUE,
                                          [GLINT_ALPHA_MASK] = ORACLE_MASK,
                                          [GLINT_ALPHA_BLEND] = ORACLE_BLEND};
+    // Copy the numbers.
     oracle_material o = {
         .metallic = (double)m->metallic,
         .roughness = (double)m->roughness,
@@ -146,6 +147,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
         .normal_scale = (double)m->normal_scale,
         .occlusion_strength = (double)m->occlusion_strength,
     };
+    // Copy colours, layers and textures.
     copy_numbers(m->base_color, 3, o.base);
     copy_numbers(m->emission, 3, o.emission);
     copy_numbers(m->specular_color, 3, o.specular_color);
@@ -156,7 +158,7 @@ static oracle_material material_of(const glint_material *m, const oracle_image *
     return o;
 }
 
-// In its place as the kernels have it, which is rounded as vertices are.
+// Places a light as the kernels have it: rounded as vertices are.
 static oracle_punctual light_of(const glint_scene *scene, const glint_punctual_light *light)
 {
     const double unit = scene->unit;
@@ -270,7 +272,7 @@ static void linear_light(const void *context, const double direction[3], double 
     }
 }
 
-// Its mean about n, weighed by the cosine: that of d is ⅔ n.
+// The cosine-weighted mean of E about n: the mean of d is ⅔ n.
 static void linear_irradiance(const void *context, const double normal[3], double rgb[3])
 {
     (void)context;
@@ -309,7 +311,7 @@ static void copy_vector(glint_vec3 from, double to[3])
     to[2] = from.z;
 }
 
-// Twice as many change what the oracle sees of the studio by less than 0.001.
+// With twice as many strata, the oracle's view of the studio changes by less than 0.001.
 #define LOBE_STRATA 96
 
 oracle_view judge_view(const glint_camera *camera, const glint_settings *settings)

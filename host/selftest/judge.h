@@ -1,4 +1,4 @@
-// The oracle as the self-test asks it.
+// Gives scenes to the oracle and asks it for the self-test.
 #ifndef GLINT_SELFTEST_JUDGE_H
 #define GLINT_SELFTEST_JUDGE_H
 
@@ -7,10 +7,11 @@
 #include "render/probe.h"
 #include "scene/scene.h"
 
-// A scene as the oracle takes it, in metres: data is copied, and no code of the renderer that is
-// judged is called. Textures are the levels that the device gets. Zero is valid: nothing.
+// A scene in the oracle's form, in metres. Its data is copied; no code of the judged renderer is
+// called. Textures are the levels that the device gets. Zero is valid: nothing.
 typedef struct judge {
-    oracle_scene scene; // what light there is, its user says
+    // The user sets its environment.
+    oracle_scene scene;
     oracle_triangle *triangles;
     oracle_corner (*corners)[3];
     oracle_material *materials;
@@ -21,19 +22,19 @@ typedef struct judge {
 } judge;
 
 glint_status judge_begin(const glint_scene *scene, judge *j, glint_error *error);
-void judge_end(judge *j); // a zeroed one is allowed
+void judge_end(judge *j); // a zeroed judge is allowed
 
-// Puts the corners to where they are said to be, [triangle][3][3] in stored coordinates.
+// Moves the corners to `exact`, [triangle][3][3] in stored coordinates.
 glint_status judge_move(judge *j, const glint_scene *scene, const double *exact,
                         glint_error *error);
 
-// The light of trial_linear_environment: E(d) = ½ + ½d.
+// Sets the environment of trial_linear_environment: E(d) = ½ + ½d.
 void judge_use_linear_light(judge *j);
 
 // The closest hit of a ray in metres.
 oracle_hit judge_ray(const oracle_scene *scene, const glint_probe_ray *ray);
 
-// The triangle that the middle of a pixel shows; −1: none.
+// The triangle in the middle of a pixel; −1: none.
 int judge_pixel(const oracle_scene *scene, const oracle_view *view, int column, int row);
 
 oracle_view judge_view(const glint_camera *camera, const glint_settings *settings);

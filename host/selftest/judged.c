@@ -1,4 +1,4 @@
-// A frame beside the oracle. See judged.h.
+// Compares a frame with the oracle. See judged.h.
 #include "selftest/judged.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-// A frame beside the oracle: what most cases of materials and of places are made of.
+// Compares a frame with the oracle, for cases of materials and of places.
 #ifndef GLINT_SELFTEST_JUDGED_H
 #define GLINT_SELFTEST_JUDGED_H
 
@@ -8,21 +8,23 @@
 #define JUDGED_EDGE 128 // look-ups err by 2/edge² at most
 
 typedef struct judged {
-    const glint_proxy *proxy; // of the environment; NULL: none. Set by the user, as zeros or this
+    // The environment's proxy; NULL: none. The user sets it before the call.
+    const glint_proxy *proxy;
     trial_picture picture;
     judge judge;
-    oracle_view view; // of the same depth; its user may ask for more
+    // Has the frame's depth. The user may change it.
+    oracle_view view;
 } judged;
 
-// Renders a scene in the light E(d) = ½ + ½d, of JUDGED_EDGE² texels a face, and gives it to the
-// oracle, which is to heed the same settings. judged_end is due whatever the outcome.
+// Renders a scene under E(d) = ½ + ½d, with JUDGED_EDGE² texels a face, and gives it to the oracle
+// with the same settings. Call judged_end, whatever the outcome.
 glint_status judged_frame(trial *t, const glint_scene *scene, const glint_camera *camera,
                           const glint_settings *settings, judged *out);
 
-// What the oracle sees in pixel `p`, counted from the top left, row by row.
+// The oracle's colour of pixel `p`, counted from the top left, row by row.
 void judged_pixel(const judged *of, int p, double expected[4], oracle_report *report);
 
-// The root mean square of all pixels' differences in R, G and B, over the mean.
+// The root mean square of all differences in R, G and B, over the mean.
 double judged_rmse(const judged *of);
 
 void judged_end(judged *of); // a zeroed one is allowed

@@ -1,4 +1,4 @@
-// Running the cases. See selftest.h.
+// Runs the cases. See selftest.h.
 #include "selftest/selftest.h"
 
 #include "base/clock.h"
@@ -12,7 +12,7 @@ static const trial_case *const groups[] = {
     environment_cases, path_cases,  surface_cases,  rough_cases,  media_cases,      light_cases,
     image_cases,       place_cases, material_cases, output_cases};
 
-// What a quick run has: cases that between them go through most of the kernels.
+// The cases of a quick run. Together they cover most of the kernels.
 static const char *const quick[] = {
     "rays_at_shared_edges",
     "primary_rays_at_edges",
@@ -92,7 +92,7 @@ const glint_measure *glint_selftest_worst(const glint_selftest_result *result)
     double most = 0;
     for (int i = 0; i < result->measure_count; i++) {
         const glint_measure *m = &result->measures[i];
-        // Written so that NaN, and anything over a bound of 0, is the worst.
+        // NaN, and anything over a bound of 0, is the worst.
         const double excess = m->measured / m->bound;
         if (!glint_measure_holds(m) && (worst == NULL || !(excess <= most))) {
             worst = m;
@@ -108,7 +108,7 @@ const char *glint_verdict_name(glint_verdict verdict)
     return names[verdict];
 }
 
-// A seed of the case's own, so that it draws the same numbers whichever cases ran before.
+// Makes a seed for each case, so that its numbers do not depend on the cases before.
 static uint64_t seed_of(const char *name, uint32_t seed)
 {
     uint64_t hash = 14695981039346656037u ^ (uint64_t)seed * 1099511628211u; // FNV-1a
@@ -118,7 +118,7 @@ static uint64_t seed_of(const char *name, uint32_t seed)
     return hash;
 }
 
-// Turns counts into shares where these are meant, and judges.
+// Turns counts into shares if a measure is a share, and judges.
 static glint_verdict conclude(glint_selftest_result *result)
 {
     glint_verdict verdict = result->measure_count > 0 ? GLINT_PASSED : GLINT_FAILED;

@@ -1,4 +1,4 @@
-// Scenes by formula. See shapes.h.
+// Makes scenes by formula. See shapes.h.
 #include "selftest/shapes.h"
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@ shape shape_begin(void)
     return (shape){.scene = {.unit = 1}};
 }
 
-// The array with room for so many bytes; as it was where memory is short.
+// Grows the array to this number of bytes. If memory is short, returns the old array.
 static void *grow(shape *s, void *array, size_t bytes)
 {
     void *grown = realloc(array, bytes);
@@ -40,7 +40,7 @@ static bool make_room(shape *s)
     return !s->failed;
 }
 
-// The instance that the next triangle belongs to: a new one where the material changes.
+// Chooses the instance of the next triangle: a new one if the material changes.
 static bool choose_instance(shape *s, shape_material material)
 {
     glint_scene *scene = &s->scene;
@@ -226,7 +226,7 @@ glint_camera shape_camera(const double eye[3], const double target[3], double yf
 {
     const glint_vec3 at = {eye[0], eye[1], eye[2]};
     const glint_vec3 back = {eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]};
-    // A camera that looks straight up or down has −Z or +Z above it.
+    // A camera that looks straight down or up has −Z above it.
     const bool upright = back.x != 0 || back.z != 0;
     const glint_vec3 up = upright ? (glint_vec3){0, 1, 0} : (glint_vec3){0, 0, -1};
     const glint_mat4 to_world = {

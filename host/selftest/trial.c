@@ -1,4 +1,4 @@
-// What the cases of the self-test share. See trial.h.
+// Supports the cases of the self-test. See trial.h.
 #include "selftest/trial.h"
 
 #include "base/memory.h"
@@ -56,11 +56,11 @@ double trial_ulps(const trial *t, double got, double expected)
     return ulps(t->options->precision == GLINT_PRECISION_DOUBLE, got, expected);
 }
 
-// True where `error` is the worst so far.
+// True if `error` is the worst so far.
 static bool takes_lead(glint_measure *m, double error)
 {
     m->judged++;
-    // Written so that NaN leads, once.
+    // NaN takes the lead, and only once.
     if (isnan(m->measured) || error <= m->measured) {
         return false;
     }
@@ -289,7 +289,7 @@ glint_settings trial_settings(const trial *t)
     glint_settings settings = glint_settings_default;
     settings.width = 64;
     settings.height = 48;
-    settings.depth = GLINT_DEPTH_MAX; // as auto has it, but for scenes of which less is proved
+    settings.depth = GLINT_DEPTH_MAX; // like auto, except for scenes with a proved depth
     settings.min_weight = 0;
     settings.roughness = GLINT_ROUGHNESS_SMOOTH;
     settings.precision = t->options->precision;

@@ -1,4 +1,4 @@
-// A case of the self-test as it runs at one width and precision: what its code needs.
+// Supports a case of the self-test that runs at one width and precision.
 #ifndef GLINT_SELFTEST_TRIAL_H
 #define GLINT_SELFTEST_TRIAL_H
 
@@ -13,7 +13,7 @@
 typedef struct trial {
     const glint_selftest_options *options;
     double u;            // the largest relative rounding error: 2⁻²⁴ or 2⁻⁵³
-    glint_random random; // begins with a seed of the case's own
+    glint_random random; // starts with a seed of the case
     glint_selftest_result *result;
     glint_error *error;
 } trial;
@@ -25,35 +25,35 @@ typedef struct trial_case {
     trial_body *run;
 } trial_case;
 
-// The cases of each file, ended by a name that is NULL.
+// The cases of each file. A NULL name ends a list.
 extern const trial_case hit_cases[], scale_cases[], spawn_cases[], normal_cases[],
     refraction_cases[], solid_cases[], environment_cases[], path_cases[], surface_cases[],
     rough_cases[], media_cases[], light_cases[], image_cases[], place_cases[], material_cases[],
     output_cases[];
 
 // ---- Measures ----------------------------------------------------------------------------------
-// A new measure of the trial's result. Texts are static.
+// Each function adds a measure to the trial's result. Texts are static.
 
-// The largest error, in `unit`.
+// Measures the largest error, in `unit`.
 glint_measure *trial_error(trial *t, const char *what, const char *unit, double bound);
-// How many events there were.
+// Counts events.
 glint_measure *trial_events(trial *t, const char *what, double bound);
-// Which share of what was judged they are.
+// Measures the share of events among everything judged.
 glint_measure *trial_share(trial *t, const char *what, double bound);
 
-// An error; NaN is the largest of all. The text says which value it is, if it is the worst so far.
+// Records an error; NaN is the largest error. The text names the value, if it is the worst so far.
 void measure_error(glint_measure *m, double error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// |got − expected|/scale, with both values and their distance in units in the last place.
+// Records |got − expected|/scale. The text gets both values and their distance in ulp.
 void measure_value(glint_measure *m, double got, double expected, double scale, const char *format,
                    ...) __attribute__((format(printf, 5, 6)));
 
-// The same of a vector: the length of the difference.
+// Records the error of a vector: the length of the difference.
 void measure_vector(glint_measure *m, const double got[3], const double expected[3], double scale,
                     const char *format, ...) __attribute__((format(printf, 5, 6)));
 
-// Judges one thing: whether it is the event that should not be. The first one is described.
+// Judges one thing: did the unwanted event happen? The first event is described.
 void measure_event(glint_measure *m, bool happened, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -63,35 +63,35 @@ double trial_ulps(const trial *t, double got, double expected);
 // ---- Numbers -----------------------------------------------------------------------------------
 
 double trial_random(trial *t, double low, double high);
-// As the device gets it: rounded to float in single precision.
+// The value that the device gets: rounded to float in single precision.
 double trial_rounded(const trial *t, double value);
 
-// From one place to another, in stored coordinates, each rounded.
+// A ray from one place to another, in stored coordinates, each rounded.
 glint_probe_ray trial_aim(const trial *t, const double from[3], const double to[3]);
-// In any direction.
+// A ray in a random direction.
 glint_probe_ray trial_random_ray(trial *t, const double from[3]);
 
 // ---- The renderer ------------------------------------------------------------------------------
 
-// Probes of a scene, compiled with all features, so that most cases share their kernels, with
-// depth auto and under E(d) = ½ + ½d. (Fresnel's term is there if the scene has need of it, so that
-// a scene of white mirrors alone would be compiled once more.)
+// Makes probes of a scene under E(d) = ½ + ½d, with depth auto. All features are compiled in, so
+// most cases share their kernels. (Fresnel's term is compiled in only if the scene needs it. So a
+// scene of white mirrors alone would need another compilation.)
 glint_status trial_probe(const trial *t, const glint_scene *scene, glint_probe **probe);
-// Of a scene that no one looks at, under another environment.
+// Makes probes under another environment, with an empty scene.
 glint_status trial_probe_environment(const trial *t, const glint_environment *environment,
                                      glint_probe **probe);
-// Ends the shape and makes probes of its scene; failed or not, both are the caller's to free.
+// Ends the shape and makes probes of its scene. The caller frees both, even after a failure.
 glint_status trial_build(const trial *t, shape *s, glint_scene *scene, glint_probe **probe);
-// The same of a scene that no one looks at, to call functions of numbers alone.
+// Makes probes with an empty scene, to call functions of numbers alone.
 glint_status trial_functions(const trial *t, glint_probe **probe);
 
-// Elements of four numbers; `in` and `out` may be the same.
+// Elements of four numbers. `in` and `out` may be the same.
 typedef struct trial_numbers {
     double (*in)[4], (*out)[4];
     size_t count;
 } trial_numbers;
 
-// Calls a part on elements of four numbers.
+// Calls a probe's part on elements of four numbers.
 glint_status trial_call(trial *t, glint_probe *probe, glint_probe_part part,
                         const trial_numbers *numbers);
 glint_status trial_trace(trial *t, glint_probe *probe, const glint_probe_ray *rays,
@@ -99,8 +99,8 @@ glint_status trial_trace(trial *t, glint_probe *probe, const glint_probe_ray *ra
 glint_status trial_bounce(trial *t, glint_probe *probe, const glint_probe_ray *rays,
                           glint_probe_bounce *bounces, size_t count);
 
-// Colours for tests: E(d) = ½ + ½d, which bilinear look-ups give back within 2/edge²; or the same
-// everywhere.
+// Makes an environment: E(d) = ½ + ½d, which bilinear look-ups give within 2/edge²; or a uniform
+// one.
 glint_status trial_linear_environment(int edge, glint_environment *environment, glint_error *error);
 glint_status trial_uniform_environment(float radiance, glint_environment *environment,
                                        glint_error *error);
@@ -111,12 +111,12 @@ typedef struct trial_picture {
     double *values; // [height][width][4], owned
     glint_frame_report report;
     glint_plan plan;
-    glint_layers layers; // that the settings ask for, and terms
+    glint_layers layers; // layers and terms that the settings ask for
 } trial_picture;
 
 // Settings of frames at the trial's width and precision: 64 × 48 pixels, min_weight 0.
 glint_settings trial_settings(const trial *t);
-// What a renderer needs, on the trial's device. Borrows all.
+// The renderer's inputs on the trial's device. Borrows everything.
 glint_renderer_inputs trial_inputs(const trial *t, const glint_scene *scene,
                                    const glint_environment *environment,
                                    const glint_settings *settings);

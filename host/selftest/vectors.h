@@ -1,4 +1,4 @@
-// Vectors of three doubles, as the cases of the self-test judge them.
+// Defines vectors of three doubles for the cases of the self-test.
 #ifndef GLINT_SELFTEST_VECTORS_H
 #define GLINT_SELFTEST_VECTORS_H
 
@@ -17,7 +17,7 @@ static inline void cross(const double a[3], const double b[3], double product[3]
     }
 }
 
-// Divides by the length.
+// Scales to length 1.
 static inline void make_unit(double v[3])
 {
     const double length = sqrt(dot(v, v));
@@ -32,7 +32,7 @@ static inline double distance(const double a[3], const double b[3])
     return sqrt(dot(away, away));
 }
 
-// x where it is above 0, else 0; NaN stays NaN, which fmax() would drop.
+// x if it is above 0, else 0. NaN stays NaN; fmax() would drop it.
 static inline double above_zero(double x)
 {
     return x <= 0 ? 0 : x;
