@@ -19,7 +19,6 @@ static void report_clear(oracle_report *report)
 // Traces a path's ray and continues from the surface that it meets.
 static void follow(walk *w, const path *p)
 {
-    // Find the hit.
     oracle_ray ray = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     vector_store(p->origin, ray.origin);
     vector_store(p->direction, ray.direction);
@@ -41,7 +40,6 @@ static void follow(walk *w, const path *p)
         oracle_escape(w, p, p->direction, p->weight);
         return;
     }
-
     // Arrive at the surface, with the media on both sides.
     path here = *p;
     here.holds = false;
