@@ -37,8 +37,7 @@ static const glint_option relight_options[] = {
      .offset = offsetof(relight_request, inputs.env)},
     GLINT_ENV_AS_OPTIONS(offsetof(relight_request, inputs.env_as)),
     {GLINT_OPTION_CUSTOM, .name = "env-flip", .argument = "AXES",
-     .help = "Mirror the environment: x exchanges left and right, y above and below, z front and "
-             "back. This happens before --env-rotate.",
+     .help = "Mirror the environment first, as glint render does.",
      .offset = offsetof(relight_request, inputs.env_flip), .parse = glint_parse_flip},
     GLINT_SETTINGS_ROW(GLINT_SETTINGS_OF_ENVIRONMENT, offsetof(relight_request, inputs.settings)),
     GLINT_LARGE_IMAGES_OPTION,

@@ -149,8 +149,9 @@ static const glint_option selftest_options[] = {
      .offset = offsetof(selftest_request, kernel_dir)},
     {GLINT_OPTION_HEADING, .help = "Results"},
     {GLINT_OPTION_TEXT, .name = "expect", .argument = "FILE",
-     .help = "Known failures, which do not count. A line holds the name of a case, and if it fails "
-             "only there: float or double, and 1, 8 or 16. glint names listed cases that pass.",
+     .help = "Known failures, which do not count. Each line names a case. float, double, 1, 8 or "
+             "16 behind the name limit the line to this precision or packet width. glint names "
+             "listed cases that pass.",
      .offset = offsetof(selftest_request, expect)},
     {GLINT_OPTION_TEXT, .name = "junit", .argument = "FILE",
      .help = "Write the results as JUnit's XML.", .offset = offsetof(selftest_request, junit)},
