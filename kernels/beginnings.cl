@@ -9,46 +9,50 @@
 
 // Adds the solids to `begun` that a walk was inside of from the start: entries of `before` that
 // `media` lacks. A walk leaves solids in their order, the innermost first.
-static inline void note_begun(lanes_int media, lanes_int before, int lane, int *count,
-                              lanes_int *begun)
+static inline void note_begun(const scene_buffers *scene, lanes_int media, lanes_int before,
+                              int lane, int *count, lanes_int *begun)
 {
     lane_int more = LANE_INT(before, lane), known = LANE_INT(media, lane);
-    for (; more != 0; more >>= GLINT_MEDIA_BITS) {
+    for (; more != 0; more >>= scene->media_bits) {
         const lane_int medium = more & MEDIUM_MASK;
 #if GLINT_OVERLAPS
-        if (!remove_medium(&known, medium)) {
-            lane_int sorted = LANE_INT(*begun, lane);
-            insert_medium(&sorted, medium);
-            LANE_INT(*begun, lane) = sorted;
-        }
-#else
-        bool is_known = false;
-        for (lane_int left = known; left != 0; left >>= GLINT_MEDIA_BITS) {
-            is_known |= (left & MEDIUM_MASK) == medium;
-        }
-        if (!is_known && *count < GLINT_MEDIA_CAPACITY) {
-            LANE_INT(*begun, lane) |= medium << (GLINT_MEDIA_BITS * (*count)++);
+        if (HAS(OVERLAPS)) {
+            if (!remove_medium(scene, &known, medium)) {
+                lane_int sorted = LANE_INT(*begun, lane);
+                insert_medium(scene, &sorted, medium);
+                LANE_INT(*begun, lane) = sorted;
+            }
+            continue;
         }
 #endif
+        bool is_known = false;
+        for (lane_int left = known; left != 0; left >>= scene->media_bits) {
+            is_known |= (left & MEDIUM_MASK) == medium;
+        }
+        if (!is_known && *count < scene->media_capacity) {
+            LANE_INT(*begun, lane) |= medium << (scene->media_bits * (*count)++);
+        }
     }
 }
 
 // The media on both sides of the walk's next surface. If the walk leaves a solid that it has not
 // entered, the solid counts as before the surface.
-static inline void walk_media(const surface *s, lanes_int media, lanes_int *before,
-                              lanes_int *beyond)
+static inline void walk_media(const scene_buffers *scene, const surface *s, lanes_int media,
+                              lanes_int *before, lanes_int *beyond)
 {
 #if GLINT_OVERLAPS
-    *before = s->media_before;
-    *beyond = s->media_beyond;
-#else
+    if (HAS(OVERLAPS)) {
+        *before = s->media_before;
+        *beyond = s->media_beyond;
+        return;
+    }
+#endif
     mask lost;
     const mask solid = HAS_FLAG(*s, GLINT_MATERIAL_SOLID);
-    const lanes_int entered = enter_medium(media, s->medium, &lost);
-    const lanes_int left = leave_medium(media, s->medium);
+    const lanes_int entered = enter_medium(scene, media, s->medium, &lost);
+    const lanes_int left = leave_medium(scene, media, s->medium);
     *before = SELECT(solid & !s->outside & (left == media), entered, media);
     *beyond = SELECT(solid, SELECT(s->outside, entered, left), media);
-#endif
 }
 
 // Makes one step of a group's walk, past the hits of the rays in `met`.
@@ -59,18 +63,18 @@ static inline void walk_past(const scene_buffers *scene, path *ray, closest *hit
     const lanes_int place = hit->place;
     const surface s = find_surface_in_place(scene, ray, met, hit, &triangles);
     const real height = hit->t * fabs(dot3(s.geometric_normal, ray->direction));
-    const mask here = met & *first & (height <= reach_of_place(&s, hit->t));
+    const mask here = met & *first & (height <= reach_of_place(scene, &s, hit->t));
     *places = SELECT(met & *first & !here, place, *places);
     lanes_int before, beyond;
-    walk_media(&s, ray->media, &before, &beyond);
+    walk_media(scene, &s, ray->media, &before, &beyond);
     for (uint left = mask_bits(met & !here); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left);
-        note_begun(ray->media, before, lane, &counts[lane], begun);
+        note_begun(scene, ray->media, before, lane, &counts[lane], begun);
     }
     ray->media = SELECT(met & !here, beyond, ray->media);
     *first = *first & !(met & !here);
     path past = *ray;
-    start_off_surface(&past, &s, -s.offset);
+    start_off_surface(scene, &past, &s, -s.offset);
     ray->origin = select3(met, past.origin, ray->origin);
 #if LOCAL_RAYS
     ray->origin_low = select3(met, past.origin_low, ray->origin_low);

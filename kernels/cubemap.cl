@@ -3,7 +3,7 @@
 typedef struct cube_map {
     global const void *texels;
     int edge;      // texels along a face's edge, without the border
-    bool are_half; // texels are half, else float; a compile-time constant
+    bool are_half; // texels are half, else float; a constant in special kernels
 } cube_map;
 
 typedef struct cube_point {

@@ -141,9 +141,12 @@ static inline real3 film_reflectance(real film, real3 roots, real cosine, real w
 // Rule 15: the reflectance of a surface with its film. `bare` is the reflectance without the film,
 // and `weight` scales the reflectance with it. `outer` is the outer medium's index of refraction;
 // the other arguments are as in film_reflectance.
-static inline real3 reflect_by_film(const surface *s, real3 bare, real weight, real3 roots,
-                                    real outer, real cosine)
+static inline real3 reflect_by_film(const scene_buffers *scene, const surface *s, real3 bare,
+                                    real weight, real3 roots, real outer, real cosine)
 {
+    if (!HAS(IRIDESCENCE)) {
+        return bare;
+    }
     const real film = s->film_ior / outer;
     // A film in a denser medium may reflect all light; it is left out there.
     const mask seen = (s->film > R(0.0)) &
@@ -182,8 +185,11 @@ static inline real3 within_one(real3 a)
 // Returns the F0 of a lobe beneath a film. With this F0 the lobe reflects as much of a white
 // environment as the film does. The film's reflectance is the mean over facets, weighted by the
 // share of their light that no other facet blocks.
-static inline real3 film_of_lobe(const surface *s, real3 f0)
+static inline real3 film_of_lobe(const scene_buffers *scene, const surface *s, real3 f0)
 {
+    if (!HAS(IRIDESCENCE) || !any_lane(s->film > R(0.0))) {
+        return f0;
+    }
     const real alpha = s->roughness * s->roughness;
     const real sine = sqrt(LARGER((R(1.0) - s->cosine) * (R(1.0) + s->cosine), real_of(0)));
     const real length = R(1.0) / sqrt(fused(alpha * sine, alpha * sine, s->cosine * s->cosine));
@@ -207,8 +213,8 @@ static inline real3 film_of_lobe(const surface *s, real3 f0)
         const real weight = SELECT(away > R(0.0), open, real_of(0));
         const real cosine = SMALLER(LARGER(toward, real_of(0)), real_of(1));
         const real m = R(1.0) - cosine, m2 = m * m, edge = m2 * m2 * m;
-        const real3 filmed = reflect_by_film(s, metal_reflectance(f0, cosine), real_of(1), roots,
-                                             real_of(1), cosine);
+        const real3 filmed = reflect_by_film(scene, s, metal_reflectance(f0, cosine, HAS(FRESNEL)),
+                                             real_of(1), roots, real_of(1), cosine);
         sum = scale_add(filmed, weight, sum);
         edges = fused(edge, weight, edges);
         weights += weight;

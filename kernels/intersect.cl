@@ -95,6 +95,7 @@ static inline mask rays_meet_box(const packet *p, global const float *node, int 
 
 // A cluster, the place `first` of its first triangle, and the numbers of all triangles.
 typedef struct leaf {
+    const scene_buffers *scene;
     global const float *cluster;
     global const int *numbers;
     int first;
@@ -102,7 +103,7 @@ typedef struct leaf {
 
 static inline leaf leaf_at(const scene_buffers *scene, int index)
 {
-    const leaf l = {scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES, scene->numbers,
+    const leaf l = {scene, scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES, scene->numbers,
                     index * GLINT_CLUSTER_LANES};
     return l;
 }
@@ -206,15 +207,12 @@ static inline void refine_weights(const real x[3], const real y[3], mask wanted,
 // the vertices' distances from the origin of coordinates, along the plane's normal;
 // place_on_triangle gives the reason. With LOCAL_ORIGINS the origin is the cluster's, and the start
 // needs two more roundings.
-#if GLINT_LOCAL_ORIGINS
-#define START_OFFSET (R(12.0) * EPSILON)
-#else
-#define START_OFFSET (R(8.0) * EPSILON)
-#endif
+#define START_OFFSET(scene) (HAS_IN(scene, LOCAL_ORIGINS) ? R(12.0) * EPSILON : R(8.0) * EPSILON)
 
 // True if three points lie in the plane of a triangle. The tolerance is the distance from the plane
 // at which rays start (place_on_triangle).
-static inline bool lie_in_plane(const float own[9], const scalar corners[9])
+static inline bool lie_in_plane(const scene_buffers *scene, const float own[9],
+                                const scalar corners[9])
 {
     scalar a[3], b[3], farthest = R(0.0), off[3] = {R(0.0), R(0.0), R(0.0)};
 #pragma unroll
@@ -233,7 +231,8 @@ static inline bool lie_in_plane(const float own[9], const scalar corners[9])
             off[v] = fused(n, corners[3 * v + k] - (scalar)own[k], off[v]);
         }
     }
-    return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <= START_OFFSET * farthest;
+    return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <=
+           START_OFFSET(scene) * farthest;
 }
 
 // True if a triangle lies in the plane of the triangle at place `start`; −1: none.
@@ -250,7 +249,7 @@ static inline bool lies_in_plane_of(const leaf *leaf, int start, const float cor
     for (int k = 0; k < 9; k++) {
         told[k] = FROM_ANCHOR(from, k % 3, FROM_SCENE(leaf->cluster, k % 3, R(0.0))) + corners[k];
     }
-    return lie_in_plane(own, told);
+    return lie_in_plane(leaf->scene, own, told);
 }
 
 // A ray that leaves a plane meets no triangle in that plane. But rounding may report a hit if the
@@ -347,7 +346,7 @@ static inline bool intersect_triangle(const packet *p, const real *origin, int a
             fused(weights[0], az, fused(weights[1], bz, weights[2] * cz)) * p->shear_z * inverse;
 #if LOCAL_RAYS
         const mask nearby = inside & (LARGE_TRIANGLE * fabs(t) < reach);
-        if (any_lane(nearby)) {
+        if (HAS_IN(leaf->scene, LOCAL_ORIGINS) && any_lane(nearby)) {
             const real depths[3] = {az, bz, cz};
             t = SELECT(nearby, distance_nearby(p, leaf, z, vertices, depths, t), t);
         }
@@ -498,7 +497,7 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
     const scalar reach = LARGEST3(fabs(az), fabs(bz), fabs(cz)) * fabs(ray->shear_z);
     scalar t = fused(u, az, fused(v, bz, w * cz)) * ray->shear_z * inverse;
 #if LOCAL_RAYS
-    if (LARGE_TRIANGLE * fabs(t) < reach) {
+    if (HAS_IN(leaf->scene, LOCAL_ORIGINS) && LARGE_TRIANGLE * fabs(t) < reach) {
         const real depths[3] = {real_of(az), real_of(bz), real_of(cz)};
         const packet one = packet_of_lone(ray);
         const real nearby = distance_nearby(&one, leaf, z, at, depths, real_of(t));

@@ -19,7 +19,8 @@ typedef struct glint_split_vector {
 //   t is   −y  −y  −z  +z  −y  −y
 // Texel (column i, row j) of a face of edge N has its centre at s = (2i + 1)/N − 1 and
 // t = (2j + 1)/N − 1. Each face has a border of one texel: [6][N + 2][N + 2][4] floats (R, G, B,
-// unused). The environment has halfs if the kernels are compiled with GLINT_HALF_TEXELS.
+// unused). The environment has halfs if the kernels are compiled with GLINT_HALF_TEXELS or, with
+// GLINT_GENERAL, if the frame says so.
 // (Keep the lists: both compilers initialise constant arrays from them.)
 #define GLINT_CUBE_FACES 6
 #define GLINT_CUBE_S_AXIS                                                                          \
@@ -280,6 +281,8 @@ typedef struct glint_light_record {
 // ---- Frame -------------------------------------------------------------------------------------
 // Values that may change from frame to frame without a new compilation.
 
+#define GLINT_FEATURE_WORDS 2 // of 32 bits, one for each feature of features.h
+
 // The primary ray through the point (px, py) of the image plane, in pixels from the top left. Let
 // X = px − width/2 and Y = height/2 − py. The ray starts at origin + X origin_x + Y origin_y and
 // runs along direction + X direction_x + Y direction_y (stored coordinates, not normalised). The
@@ -310,6 +313,12 @@ typedef struct glint_frame_record {
     int width, height;
     int image_width, image_height;
     int step, first_pixel;
+    // With GLINT_GENERAL: the features that the scene and the settings need, as bits, and the type
+    // of the environment's texels.
+    unsigned int features[GLINT_FEATURE_WORDS];
+    int half_texels;
+    // The stack of media (media.cl): bits of an entry, and the number of entries.
+    int media_bits, media_capacity;
     int samples_per_axis; // k
     // With GLINT_FACETS: the number of rounds in which all samples are rendered. With
     // GLINT_DISPERSION each wavelength has these rounds. Only the first round renders all pixels.

@@ -1,8 +1,8 @@
 // Creates the branches that leave a surface: their start, the data they carry, and early ends.
 
 // A branch that leaves the surface: a ray along `direction`, on the viewer's side or `beyond`.
-static inline path make_branch(const path *ray, const surface *s, const closest *hit,
-                               real3 direction, mask beyond)
+static inline path make_branch(const scene_buffers *scene, const path *ray, const surface *s,
+                               const closest *hit, real3 direction, mask beyond)
 {
     path branch = *ray;
     branch.direction = direction;
@@ -11,13 +11,13 @@ static inline path make_branch(const path *ray, const surface *s, const closest 
     branch.held = real3_of(real_of(0), real_of(0), real_of(0));
     branch.shown = real_of(1);
 #endif
-    if (GLINT_CONVEX_SOLID) {
+    if (HAS(CONVEX_SOLID)) {
         const mask leaves = (s->outside & !beyond) | (beyond & !s->outside);
         branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));
     }
     if (HAS_PLACES) {
         const real offset = SELECT(beyond, -s->offset, s->offset);
-        start_off_surface(&branch, s, offset);
+        start_off_surface(scene, &branch, s, offset);
         branch.from = hit->place;
     }
 #if GLINT_ABSORPTION
@@ -113,7 +113,7 @@ static inline mask do_disperse(const scene_buffers *scene, lanes_int media)
     lanes_int does = int_of(0);
     for (int lane = 0; lane < GLINT_WIDTH; lane++) {
         LANE_INT(does, lane) =
-            scene->media[top_medium(LANE_INT(media, lane))].dispersion > 0.0f ? 1 : 0;
+            scene->media[top_medium(scene, LANE_INT(media, lane))].dispersion > 0.0f ? 1 : 0;
     }
     return does != (lane_int)0;
 }
@@ -130,7 +130,9 @@ static inline void disperse(const scene_buffers *scene, const glint_frame_record
     s->ior_step = w->ior_step;
     mask here = HAS_FLAG(*s, GLINT_MATERIAL_DISPERSIVE);
 #if GLINT_OVERLAPS
-    here = here | do_disperse(scene, s->media_before) | do_disperse(scene, s->media_beyond);
+    if (HAS(OVERLAPS)) {
+        here = here | do_disperse(scene, s->media_before) | do_disperse(scene, s->media_beyond);
+    }
 #endif
     here = here & met & (ray->dispersed == (lane_int)0);
     note_pixels(tally, pixels, here, tally->dispersed);

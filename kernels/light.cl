@@ -9,7 +9,7 @@ static inline real3 join_vector(const glint_split_vector *v)
 // If the environment is turned by the angle a about +Y, it is looked up along d turned by −a.
 static inline real3 turn_into_environment(const glint_frame_record *frame, real3 d)
 {
-    if (!GLINT_ENV_ROTATION) {
+    if (!HAS_IN(frame, ENV_ROTATION)) {
         return d;
     }
     real c = real_of(JOIN(frame->env_rotation[0], frame->env_rotation[1]));
@@ -22,7 +22,7 @@ static inline real3 turn_into_environment(const glint_frame_record *frame, real3
 // percent.
 static inline real3 find_irradiance(const scene_buffers *scene, real3 n, mask wanted)
 {
-    if (!GLINT_IRRADIANCE_HARMONICS) {
+    if (!HAS(IRRADIANCE_HARMONICS)) {
         return sample_cube(&scene->irradiance, n, wanted);
     }
     global const float *coefficients = scene->irradiance.texels;

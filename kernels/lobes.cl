@@ -17,6 +17,13 @@ typedef struct seen_lobe {
     real shown;  // weight of the environment's light at the path's end
 } seen_lobe;
 
+static inline seen_lobe no_lobe(void)
+{
+    const real3 none = real3_of(real_of(0), real_of(0), real_of(0));
+    const seen_lobe seen = {none, none, real_of(1)};
+    return seen;
+}
+
 static inline wanted_lobe lobe_of_surface(const surface *s, const scattering *out, mask met)
 {
     const wanted_lobe w = {met & out->rough, shape_of_surface(s), out->lobe_weight,
@@ -41,7 +48,7 @@ static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_r
                                  const wanted_lobe *w, const path *ray)
 {
     const real3 none = real3_of(real_of(0), real_of(0), real_of(0));
-    seen_lobe seen = {none, none, real_of(1)};
+    seen_lobe seen = no_lobe();
     if (!any_lane(w->there)) {
         return seen;
     }
@@ -52,9 +59,9 @@ static inline seen_lobe see_lobe(const scene_buffers *scene, const glint_frame_r
 #endif
     const real3 v = turn_into_environment(frame, negate(ray->direction));
     // Integrate the lobe over the environment.
-    const real share = share_of_lobe(&shape);
+    const real share = share_of_lobe(scene, &shape);
     const real least = real_of((scalar)GLINT_ROUGHNESS_NARROW);
-    const lobe l = find_lobe(&scene->cells, &shape, v, LARGER(shape.roughness, least),
+    const lobe l = find_lobe(scene, &shape, v, LARGER(shape.roughness, least),
                              largest3(ray->weight) * w->weight);
     const lobe_light light = integrate_lobe(scene, &l, w->there);
     // Divide the light into the part without a path and the part by a path.

@@ -88,30 +88,35 @@ static inline void finish_lookups(lookups *l, const cube_map *map)
 
 #if READS_LEVELS
 // The width of the environment's part that a ray sees, as an angle.
-static inline real spread_seen(const path *ray)
+static inline real spread_seen(const scene_buffers *scene, const path *ray)
 {
-#if GLINT_MIP_LEVELS
+    real spread = real_of(0);
 #if GLINT_FACETS
-    return joined_width(ray->cone.spread, ray->lobe.spread);
-#else
-    return ray->cone.spread;
+    spread = ray->lobe.spread;
 #endif
-#else
-    return ray->lobe.spread;
+#if GLINT_MIP_LEVELS
+    if (HAS(MIP_LEVELS)) {
+        spread = HAS(FACETS) ? joined_width(ray->cone.spread, spread) : ray->cone.spread;
+    }
 #endif
+    return spread;
 }
 #endif
 
 // Finds the points of the map in the directions of some rays, prefetches their texels, and stores
 // the points for later.
-static inline void find_points(lookups *l, const cube_map *map, const path *rays, real3 direction,
-                               uint wanted, int i)
+static inline void find_points(lookups *l, const scene_buffers *scene, const path *rays,
+                               real3 direction, uint wanted, int i)
 {
+    const cube_map *map = &scene->environment;
+    lanes_int edges = int_of(map->edge), starts = int_of(0);
 #if READS_LEVELS
     const int last = max(l->level_count - 1, 0);
-    const level_choice choice = choose_level(spread_seen(rays), direction, map->edge, last);
+    level_choice choice = {int_of(0), real_of(0)};
+    if (HAS(MIP_LEVELS) || HAS(FACETS)) {
+        choice = choose_level(spread_seen(scene, rays), direction, map->edge, last);
+    }
     l->levels[i] = choice;
-    lanes_int edges = int_of(map->edge), starts = int_of(0);
     if (any_lane((choice.level > (lane_int)0) | (choice.blend > R(0.0)))) {
         lanes_int next_edges = int_of(0), next = int_of(0);
         for (int lane = 0; lane < GLINT_WIDTH; lane++) {
@@ -123,8 +128,6 @@ static inline void find_points(lookups *l, const cube_map *map, const path *rays
         }
         l->coarser[i] = find_on_cube(direction, next_edges, next);
     }
-#else
-    const lanes_int edges = int_of(map->edge), starts = int_of(0);
 #endif
     l->points[i] = find_on_cube(direction, edges, starts);
     for (; wanted != 0; wanted &= wanted - 1) {
@@ -136,17 +139,17 @@ static inline void find_points(lookups *l, const cube_map *map, const path *rays
 
 // Requests a look-up that adds the environment's light to the rays in `wanted`, times their
 // weights. `direction` is the rays' direction in the environment's axes.
-static inline void look_up_later(lookups *l, const cube_map *map, const path *rays, real3 direction,
-                                 mask wanted, const pixels *pixels)
+static inline void look_up_later(lookups *l, const scene_buffers *scene, const path *rays,
+                                 real3 direction, mask wanted, const pixels *pixels)
 {
     const real3 weight = rays->weight;
     if (l->count == LOOKUPS) {
-        finish_lookups(l, map);
+        finish_lookups(l, &scene->environment);
     }
     int i = l->count++;
     l->pixels[i] = *pixels;
     l->wanted[i] = mask_bits(wanted);
-    find_points(l, map, rays, direction, l->wanted[i], i);
+    find_points(l, scene, rays, direction, l->wanted[i], i);
     mask tinted = (weight.x != R(1.0)) | (weight.y != R(1.0)) | (weight.z != R(1.0));
     l->white[i] = !any_lane(wanted & tinted);
     if (!l->white[i] || l->wanted[i] != ALL_RAYS) {

@@ -2,11 +2,8 @@
 // and the environment alone. A look-up's direction may have any length, and r = 2n(n·v) − v does
 // not depend on the sign of the normal. So this code normalises and orients no vectors. The normals
 // are sums of the vertices' normals, whose weights need not add up to 1.
-#define ONE_LOOKUP                                                                                 \
-    (!GLINT_INTERREFLECTION && !GLINT_GLASS && !GLINT_MIP_LEVELS && !GATHERS && !GLINT_HITS &&     \
-     !GLINT_TERMS && !GLINT_VERTEX_DIRECTION && !GLINT_PROXY && !GLINT_TEXTURES &&                 \
-     !GLINT_COLORED_VERTICES && !GLINT_CLEARCOAT && !GLINT_IRIDESCENCE &&                          \
-     (GLINT_MIRROR || !GLINT_GEOMETRY))
+#define IS_COMPILED(name) GLINT_##name
+#define ONE_LOOKUP GLINT_TAKES_ONE_LOOKUP(IS_COMPILED)
 #if ONE_LOOKUP
 
 // The points where the samples of a tile's pixels see the environment.
@@ -73,7 +70,8 @@ static inline real3 mirror_weights(const scene_buffers *scene, const glint_frame
     if (GLINT_TINT) {
         surface s;
         load_materials(scene, t, &s);
-        weights = select3(met, metal_reflectance(s.base_color, SMALLER(cosine, one)), weights);
+        const real3 tint = metal_reflectance(s.base_color, SMALLER(cosine, one), HAS(FRESNEL));
+        weights = select3(met, tint, weights);
     }
     mask reflects = met & (largest3(weights) > R(0.0));
     ended(frame, largest3(weights), int_of(1), reflects, pixels, tally);
@@ -90,7 +88,7 @@ static inline void find_sights(const scene_buffers *scene, const glint_frame_rec
     real3 weights = real3_of(real_of(1), real_of(1), real_of(1));
     const pixels pixels = pixels_of_group(group);
     mask met = first->places >= (lane_int)0; // pixels outside the image hit nothing: clear_tile
-    const bool shows_mirrors = GLINT_GEOMETRY && any_lane(met);
+    const bool shows_mirrors = HAS(GEOMETRY) && any_lane(met);
     if (shows_mirrors) {
         const triangle t = load_triangles(scene, first->places, met);
         real cosine;

@@ -47,10 +47,10 @@ static inline real surface_reflectance(real cosine, real ior)
     return dielectric_reflectance(cosine, cosine_t, eta);
 }
 
-// Schlick's approximation for metal, glTF 2.0: F0 + (1 − F0)(1 − cos θ)⁵; without Fresnel F0.
-static inline real3 metal_reflectance(real3 f0, real cosine)
+// Schlick's approximation for metal, glTF 2.0: F0 + (1 − F0)(1 − cos θ)⁵; F0 if it does not rise.
+static inline real3 metal_reflectance(real3 f0, real cosine, bool rises)
 {
-    if (!GLINT_FRESNEL) {
+    if (!rises) {
         return f0;
     }
     real m = R(1.0) - cosine;

@@ -10,13 +10,12 @@
 
 // The distance from the surface, along its normal, within which other surfaces are in one place
 // with it.
-static inline real reach_of_place(const surface *s, real t)
+static inline real reach_of_place(const scene_buffers *scene, const surface *s, real t)
 {
-    const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET;
+    const scalar of_offset = (scalar)GLINT_TOUCHING / START_OFFSET(scene);
+    real size = real_of(1);
 #if GLINT_LOCAL_ORIGINS
-    const real size = s->size;
-#else
-    const real size = real_of(1);
+    size = HAS(LOCAL_ORIGINS) ? s->size : size;
 #endif
     return fused(t + size, real_of(CROSSING_SLACK), s->offset * of_offset);
 }
@@ -172,19 +171,20 @@ static inline void mark_staying(crossed_solids *all)
 
 // Crosses all solids. If the path leaves a solid that is not in its stack, it began inside this
 // solid.
-static inline media_sides cross_all(lane_int media, const crossed_solids *all)
+static inline media_sides cross_all(const scene_buffers *scene, lane_int media,
+                                    const crossed_solids *all)
 {
     media_sides sides = {media, media, false};
     for (int i = 0; i < all->count; i++) {
         const crossed_solid *solid = &all->solids[i];
-        if (!solid->stays && !solid->enters && !remove_medium(&sides.beyond, solid->medium)) {
-            sides.lost |= insert_medium(&sides.before, solid->medium);
+        if (!solid->stays && !solid->enters && !remove_medium(scene, &sides.beyond, solid->medium)) {
+            sides.lost |= insert_medium(scene, &sides.before, solid->medium);
         }
     }
     for (int i = 0; i < all->count; i++) {
         const crossed_solid *solid = &all->solids[i];
         if (!solid->stays && solid->enters) {
-            sides.lost |= insert_medium(&sides.beyond, solid->medium);
+            sides.lost |= insert_medium(scene, &sides.beyond, solid->medium);
         }
     }
     return sides;
@@ -192,9 +192,10 @@ static inline media_sides cross_all(lane_int media, const crossed_solids *all)
 
 // Returns the surface in one place that light meets. Among solids, it belongs to the medium that is
 // on top on one side and not on the other.
-static inline const crossed_solid *shown_of(const crossed_solids *all, const media_sides *sides)
+static inline const crossed_solid *shown_of(const scene_buffers *scene, const crossed_solids *all,
+                                            const media_sides *sides)
 {
-    const lane_int wanted = max(top_medium(sides->before), top_medium(sides->beyond));
+    const lane_int wanted = max(top_medium(scene, sides->before), top_medium(scene, sides->beyond));
     const crossed_solid *shown = all->other.place >= 0 ? &all->other : 0;
     for (int i = 0; i < all->count; i++) {
         const crossed_solid *solid = &all->solids[i];
@@ -258,15 +259,15 @@ static inline void cross_others(const scene_buffers *scene, const packet *p, con
 static inline void note_crossing(const scene_buffers *scene, const crossed_solids *all,
                                  lane_int media, int lane, closest *hit, crossing *c)
 {
-    const media_sides sides = cross_all(media, all);
+    const media_sides sides = cross_all(scene, media, all);
     const bool by_other = all->other.place >= 0;
     LANE_INT(c->before, lane) = sides.before;
     LANE_INT(c->beyond, lane) = sides.beyond;
     LANE_INT(c->lost, lane) = sides.lost;
-    LANE_INT(c->gone, lane) = !by_other && scene->media[top_medium(sides.before)].material ==
-                                               scene->media[top_medium(sides.beyond)].material;
+    LANE_INT(c->gone, lane) = !by_other && scene->media[top_medium(scene, sides.before)].material ==
+                                               scene->media[top_medium(scene, sides.beyond)].material;
     LANE_INT(c->several, lane) = all->count > (by_other ? 0 : 1);
-    const crossed_solid *met = shown_of(all, &sides);
+    const crossed_solid *met = shown_of(scene, all, &sides);
     if (met == 0) {
         LANE_INT(c->medium, lane) = all->solids[0].medium;
         return;
@@ -286,8 +287,11 @@ static inline surface find_surface_in_place(const scene_buffers *scene, const pa
                                             closest *hit, triangle *t)
 {
     surface s = find_surface(scene, ray, hit, t);
+    if (!HAS(OVERLAPS)) {
+        return s;
+    }
     const packet p = packet_of_paths(ray);
-    const real reach = reach_of_place(&s, hit->t);
+    const real reach = reach_of_place(scene, &s, hit->t);
     const real cosine = fabs(dot3(s.geometric_normal, ray->direction));
     const real depth = reach / LARGER(cosine, real_of(CROSSING_SLACK));
     const lanes_int outside = SELECT(s.outside, int_of(1), int_of(0));

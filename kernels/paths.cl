@@ -26,25 +26,34 @@ static inline real3 primary_directions(const glint_frame_record *frame, real x, 
         scale_add(join_vector(&frame->direction_x), x, join_vector(&frame->direction)));
 }
 
+// Sets the origins of the primary rays through points (x, y) of the image plane.
+static inline void begin_at_eye(const glint_frame_record *frame, real x, real y, path *ray)
+{
+    const glint_split_vector *o = &frame->origin;
+    ray->origin =
+        scale_add(join_vector(&frame->origin_y), y,
+                  scale_add(join_vector(&frame->origin_x), x, join_vector(o)));
+#if LOCAL_RAYS
+    ray->origin_low = real3_of(real_of(0), real_of(0), real_of(0));
+    if (HAS_IN(frame, LOCAL_ORIGINS)) {
+        const real3 from_middle =
+            scale_add(join_vector(&frame->origin_y), y, scale(join_vector(&frame->origin_x), x));
+        const pair at_x = sum_of(real_of(o->high[0]), from_middle.x);
+        const pair at_y = sum_of(real_of(o->high[1]), from_middle.y);
+        const pair at_z = sum_of(real_of(o->high[2]), from_middle.z);
+        ray->origin = real3_of(at_x.high, at_y.high, at_z.high);
+        ray->origin_low =
+            real3_of(at_x.low + o->low[0], at_y.low + o->low[1], at_z.low + o->low[2]);
+    }
+#endif
+}
+
 // Makes the primary rays; sets the lengths in *first.
 static inline path primary_rays(const glint_frame_record *frame, primary *first)
 {
     real x = first->x, y = first->y;
     path ray;
-#if LOCAL_RAYS
-    const glint_split_vector *o = &frame->origin;
-    const real3 from_middle =
-        scale_add(join_vector(&frame->origin_y), y, scale(join_vector(&frame->origin_x), x));
-    const pair at_x = sum_of(real_of(o->high[0]), from_middle.x);
-    const pair at_y = sum_of(real_of(o->high[1]), from_middle.y);
-    const pair at_z = sum_of(real_of(o->high[2]), from_middle.z);
-    ray.origin = real3_of(at_x.high, at_y.high, at_z.high);
-    ray.origin_low = real3_of(at_x.low + o->low[0], at_y.low + o->low[1], at_z.low + o->low[2]);
-#else
-    ray.origin =
-        scale_add(join_vector(&frame->origin_y), y,
-                  scale_add(join_vector(&frame->origin_x), x, join_vector(&frame->origin)));
-#endif
+    begin_at_eye(frame, x, y, &ray);
     real3 d = primary_directions(frame, x, y);
     real length_squared = dot3(d, d);
     real inverse = inverse_root(length_squared);
@@ -82,7 +91,7 @@ static inline path primary_rays(const glint_frame_record *frame, primary *first)
 // The weight after absorption along the segment that ends here, in the medium on top of the stack.
 static inline real3 absorbed_weight(const scene_buffers *scene, const path *ray, real t)
 {
-    real3 left = medium_transmittance(scene->media, medium_on_top(ray->media), t + ray->travelled);
+    real3 left = medium_transmittance(scene, medium_on_top(scene, ray->media), t + ray->travelled);
     return multiply(ray->weight, left);
 }
 #endif
@@ -252,10 +261,12 @@ static inline real3 light_from_behind(const scene_buffers *scene, const glint_fr
     if (any_lane(there)) {
         light = find_irradiance(scene, turn_into_environment(frame, back.lit_normal), there);
 #if GLINT_LIGHTS
-        back.direct = real3_of(real_of(0), real_of(0), real_of(0));
-        light_surface(scene, ray, &back, places, there, shadow_rays);
+        if (HAS(LIGHTS)) {
+            back.direct = real3_of(real_of(0), real_of(0), real_of(0));
+            light_surface(scene, ray, &back, places, there, shadow_rays);
+        }
 #endif
-        light = light_on_paint(&back, light);
+        light = light_on_paint(scene, &back, light);
     }
     return light;
 }
@@ -292,12 +303,16 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     // Find the surface, its facet and its wavelength.
     surface s = find_surface_in_place(scene, ray, met, hit, triangles);
 #if GLINT_FACETS
-    const mask faceted = met & are_faceted(&s);
-    note_pixels(tally, &all->pixels[slot], faceted, tally->faceted);
-    take_facet(frame, &tally->facets, ray, faceted, &s);
+    if (HAS(FACETS)) {
+        const mask faceted = met & are_faceted(&s);
+        note_pixels(tally, &all->pixels[slot], faceted, tally->faceted);
+        take_facet(frame, &tally->facets, ray, faceted, &s);
+    }
 #endif
 #if GLINT_DISPERSION
-    disperse(scene, frame, met, &all->pixels[slot], ray, &s, tally);
+    if (HAS(DISPERSION)) {
+        disperse(scene, frame, met, &all->pixels[slot], ray, &s, tally);
+    }
 #endif
     // Count the surfaces that paths have met.
 #if GLINT_ALPHA
@@ -312,11 +327,15 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
     // Add direct light from the lights, then scatter.
 #if GLINT_LIGHTS
-    light_surface(scene, ray, &s, hit->place, met, &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
+    if (HAS(LIGHTS)) {
+        light_surface(scene, ray, &s, hit->place, met, &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
+    }
 #endif
 #if GLINT_DIFFUSE_TRANSMISSION
-    s.behind = light_from_behind(scene, frame, ray, &s, hit->place, met,
-                                 &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
+    if (HAS(DIFFUSE_TRANSMISSION)) {
+        s.behind = light_from_behind(scene, frame, ray, &s, hit->place, met,
+                                     &tally->counts[GLINT_COUNT_SHADOW_RAYS]);
+    }
 #endif
 #if SHADES_VERTICES
     const scattering out = scatter_from_corners(scene, frame, ray, &s, hit, met);
@@ -332,14 +351,19 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     seen_lobe seen = see_lobe(scene, frame, &wanted, ray);
     gather(all, slot, seen.matte, met);
 #if GLINT_SHEEN
-    const wanted_lobe of_sheen = lobe_of_sheen(&s, &out, met);
-    gather(all, slot, see_lobe(scene, frame, &of_sheen, ray).matte, met);
+    if (HAS(SHEEN)) {
+        const wanted_lobe of_sheen = lobe_of_sheen(&s, &out, met);
+        gather(all, slot, see_lobe(scene, frame, &of_sheen, ray).matte, met);
+    }
 #endif
 #if GLINT_CLEARCOAT
-    const wanted_lobe of_coat = lobe_of_coat(&s, &out, met);
-    const seen_lobe coat = see_lobe(scene, frame, &of_coat, ray);
-    gather(all, slot, coat.matte, met);
-    join_lobes(&s, &out, &coat, &seen);
+    seen_lobe coat = no_lobe();
+    if (HAS(CLEARCOAT)) {
+        const wanted_lobe of_coat = lobe_of_coat(&s, &out, met);
+        coat = see_lobe(scene, frame, &of_coat, ray);
+        gather(all, slot, coat.matte, met);
+        join_lobes(&s, &out, &coat, &seen);
+    }
 #endif
 #endif
 #if GLINT_TERMS && GATHERS
@@ -351,7 +375,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
 
     // Make the reflected branch.
-    path reflected = make_branch(ray, &s, hit, out.reflected, mask_none());
+    path reflected = make_branch(scene, ray, &s, hit, out.reflected, mask_none());
     reflected.weight = multiply(ray->weight, out.reflected_weight);
     reflected.media = out.media_reflected;
 #if GLINT_ROUGH
@@ -365,12 +389,14 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
 #endif
 #if GLINT_FACETS
-    real turn_back = real_of(2);
+    if (HAS(FACETS)) {
+        real turn_back = real_of(2);
 #if GLINT_CLEARCOAT
-    turn_back = SELECT(are_coats_joined(&s, &out), real_of(0), turn_back); // it has no facets
+        turn_back = SELECT(are_coats_joined(&s, &out), real_of(0), turn_back); // it has no facets
 #endif
-    const real back[3] = {real_of(1), real_of(2), turn_back};
-    reflected.lobe = leave_facet(ray, hit->t, &s, back);
+        const real back[3] = {real_of(1), real_of(2), turn_back};
+        reflected.lobe = leave_facet(ray, hit->t, &s, back);
+    }
 #endif
     // A weight of exactly 0 adds nothing. NaN compares false and ends the path.
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
@@ -385,19 +411,23 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #if COATS_APART
     through = !out.coat_apart;
 #endif
-    path transmitted = make_branch(ray, &s, hit, out.transmitted, through);
+    path transmitted = make_branch(scene, ray, &s, hit, out.transmitted, through);
     transmitted.weight = multiply(ray->weight, out.transmitted_weight);
     transmitted.media = out.media_transmitted;
 #if CARRIES_CONES
     transmitted.cone = leave_surface(width, spread, out.eta, out.bend, s.curvature);
 #endif
 #if COATS_APART && GLINT_ROUGH
-    leave_coat(&s, &out, &coat, &transmitted);
+    if (HAS(CLEARCOAT)) {
+        leave_coat(&s, &out, &coat, &transmitted);
+    }
 #endif
 #if GLINT_FACETS
-    const real turn = SELECT(HAS_FLAG(s, GLINT_MATERIAL_THIN), real_of(2), out.bend);
-    const real on[3] = {out.eta, out.bend, turn};
-    transmitted.lobe = leave_facet(ray, hit->t, &s, on);
+    if (HAS(FACETS)) {
+        const real turn = SELECT(HAS_FLAG(s, GLINT_MATERIAL_THIN), real_of(2), out.bend);
+        const real on[3] = {out.eta, out.bend, turn};
+        transmitted.lobe = leave_facet(ray, hit->t, &s, on);
+    }
 #endif
 #if GLINT_ALPHA
     const mask passes = (s.coverage < R(1.0)) &
@@ -407,11 +437,8 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     mask transmits = met & (largest3(transmitted.weight) > R(0.0));
     end_branch(frame, &transmitted, transmits, &all->pixels[slot], tally);
     // Count both branches, and follow them.
-#if GLINT_OVERLAPS
-    count_transmissions(&s, transmits & through & there, tally);
-#else
-    count_transmissions(&s, transmits & through, tally);
-#endif
+    const mask crosses = HAS(OVERLAPS) ? transmits & there : transmits;
+    count_transmissions(&s, crosses & through, tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(transmits & !through);
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);
@@ -495,20 +522,22 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     mask met = active & (hit->place >= (lane_int)0);
     mask escaped = active & !met;
 #if SEES_THROUGH
-    const mask past = escaped & (all->ray[slot].met == all->ray[slot].passed);
-    if (first == 0) { // else the pixel shows only background
-        uncover(all, slot, all->ray[slot].weight.x, past);
+    if (HAS(ALPHA) && HAS(TRANSPARENT)) {
+        const mask past = escaped & (all->ray[slot].met == all->ray[slot].passed);
+        if (first == 0) { // else the pixel shows only background
+            uncover(all, slot, all->ray[slot].weight.x, past);
+        }
+        escaped = escaped & !past;
     }
-    escaped = escaped & !past;
 #endif
 #if GLINT_ROUGH
     escaped = bring_held(all, slot, escaped, tally);
 #endif
     // Look up the environment for escaped rays.
-    if (any_lane(escaped) && !(GLINT_TRANSPARENT && first != 0)) {
+    if (any_lane(escaped) && !(HAS(TRANSPARENT) && first != 0)) {
         const path *ray = &all->ray[slot];
         const real3 direction = turn_into_environment(frame, environment_seen(frame, ray, first));
-        look_up_later(later, &scene->environment, ray, direction, escaped, &all->pixels[slot]);
+        look_up_later(later, scene, ray, direction, escaped, &all->pixels[slot]);
 #if GLINT_DIAGNOSTICS
         note_look_ups(&scene->environment, direction, ray, escaped, &all->pixels[slot],
                       tally->layers);
@@ -520,12 +549,14 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     }
     // Shade the surfaces that the other rays have met.
     active = mask_none();
-    if (GLINT_GEOMETRY && any_lane(met)) {
+    if (HAS(GEOMETRY) && any_lane(met)) {
         triangle triangles = load_triangles(scene, hit->place, met);
         if (first != 0) {
             measure_hits(image, &triangles, first->x, first->y, first->length, met, hit);
 #if LOCAL_RAYS
-            measure_nearby(&all->ray[slot], &triangles, met, hit);
+            if (HAS(LOCAL_ORIGINS)) {
+                measure_nearby(&all->ray[slot], &triangles, met, hit);
+            }
 #endif
         }
         active = meet_surfaces(scene, frame, hit, &triangles, met, slot, all, tally);

@@ -138,7 +138,7 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, cl
     probe_store3(out, packet, values, 8, s.normal);
     probe_store(out, packet, values, 11, s.cosine);
     // Store the reflected branch.
-    const path reflected = make_branch(ray, &s, hit, light.reflected, mask_none());
+    const path reflected = make_branch(scene, ray, &s, hit, light.reflected, mask_none());
     probe_store3(out, packet, values, 12, reflected.direction);
     probe_store(out, packet, values, 15, largest3(light.reflected_weight));
     probe_store3(out, packet, values, 16, reflected.origin);
@@ -148,7 +148,7 @@ static inline void probe_surface(const scene_buffers *scene, const path *ray, cl
     probe_store(out, packet, values, 19, to_real(hit->place));
     probe_store(out, packet, values, 20, to_real(light.media_reflected));
     if (GLINT_GLASS) {
-        const path transmitted = make_branch(ray, &s, hit, light.transmitted, mask_all());
+        const path transmitted = make_branch(scene, ray, &s, hit, light.transmitted, mask_all());
         probe_store3(out, packet, values, 21, transmitted.direction);
         probe_store(out, packet, values, 24, largest3(light.transmitted_weight));
         probe_store3(out, packet, values, 25, transmitted.origin);
@@ -228,7 +228,9 @@ kernel void probe_metal(PROBE_ARGUMENTS)
 {
     for (PROBE_PACKETS) {
         const real f0 = PROBE_IN(1);
-        probe_store4(out, packet, metal_reflectance(real3_of(f0, f0, f0), PROBE_IN(0)), real_of(0));
+        const real3 reflected =
+            metal_reflectance(real3_of(f0, f0, f0), PROBE_IN(0), GLINT_FRESNEL);
+        probe_store4(out, packet, reflected, real_of(0));
     }
 }
 

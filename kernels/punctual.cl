@@ -89,14 +89,14 @@ static inline mask is_matte(const surface *s)
 
 #if GLINT_ROUGH
 // Surfaces whose lobes show lights.
-static inline mask may_shine(const surface *s)
+static inline mask may_shine(const scene_buffers *scene, const surface *s)
 {
-    mask rough = are_rough(s);
+    mask rough = are_rough(scene, s);
 #if GLINT_CLEARCOAT
-    rough = rough | is_coat_rough(s);
+    rough = HAS(CLEARCOAT) ? rough | is_coat_rough(scene, s) : rough;
 #endif
 #if GLINT_SHEEN
-    rough = rough | (largest3(s->sheen_color) > R(0.0));
+    rough = HAS(SHEEN) ? rough | (largest3(s->sheen_color) > R(0.0)) : rough;
 #endif
 #if GLINT_ALPHA
     rough = rough & (s->coverage > R(0.0));
@@ -105,36 +105,45 @@ static inline mask may_shine(const surface *s)
 }
 
 // True if a light is in front of a layer that shows it.
-static inline mask is_before(const surface *s, real3 direction)
+static inline mask is_before(const scene_buffers *scene, const surface *s, real3 direction)
 {
-    const mask before = dot3(s->normal, direction) > R(0.0);
+    mask before = dot3(s->normal, direction) > R(0.0);
 #if GLINT_CLEARCOAT
-    return before | (is_coat_rough(s) & (dot3(s->clearcoat_normal, direction) > R(0.0)));
-#else
-    return before;
+    if (HAS(CLEARCOAT)) {
+        const mask by_coat = dot3(s->clearcoat_normal, direction) > R(0.0);
+        before = before | (is_coat_rough(scene, s) & by_coat);
+    }
 #endif
+    return before;
 }
 
 // Adds the light that the rays in `lit` see in their lobes. `left` is the share of the light that
 // arrives.
-static inline void shine(const path *ray, const arrival *a, real3 left, mask lit, surface *s)
+static inline void shine(const scene_buffers *scene, const path *ray, const arrival *a, real3 left,
+                         mask lit, surface *s)
 {
     const real3 light = scale(multiply(left, a->radiance), real_of(R(3.1415926535897932)));
     const lobe_shape shape = shape_of_surface(s);
-    const lobe_parts parts = weigh_light(&shape, negate(ray->direction), a->direction, lit);
+    const lobe_parts parts = weigh_light(scene, &shape, negate(ray->direction), a->direction, lit);
     s->shine_base = select3(lit, scale_add(light, parts.base, s->shine_base), s->shine_base);
     s->shine_edge = select3(lit, scale_add(light, parts.edge, s->shine_edge), s->shine_edge);
 #if GLINT_CLEARCOAT
-    const lobe_shape of_coat = shape_of_coat(s);
-    const lobe_parts coat = weigh_light(&of_coat, negate(ray->direction), a->direction, lit);
-    const real shown = fused(coat.base, real_of(CLEARCOAT_F0), coat.edge);
-    s->clearcoat_shine =
-        select3(lit, scale_add(light, shown, s->clearcoat_shine), s->clearcoat_shine);
+    if (HAS(CLEARCOAT)) {
+        const lobe_shape of_coat = shape_of_coat(s);
+        const lobe_parts coat =
+            weigh_light(scene, &of_coat, negate(ray->direction), a->direction, lit);
+        const real shown = fused(coat.base, real_of(CLEARCOAT_F0), coat.edge);
+        s->clearcoat_shine =
+            select3(lit, scale_add(light, shown, s->clearcoat_shine), s->clearcoat_shine);
+    }
 #endif
 #if GLINT_SHEEN
-    const lobe_shape of_sheen = shape_of_sheen(s);
-    const real fibres = weigh_light(&of_sheen, negate(ray->direction), a->direction, lit).base;
-    s->sheen_shine = select3(lit, scale_add(light, fibres, s->sheen_shine), s->sheen_shine);
+    if (HAS(SHEEN)) {
+        const lobe_shape of_sheen = shape_of_sheen(s);
+        const real fibres =
+            weigh_light(scene, &of_sheen, negate(ray->direction), a->direction, lit).base;
+        s->sheen_shine = select3(lit, scale_add(light, fibres, s->sheen_shine), s->sheen_shine);
+    }
 #endif
 }
 #endif
@@ -150,7 +159,7 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
     const mask matte = seen & is_matte(s);
     mask rough = mask_none();
 #if GLINT_ROUGH
-    rough = seen & may_shine(s);
+    rough = seen & may_shine(scene, s);
 #endif
     if (!any_lane(matte | rough)) {
         return;
@@ -161,7 +170,7 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
         const mask on_paint = matte & (largest3(a.irradiance) > R(0.0));
         mask shines = mask_none();
 #if GLINT_ROUGH
-        shines = rough & (largest3(a.radiance) > R(0.0)) & is_before(s, a.direction);
+        shines = rough & (largest3(a.radiance) > R(0.0)) & is_before(scene, s, a.direction);
 #endif
         const mask lit = on_paint | shines;
         if (!any_lane(lit)) {
@@ -169,11 +178,11 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
         }
         // Make the shadow rays.
         path to_light = *ray;
-        start_off_surface(&to_light, s, s->offset);
+        start_off_surface(scene, &to_light, s, s->offset);
         to_light.direction = a.direction;
         to_light.from = places;
 #if GLINT_SOLID
-        to_light.media = media_met_in(s, HAS_FLAG(*s, GLINT_MATERIAL_SOLID), ray->media);
+        to_light.media = media_met_in(scene, s, HAS_FLAG(*s, GLINT_MATERIAL_SOLID), ray->media);
 #endif
 #if CARRIES_CONES
         to_light.cone.width = to_light.cone.spread = real_of(0);
@@ -185,7 +194,7 @@ static inline void light_surface(const scene_buffers *scene, const path *ray, su
         const real3 left = light_left(scene, &to_light, light, a.distance, lit);
         s->direct = add(s->direct, select3(on_paint, multiply(left, a.irradiance), nothing));
 #if GLINT_ROUGH
-        shine(ray, &a, left, shines, s);
+        shine(scene, ray, &a, left, shines, s);
 #endif
         *shadow_rays += (ulong)count_lanes(lit);
     }

@@ -2,14 +2,14 @@
 // by sample. For each sample it finds the hits of all primary rays together. Then it follows every
 // path to its end.
 //
-// The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_WIDTH,
-// GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_HALF_TEXELS, GLINT_STACK_CAPACITY, GLINT_MEDIA_BITS,
-// GLINT_MEDIA_CAPACITY, GLINT_TRAVERSAL_STACK and GLINT_TILES.
+// The host compiles this file with every GLINT_<FEATURE> of features.h as 0 or 1, and GLINT_GENERAL,
+// GLINT_WIDTH, GLINT_BVH_WIDTH, GLINT_DOUBLE, GLINT_HALF_TEXELS, GLINT_STACK_CAPACITY,
+// GLINT_TRAVERSAL_STACK and GLINT_TILES.
 #include "features.h"
 
 // Checks needs and excludes of each feature. If a check fails, an array with the feature's name has
 // a negative size, and the compiler refuses it.
-#define CHECK(name, meaning, needs, excludes, unneeded)                                            \
+#define CHECK(name, meaning, needs, excludes, ...)                                                 \
     typedef char name##_lacks_what_it_needs[!GLINT_##name || (needs) ? 1 : -1];                    \
     typedef char name##_is_beside_what_it_excludes[!GLINT_##name || !(excludes) ? 1 : -1];
 GLINT_FEATURES(CHECK)
@@ -22,6 +22,16 @@ GLINT_FEATURES(CHECK)
      (GLINT_PAINT || GLINT_BLEND || GLINT_UNLIT || GLINT_EMISSION || GLINT_TRANSPARENT ||          \
       GLINT_ROUGH || GLINT_VERTEX_COLOR))
 
+// True if the kernel has the feature. A general kernel asks the frame for the features that it does
+// not run always; IN is the frame record, or the scene, which repeats it.
+#if GLINT_GENERAL
+#define HAS_IN(in, name)                                                                           \
+    (GLINT_##name && ((in)->features[GLINT_FEATURE_##name / 32] >> GLINT_FEATURE_##name % 32 & 1u))
+#else
+#define HAS_IN(in, name) GLINT_##name
+#endif
+#define HAS(name) HAS_IN(scene, name)
+
 // Some pixels are rendered in several rounds.
 #define HAS_ROUNDS (GLINT_FACETS || GLINT_DISPERSION)
 
@@ -30,11 +40,11 @@ GLINT_FEATURES(CHECK)
 #include "lanes.cl"
 #include "blocks.cl"
 #include "cubemap.cl"
+#include "stack.cl"
+#include "places.cl"
 #include "optics.cl"
 #include "media.cl"
-#include "places.cl"
 #include "frustum.cl"
-#include "stack.cl"
 #include "intersect.cl"
 #include "bundle.cl"
 #include "triangles.cl"
@@ -195,14 +205,16 @@ static inline void add_sample(const scene_buffers *scene, const glint_frame_reco
             begin_paths(frame, &first[SLOT(i)], SLOT(i), g, inside[g], &all);
         }
 #if GLINT_INSIDE
-        find_beginnings(scene, &all, first);
+        if (HAS(INSIDE)) {
+            find_beginnings(scene, &all, first);
+        }
 #endif
         follow_paths(scene, frame, image, first, &all, later, tally);
 #if GATHERS
         for (int i = 0; i < PATH_GROUPS; i++) {
             const int g = first_group + i;
             mask seen =
-                GLINT_TRANSPARENT ? first[SLOT(i)].places >= (lane_int)0 : mask_all();
+                HAS(TRANSPARENT) ? first[SLOT(i)].places >= (lane_int)0 : mask_all();
 #if HAS_ROUNDS
             seen = seen & inside[g];
 #endif
@@ -237,7 +249,7 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
     const bool aligned = frame->width % PACKET_WIDTH == 0;
     for (int j = 0; j < PACKET_HEIGHT && y0 + j < frame->height; j++) {
         pixel_row means = load_pixel_row(j, sums) * (pixel_row)share;
-        means = GATHERS || GLINT_HITS ? means : opaque(means);
+        means = HAS_IN(frame, TRANSPARENT) || GLINT_HITS ? means : opaque(means);
         global scalar *row = pixels + pixel_place(frame, x0, y0 + j);
         if (x0 + PACKET_WIDTH <= frame->width) {
             if (aligned) {
@@ -255,8 +267,8 @@ static inline void store_group(global scalar *pixels, const glint_frame_record *
 
 #define FOLLOWS_PATHS (!GLINT_HITS && !ONE_LOOKUP)
 
-#define FACET_ROUNDS(frame) (GLINT_FACETS ? (frame)->facet_rounds : 1)
-#define ROUNDS(frame) (FACET_ROUNDS(frame) * (GLINT_DISPERSION ? (frame)->wavelengths : 1))
+#define FACET_ROUNDS(frame) (HAS_IN(frame, FACETS) ? (frame)->facet_rounds : 1)
+#define ROUNDS(frame) (FACET_ROUNDS(frame) * (HAS_IN(frame, DISPERSION) ? (frame)->wavelengths : 1))
 
 #if HAS_ROUNDS
 // Begins a round: sets its wavelength and marks the pixels that need the round in `inside`. All
@@ -354,7 +366,7 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
         const scalar down = ((scalar)(sample / k) + R(0.5)) / (scalar)k;
         if (count > 1 ? true : i == 0) { // else the hits stay the same
             begin_tile(&image, frame, scene->pixels, column, row, right, down, &t);
-            if (GLINT_GEOMETRY) {
+            if (HAS(GEOMETRY)) {
                 trace_tile(&image, &t, scene);
             }
         }

@@ -67,6 +67,7 @@ static inline lobe_shape shape_of_coat(const surface *s)
 
 // A lobe at a surface, in axes of the environment; n is the third axis.
 typedef struct lobe {
+    const scene_buffers *scene;
     real3 first, second, normal;
     // v along the first axis. If v lies in the plane of `first` and n, it is the sine of v's angle
     // to n.
@@ -142,19 +143,22 @@ static inline void lobe_widths(const lobe_shape *shape, real roughness, lobe *l)
 static inline real lobe_root(const lobe *l)
 {
 #if GLINT_BRUSHED
-    const real x = l->alpha_along * l->sine, y = l->alpha * l->beside;
-    return sqrt(fused(x, x, fused(y, y, l->cosine * l->cosine)));
-#else
-    return smith_root(l->alpha_squared, l->cosine);
+    if (HAS_IN(l->scene, BRUSHED)) {
+        const real x = l->alpha_along * l->sine, y = l->alpha * l->beside;
+        return sqrt(fused(x, x, fused(y, y, l->cosine * l->cosine)));
+    }
 #endif
+    return smith_root(l->alpha_squared, l->cosine);
 }
 
 // Prepares a lobe. n and v are unit vectors in axes of the environment, and the cosine is n·v.
 // `weight` is the lobe's weight in the pixel.
-static inline lobe find_lobe(const cell_map *map, const lobe_shape *shape, real3 v, real roughness,
-                             real weight)
+static inline lobe find_lobe(const scene_buffers *scene, const lobe_shape *shape, real3 v,
+                             real roughness, real weight)
 {
+    const cell_map *map = &scene->cells;
     lobe l;
+    l.scene = scene;
     lobe_axes(shape, v, &l);
     lobe_widths(shape, roughness, &l);
     l.widest = fused(real_of(GLINT_LOBE_WIDEST * GLINT_LOBE_TAIL), R(1.0) / (l.alpha * l.alpha),
@@ -187,15 +191,17 @@ static inline half_vector half_vector_towards(const lobe *l, real3 u)
     h.up = dot3(l->normal, u);
     h.c = h.up + l->cosine;
     const real first = dot3(l->first, u) + l->sine;
+    real second = dot3(l->second, u);
 #if GLINT_BRUSHED
-    const real u_second = dot3(l->second, u), second = u_second + l->beside;
-    const real x = l->narrowed * first, y = l->widened * second;
-    h.bent = fused(x, first, y * second);
-    h.curled = fused(x, x, y * y);
-    const real along = l->alpha_along * (first - l->sine), across = l->alpha * u_second;
-    h.tilted = fused(along, along, across * across);
-#else
-    const real second = dot3(l->second, u);
+    if (HAS_IN(l->scene, BRUSHED)) {
+        const real across = l->alpha * second;
+        second += l->beside;
+        const real x = l->narrowed * first, y = l->widened * second;
+        h.bent = fused(x, first, y * second);
+        h.curled = fused(x, x, y * y);
+        const real along = l->alpha_along * (first - l->sine);
+        h.tilted = fused(along, along, across * across);
+    }
 #endif
     h.square = fused(first, first, second * second);
     h.whole = fused(h.c, h.c, h.square);
@@ -215,15 +221,15 @@ static inline real spread_factor(const lobe *l, const half_vector *h, real width
                                  real scale)
 {
     const real turned = h->whole + SMALLER(R(50.0) * h->whole, real_of(4)); // 1 + 1/(v·h)², scaled
+    real laplacian = fused(l->alpha_squared * R(-0.5), h->whole, h->square);
 #if GLINT_BRUSHED
-    // With A = α1 α2 + a x² + b y²: D (24 (a² x² + b² y²) − 4 (a + b) A)/A².
-    const real both = l->narrowed + l->widened;
-    const real laplacian = fused(R(1.5) * h->curled, real_of(1), R(-0.25) * both * width);
-    const real curved = laplacian * (variance * turned);
-#else
-    const real curved =
-        fused(l->alpha_squared * R(-0.5), h->whole, h->square) * (variance * turned);
+    if (HAS_IN(l->scene, BRUSHED)) {
+        // With A = α1 α2 + a x² + b y²: D (24 (a² x² + b² y²) − 4 (a + b) A)/A².
+        const real both = l->narrowed + l->widened;
+        laplacian = fused(R(1.5) * h->curled, real_of(1), R(-0.25) * both * width);
+    }
 #endif
+    const real curved = laplacian * (variance * turned);
     return LARGER(fused(curved, scale, real_of(1)), real_of(R(0.1)));
 }
 
@@ -231,10 +237,11 @@ static inline real spread_factor(const lobe *l, const half_vector *h, real width
 static inline real width_of(const lobe *l, const half_vector *h)
 {
 #if GLINT_BRUSHED
-    return fused(l->alpha_squared * h->c, h->c, h->bent);
-#else
-    return fused(l->alpha_squared * h->c, h->c, h->square);
+    if (HAS_IN(l->scene, BRUSHED)) {
+        return fused(l->alpha_squared * h->c, h->c, h->bent);
+    }
 #endif
+    return fused(l->alpha_squared * h->c, h->c, h->square);
 }
 
 #if GLINT_SHEEN
@@ -277,13 +284,16 @@ static inline mask are_coarse(const lobe *l, const half_vector *h, real width, s
 #endif
     // Find the limit of the cell's size.
     const real steep = LARGER(R(0.25) * h->whole, real_of(LOBE_STEEPEST));
+    real across = h->square, stretched = real_of(1), narrowest = width;
 #if GLINT_BRUSHED
-    const real far = sqrt(h->bent), stretched = sqrt(l->widened);
-    const real limit = SMALLER(width * l->narrowed, l->widest * h->whole) * steep;
-#else
-    const real far = sqrt(h->square), stretched = real_of(1);
-    const real limit = SMALLER(width, l->widest * h->whole) * steep;
+    if (HAS_IN(l->scene, BRUSHED)) {
+        across = h->bent;
+        stretched = sqrt(l->widened);
+        narrowest = width * l->narrowed;
+    }
 #endif
+    const real far = sqrt(across);
+    const real limit = SMALLER(narrowest, l->widest * h->whole) * steep;
     const real size = cell.s3 * cell.s3 * h->whole;
     const real above = LARGER(h->up, real_of(R(0.25) * cell.s3));
     const real shadowing =
@@ -361,11 +371,15 @@ static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, re
         return weigh_sheen_direction(l, h, variance, these);
     }
 #endif
+    real root;
 #if GLINT_BRUSHED
-    const real root = sqrt(fused(h->up, h->up, h->tilted));
-#else
-    const real root = smith_root(l->alpha_squared, h->up);
+    if (HAS_IN(l->scene, BRUSHED)) {
+        root = sqrt(fused(h->up, h->up, h->tilted));
+    } else
 #endif
+    {
+        root = smith_root(l->alpha_squared, h->up);
+    }
     const real shadowing = fused(h->up, l->smith, l->cosine * root);
     const real above = R(0.15915494309189535) * l->alpha_squared * h->up * h->whole * h->whole;
     const real inverse = R(1.0) / (width * width * shadowing);
@@ -459,9 +473,11 @@ static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *
 #if GLINT_LIGHTS
 // Weighs the light of a punctual light. The lobe is at least as wide as at ROUGHNESS_NARROW;
 // otherwise it would fall between pixels. v and `to_light` are unit vectors.
-static inline lobe_parts weigh_light(const lobe_shape *shape, real3 v, real3 to_light, mask these)
+static inline lobe_parts weigh_light(const scene_buffers *scene, const lobe_shape *shape, real3 v,
+                                     real3 to_light, mask these)
 {
     lobe l;
+    l.scene = scene;
     lobe_axes(shape, v, &l);
     lobe_widths(shape, LARGER(shape->roughness, real_of((scalar)GLINT_ROUGHNESS_NARROW)), &l);
     l.smith = lobe_root(&l);
@@ -473,15 +489,16 @@ static inline lobe_parts weigh_light(const lobe_shape *shape, real3 v, real3 to_
 // The share of the lobe's light; the rest is a mirror's light. Below ROUGHNESS_NARROW a lobe would
 // be narrower than the cells. So the lobe of ROUGHNESS_NARROW is mixed with the mirror's look-up.
 // The mix differs from the true lobe by about α^1.5.
-static inline real share_of_lobe(const lobe_shape *shape)
+static inline real share_of_lobe(const scene_buffers *scene, const lobe_shape *shape)
 {
     real roughness = shape->roughness;
 #if GLINT_BRUSHED
-    // The roughness along the brush direction counts.
-    const real alpha = roughness * roughness;
-    const real squared = shape->anisotropy * shape->anisotropy;
-    roughness = SELECT(shape->anisotropy > R(0.0), sqrt(fused(R(1.0) - alpha, squared, alpha)),
-                       roughness);
+    if (HAS(BRUSHED)) { // the roughness along the brush direction counts
+        const real alpha = roughness * roughness;
+        const real squared = shape->anisotropy * shape->anisotropy;
+        roughness = SELECT(shape->anisotropy > R(0.0),
+                           sqrt(fused(R(1.0) - alpha, squared, alpha)), roughness);
+    }
 #endif
     const real x = roughness * ((scalar)1 / (scalar)GLINT_ROUGHNESS_NARROW);
     return SMALLER(x * x * x, real_of(1)); // α is x²

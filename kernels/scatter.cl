@@ -31,25 +31,26 @@ typedef struct scattering {
 
 // F0 of a dielectric per colour: its reflectance at right angles. KHR_materials_specular colours
 // it.
-static inline real3 specular_at_right_angles(const surface *s, real f0)
+static inline real3 specular_at_right_angles(const scene_buffers *scene, const surface *s, real f0)
 {
 #if GLINT_SPECULAR
-    const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
-    return smaller3(scale(s->specular_color, f0), one);
-#else
-    return real3_of(f0, f0, f0);
+    if (HAS(SPECULAR)) {
+        const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
+        return smaller3(scale(s->specular_color, f0), one);
+    }
 #endif
+    return real3_of(f0, f0, f0);
 }
 
 // The reflectance of a metal per colour.
-static inline real3 reflect_from_metal(const surface *s)
+static inline real3 reflect_from_metal(const scene_buffers *scene, const surface *s)
 {
-    const real3 bare = metal_reflectance(s->base_color, s->cosine);
+    real3 reflected = metal_reflectance(s->base_color, s->cosine, HAS(FRESNEL));
 #if GLINT_IRIDESCENCE
-    return reflect_by_film(s, bare, real_of(1), film_roots(s->base_color), real_of(1), s->cosine);
-#else
-    return bare;
+    reflected = reflect_by_film(scene, s, reflected, real_of(1), film_roots(s->base_color),
+                                real_of(1), s->cosine);
 #endif
+    return reflected;
 }
 
 // The two sides of a dielectric surface, seen from the side of its normal.
@@ -62,48 +63,51 @@ typedef struct sides {
 // The reflectance of a dielectric per colour; `reflectance` is its Fresnel term. With
 // KHR_materials_specular this term sets the position between the coloured F0 and 1, and `specular`
 // scales the result.
-static inline real3 specular_reflectance(const surface *s, real reflectance, const sides *at)
+static inline real3 specular_reflectance(const scene_buffers *scene, const surface *s,
+                                         real reflectance, const sides *at)
 {
     const real root = (R(1.0) - at->eta) / (R(1.0) + at->eta);
     real3 reflected = real3_of(reflectance, reflectance, reflectance);
+    real3 roots = real3_of(root, root, root); // of the base beneath a film
+    real weight = real_of(1);
 #if GLINT_SPECULAR
-    const real f0 = root * root;
-    const real way = LARGER((reflectance - f0) / (R(1.0) - f0), real_of(0));
-    const real3 from = specular_at_right_angles(s, f0);
-    const real3 rest = real3_of(R(1.0) - from.x, R(1.0) - from.y, R(1.0) - from.z);
-    reflected = scale(scale_add(rest, way, from), s->specular);
+    if (HAS(SPECULAR)) {
+        const real f0 = root * root;
+        const real way = LARGER((reflectance - f0) / (R(1.0) - f0), real_of(0));
+        const real3 from = specular_at_right_angles(scene, s, f0);
+        const real3 rest = real3_of(R(1.0) - from.x, R(1.0) - from.y, R(1.0) - from.z);
+        weight = s->specular;
+        reflected = scale(scale_add(rest, way, from), weight);
+#if GLINT_IRIDESCENCE
+        const real sign = SELECT(root < R(0.0), real_of(-1), real_of(1));
+        roots = scale(film_roots(from), sign);
+#endif
+    }
 #endif
 #if GLINT_IRIDESCENCE
-#if GLINT_SPECULAR
-    const real sign = SELECT(root < R(0.0), real_of(-1), real_of(1));
-    const real3 roots = scale(film_roots(from), sign);
-    const real weight = s->specular;
-#else
-    const real3 roots = real3_of(root, root, root);
-    const real weight = real_of(1);
-#endif
-    reflected = reflect_by_film(s, reflected, weight, roots, at->outer, at->cosine);
+    reflected = reflect_by_film(scene, s, reflected, weight, roots, at->outer, at->cosine);
 #endif
     return reflected;
 }
 
 // specular_reflectance of a surface that light meets from empty space.
-static inline real3 specular_from_space(const surface *s)
+static inline real3 specular_from_space(const scene_buffers *scene, const surface *s)
 {
     const sides at = {R(1.0) / s->ior, real_of(1), s->cosine};
-    return specular_reflectance(s, surface_reflectance(s->cosine, s->ior), &at);
+    return specular_reflectance(scene, s, surface_reflectance(s->cosine, s->ior), &at);
 }
 
 // Rule 4, glass: reflectance and transmitted direction. A thin wall is one interface from empty
 // space on both sides, and light passes straight through it.
-static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 *transmitted,
-                                     real *bend, mask *total_reflection)
+static inline real glass_reflectance(const scene_buffers *scene, const surface *s, real3 v,
+                                     real eta, real3 *transmitted, real *bend,
+                                     mask *total_reflection)
 {
     real squared = transmitted_cosine_squared(s->cosine, eta);
     *total_reflection = !(squared >= R(0.0));
     real cosine_t = sqrt(SELECT(*total_reflection, real_of(0), squared));
     real reflectance =
-        GLINT_FRESNEL ? dielectric_reflectance(s->cosine, cosine_t, eta) : real_of(0);
+        HAS(FRESNEL) ? dielectric_reflectance(s->cosine, cosine_t, eta) : real_of(0);
     reflectance = SELECT(*total_reflection, real_of(1), reflectance);
     *bend = fused(eta, s->cosine, -cosine_t);
     *transmitted = fold_to_side(refract_direction(v, s->normal, s->cosine, eta, cosine_t),
@@ -113,10 +117,13 @@ static inline real glass_reflectance(const surface *s, real3 v, real eta, real3 
 }
 
 // Rule 5: if a path meets a back face with an empty stack, it began inside that solid.
-static inline lanes_int media_met_in(const surface *s, mask solid, lanes_int media)
+static inline lanes_int media_met_in(const scene_buffers *scene, const surface *s, mask solid,
+                                     lanes_int media)
 {
 #if GLINT_OVERLAPS
-    return s->media_before;
+    if (HAS(OVERLAPS)) {
+        return s->media_before;
+    }
 #endif
     return SELECT(solid & !s->outside & (media == (lane_int)0), s->medium, media);
 }
@@ -126,18 +133,21 @@ static inline lanes_int media_met_in(const surface *s, mask solid, lanes_int med
 static inline real cross_solid(const scene_buffers *scene, const surface *s, mask solid,
                                lanes_int *media, lanes_int *beyond, real *outer, mask *lost)
 {
-    *media = media_met_in(s, solid, *media);
+    *media = media_met_in(scene, s, solid, *media);
 #if GLINT_OVERLAPS
-    *beyond = s->media_beyond;
-    *lost = s->media_lost;
-#else
-    lanes_int entered = enter_medium(*media, s->medium, lost);
-    lanes_int left = leave_medium(*media, s->medium);
-    *beyond = SELECT(solid, SELECT(s->outside, entered, left), *media);
-    *lost = *lost & solid & s->outside;
+    if (HAS(OVERLAPS)) {
+        *beyond = s->media_beyond;
+        *lost = s->media_lost;
+    } else
 #endif
-    real n_i = medium_ior(scene->media, medium_on_top(*media), IOR_STEP(s));
-    real n_t = medium_ior(scene->media, medium_on_top(*beyond), IOR_STEP(s));
+    {
+        lanes_int entered = enter_medium(scene, *media, s->medium, lost);
+        lanes_int left = leave_medium(scene, *media, s->medium);
+        *beyond = SELECT(solid, SELECT(s->outside, entered, left), *media);
+        *lost = *lost & solid & s->outside;
+    }
+    real n_i = medium_ior(scene, medium_on_top(scene, *media), IOR_STEP(s));
+    real n_t = medium_ior(scene, medium_on_top(scene, *beyond), IOR_STEP(s));
     *outer = SELECT(s->outside, n_i, n_t);
     return n_i / n_t;
 }
@@ -160,12 +170,12 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
     }
     // Find the reflectance and the transmitted direction, then the reflected light per colour.
     const real reflectance =
-        glass_reflectance(s, v, eta, &out->transmitted, &out->bend, &out->total_reflection);
+        glass_reflectance(scene, s, v, eta, &out->transmitted, &out->bend, &out->total_reflection);
     const real3 all = real3_of(share, share, share);
     // If light comes from within, its angle outside is the transmitted ray's.
     const sides at = {SELECT(within, R(1.0) / eta, eta), outer,
                       SELECT(within, fused(eta, s->cosine, -out->bend), s->cosine)};
-    real3 reflected = scale(specular_reflectance(s, reflectance, &at), share);
+    real3 reflected = scale(specular_reflectance(scene, s, reflectance, &at), share);
     reflected = select3(out->total_reflection, all, reflected);
     if (GLINT_THIN_WALL) {
         const mask thin = HAS_FLAG(*s, GLINT_MATERIAL_THIN);
@@ -181,8 +191,11 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
 
 #if GLINT_ROUGH
 // Rule 11: finds the surfaces that reflect lobes.
-static inline mask are_rough(const surface *s)
+static inline mask are_rough(const scene_buffers *scene, const surface *s)
 {
+    if (!HAS(ROUGH)) {
+        return mask_none();
+    }
     const lane_int smooth = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN | GLINT_MATERIAL_BLEND |
                             GLINT_MATERIAL_UNLIT;
     mask rough = s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST;
@@ -221,7 +234,7 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
         find_albedo(scene->cells.values, s->cosine, s->roughness, out->rough);
 #if GLINT_BRUSHED
     const mask brushed = out->rough & (s->anisotropy > R(0.0));
-    if (any_lane(brushed)) {
+    if (HAS(BRUSHED) && any_lane(brushed)) {
         const lobe_parts found =
             brushed_albedo(s->cosine, s->along_cosine, s->roughness, s->anisotropy);
         albedo.base = SELECT(brushed, found.base, albedo.base);
@@ -233,23 +246,23 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
     const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
     real3 tint = GLINT_TINT ? s->base_color : one;
 #if GLINT_IRIDESCENCE
-    tint = film_of_lobe(s, tint);
+    tint = film_of_lobe(scene, s, tint);
 #endif
     const real3 metal = scale(scale_add(tint, lost, one), s->metallic);
     out->lobe_base = multiply(tint, metal);
-    out->lobe_edge = GLINT_FRESNEL ? metal : out->lobe_base;
+    out->lobe_edge = HAS(FRESNEL) ? metal : out->lobe_base;
     out->matte_base = out->matte_edge = real3_of(zero, zero, zero);
     // Add the coat of paint, divided into light by a path and light without a path.
     real coat = zero;
-    if (GLINT_PAINT && GLINT_FRESNEL) {
+    if (GLINT_PAINT && HAS(FRESNEL)) {
         const real root = (s->ior - R(1.0)) / (s->ior + R(1.0));
-        real3 f0 = specular_at_right_angles(s, root * root);
+        real3 f0 = specular_at_right_angles(scene, s, root * root);
 #if GLINT_IRIDESCENCE
-        f0 = film_of_lobe(s, f0);
+        f0 = film_of_lobe(scene, s, f0);
 #endif
         real3 gain = scale_add(f0, lost, one);
 #if GLINT_SPECULAR
-        gain = scale(gain, s->specular);
+        gain = HAS(SPECULAR) ? scale(gain, s->specular) : gain;
 #endif
         const real3 whole_edge = scale(gain, paint), own = multiply(whole_edge, f0);
         const real by_path = share_of_path(s->roughness);
@@ -274,10 +287,10 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
 
 // Rule 6, paint: adds the environment's irradiance that paint reflects, weighted by `share` (the
 // map holds E(n)/π). Smooth paint also reflects as a mirror.
-static inline void scatter_paint(const surface *s, real3 irradiance, real share, real kept,
-                                 scattering *out)
+static inline void scatter_paint(const scene_buffers *scene, const surface *s, real3 irradiance,
+                                 real share, real kept, scattering *out)
 {
-    if (GLINT_GLOSS) {
+    if (HAS(GLOSS)) {
         mask smooth = HAS_FLAG(*s, GLINT_MATERIAL_GLOSS);
 #if GLINT_ROUGH
         smooth = smooth & !out->rough;
@@ -285,14 +298,16 @@ static inline void scatter_paint(const surface *s, real3 irradiance, real share,
 #if GLINT_FACETS
         smooth = smooth | s->facet.there;
 #endif
-        const real3 reflectance = specular_from_space(s);
+        const real3 reflectance = specular_from_space(scene, s);
         const real3 gloss = scale(reflectance, SELECT(smooth, share, real_of(0)));
         out->reflected_weight = add(out->reflected_weight, gloss);
         kept = SELECT(smooth, R(1.0) - largest3(reflectance), kept);
     }
     real3 sent = multiply(s->base_color, irradiance);
 #if GLINT_DIFFUSE_TRANSMISSION
-    sent = scale_add(subtract(multiply(s->through_color, s->behind), sent), s->through, sent);
+    if (HAS(DIFFUSE_TRANSMISSION)) {
+        sent = scale_add(subtract(multiply(s->through_color, s->behind), sent), s->through, sent);
+    }
 #endif
     out->emitted = scale(sent, share * kept);
 }
@@ -347,7 +362,9 @@ static inline void scatter_from_sheen(const scene_buffers *scene, const surface 
     leave_share(SELECT(there, left, real_of(1)), out);
     out->sheen = select3(there, s->sheen_color, zero);
 #if GLINT_LIGHTS
-    out->emitted = add(out->emitted, multiply(out->sheen, s->sheen_shine));
+    if (HAS(LIGHTS)) {
+        out->emitted = add(out->emitted, multiply(out->sheen, s->sheen_shine));
+    }
 #endif
 }
 #endif
@@ -357,9 +374,9 @@ static inline void scatter_from_sheen(const scene_buffers *scene, const surface 
 #define CLEARCOAT_F0 R(0.04)
 
 #if GLINT_ROUGH
-static inline mask is_coat_rough(const surface *s)
+static inline mask is_coat_rough(const scene_buffers *scene, const surface *s)
 {
-    return (s->clearcoat > R(0.0)) &
+    return !HAS(ROUGH) ? mask_none() : (s->clearcoat > R(0.0)) &
            (s->clearcoat_roughness >= (scalar)GLINT_ROUGHNESS_LEAST);
 }
 #endif
@@ -375,7 +392,7 @@ static inline coat_reflectance reflect_from_coat(const scene_buffers *scene, con
     coat_reflectance f;
     f.whole = f.by_path = surface_reflectance(s->clearcoat_cosine, real_of(CLEARCOAT_IOR));
 #if GLINT_ROUGH
-    const mask rough = out->coat_rough = is_coat_rough(s);
+    const mask rough = out->coat_rough = is_coat_rough(scene, s);
     const lobe_parts albedo =
         find_albedo(scene->cells.values, s->clearcoat_cosine, s->clearcoat_roughness, rough);
     out->coat_gain = fused(light_lost(scene, &albedo), real_of(CLEARCOAT_F0), real_of(1));
@@ -414,14 +431,15 @@ static inline mask are_coats_apart(const surface *s, const scattering *out, mask
 static inline void scatter_from_coat(const scene_buffers *scene, const surface *s, real3 v,
                                      lanes_int media, scattering *out)
 {
-    out->coat_apart = mask_none();
     const coat_reflectance f = reflect_from_coat(scene, s, out);
     out->coat_weight = s->clearcoat * f.by_path;
     leave_share(fused(-s->clearcoat, f.whole, real_of(1)), out);
 #if GLINT_ROUGH && GLINT_LIGHTS
-    const real gain = s->clearcoat * out->coat_gain;
-    out->emitted = select3(out->coat_rough, scale_add(s->clearcoat_shine, gain, out->emitted),
-                           out->emitted);
+    if (HAS(LIGHTS)) {
+        const real gain = s->clearcoat * out->coat_gain;
+        out->emitted = select3(out->coat_rough, scale_add(s->clearcoat_shine, gain, out->emitted),
+                               out->emitted);
+    }
 #endif
     const real3 r = reflect_direction(v, s->clearcoat_normal, s->clearcoat_cosine);
     const real3 direction = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
@@ -444,22 +462,25 @@ static inline void scatter_from_coat(const scene_buffers *scene, const surface *
 #if GLINT_ALPHA
 // Rule 9: a partly covering surface scatters only the share of its coverage. The rest of the light
 // goes straight on, as through a thin wall.
-static inline void scatter_covered(const surface *s, real3 v, lanes_int media, scattering *out)
+static inline void scatter_covered(const scene_buffers *scene, const surface *s, real3 v,
+                                   lanes_int media, scattering *out)
 {
     const mask partly = s->coverage < R(1.0);
     const real gone = SELECT(partly, R(1.0) - s->coverage, real_of(0));
     const real left = SELECT(partly, s->coverage, real_of(1));
     leave_share(left, out);
 #if GLINT_CLEARCOAT
-    out->coat_weight *= left;
+    if (HAS(CLEARCOAT)) {
+        out->coat_weight *= left;
 #if GLINT_ROUGH
-    out->coat_gain *= left;
+        out->coat_gain *= left;
 #endif
+    }
 #endif
     out->transmitted_weight = add(out->transmitted_weight, real3_of(gone, gone, gone));
     out->transmitted = select3(partly, negate(v), out->transmitted);
 #if GLINT_OVERLAPS
-    media = s->media_beyond;
+    media = HAS(OVERLAPS) ? s->media_beyond : media;
 #endif
     out->media_transmitted = SELECT(partly, media, out->media_transmitted);
     out->total_reflection = out->total_reflection & !partly;
@@ -495,13 +516,13 @@ static inline void scatter_from_facets(const surface *s, real3 v, scattering *ou
 #endif
 
 // The light on matte paint, over π: the environment, darkened by occlusion, and the file's lights.
-static inline real3 light_on_paint(const surface *s, real3 irradiance)
+static inline real3 light_on_paint(const scene_buffers *scene, const surface *s, real3 irradiance)
 {
 #if GLINT_TEXTURES
-    irradiance = scale(irradiance, s->occlusion);
+    irradiance = HAS(TEXTURES) ? scale(irradiance, s->occlusion) : irradiance;
 #endif
 #if GLINT_LIGHTS
-    irradiance = add(irradiance, s->direct);
+    irradiance = HAS(LIGHTS) ? add(irradiance, s->direct) : irradiance;
 #endif
     return irradiance;
 }
@@ -516,7 +537,9 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     result.emitted = zero;
     result.reflected_weight = result.transmitted_weight = zero;
 #if GLINT_ROUGH
-    result.rough = are_rough(s);
+    result.rough = are_rough(scene, s);
+    result.lobe_base = result.lobe_edge = result.matte_base = result.matte_edge = zero;
+    result.lobe_weight = real_of(0);
 #endif
     *media_lost = mask_none();
 
@@ -528,7 +551,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     real3 r = reflect_direction(v, s->normal, s->cosine);
     result.reflected = renormalized(fold_to_side(r, s->geometric_normal, R(1.0)));
     if (GLINT_TINT) {
-        result.reflected_weight = scale(reflect_from_metal(s), s->metallic);
+        result.reflected_weight = scale(reflect_from_metal(scene, s), s->metallic);
     } else if (GLINT_MIRROR) {
         result.reflected_weight = real3_of(s->metallic, s->metallic, s->metallic);
     }
@@ -545,25 +568,32 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
 #endif
     result.media_reflected = *media;
     // Paint and rough lobes.
-    irradiance = light_on_paint(s, irradiance);
+    irradiance = light_on_paint(scene, s, irradiance);
     real kept = real_of(1);
 #if GLINT_ROUGH
-    kept = SELECT(result.rough, scatter_lobe(scene, s, dielectric - glass, &result), kept);
+    if (any_lane(result.rough)) {
+        kept = SELECT(result.rough, scatter_lobe(scene, s, dielectric - glass, &result), kept);
+    }
 #endif
     if (GLINT_PAINT) {
-        scatter_paint(s, irradiance, dielectric - glass, kept, &result);
+        scatter_paint(scene, s, irradiance, dielectric - glass, kept, &result);
     }
 #if GLINT_ROUGH && GLINT_LIGHTS
-    const real3 shine = add(multiply(add(result.lobe_base, result.matte_base), s->shine_base),
-                            multiply(add(result.lobe_edge, result.matte_edge), s->shine_edge));
-    result.emitted = select3(result.rough, add(result.emitted, shine), result.emitted);
+    if (HAS(LIGHTS)) {
+        const real3 shine = add(multiply(add(result.lobe_base, result.matte_base), s->shine_base),
+                                multiply(add(result.lobe_edge, result.matte_edge), s->shine_edge));
+        result.emitted = select3(result.rough, add(result.emitted, shine), result.emitted);
+    }
 #endif
     // Facets of rough glass, sheen, then the models that replace or add to the others.
 #if GLINT_FACETS
     scatter_from_facets(s, v, &result);
 #endif
 #if GLINT_SHEEN
-    scatter_from_sheen(scene, s, &result);
+    result.sheen = zero;
+    if (HAS(SHEEN)) {
+        scatter_from_sheen(scene, s, &result);
+    }
 #endif
     if (GLINT_BLEND) {
         scatter_blend(s, irradiance, &result);
@@ -579,10 +609,15 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
     }
     // Layers above all the others.
 #if GLINT_CLEARCOAT
-    scatter_from_coat(scene, s, v, *media, &result);
+    result.coat_apart = mask_none();
+    if (HAS(CLEARCOAT)) {
+        scatter_from_coat(scene, s, v, *media, &result);
+    }
 #endif
 #if GLINT_ALPHA
-    scatter_covered(s, v, *media, &result);
+    if (HAS(ALPHA)) {
+        scatter_covered(scene, s, v, *media, &result);
+    }
 #endif
     return result;
 }

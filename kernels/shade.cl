@@ -144,7 +144,7 @@ static inline void take_alike(const scene_buffers *scene, const texture_spot *sp
     }
     *left &= ~taken;
     // Look up the textures, and apply each.
-    const bool second = GLINT_SECOND_TEXCOORDS && (t->flags & GLINT_TEXTURE_SECOND);
+    const bool second = HAS(SECOND_TEXCOORDS) && (t->flags & GLINT_TEXTURE_SECOND);
     scalar4 found[GLINT_MATERIAL_TEXTURES][GLINT_WIDTH];
     look_up_textures(scene, &g, &spots[second], here, found);
     for (uint rest = taken; rest != 0; rest &= rest - 1) {
@@ -166,11 +166,9 @@ static inline void take_textures(const scene_buffers *scene, const texture_spot 
     }
 }
 
-// Applies a material's textures to the surfaces that rays have met.
-static inline void texture_surface(const scene_buffers *scene, const path *ray, const closest *hit,
-                                   const triangle *t, surface *s)
+// Sets the values of a surface without textures.
+static inline void begin_textures(surface *s)
 {
-    const mask met = hit->place >= (lane_int)0;
     s->occlusion = real_of(1);
 #if GLINT_NORMAL_MAPS
     s->bump = real3_of(real_of(0), real_of(0), real_of(1));
@@ -178,6 +176,13 @@ static inline void texture_surface(const scene_buffers *scene, const path *ray, 
     s->clearcoat_bump = s->bump;
 #endif
 #endif
+}
+
+// Applies a material's textures to the surfaces that rays have met.
+static inline void texture_surface(const scene_buffers *scene, const path *ray, const closest *hit,
+                                   const triangle *t, surface *s)
+{
+    const mask met = hit->place >= (lane_int)0;
     // Find the pixel's footprint on the triangle, and the texture coordinates.
     real width = fabs(width_after(&ray->cone, hit->t));
 #if GLINT_FACETS
@@ -186,7 +191,7 @@ static inline void texture_surface(const scene_buffers *scene, const path *ray, 
     const ellipse seen =
         ellipse_on(t->vertices, s->geometric_normal, ray->direction, width);
     texture_spot spots[1 + GLINT_SECOND_TEXCOORDS];
-    for (int set = 0; set <= GLINT_SECOND_TEXCOORDS; set++) {
+    for (int set = 0; set <= HAS(SECOND_TEXCOORDS); set++) {
         const corner_values c =
             load_corners(scene, hit->place, met, set * SECOND_TEXCOORDS_AT, 2);
         spots[set] = spot_on(&c, &seen, hit->b1, hit->b2);
@@ -245,7 +250,7 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
     // A sliver whose edges are parallel in this precision has no normal; it faces the viewer.
     s.geometric_normal = select3(valid, s.geometric_normal, negate(ray->direction));
     if (HAS_PLACES) {
-        place_on_triangle(t, ray, hit, &s);
+        place_on_triangle(scene, t, ray, hit, &s);
     }
     load_materials(scene, t, &s);
 #if GLINT_FACETS
@@ -265,10 +270,15 @@ static inline surface find_surface(const scene_buffers *scene, const path *ray, 
 #endif
     // Apply vertex colours, textures and alpha.
 #if GLINT_COLORED_VERTICES
-    color_surface(scene, hit, &s);
+    if (HAS(COLORED_VERTICES)) {
+        color_surface(scene, hit, &s);
+    }
 #endif
 #if GLINT_TEXTURES
-    texture_surface(scene, ray, hit, t, &s);
+    begin_textures(&s);
+    if (HAS(TEXTURES)) {
+        texture_surface(scene, ray, hit, t, &s);
+    }
 #endif
 #if GLINT_ALPHA
     cover_surface(&s);

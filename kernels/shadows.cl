@@ -41,7 +41,7 @@ static inline bool meet_before_light(const stream_ray *r, const leaf *leaf,
         for (int k = 0; k < 9; k++) {
             at[k] = FROM_ANCHOR(leaf->cluster, k % 3, (scalar)light->position[k % 3]);
         }
-        if (lie_in_plane(own, at)) {
+        if (lie_in_plane(leaf->scene, own, at)) {
             return false;
         }
     }
@@ -153,27 +153,32 @@ static inline mask trace_to_light(const scene_buffers *scene, const path *rays,
 #if TRANSMITS
 
 // The share of straight light that a surface lets pass.
-static inline real3 light_passing(const surface *s)
+static inline real3 light_passing(const scene_buffers *scene, const surface *s)
 {
     real3 passing = real3_of(real_of(0), real_of(0), real_of(0));
 #if GLINT_GLASS
     const mask glass = HAS_FLAG(*s, GLINT_MATERIAL_SOLID) | HAS_FLAG(*s, GLINT_MATERIAL_THIN);
     const real share = (R(1.0) - s->metallic) * s->transmission;
     real reflectance = real_of(0);
-    if (GLINT_FRESNEL) {
-        reflectance = largest3(specular_from_space(s));
+    if (HAS(FRESNEL)) {
+        reflectance = largest3(specular_from_space(scene, s));
     }
     real left = share - share * reflectance;
 #if GLINT_CLEARCOAT
-    left *= R(1.0) - s->clearcoat * surface_reflectance(s->clearcoat_cosine, real_of(CLEARCOAT_IOR));
+    if (HAS(CLEARCOAT)) {
+        left *= R(1.0) - s->clearcoat * surface_reflectance(s->clearcoat_cosine,
+                                                            real_of(CLEARCOAT_IOR));
+    }
 #endif
     passing = scale(s->base_color, SELECT(glass, left, real_of(0)));
 #endif
 #if GLINT_ALPHA
-    const mask partly = s->coverage < R(1.0);
-    const real gone = SELECT(partly, R(1.0) - s->coverage, real_of(0));
-    passing = add(scale(passing, SELECT(partly, s->coverage, real_of(1))),
-                  real3_of(gone, gone, gone));
+    if (HAS(ALPHA)) {
+        const mask partly = s->coverage < R(1.0);
+        const real gone = SELECT(partly, R(1.0) - s->coverage, real_of(0));
+        passing = add(scale(passing, SELECT(partly, s->coverage, real_of(1))),
+                      real3_of(gone, gone, gone));
+    }
 #endif
     return passing;
 }
@@ -191,14 +196,14 @@ static inline void pass_surfaces(const scene_buffers *scene, path *rays, closest
     (void)cross_solid(scene, &s, HAS_FLAG(s, GLINT_MATERIAL_SOLID), &rays->media, &beyond, &outer,
                       &lost);
 #endif
-    real3 passing = light_passing(&s);
+    real3 passing = light_passing(scene, &s);
 #if GLINT_ABSORPTION
-    passing = multiply(passing, medium_transmittance(scene->media, medium_on_top(rays->media),
+    passing = multiply(passing, medium_transmittance(scene, medium_on_top(scene, rays->media),
                                                      SELECT(met, hit->t, real_of(0))));
 #endif
     *left = select3(met, multiply(*left, passing), *left);
     rays->media = SELECT(met, beyond, rays->media);
-    start_off_surface(rays, &s, -s.offset);
+    start_off_surface(scene, rays, &s, -s.offset);
     rays->from = hit->place;
 }
 

@@ -15,6 +15,7 @@ typedef struct cell_map {
 
 // The scene's buffers, as every part of the shading gets them.
 typedef struct scene_buffers {
+    uint features[GLINT_FEATURE_WORDS]; // from the frame record, for HAS
     global const float *nodes;
     global const float *clusters;
     global const float *normals;
@@ -27,17 +28,25 @@ typedef struct scene_buffers {
     global const ushort *texels;
     global const glint_light_record *lights;
     float anisotropy; // from the frame record
+    int media_bits, media_capacity; // from the frame record
     cube_map environment, irradiance;
     cell_map cells;
     global const float *vertices; // results at vertices, with VERTEX_COLOR and VERTEX_DIRECTION
     global const uint *pixels;    // with PIXEL_LIST: their numbers, see layout.h
 } scene_buffers;
 
+#if GLINT_GENERAL
+#define TEXELS_ARE_HALF (frame.half_texels != 0)
+#else
+#define TEXELS_ARE_HALF GLINT_HALF_TEXELS
+#endif
+
 // Makes scene_buffers from the arguments of a kernel.
 #define SCENE_OF_ARGUMENTS                                                                         \
-    {nodes, clusters, normals, numbers, materials, media, solids, attributes, textures, texels,    \
-     lights, frame.anisotropy,                                                                     \
-     {environment, frame.environment_edge, GLINT_HALF_TEXELS},                                     \
+    {{frame.features[0], frame.features[1]},                                                       \
+     nodes, clusters, normals, numbers, materials, media, solids, attributes, textures, texels,    \
+     lights, frame.anisotropy, frame.media_bits, frame.media_capacity,                             \
+     {environment, frame.environment_edge, TEXELS_ARE_HALF},                                       \
      {irradiance, frame.irradiance_edge, false},                                                   \
      {lobes, frame.cells_last, frame.cells_tolerance, frame.compensation},                         \
      vertices,                                                                                     \

@@ -178,7 +178,8 @@ static inline void measure_nearby(const path *ray, const triangle *t, mask met, 
 // distance. If the plane was not measured again, the error comes from corners up to LARGE_TRIANGLE
 // times as far. A ray from this position may hit a surface at a very short distance. Such a hit is
 // correct: distance_nearby measures it with the same precision.
-static inline void place_nearby(const path *ray, const closest *hit, surface *s)
+static inline void place_nearby(const scene_buffers *scene, const path *ray, const closest *hit,
+                                surface *s)
 {
     const mask nearby = LARGE_TRIANGLE * hit->t < s->size;
     if (!any_lane(nearby)) {
@@ -192,7 +193,7 @@ static inline void place_nearby(const path *ray, const closest *hit, surface *s)
     const real across = fabs(n.x * d.x) + fabs(n.y * d.y) + fabs(n.z * d.z);
     s->position = select3(nearby, there.position, s->position);
     s->position_low = select3(nearby, there.position_low, s->position_low);
-    s->offset = SELECT(nearby, START_OFFSET * across * (LARGE_TRIANGLE * hit->t), s->offset);
+    s->offset = SELECT(nearby, START_OFFSET(scene) * across * (LARGE_TRIANGLE * hit->t), s->offset);
 }
 #endif
 
@@ -200,8 +201,8 @@ static inline void place_nearby(const path *ray, const closest *hit, surface *s)
 // about 8 roundings of values no larger than the largest vertex, coordinate by coordinate (Pharr,
 // Jakob, Humphreys, Physically Based Rendering, 6.8). A ray starts this far off the plane, on the
 // side that it leaves to. So rounding cannot make it hit the neighbours of its triangle.
-static inline void place_on_triangle(const triangle *t, const path *ray, const closest *hit,
-                                     surface *s)
+static inline void place_on_triangle(const scene_buffers *scene, const triangle *t, const path *ray,
+                                     const closest *hit, surface *s)
 {
     const real3 *vertices = t->vertices;
     s->position = interpolate(vertices, hit->b1, hit->b2);
@@ -211,14 +212,17 @@ static inline void place_on_triangle(const triangle *t, const path *ray, const c
     reach.z = LARGER(fabs(vertices[0].z), LARGER(fabs(vertices[1].z), fabs(vertices[2].z)));
     real3 n = real3_of(fabs(s->geometric_normal.x), fabs(s->geometric_normal.y),
                        fabs(s->geometric_normal.z));
-    s->offset = START_OFFSET * dot3(n, reach);
+    s->offset = START_OFFSET(scene) * dot3(n, reach);
 #if GLINT_LOCAL_ORIGINS
     s->size = largest3(reach);
 #if LOCAL_RAYS
-    const real3 at = s->position;
-    set_position(s, sum_of(t->anchor.x, at.x), sum_of(t->anchor.y, at.y),
-                 sum_of(t->anchor.z, at.z));
-    place_nearby(ray, hit, s);
+    s->position_low = real3_of(real_of(0), real_of(0), real_of(0));
+    if (HAS(LOCAL_ORIGINS)) {
+        const real3 at = s->position;
+        set_position(s, sum_of(t->anchor.x, at.x), sum_of(t->anchor.y, at.y),
+                     sum_of(t->anchor.z, at.z));
+        place_nearby(scene, ray, hit, s);
+    }
 #else
     s->position = add(t->anchor, s->position);
 #endif
@@ -226,13 +230,16 @@ static inline void place_on_triangle(const triangle *t, const path *ray, const c
 }
 
 // Starts a ray from a surface, at the distance `offset` along the geometric normal.
-static inline void start_off_surface(path *ray, const surface *s, real offset)
+static inline void start_off_surface(const scene_buffers *scene, path *ray, const surface *s,
+                                     real offset)
 {
-#if LOCAL_RAYS
-    ray->origin = s->position;
-    ray->origin_low = scale_add(s->geometric_normal, offset, s->position_low);
-#else
     ray->origin = scale_add(s->geometric_normal, offset, s->position);
+#if LOCAL_RAYS
+    ray->origin_low = real3_of(real_of(0), real_of(0), real_of(0));
+    if (HAS(LOCAL_ORIGINS)) {
+        ray->origin = s->position;
+        ray->origin_low = scale_add(s->geometric_normal, offset, s->position_low);
+    }
 #endif
 }
 
@@ -315,14 +322,10 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #endif
     // Textures bend the normal as it is in the file.
     const real3 own = select3(turned_round, negate(s->lit_normal), s->lit_normal);
-    const real3 bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
-    s->lit_normal = select3(turned_round, negate(bent), bent);
-#endif
-#if GLINT_CLEARCOAT && GLINT_NORMAL_MAPS
-    const real3 coat = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->clearcoat_bump);
-    const real up = dot3(coat, v);
-    s->clearcoat_normal = select3(up < R(0.0), negate(coat), coat);
-    s->clearcoat_cosine = SMALLER(fabs(up), real_of(1));
+    if (HAS(NORMAL_MAPS)) {
+        const real3 bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
+        s->lit_normal = select3(turned_round, negate(bent), bent);
+    }
 #endif
     // Turn the shading normal to the viewer.
     real cosine = dot3(s->lit_normal, v);
@@ -337,11 +340,25 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
     cosine = fabs(cosine);
     s->cosine = SMALLER(cosine, real_of(1));
 #if GLINT_BRUSHED
-    orient_brush(scene, hit, own, v, s);
+    s->along = s->normal;
+    if (HAS(BRUSHED)) {
+        orient_brush(scene, hit, own, v, s);
+    } else {
+        s->anisotropy = s->along_cosine = real_of(0);
+    }
 #endif
-#if GLINT_CLEARCOAT && !GLINT_NORMAL_MAPS
+#if GLINT_CLEARCOAT
     s->clearcoat_normal = s->normal;
     s->clearcoat_cosine = s->cosine;
+#if GLINT_NORMAL_MAPS
+    if (HAS(CLEARCOAT) && HAS(NORMAL_MAPS)) {
+        const real3 coat =
+            bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->clearcoat_bump);
+        const real up = dot3(coat, v);
+        s->clearcoat_normal = select3(up < R(0.0), negate(coat), coat);
+        s->clearcoat_cosine = SMALLER(fabs(up), real_of(1));
+    }
+#endif
 #endif
 }
 

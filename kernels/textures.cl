@@ -10,11 +10,11 @@
 
 // Offsets of the corners' attributes, in the order of glint_attributes in host/scene/scene.h.
 #define SECOND_TEXCOORDS_AT 2
-#define COLORS_AT (2 * GLINT_TEXTURES + 2 * GLINT_SECOND_TEXCOORDS)
-#define TANGENTS_AT (COLORS_AT + 4 * GLINT_COLORED_VERTICES)
-#define CORNER_VALUES (TANGENTS_AT + 4 * GLINT_NORMAL_MAPS)
+#define COLORS_AT (2 * HAS(TEXTURES) + 2 * HAS(SECOND_TEXCOORDS))
+#define TANGENTS_AT (COLORS_AT + 4 * HAS(COLORED_VERTICES))
+#define CORNER_VALUES (TANGENTS_AT + 4 * HAS(NORMAL_MAPS))
 
-#if CORNER_VALUES > 0
+#if GLINT_TEXTURES || GLINT_COLORED_VERTICES
 
 // Some attributes of a triangle's first corner, and the differences of the other corners to it.
 typedef struct corner_values {
@@ -32,12 +32,13 @@ static inline corner_values load_corners(const scene_buffers *scene, lanes_int p
     for (uint left = mask_bits(met); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left);
         const size_t number = (size_t)scene->numbers[LANE_INT(places, lane)];
-        global const float *values = scene->attributes + 3 * CORNER_VALUES * number + at;
+        const int stride = CORNER_VALUES;
+        global const float *values = scene->attributes + 3 * stride * number + at;
         for (int i = 0; i < count; i++) {
             const scalar first = (scalar)values[i];
             LANE(c.first[i], lane) = first;
-            LANE(c.second_more[i], lane) = (scalar)values[CORNER_VALUES + i] - first;
-            LANE(c.third_more[i], lane) = (scalar)values[2 * CORNER_VALUES + i] - first;
+            LANE(c.second_more[i], lane) = (scalar)values[stride + i] - first;
+            LANE(c.third_more[i], lane) = (scalar)values[2 * stride + i] - first;
         }
     }
     return c;

@@ -52,7 +52,7 @@ static inline image_space make_image_space(const glint_frame_record *frame)
     for (int k = 0; k < 3; k++) {
         s.origin[k] = JOIN(frame->origin.high[k], frame->origin.low[k]);
 #if LOCAL_RAYS
-        s.origin_low[k] = frame->origin.low[k];
+        s.origin_low[k] = HAS_IN(frame, LOCAL_ORIGINS) ? frame->origin.low[k] : R(0.0);
 #endif
         s.rows[0][k] = JOIN(frame->image_x.high[k], frame->image_x.low[k]);
         s.rows[1][k] = JOIN(frame->image_y.high[k], frame->image_y.low[k]);

@@ -108,8 +108,10 @@ static inline triangle load_triangles(const scene_buffers *scene, lanes_int plac
             const choice corner = corner_at(corners + k * GLINT_CLUSTER_LANES, triangles);
             set_vertex(values, corner, here, &t.vertices[k]);
 #if GLINT_SMOOTH_NORMALS
-            set_vertex(scene->normals + cluster * GLINT_CLUSTER_NORMALS, corner, here,
-                       &t.normals[k]);
+            if (HAS(SMOOTH_NORMALS)) {
+                set_vertex(scene->normals + cluster * GLINT_CLUSTER_NORMALS, corner, here,
+                           &t.normals[k]);
+            }
 #endif
         }
     }

@@ -57,7 +57,7 @@ static void check_features(const glint_plan *plan)
     GLINT_FEATURES(DECLARE)
 #undef DECLARE
     const bool GLINT_TILES = plan->tiles;
-#define CHECK(name, meaning, needs, excludes, unneeded)                                            \
+#define CHECK(name, meaning, needs, excludes, ...)                                                 \
     assert_true(!GLINT_##name || ((needs) && !(excludes)));
     GLINT_FEATURES(CHECK)
 #undef CHECK

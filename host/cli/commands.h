@@ -7,6 +7,7 @@
 extern const glint_command glint_command_render;
 extern const glint_command glint_command_info;
 extern const glint_command glint_command_devices;
+extern const glint_command glint_command_warm;
 extern const glint_command glint_command_bench;
 extern const glint_command glint_command_compare;
 extern const glint_command glint_command_contact;

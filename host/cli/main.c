@@ -20,7 +20,7 @@
 static const glint_command *const commands[] = {
     &glint_command_render,   &glint_command_farm,    &glint_command_contact, &glint_command_env,
     &glint_command_capture,  &glint_command_relight, &glint_command_compare, &glint_command_bench,
-    &glint_command_selftest, &glint_command_info,    &glint_command_devices};
+    &glint_command_selftest, &glint_command_info,    &glint_command_devices, &glint_command_warm};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 // Width for texts on stdout, [80, 100] columns: the terminal's width, or 80 without a terminal.

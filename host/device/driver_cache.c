@@ -19,6 +19,7 @@
 
 #define FOLDER_NAME "POCL_CACHE_DIR"
 #define MARK "glint-died"       // file in the cache: the time when the run began to compile
+#define MARKS "glint"           // folder of glint_driver_cache_name_mark
 #define TOUCHED "last_accessed" // file in an entry; PoCL touches it when it uses the entry
 #define LEAST_ROOM (UINT64_C(16) << 20)
 #define SLACK 2 // seconds that the clocks of files may be behind
@@ -32,7 +33,7 @@ static atomic_bool runs;
 static char mark_path[PATH_MAX + sizeof "/" MARK];
 static char mark_text[32];
 static time_t begun;
-static atomic_bool is_used;
+static atomic_int users; // compilations under way
 static void (*watcher)(void);
 
 // ---- The folder ---------------------------------------------------------------------------------
@@ -108,7 +109,7 @@ static const char *find_fault(void)
 
 static void remove_tree(const char *path)
 {
-    char name[PATH_MAX];
+    char name[PATH_MAX + sizeof "/" MARKS];
     snprintf(name, sizeof name, "%s", path);
     FTS *tree = fts_open((char *[]){name, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
     for (FTSENT *entry; tree != NULL && (entry = fts_read(tree)) != NULL;) {
@@ -123,10 +124,19 @@ static void remove_tree(const char *path)
     }
 }
 
-// Removes the entries used since `since`. An entry is a folder in a folder of the cache.
+static void remove_marks(void)
+{
+    char marks[PATH_MAX + sizeof "/" MARKS];
+    snprintf(marks, sizeof marks, "%s/" MARKS, folder);
+    remove_tree(marks);
+}
+
+// Removes the entries used since `since`, and all marks. An entry is a folder in a folder of the
+// cache.
 static bool remove_used_since(time_t since)
 {
     bool is_any = false;
+    remove_marks();
     char name[PATH_MAX];
     snprintf(name, sizeof name, "%s", folder);
     FTS *tree = fts_open((char *[]){name, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
@@ -217,9 +227,10 @@ const char *glint_driver_cache_note(void)
 
 void glint_driver_cache_begin(void)
 {
-    begun = time(NULL);
-    snprintf(mark_text, sizeof mark_text, "%lld\n", (long long)begun);
-    atomic_store(&is_used, folder[0] != '\0');
+    if (atomic_fetch_add(&users, 1) == 0) { // the mark names the earliest
+        begun = time(NULL);
+        snprintf(mark_text, sizeof mark_text, "%lld\n", (long long)begun);
+    }
     if (watcher != NULL) {
         watcher();
     }
@@ -232,12 +243,22 @@ void glint_driver_cache_watch(void (*watch)(void))
 
 void glint_driver_cache_end(void)
 {
-    atomic_store(&is_used, false);
+    atomic_fetch_sub(&users, 1);
 }
 
 bool glint_driver_cache_clean(void)
 {
     return folder[0] != '\0' && remove_used_since(begun);
+}
+
+bool glint_driver_cache_name_mark(const char *name, char *path, size_t capacity)
+{
+    int length = snprintf(path, capacity, "%s/" MARKS, folder);
+    if (folder[0] == '\0' || length < 0 || (size_t)length >= capacity || !make_folder(path)) {
+        return false;
+    }
+    length = snprintf(path, capacity, "%s/" MARKS "/%s", folder, name);
+    return length > 0 && (size_t)length < capacity;
 }
 
 void glint_driver_cache_is_mended(void)
@@ -264,7 +285,7 @@ void glint_driver_run_end(void)
 
 bool glint_driver_cache_is_used(void)
 {
-    return atomic_load(&is_used);
+    return folder[0] != '\0' && atomic_load(&users) > 0;
 }
 
 void glint_driver_cache_mark(void)

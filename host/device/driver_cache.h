@@ -4,6 +4,7 @@
 #define GLINT_DEVICE_DRIVER_CACHE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 // Call it before OpenCL is used; only the first call has an effect. Removes entries over which an
 // earlier run died. If the cache cannot be written, sends kernels to a temporary folder.
@@ -18,7 +19,7 @@ const char *glint_driver_cache_note(void);
 // Sets `watch`, called whenever the driver begins to compile. NULL, the default: no call.
 void glint_driver_cache_watch(void (*watch)(void));
 
-// Call these before and after the driver compiles, or loads from its cache.
+// Call these before and after the driver compiles, or loads from its cache. Several threads may.
 void glint_driver_cache_begin(void);
 void glint_driver_cache_end(void);
 
@@ -27,6 +28,10 @@ bool glint_driver_cache_clean(void);
 
 // Records that glint_driver_cache_clean helped.
 void glint_driver_cache_is_mended(void);
+
+// Writes the path of a mark, a file in a folder of glint's own in the cache, and makes the folder.
+// What damages the cache removes all marks. False if there is no cache, or the path is too long.
+bool glint_driver_cache_name_mark(const char *name, char *path, size_t capacity);
 
 // Sets the device's name, for messages about a death. NULL or "": unknown.
 void glint_driver_cache_set_device(const char *device);

@@ -8,6 +8,7 @@
 #include "environment/environment.h"
 #include "image/image.h"
 #include "render/counts.h"
+#include "render/general.h"
 #include "render/plan.h"
 #include "render/progress.h"
 #include "scene/scene.h"
@@ -111,8 +112,8 @@ typedef struct glint_device_bytes {
 
 glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
 
-// Bytes of the compiled kernels as the driver returns them; 0 if the driver does not return them.
-size_t glint_renderer_program_bytes(const glint_renderer *renderer);
+// The kind of kernels that the next frame runs, unless its camera needs others.
+glint_kernel_kind glint_renderer_kernels(const glint_renderer *renderer);
 
 // A frame to render. Pointers are borrowed.
 typedef struct glint_frame_request {

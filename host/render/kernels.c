@@ -1,7 +1,10 @@
 // Caches the compiled kernels of the last few plans. See kernels.h.
 #include "render/kernels.h"
 
+#include "device/compiled.h"
+#include "device/driver_cache.h"
 #include "device/program.h"
+#include "render/launches.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,10 +21,15 @@ static void release(glint_kernels *k)
     *k = (glint_kernels){0};
 }
 
+static glint_program_request program_request(const glint_kernel_request *in, const char *options)
+{
+    return (glint_program_request){.kernel_dir = in->kernel_dir, .options = options};
+}
+
 static glint_status build(const glint_kernel_request *in, const char *options, glint_kernels *k,
                           glint_error *error)
 {
-    const glint_program_request request = {.kernel_dir = in->kernel_dir, .options = options};
+    const glint_program_request request = program_request(in, options);
     cl_program program;
     TRY(glint_program_build(in->device, &request, &program, error));
     glint_status status =
@@ -55,9 +63,10 @@ static glint_kernels *find_oldest(glint_kernel_cache *cache)
 }
 
 static glint_status renew(const glint_kernel_request *request, const char *options,
-                          glint_kernels *k, glint_error *error)
+                          glint_kernel_kind kind, glint_kernels *k, glint_error *error)
 {
     release(k);
+    k->kind = kind;
     k->options = strdup(options);
     if (k->options == NULL) {
         return glint_fail_memory(error, "a kernel's options");
@@ -69,34 +78,78 @@ static glint_status renew(const glint_kernel_request *request, const char *optio
     return status;
 }
 
-glint_status glint_kernel_cache_get(glint_kernel_cache *cache, const glint_kernel_request *request,
-                                    const glint_kernels **kernels, bool *are_new,
-                                    glint_error *error)
+// True if kernels with these options are ready in this process, or compiled in the driver's cache.
+static bool are_compiled(glint_kernel_cache *cache, const glint_kernel_request *request,
+                         const char *options)
 {
-    char options[4096];
-    glint_plan_build_options(request->plan, options, sizeof options);
+    const glint_program_request program = program_request(request, options);
+    return find(cache, options) != NULL || glint_program_is_compiled(request->device, &program);
+}
+
+#define OPTIONS_BYTES 4096
+
+// Chooses the kind of kernel, and writes its options.
+static glint_kernel_kind choose(glint_kernel_cache *cache, const glint_kernel_request *request,
+                                char options[OPTIONS_BYTES])
+{
+    const glint_kernel_kind general = glint_general_kernel_of(request->plan);
+    glint_kernel_options(request->plan, GLINT_KERNEL_SPECIAL, options, OPTIONS_BYTES);
+    if (request->choice == GLINT_KERNELS_SPECIAL || general == GLINT_KERNEL_SPECIAL ||
+        (request->choice == GLINT_KERNELS_AUTO && are_compiled(cache, request, options))) {
+        return GLINT_KERNEL_SPECIAL;
+    }
+    char of_general[OPTIONS_BYTES];
+    glint_kernel_options(request->plan, general, of_general, OPTIONS_BYTES);
+    if (request->choice == GLINT_KERNELS_AUTO && !are_compiled(cache, request, of_general)) {
+        return GLINT_KERNEL_SPECIAL;
+    }
+    memcpy(options, of_general, OPTIONS_BYTES);
+    return general;
+}
+
+void glint_kernels_note_run(const glint_kernel_request *request, glint_kernels *kernels)
+{
+    const glint_program_request program = program_request(request, kernels->options);
+    glint_program_mark_compiled(request->device, &program);
+    kernels->have_run = true;
+}
+
+glint_status glint_kernels_compile(const glint_kernel_request *request, glint_kernel_kind kind,
+                                   bool *was_compiled, glint_error *error)
+{
+    char options[OPTIONS_BYTES];
+    glint_kernel_options(request->plan, kind, options, sizeof options);
+    const glint_program_request program = program_request(request, options);
+    *was_compiled = glint_program_is_compiled(request->device, &program);
+    glint_kernels made = {0};
+    glint_status status = renew(request, options, kind, &made, error);
+    if (status == GLINT_OK) {
+        const glint_launcher launcher = {
+            .device = request->device, .plan = request->plan, .kernels = &made};
+        glint_driver_cache_begin();
+        status = glint_launches_warm_up(&launcher, error);
+        glint_driver_cache_end();
+    }
+    if (status == GLINT_OK) {
+        glint_kernels_note_run(request, &made);
+    }
+    release(&made);
+    return status;
+}
+
+glint_status glint_kernel_cache_get(glint_kernel_cache *cache, const glint_kernel_request *request,
+                                    glint_kernels **kernels, glint_error *error)
+{
+    char options[OPTIONS_BYTES];
+    const glint_kernel_kind kind = choose(cache, request, options);
     glint_kernels *k = find(cache, options);
-    *are_new = k == NULL;
-    if (*are_new) {
+    if (k == NULL) {
         k = find_oldest(cache);
-        TRY(renew(request, options, k, error));
+        TRY(renew(request, options, kind, k, error));
     }
     k->last_use = ++cache->uses;
     *kernels = k;
     return GLINT_OK;
-}
-
-size_t glint_kernels_program_bytes(const glint_kernels *kernels)
-{
-    cl_program program = NULL;
-    size_t bytes = 0; // for the only device that it was built for
-    if (clGetKernelInfo(kernels->tiles, CL_KERNEL_PROGRAM, sizeof program, &program, NULL) !=
-            CL_SUCCESS ||
-        clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) !=
-            CL_SUCCESS) {
-        return 0;
-    }
-    return bytes;
 }
 
 void glint_kernel_cache_free(glint_kernel_cache *cache)

@@ -5,6 +5,7 @@
 
 #include "base/status.h"
 #include "device/opencl.h"
+#include "render/general.h"
 #include "render/plan.h"
 
 #include <stdbool.h>
@@ -12,9 +13,11 @@
 
 #define GLINT_KERNELS_KEPT 8
 
-// The kernels of one plan.
+// The kernels of one plan, or general kernels.
 typedef struct glint_kernels {
-    char *options;      // build options, owned; NULL: this entry is empty
+    char *options; // build options, owned; NULL: this entry is empty
+    glint_kernel_kind kind;
+    bool have_run;      // glint_kernels_note_run was called
     cl_kernel tiles;    // render_tiles
     cl_kernel vertices; // shade_vertices; NULL if the plan shades pixels
     uint64_t last_use;  // number of the last use in the cache; 0: none
@@ -30,17 +33,23 @@ typedef struct glint_kernel_request {
     struct glint_device *device;
     const char *kernel_dir; // see device/program.h
     const glint_plan *plan;
+    glint_kernel_choice choice;
 } glint_kernel_request;
 
-// Finds or builds the plan's kernels. New kernels replace the least recently used entry. The cache
-// owns *kernels, which are valid until the next call. *are_new: they were built now and have not
-// run yet. Errors: as glint_program_build; GLINT_OUT_OF_MEMORY.
+// Finds or builds kernels for the plan, special or general as the request's choice says. New
+// kernels replace the least recently used entry. The cache owns *kernels, which are valid until the
+// next call. Kernels that were built now have not run yet. Errors: as glint_program_build;
+// GLINT_OUT_OF_MEMORY.
 glint_status glint_kernel_cache_get(glint_kernel_cache *cache, const glint_kernel_request *request,
-                                    const glint_kernels **kernels, bool *are_new,
-                                    glint_error *error);
+                                    glint_kernels **kernels, glint_error *error);
 
-// Bytes of the compiled program as the driver returns it; 0 if the driver does not return it.
-size_t glint_kernels_program_bytes(const glint_kernels *kernels);
+// Compiles a general kernel and runs it once, over no pixels. *was_compiled: the driver's cache
+// held it. Errors: as glint_kernel_cache_get.
+glint_status glint_kernels_compile(const glint_kernel_request *request, glint_kernel_kind kind,
+                                   bool *was_compiled, glint_error *error);
+
+// Notes that the kernels have run for the first time, by which the driver has compiled all of them.
+void glint_kernels_note_run(const glint_kernel_request *request, glint_kernels *kernels);
 
 void glint_kernel_cache_free(glint_kernel_cache *cache);
 

@@ -55,7 +55,7 @@ static glint_status read_counters(const glint_renderer *r, glint_frame_report *r
             r->plan.depth_is_exact ? 0 : share_of(counters, GLINT_COUNT_WEIGHT_BY_DEPTH, samples),
         .by_min_weight = share_of(counters, GLINT_COUNT_WEIGHT_BY_MIN_WEIGHT, samples),
         .by_stack = share_of(counters, GLINT_COUNT_WEIGHT_BY_STACK, samples),
-        .rms = sqrt(squares / (double)pixels),
+        .rms = r->settings.truncation_squares ? sqrt(squares / (double)pixels) : 0,
         .media_overflows = total_of(counters, GLINT_COUNT_MEDIA_OVERFLOWS),
     };
     return GLINT_OK;

@@ -85,7 +85,8 @@ static glint_status vary(const glint_plan_inputs *in, glint_plan *plan, glint_er
 glint_status glint_plan_make(const glint_plan_inputs *in, glint_plan *plan, glint_error *error)
 {
     const glint_settings *settings = in->settings;
-    *plan = (glint_plan){.build_tag = settings->build_tag, .traversal_stack = 64};
+    *plan = (glint_plan){.build_tag = settings->build_tag,
+                         .traversal_stack = GLINT_TRAVERSAL_STACK_LEAST};
     TRY(glint_settings_check(settings, in->device, in->scene, error));
     if (settings->output != GLINT_OUTPUT_HITS && in->scene->triangle_count > 0) {
         plan->shading = settings->shading;
@@ -114,23 +115,35 @@ int glint_plan_feature_count(const glint_plan *plan)
     return count;
 }
 
-void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity)
+void glint_plan_write_options(const glint_plan *plan, const glint_variant *variant, char *text,
+                              size_t capacity)
 {
     size_t used = (size_t)snprintf(
         text, capacity,
-        "-cl-std=CL1.2 -w -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d -DGLINT_DOUBLE=%d "
-        "-DGLINT_HALF_TEXELS=%d -DGLINT_STACK_CAPACITY=%d -DGLINT_MEDIA_BITS=%d "
-        "-DGLINT_MEDIA_CAPACITY=%d -DGLINT_TRAVERSAL_STACK=%d -DGLINT_TILES=%d",
-        plan->kernel_width, plan->bvh_width, plan->precision == GLINT_PRECISION_DOUBLE,
-        plan->half_texels, plan->stack_capacity, plan->media_bits, plan->media_capacity,
-        plan->traversal_stack, plan->tiles);
+        "-cl-std=CL1.2 -w -DGLINT_GENERAL=%d -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d "
+        "-DGLINT_DOUBLE=%d -DGLINT_HALF_TEXELS=%d -DGLINT_STACK_CAPACITY=%d "
+        "-DGLINT_TRAVERSAL_STACK=%d -DGLINT_TILES=%d",
+        variant->is_general, plan->kernel_width, plan->bvh_width,
+        plan->precision == GLINT_PRECISION_DOUBLE, variant->half_texels, variant->stack_capacity,
+        variant->traversal_stack, plan->tiles);
     for (int i = 0; i < GLINT_FEATURE_COUNT && used < capacity; i++) {
         used += (size_t)snprintf(text + used, capacity - used, " -DGLINT_%s=%d",
-                                 glint_feature_name((glint_feature)i), plan->features[i].compiled);
+                                 glint_feature_name((glint_feature)i), variant->features[i]);
     }
     if (plan->build_tag != 0 && used < capacity) {
         snprintf(text + used, capacity - used, " -DGLINT_BUILD_TAG=%u", plan->build_tag);
     }
+}
+
+void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity)
+{
+    glint_variant own = {.half_texels = plan->half_texels,
+                         .stack_capacity = plan->stack_capacity,
+                         .traversal_stack = plan->traversal_stack};
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        own.features[i] = plan->features[i].compiled;
+    }
+    glint_plan_write_options(plan, &own, text, capacity);
 }
 
 void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity)

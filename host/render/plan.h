@@ -19,13 +19,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef enum glint_feature {
-#define GLINT_FEATURE_NAME(name, ...) GLINT_FEATURE_##name,
-    GLINT_FEATURES(GLINT_FEATURE_NAME)
-#undef GLINT_FEATURE_NAME
-        GLINT_FEATURE_COUNT
-} glint_feature;
-
 // The decision about a feature.
 typedef struct glint_feature_choice {
     bool compiled;
@@ -153,7 +146,8 @@ static inline size_t glint_plan_scalar_bytes(const glint_plan *plan)
 // The number of compiled features.
 int glint_plan_feature_count(const glint_plan *plan);
 
-// Writes the build options of the kernels ("-DGLINT_WIDTH=16 …"), at most `capacity` bytes.
+// Writes the build options of the plan's special kernels, which contain what the plan compiles
+// ("-DGLINT_WIDTH=16 …"), at most `capacity` bytes. general.h has the options of general kernels.
 void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity);
 
 // Describes the plan in one line: "shading pixel, depth auto (at most 64), precision float, half

@@ -60,9 +60,8 @@ static void choose_tiles(const glint_settings *settings, glint_plan *plan)
 }
 
 // Unused entries of the stack of branches cost nothing. So all least weights down to 2^−16 share
-// one kernel.
-#define STACK_LEAST 18
-
+// one kernel (GLINT_STACK_LEAST).
+//
 // The path continues with the lighter of two branches, which has at most half of the weight. So at
 // most 1 + log2(1/min_weight) branches wait. One more entry signals that the stack is nearly full.
 static void choose_stack(const glint_settings *settings, glint_plan *plan)
@@ -78,7 +77,7 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
     double by_weight =
         settings->min_weight > 0 ? floor(log2(most / settings->min_weight)) + 1 : INFINITY;
     double need = fmin(by_weight, plan->depth) + 1;
-    plan->stack_capacity = (int)fmax(STACK_LEAST, fmin(need, GLINT_DEPTH_MAX + 1));
+    plan->stack_capacity = (int)fmax(GLINT_STACK_LEAST, fmin(need, GLINT_DEPTH_MAX + 1));
     if (need > plan->stack_capacity) {
         snprintf(plan->stack_reason, sizeof plan->stack_reason,
                  "%d is the most; more would be truncated and reported", plan->stack_capacity);
@@ -89,25 +88,27 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
     }
 }
 
-// The largest size of a tile's waiting branches. They lie in a work-item's private memory, which on
-// CPUs is a thread's stack. The smallest default of the C library is 2 MiB.
-#define BRANCHES_MAX_BYTES ((size_t)5 << 18)
+size_t glint_plan_branch_bytes(const glint_plan *plan, const bool features[GLINT_FEATURE_COUNT])
+{
+    const size_t branch = GLINT_BRANCH_BYTES(
+        glint_plan_scalar_bytes(plan),
+        features[GLINT_FEATURE_MIP_LEVELS] || features[GLINT_FEATURE_TEXTURES],
+        features[GLINT_FEATURE_ALPHA], features[GLINT_FEATURE_ROUGH],
+        features[GLINT_FEATURE_FACETS], features[GLINT_FEATURE_DISPERSION],
+        features[GLINT_FEATURE_LOCAL_ORIGINS] && plan->precision != GLINT_PRECISION_DOUBLE);
+    return branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
+}
 
 // Each pixel of a tile has room for all branches of a path. If this takes too much memory, a
 // work-item renders one packet.
 static void limit_branches(glint_plan *plan)
 {
-    const size_t branch = GLINT_BRANCH_BYTES(glint_plan_scalar_bytes(plan),
-                                             plan->features[GLINT_FEATURE_MIP_LEVELS].compiled ||
-                                                 plan->features[GLINT_FEATURE_TEXTURES].compiled,
-                                             plan->features[GLINT_FEATURE_ALPHA].compiled,
-                                             plan->features[GLINT_FEATURE_ROUGH].compiled,
-                                             plan->features[GLINT_FEATURE_FACETS].compiled,
-                                             plan->features[GLINT_FEATURE_DISPERSION].compiled,
-                                             plan->features[GLINT_FEATURE_LOCAL_ORIGINS].compiled &&
-                                                 plan->precision != GLINT_PRECISION_DOUBLE);
-    const size_t bytes = branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
-    if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
+    bool features[GLINT_FEATURE_COUNT];
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        features[i] = plan->features[i].compiled;
+    }
+    const size_t bytes = glint_plan_branch_bytes(plan, features);
+    if (plan->tiles && bytes > GLINT_BRANCHES_MAX_BYTES) {
         plan->tiles = false;
         snprintf(plan->tiles_reason, sizeof plan->tiles_reason,
                  "the waiting branches of a tile would take %zu KiB", bytes >> 10);

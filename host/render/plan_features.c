@@ -521,9 +521,9 @@ void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan)
 
 void glint_plan_compile_idle_features(glint_plan *plan)
 {
-    enum { IDLE, ACTIVE };
+    enum { IDLE, SWITCHED, ACTIVE };
     static const bool is_idle[] = {
-#define IS_IDLE(name, meaning, needs, excludes, unneeded) (unneeded) == IDLE,
+#define IS_IDLE(name, meaning, needs, excludes, unneeded, general) (unneeded) == IDLE,
         GLINT_FEATURES(IS_IDLE)
 #undef IS_IDLE
     };

@@ -19,7 +19,34 @@ void glint_plan_decide_extras(const glint_settings *settings, glint_plan *plan);
 // Compiles also features that have no effect if nothing needs them (kernels/features.h).
 void glint_plan_compile_idle_features(glint_plan *plan);
 
+// ---- plan.c: build options ----------------------------------------------------------------------
+
+// What kernels are compiled with, apart from the parts of a plan that never differ between special
+// and general kernels: width, precision, tiles.
+typedef struct glint_variant {
+    bool is_general;
+    bool features[GLINT_FEATURE_COUNT];
+    bool half_texels;
+    int stack_capacity, traversal_stack;
+} glint_variant;
+
+// Writes the build options of a variant, at most `capacity` bytes.
+void glint_plan_write_options(const glint_plan *plan, const glint_variant *variant, char *text,
+                              size_t capacity);
+
 // ---- plan_device.c: adapts the kernels to the device -------------------------------------------
+
+// The capacity of the stack of waiting branches that suffices for all usual settings, and the stack
+// of nodes that suffices for all but the largest trees.
+#define GLINT_STACK_LEAST 18
+#define GLINT_TRAVERSAL_STACK_LEAST 128
+
+// The bytes of a tile's waiting branches in kernels of these features, with 16 packets a tile.
+size_t glint_plan_branch_bytes(const glint_plan *plan, const bool features[GLINT_FEATURE_COUNT]);
+
+// The most bytes of them. They lie in a work-item's private memory, which on CPUs is a thread's
+// stack. The smallest default of the C library is 2 MiB.
+#define GLINT_BRANCHES_MAX_BYTES ((size_t)5 << 18)
 
 // Chooses the width of packets, the tiles, and the stack of waiting branches.
 void glint_plan_choose_packets(const glint_plan_inputs *in, glint_plan *plan);

@@ -2,6 +2,7 @@
 #include "render/prepared_scene.h"
 
 #include "base/clock.h"
+#include "render/plan_parts.h"
 #include "scene/topology.h"
 
 static bool has_solids(const glint_scene *scene)
@@ -59,10 +60,11 @@ cleanup:
     return status;
 }
 
-// The smallest power of two that holds what the tree needs, so that few sizes are compiled.
+// The smallest power of two that holds what the tree needs, so that few sizes are compiled: nearly
+// always the least.
 static int traversal_stack(int need)
 {
-    int size = 64;
+    int size = GLINT_TRAVERSAL_STACK_LEAST;
     while (size < need) {
         size *= 2;
     }

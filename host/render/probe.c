@@ -136,6 +136,8 @@ void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
     *frame = (glint_frame_record){0};
     if (camera != NULL) {
         glint_view_record(&r->scene.space, camera, settings, &r->plan, frame);
+    } else {
+        glint_view_set_plan(&r->plan, frame);
     }
     frame->environment_edge = r->light.chosen.environment_edge;
     frame->irradiance_edge = r->light.chosen.irradiance_edge;

@@ -53,14 +53,16 @@ static glint_status warm_up(const glint_renderer *r, glint_error *error)
 static glint_status find_kernels(glint_renderer *r, glint_error *error)
 {
     double clock = glint_now_ms();
-    const glint_kernel_request request = {r->device, r->kernel_dir, &r->plan};
-    bool are_new;
-    TRY(glint_kernel_cache_get(&r->cache, &request, &r->kernels, &are_new, error));
-    if (are_new) {
+    const glint_kernel_request request = {r->device, r->kernel_dir, &r->plan, r->settings.kernels};
+    glint_kernels *kernels;
+    TRY(glint_kernel_cache_get(&r->cache, &request, &kernels, error));
+    r->kernels = kernels;
+    if (!kernels->have_run) {
         glint_driver_cache_begin();
         const glint_status status = warm_up(r, error);
         glint_driver_cache_end();
         TRY(status);
+        glint_kernels_note_run(&request, kernels);
         r->phases.kernel_build += glint_lap_ms(&clock);
     }
     return GLINT_OK;
@@ -337,7 +339,7 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *r)
     };
 }
 
-size_t glint_renderer_program_bytes(const glint_renderer *renderer)
+glint_kernel_kind glint_renderer_kernels(const glint_renderer *renderer)
 {
-    return renderer->kernels != NULL ? glint_kernels_program_bytes(renderer->kernels) : 0;
+    return renderer->kernels != NULL ? renderer->kernels->kind : GLINT_KERNEL_SPECIAL;
 }

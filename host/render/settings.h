@@ -76,6 +76,14 @@ typedef enum glint_roughness {
     GLINT_ROUGHNESS_SMOOTH, // metal and glass are smooth, and paint reflects nothing
 } glint_roughness;
 
+// The choice between kernels of the same bits, see general.h.
+typedef enum glint_kernel_choice {
+    // Special kernels that are compiled already, else general kernels that are, else special ones.
+    GLINT_KERNELS_AUTO,
+    GLINT_KERNELS_SPECIAL, // contain only what the scene needs: the fastest frames
+    GLINT_KERNELS_GENERAL, // serve most scenes; special ones only for what they do not serve
+} glint_kernel_choice;
+
 // Whether the punctual lights of the file shine.
 typedef enum glint_lights {
     GLINT_LIGHTS_FILE, // on paint that pixels shade
@@ -142,9 +150,10 @@ typedef struct glint_settings {
     int terms;
     // The set of diagnostic layers, see layers.h. Only with colours.
     uint32_t aovs;
-    bool truncation_squares; // compute glint_truncation.rms
-    int kernel_width;        // lanes: 1, 8 or 16; 0: the plan's choice
-    int tile_packets;        // packets per tile: 1 or 16; 0: the plan's choice
+    bool truncation_squares;     // compute glint_truncation.rms
+    int kernel_width;            // lanes: 1, 8 or 16; 0: the plan's choice
+    int tile_packets;            // packets per tile: 1 or 16; 0: the plan's choice
+    glint_kernel_choice kernels; // which of several kernels with the same bits runs
     // Compiles all features, needed or not, to test that they change nothing. Only the rounding of
     // mirrors at depth 1 changes, which have a shorter code path otherwise.
     bool all_features;

@@ -278,6 +278,13 @@ const glint_setting glint_setting_table[] = {
                     "Packets whose primary rays are traced together, for measurements: 1 or 16.",
                 .fallback = "chosen for the device", .zero = "auto",
                 .choices = GLINT_CHOICES("1", "16")}},
+    {GLINT_SETTINGS_OF_DEVICE, MEMBER(kernels),
+     .option = {GLINT_OPTION_CHOICE, .name = "kernels", .argument = "KIND",
+                .help =
+                    "special kernels contain only what the scene needs and run fastest. general "
+                    "kernels serve most scenes, so they are compiled once (glint warm). Both "
+                    "give the same pixels. auto takes what is compiled already, special first.",
+                .choices = GLINT_CHOICES("auto", "special", "general")}},
     {GLINT_SETTINGS_OF_LAYERS, MEMBER(aovs), .fingerprint = 12, .roles = GLINT_SETTING_VARIES,
      .print = print_aovs,
      .option =

@@ -20,7 +20,8 @@ _Static_assert(sizeof(glint_medium_record) == 48, "glint_medium_record has gaps"
 _Static_assert(sizeof(glint_split_vector) == 32, "glint_split_vector has gaps");
 _Static_assert(sizeof(glint_light_record) == 112, "glint_light_record has gaps");
 _Static_assert(sizeof(glint_layers_record) == 48, "glint_layers_record has gaps");
-_Static_assert(sizeof(glint_frame_record) == 12 * 32 + 33 * 4 + GLINT_WAVELENGTHS_MAX * 16,
+_Static_assert(sizeof(glint_frame_record) ==
+                   12 * 32 + (36 + GLINT_FEATURE_WORDS) * 4 + GLINT_WAVELENGTHS_MAX * 16,
                "glint_frame_record has gaps");
 
 static size_t attribute_bytes(const glint_scene *scene)

@@ -88,6 +88,21 @@ static void note_settings(const glint_settings *settings, glint_frame_record *re
     record->cells_tolerance = (float)glint_lobe_tolerance(settings->roughness);
 }
 
+_Static_assert(GLINT_FEATURE_COUNT <= 32 * GLINT_FEATURE_WORDS, "each feature has a bit");
+
+void glint_view_set_plan(const glint_plan *plan, glint_frame_record *record)
+{
+    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
+        record->features[i / 32] |= (uint32_t)plan->features[i].compiled << i % 32;
+    }
+    record->half_texels = plan->half_texels;
+    record->media_bits = plan->media_bits;
+    record->media_capacity = plan->media_capacity;
+    record->cells_last = plan->cells_last;
+    record->depth = plan->depth;
+    record->depth_counts = !plan->depth_is_exact && plan->depth < GLINT_DEPTH_MAX;
+}
+
 void glint_view_record(const glint_stored_space *space, const glint_camera *camera,
                        const glint_settings *settings, const glint_plan *plan,
                        glint_frame_record *record)
@@ -135,10 +150,8 @@ void glint_view_record(const glint_stored_space *space, const glint_camera *came
     if (plan->features[GLINT_FEATURE_DISPERSION].compiled) {
         note_wavelengths(settings->wavelengths, record);
     }
-    record->cells_last = plan->cells_last;
-    record->depth = plan->depth;
+    glint_view_set_plan(plan, record);
     record->unit = (float)space->unit;
-    record->depth_counts = !plan->depth_is_exact && plan->depth < GLINT_DEPTH_MAX;
 }
 
 bool glint_view_is_outside(const glint_stored_space *space, const glint_camera *camera)

@@ -15,7 +15,12 @@ typedef struct glint_stored_space {
 
 glint_stored_space glint_stored_space_of(const glint_scene *scene);
 
-// Fills the part of the record for camera and settings. The caller sets the edges of the maps.
+// Fills the part of the record that the plan decides: the features that a general kernel uses, the
+// stack of media, depth and cells.
+void glint_view_set_plan(const glint_plan *plan, glint_frame_record *record);
+
+// Fills the part of the record for camera, settings and plan. The caller sets the edges of the
+// maps.
 void glint_view_record(const glint_stored_space *space, const glint_camera *camera,
                        const glint_settings *settings, const glint_plan *plan,
                        glint_frame_record *record);

@@ -4,7 +4,6 @@
 #include "layout.h"
 #include "lanes.cl"
 #include "cubemap.cl"
-#define GLINT_FRESNEL 1
 #include "optics.cl"
 #define GLINT_MIP_LEVELS 1
 #include "cones.cl"

@@ -511,6 +511,7 @@ static void set_defaults(void *context)
     bench_request *request = context;
     glint_input_request_default(&request->inputs);
     request->inputs.settings.width = 0; // not given
+    request->inputs.settings.kernels = GLINT_KERNELS_SPECIAL;
     request->margin = -1;
 }
 

@@ -6,6 +6,7 @@
 #include "accel/bvh.h"
 #include "cli/common/inputs.h"
 #include "device/device.h"
+#include "render/general.h"
 #include "render/view.h"
 #include "report/frame/inventory.h"
 
@@ -383,6 +384,10 @@ static void print_plan(const glint_subject *subject)
     if (plan->stack_capacity > 0) {
         printf("  %d waiting branches a pixel: %s\n", plan->stack_capacity, plan->stack_reason);
     }
+    const glint_kernel_kind general = glint_general_kernel_of(plan);
+    printf("  kernels: %s\n", general != GLINT_KERNEL_SPECIAL
+                                  ? glint_kernel_kind_name(general)
+                                  : "special ones alone: no general kernel has all these features");
     for (int compiled = 1; compiled >= 0; compiled--) {
         printf("  %s\n", compiled ? "compiled in" : "left out");
         for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {

@@ -188,8 +188,8 @@ static void begin_display(render_run *run)
     if (request->is_sequence) {
         snprintf(count, sizeof count, "%llu frames of ", (unsigned long long)run->frames.count);
     }
-    snprintf(text, sizeof text, "rendering %s%dx%d on %s (%s)", count, settings->width,
-             settings->height, subject.device->name, plan);
+    snprintf(text, sizeof text, "rendering %s%dx%d on %s (%s, kernels %s)", count, settings->width,
+             settings->height, subject.device->name, plan, subject.kernels);
     const double samples = (double)settings->samples_per_axis * settings->samples_per_axis;
     run->shot.display = NULL; // from now on the display shows only frames
     glint_progress_render(&run->display, request->is_sequence ? run->frames.count : 0,

@@ -109,6 +109,7 @@ glint_subject render_tracer_subject(const render_tracer *tracer, const render_sh
         .max_error = shot->request->max_error,
         .device = glint_device_capabilities(tracer->device),
         .plan = glint_renderer_plan(tracer->renderer),
+        .kernels = glint_kernel_kind_name(glint_renderer_kernels(tracer->renderer)),
         .bvh = glint_renderer_bvh(tracer->renderer),
         .warnings = &inputs->warnings,
     };

@@ -1,4 +1,5 @@
 // Writes device, plan, tree, environment and scene as JSON. See json.h.
+#include "render/general.h"
 #include "render/settings_table.h"
 #include "report/json.h"
 
@@ -100,6 +101,9 @@ json_t *glint_json_plan(const glint_plan *plan)
     glint_json_put(object, "features_known", json_integer(GLINT_FEATURE_COUNT));
     glint_json_put(object, "features", features_object(plan));
     glint_json_put_text(object, "build_options", options);
+    const glint_kernel_kind general = glint_general_kernel_of(plan);
+    glint_json_put_text(object, "general_kernels",
+                        general != GLINT_KERNEL_SPECIAL ? glint_kernel_kind_name(general) : NULL);
     return object;
 }
 

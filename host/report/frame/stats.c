@@ -67,6 +67,7 @@ static void put_choice(json_t *root, const glint_error_choice *choice)
 
 static void put_subject(json_t *root, const glint_subject *subject)
 {
+    glint_json_put_text(root, "kernels", subject->kernels);
     glint_json_put(root, "plan", glint_json_plan(subject->plan));
     glint_json_put(root, "device", glint_json_device(subject->device));
     glint_json_put(root, "bvh", glint_json_bvh(subject->bvh));

@@ -1,0 +1,127 @@
+// Implements glint warm: compiles the general kernels, so that no frame waits for them.
+#include "cli/commands.h"
+#include "cli/common/options.h"
+
+#include "base/child.h"
+#include "base/parallel.h"
+#include "device/device.h"
+#include "render/general.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { FLOAT, DOUBLE, BOTH };
+
+// The options of glint warm.
+typedef struct warm_request {
+    const char *device;
+    int precision; // FLOAT, DOUBLE or BOTH
+} warm_request;
+
+static const glint_option options[] = {
+    {GLINT_OPTION_HEADING, .help = "Options"},
+    {GLINT_OPTION_TEXT, .name = "device", .argument = "DEVICE",
+     .help = "The device: an index or a part of its name, see glint devices.",
+     .fallback = "the first GPU, else the first CPU", .offset = offsetof(warm_request, device)},
+    {GLINT_OPTION_CHOICE, .name = "precision", .argument = "KIND",
+     .help = "The kernels for float frames, for double frames, or both.", .fallback = "float",
+     .offset = offsetof(warm_request, precision),
+     .choices = GLINT_CHOICES("float", "double", "both")},
+    GLINT_OPTION_END,
+};
+
+static const glint_option *const groups[] = {options, NULL};
+
+// A kernel to compile, and what came of it.
+typedef struct job {
+    const char *device; // as glint_device_open expects it
+    glint_kernel_kind kind;
+    glint_precision precision;
+    char *line; // for the user
+    glint_status status;
+    glint_error error;
+} job;
+
+#define MOST_JOBS (2 * (GLINT_KERNEL_KINDS - 1))
+
+static glint_status compile(void *context, char **text, glint_error *error)
+{
+    const job *j = context;
+    glint_device *device = NULL;
+    glint_general_report report;
+    glint_status status;
+    TRY(glint_device_open(j->device, &device, error));
+    TRY_OR(cleanup, status, glint_general_compile(device, j->kind, j->precision, &report, error));
+    if (asprintf(text, "%-22s %-6s  %-8s  %5.1f s", glint_kernel_kind_name(j->kind),
+                 j->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
+                 report.was_compiled ? "kept" : "compiled", report.ms / 1000) < 0) {
+        *text = NULL;
+        status = glint_fail_memory(error, "a line");
+    }
+cleanup:
+    glint_device_close(device);
+    return status;
+}
+
+// A driver may compile one program at a time: PoCL does. So each job has a process of its own.
+static void compile_elsewhere(size_t index, void *context)
+{
+    job *j = (job *)context + index;
+    const glint_child child = {.work = compile, .context = j, .is_expendable = true};
+    j->status = glint_child_run(&child, &j->line, &j->error);
+}
+
+// Lists the kernels, the largest first: it takes longest.
+static size_t list_jobs(const warm_request *request, job jobs[MOST_JOBS])
+{
+    size_t count = 0;
+    for (int kind = GLINT_KERNEL_KINDS - 1; kind > GLINT_KERNEL_SPECIAL; kind--) {
+        for (int precision = FLOAT; precision <= DOUBLE; precision++) {
+            if (request->precision == precision || request->precision == BOTH) {
+                jobs[count++] = (job){.device = request->device,
+                                      .kind = (glint_kernel_kind)kind,
+                                      .precision = (glint_precision)precision};
+            }
+        }
+    }
+    return count;
+}
+
+static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
+{
+    (void)arguments;
+    const warm_request *request = context;
+    job jobs[MOST_JOBS];
+    glint_status status = GLINT_OK;
+    const size_t count = list_jobs(request, jobs);
+    glint_parallel_for(count, compile_elsewhere, jobs);
+    for (size_t i = 0; i < count; i++) {
+        if (jobs[i].status == GLINT_OK) {
+            printf("%s\n", jobs[i].line);
+        } else if (status == GLINT_OK) {
+            status = jobs[i].status; // of the first that failed
+            *error = jobs[i].error;
+        } else {
+            glint_error_free(&jobs[i].error);
+        }
+        free(jobs[i].line);
+    }
+    return status;
+}
+
+const glint_command glint_command_warm = {
+    .name = "warm",
+    .summary = "compile the general kernels ahead of time",
+    .synopsis = "[options]",
+    .description =
+        "Compiles the general kernels, which serve most scenes, into the driver's cache. Frames of "
+        "new scenes then begin at once. ./glint does it at the end of its build. PoCL's cache is "
+        "the folder POCL_CACHE_DIR, or ~/.cache/pocl/kcache: machines of one kind may share it, "
+        "and "
+        "a container may ship it.",
+    .examples = "  glint warm\n"
+                "  POCL_CACHE_DIR=/shared/kernels glint warm --precision both\n",
+    .groups = groups,
+    .request_size = sizeof(warm_request),
+    .run = run,
+};
