@@ -21,6 +21,8 @@ typedef struct glint_cube {
 } glint_cube;
 
 glint_status glint_cube_create(int edge, glint_cube *cube, glint_error *error);
+// Does the same without setting the texels, for a caller that sets them all.
+glint_status glint_cube_create_unset(int edge, glint_cube *cube, glint_error *error);
 void glint_cube_free(glint_cube *cube);
 
 // The number of floats in `texels`.
