@@ -123,12 +123,10 @@ static inline color mix(color a, color b, double weight)
                    a.blue + weight * (b.blue - a.blue)};
 }
 
-// Adds a look-up. Is compiled once for grey pictures and once for coloured ones.
-static inline void add_look_up(const glint_image *image, bool is_grey, between column, between row,
-                               color *sum)
+static inline void add_look_up(const glint_image *image, between column, between row, color *sum)
 {
     color found;
-    const int channels = image->channels, step = is_grey ? 0 : 1;
+    const int channels = image->channels, step = channels >= 3;
     if (column.first < 0 || column.first + 1 >= image->width || row.first < 0 ||
         row.first + 1 >= image->height) { // over ±180° or a pole
         double rgb[3];
@@ -218,7 +216,7 @@ static const struct {
 } sides[4] = {{4, 0.5}, {1, 0.75}, {5, 0.0}, {0, 0.25}};
 
 // Resamples 16 texels: one texel and its mirror images, on the four faces.
-static inline void resample_sides(const resampling *job, bool is_grey, const texel *of)
+static void resample_sides(const resampling *job, const texel *of)
 {
     color sums[4][4] = {{{{0}, {0}}}}; // [side][mirrored along s, t]
     for (int tap = 0; tap < of->taps * of->taps; tap++) {
@@ -230,8 +228,8 @@ static inline void resample_sides(const resampling *job, bool is_grey, const tex
         for (int k = 0; k < 8; k++) {
             const int side = k / 2, mirrored = k % 2;
             const between column = column_of(job, sides[side].middle + (mirrored ? -turn : turn));
-            add_look_up(job->image, is_grey, column, rows[0], &sums[side][mirrored]);
-            add_look_up(job->image, is_grey, column, rows[1], &sums[side][mirrored + 2]);
+            add_look_up(job->image, column, rows[0], &sums[side][mirrored]);
+            add_look_up(job->image, column, rows[1], &sums[side][mirrored + 2]);
         }
     }
     for (int k = 0; k < 16; k++) {
@@ -242,7 +240,7 @@ static inline void resample_sides(const resampling *job, bool is_grey, const tex
 enum { TOP = 2, BOTTOM = 3 }; // +Y, −Y
 
 // Resamples 8 texels: a texel of face TOP and its mirror images, and the texels below them.
-static inline void resample_poles(const resampling *job, bool is_grey, const texel *of)
+static void resample_poles(const resampling *job, const texel *of)
 {
     const glint_vec3 upper = glint_cube_direction(TOP, 1, 1);
     const glint_vec3 lower = glint_cube_direction(BOTTOM, 1, 1);
@@ -259,8 +257,8 @@ static inline void resample_poles(const resampling *job, bool is_grey, const tex
         const double u[4] = {0.5 - turn, 0.5 + turn, turn, 1.0 - turn};
         for (int k = 0; k < 4; k++) {
             const between column = column_of(job, u[k]);
-            add_look_up(job->image, is_grey, column, rows[0], &sums[0][k]);
-            add_look_up(job->image, is_grey, column, rows[1], &sums[1][k ^ below]);
+            add_look_up(job->image, column, rows[0], &sums[0][k]);
+            add_look_up(job->image, column, rows[1], &sums[1][k ^ below]);
         }
     }
     for (int k = 0; k < 8; k++) {
@@ -274,17 +272,13 @@ static void resample_row(size_t index, void *context)
 {
     const resampling *job = context;
     const int half = (job->cube->edge + 1) / 2, j = (int)index % half;
-    const bool is_pole = index < (size_t)half, is_grey = job->image->channels < 3;
+    const bool is_pole = index < (size_t)half;
     for (int i = 0; i < half; i++) {
         const texel of = texel_at(job, is_pole ? TOP : sides[0].face, i, j);
-        if (is_pole && is_grey) {
-            resample_poles(job, true, &of);
-        } else if (is_pole) {
-            resample_poles(job, false, &of);
-        } else if (is_grey) {
-            resample_sides(job, true, &of);
+        if (is_pole) {
+            resample_poles(job, &of);
         } else {
-            resample_sides(job, false, &of);
+            resample_sides(job, &of);
         }
     }
 }
