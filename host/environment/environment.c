@@ -33,6 +33,9 @@ cleanup:
 static glint_status make_cube(const glint_source *source, glint_cube *cube, glint_error *error)
 {
     const glint_chart *chart = &source->chart;
+    if (source->image.pixels == NULL) {
+        return glint_cube_from_stored_faces(&source->stored, chart, cube, error);
+    }
     if (chart->layout == GLINT_LAYOUT_LATLONG) {
         return glint_cube_from_latlong(&source->image, chart->on_edges,
                                        glint_latlong_edge(chart->height), cube, error);
@@ -80,7 +83,7 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
         return glint_environment_studio(environment, error);
     }
     glint_source source;
-    TRY(glint_source_load(path, request, &source, warnings, error));
+    TRY(glint_source_open(path, request, &source, warnings, error));
     return finish(path, &source, environment, error);
 }
 

@@ -6,6 +6,7 @@
 #include "environment/chart.h"
 #include "environment/recognise.h"
 #include "image/image.h"
+#include "image/stored.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,7 +14,8 @@ extern "C" {
 
 // Zero is valid: no picture.
 typedef struct glint_source {
-    glint_image image; // radiance; six files become one picture of layout FACES
+    glint_image image;   // radiance; six files become one picture of layout FACES
+    glint_stored stored; // the file's values, if `image` has no pixels (glint_source_open)
     glint_chart chart;
     const char *reason;   // how glint knows the layout; static text
     size_t mended_texels; // NaN, infinite or negative texels, replaced (see radiance.h)
@@ -21,6 +23,11 @@ typedef struct glint_source {
 
 // Loads the picture of `path`. Arguments and errors: as glint_environment_load.
 glint_status glint_source_load(const char *path, const glint_layout_request *request,
+                               glint_source *source, glint_warnings *warnings, glint_error *error);
+
+// Does the same, but leaves faces of 8- or 16-bit codes in `stored`: they are needed once, texel by
+// texel, and take a quarter of the memory there.
+glint_status glint_source_open(const char *path, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 
 // Does the same with a single file's content. Takes the image over, and frees it on failure.

@@ -46,11 +46,6 @@ static size_t count_pixels(const glint_stored_facts *facts)
     return (size_t)facts->width * (size_t)facts->height;
 }
 
-// The value of each code: unchanged, and linearised.
-typedef struct meanings {
-    float *plain, *linear;
-} meanings;
-
 #define CHUNK 4096       // number of pixels read at a time
 #define BAND (8 * CHUNK) // number of pixels that a thread develops at a time
 
@@ -61,7 +56,7 @@ typedef struct chunk {
 } chunk;
 
 // Is compiled once for each width of codes.
-static inline void develop_each(const glint_stored_facts *facts, const meanings *of,
+static inline void develop_each(const glint_stored_facts *facts, const glint_development *of,
                                 const chunk *from, bool is_wide, float *pixels)
 {
     const uint8_t *narrow = (const uint8_t *)from->values;
@@ -95,35 +90,24 @@ static size_t bytes_each(const glint_stored_facts *facts)
                                  : sizeof(float);
 }
 
-// The data that all threads share.
-typedef struct development {
-    const glint_stored *stored;
-    meanings of; // of codes
-    float *pixels;
-    atomic_bool is_cut; // values are missing
-} development;
-
-static void develop_chunk(const development *d, const chunk *from, float *pixels)
+static void develop_chunk(const glint_development *d, const chunk *from, float *pixels)
 {
     const glint_stored_facts *facts = &d->stored->facts;
     if (facts->code_bits == 16) {
-        develop_each(facts, &d->of, from, true, pixels);
+        develop_each(facts, d, from, true, pixels);
     } else if (facts->code_bits == 8) {
-        develop_each(facts, &d->of, from, false, pixels);
+        develop_each(facts, d, from, false, pixels);
     } else {
         glint_halfs_to_floats(from->values, from->pixels * (size_t)facts->channels, pixels);
         multiply_alpha(facts, pixels, from->pixels);
     }
 }
 
-// Develops the pixels from `first` to `end`. False if values are missing.
-static bool develop_pixels(const development *d, size_t first, size_t end)
+bool glint_development_read(const glint_development *d, size_t first, size_t count, float *pixels)
 {
     const glint_stored_facts *facts = &d->stored->facts;
     const size_t channels = (size_t)facts->channels, bytes = channels * bytes_each(facts);
     if (facts->code_bits == 0 && facts->is_half == 0) {
-        float *pixels = d->pixels + first * channels;
-        const size_t count = end - first;
         if (glint_stored_read(d->stored, first * bytes, pixels, count * bytes, NULL) != GLINT_OK) {
             return false;
         }
@@ -131,51 +115,70 @@ static bool develop_pixels(const development *d, size_t first, size_t end)
         return true;
     }
     chunk from;
-    for (; first < end; first += from.pixels) {
-        from.pixels = end - first < CHUNK ? end - first : CHUNK;
-        if (glint_stored_read(d->stored, first * bytes, from.values, from.pixels * bytes, NULL) !=
-            GLINT_OK) {
+    for (size_t done = 0; done < count; done += from.pixels) {
+        from.pixels = count - done < CHUNK ? count - done : CHUNK;
+        if (glint_stored_read(d->stored, (first + done) * bytes, from.values, from.pixels * bytes,
+                              NULL) != GLINT_OK) {
             return false;
         }
-        develop_chunk(d, &from, d->pixels + first * channels);
+        develop_chunk(d, &from, pixels + done * channels);
     }
     return true;
 }
 
-static void develop_band(size_t index, void *context)
+glint_status glint_development_begin(const glint_stored *stored, glint_development *development,
+                                     glint_error *error)
 {
-    development *d = context;
-    const size_t count = count_pixels(&d->stored->facts), first = index * BAND;
-    if (!develop_pixels(d, first, count - first < BAND ? count : first + BAND)) {
-        atomic_store(&d->is_cut, true);
-    }
-}
-
-static glint_status make_meanings(const glint_stored_facts *facts, meanings *of, glint_error *error)
-{
+    const glint_stored_facts *facts = &stored->facts;
     const unsigned most = facts->code_bits == 16 ? UINT16_MAX : UINT8_MAX;
+    *development = (glint_development){.stored = stored};
+    if (facts->code_bits == 0) {
+        return GLINT_OK;
+    }
     float *values = glint_allocate_unset(most + 1, 2 * sizeof *values);
     if (values == NULL) {
         return glint_fail_memory(error, "an image");
     }
-    *of = (meanings){values, values + most + 1};
+    development->plain = values;
+    development->linear = values + most + 1;
     for (unsigned code = 0; code <= most; code++) {
-        of->plain[code] = (float)((double)code / most);
-        of->linear[code] = linear_of(facts, of->plain[code]);
+        development->plain[code] = (float)((double)code / most);
+        development->linear[code] = linear_of(facts, development->plain[code]);
     }
     return GLINT_OK;
 }
 
+void glint_development_end(glint_development *development)
+{
+    free(development->plain);
+    *development = (glint_development){0};
+}
+
+// The data that all threads share.
+typedef struct job {
+    glint_development development;
+    float *pixels;
+    atomic_bool is_cut; // values are missing
+} job;
+
+static void develop_band(size_t index, void *context)
+{
+    job *shared = context;
+    const glint_stored_facts *facts = &shared->development.stored->facts;
+    const size_t first = index * BAND, left = count_pixels(facts) - first;
+    if (!glint_development_read(&shared->development, first, left < BAND ? left : BAND,
+                                shared->pixels + first * (size_t)facts->channels)) {
+        atomic_store(&shared->is_cut, true);
+    }
+}
+
 static glint_status develop_values(const glint_stored *stored, float *pixels, glint_error *error)
 {
-    const glint_stored_facts *facts = &stored->facts;
-    development d = {.stored = stored, .pixels = pixels};
-    if (facts->code_bits != 0) {
-        TRY(make_meanings(facts, &d.of, error));
-    }
-    glint_parallel_for((count_pixels(facts) + BAND - 1) / BAND, develop_band, &d);
-    free(d.of.plain);
-    return atomic_load(&d.is_cut) ? glint_stored_fail_of_cut(stored, error) : GLINT_OK;
+    job shared = {.pixels = pixels};
+    TRY(glint_development_begin(stored, &shared.development, error));
+    glint_parallel_for((count_pixels(&stored->facts) + BAND - 1) / BAND, develop_band, &shared);
+    glint_development_end(&shared.development);
+    return atomic_load(&shared.is_cut) ? glint_stored_fail_of_cut(stored, error) : GLINT_OK;
 }
 
 // The stored place of pixel (x, y) of an upright image of `width` × `height`. EXIF's numbers: 2
