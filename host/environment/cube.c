@@ -8,10 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-// Far above every useful size, and below an int's overflow: (edge + 2)² × 6 × 4 < 2³¹.
-#define EDGE_MAX 9000
-_Static_assert(EDGE_MAX >> GLINT_LEVELS_MAX == 0, "a cube of EDGE_MAX has too many levels");
+_Static_assert(GLINT_CUBE_EDGE_MAX >> GLINT_LEVELS_MAX == 0,
+               "the largest cube has too many levels");
 
 static const int s_axis[GLINT_CUBE_FACES] = GLINT_CUBE_S_AXIS;
 static const int s_sign[GLINT_CUBE_FACES] = GLINT_CUBE_S_SIGN;
@@ -22,17 +22,17 @@ static glint_status create(int edge, void *(*allocate)(size_t, size_t), glint_cu
                            glint_error *error)
 {
     *cube = (glint_cube){0};
-    if (edge < 1 || edge > EDGE_MAX) {
+    if (edge < 1 || edge > GLINT_CUBE_EDGE_MAX) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "environment: a cube of %d texels an edge (1 to %d can be held)", edge,
-                          EDGE_MAX);
+                          GLINT_CUBE_EDGE_MAX);
     }
     glint_cube sized = {.edge = edge};
     float *texels = allocate(glint_cube_size(&sized), sizeof(float));
     if (texels == NULL) {
         return glint_fail_memory(error, "an environment");
     }
-    *cube = (glint_cube){edge, texels};
+    *cube = (glint_cube){.edge = edge, .texels = texels};
     return GLINT_OK;
 }
 
@@ -48,7 +48,12 @@ glint_status glint_cube_create_unset(int edge, glint_cube *cube, glint_error *er
 
 void glint_cube_free(glint_cube *cube)
 {
-    free(cube->texels);
+    if (cube->mapped_from > 0) {
+        char *mapped = (char *)cube->texels - cube->mapped_from;
+        munmap(mapped, cube->mapped_from + glint_cube_size(cube) * sizeof(float));
+    } else {
+        free(cube->texels);
+    }
     *cube = (glint_cube){0};
 }
 

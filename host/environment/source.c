@@ -18,7 +18,7 @@ static const glint_layout_request nothing_known = {0};
 glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error)
 {
-    *source = (glint_source){.image = file->image};
+    *source = (glint_source){.image = file->image, .facts = file->facts};
     glint_recognised what;
     const glint_status status =
         glint_layout_recognise(file, request != NULL ? request : &nothing_known, &what, error);
@@ -53,8 +53,11 @@ static bool leave_stored(const char *path, const glint_layout_request *request,
         glint_layout_cells(what.chart.layout, NULL, NULL) == NULL) {
         return false;
     }
-    *source = (glint_source){
-        .image = file.image, .stored = *stored, .chart = what.chart, .reason = what.reason};
+    *source = (glint_source){.image = file.image,
+                             .stored = *stored,
+                             .facts = file.facts,
+                             .chart = what.chart,
+                             .reason = what.reason};
     return true;
 }
 
@@ -156,15 +159,20 @@ cleanup:
     return status;
 }
 
-static glint_status load_faces(const char *path, bool is_folder, glint_source *source,
-                               glint_warnings *warnings, glint_error *error)
+static void recognise_faces(bool is_folder, glint_source *source)
 {
-    TRY(read_faces(path, is_folder, &source->image, error));
     source->chart = (glint_chart){.layout = GLINT_LAYOUT_FACES,
                                   .width = source->image.width,
                                   .height = source->image.height,
                                   .distance = INFINITY};
     source->reason = is_folder ? "six faces in a folder" : "six faces by a pattern";
+}
+
+static glint_status load_faces(const char *path, bool is_folder, glint_source *source,
+                               glint_warnings *warnings, glint_error *error)
+{
+    TRY(read_faces(path, is_folder, &source->image, error));
+    recognise_faces(is_folder, source);
     source->mended_texels = glint_radiance_mend(path, &source->image, warnings);
     return GLINT_OK;
 }
@@ -196,6 +204,21 @@ glint_status glint_source_open(const char *path, const glint_layout_request *req
                                glint_source *source, glint_warnings *warnings, glint_error *error)
 {
     return load(path, request, true, source, warnings, error);
+}
+
+glint_status glint_source_recall(const char *path, const glint_layout_request *request, bool is_set,
+                                 bool is_folder, glint_source *source, glint_error *error)
+{
+    if (is_set) {
+        recognise_faces(is_folder, source);
+        return GLINT_OK;
+    }
+    const glint_image_file file = {path, source->image, source->facts};
+    glint_recognised what;
+    TRY(glint_layout_recognise(&file, request != NULL ? request : &nothing_known, &what, error));
+    source->chart = what.chart;
+    source->reason = what.reason;
+    return GLINT_OK;
 }
 
 void glint_source_free(glint_source *source)

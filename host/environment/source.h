@@ -8,14 +8,17 @@
 #include "image/image.h"
 #include "image/stored.h"
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 // Zero is valid: no picture.
 typedef struct glint_source {
-    glint_image image;   // radiance; six files become one picture of layout FACES
-    glint_stored stored; // the file's values, if `image` has no pixels (glint_source_open)
+    glint_image image;       // radiance; six files become one picture of layout FACES
+    glint_stored stored;     // the file's values, if `image` has no pixels (glint_source_open)
+    glint_image_facts facts; // of a single file
     glint_chart chart;
     const char *reason;   // how glint knows the layout; static text
     size_t mended_texels; // NaN, infinite or negative texels, replaced (see radiance.h)
@@ -33,6 +36,11 @@ glint_status glint_source_open(const char *path, const glint_layout_request *req
 // Does the same with a single file's content. Takes the image over, and frees it on failure.
 glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
+
+// Recognises a picture again of which only the size and the facts are known, in `source`. `is_set`:
+// it was six files, of a folder if `is_folder`. Errors: GLINT_BAD_INPUT.
+glint_status glint_source_recall(const char *path, const glint_layout_request *request, bool is_set,
+                                 bool is_folder, glint_source *source, glint_error *error);
 
 void glint_source_free(glint_source *source);
 

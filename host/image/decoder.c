@@ -495,3 +495,8 @@ void glint_decoder_allow_large(void)
 {
     large_is_allowed = true;
 }
+
+bool glint_decoder_allows_large(void)
+{
+    return large_is_allowed;
+}

@@ -61,8 +61,9 @@ void glint_decoder_start(void);
 // Sets the number of threads that decode a file. 0, the default, is one for each core.
 void glint_decoder_use_threads(int count);
 
-// Lifts the limits of files (--allow-large-images).
+// Lifts the limits of files (--allow-large-images); true if it did.
 void glint_decoder_allow_large(void);
+bool glint_decoder_allows_large(void);
 
 #ifdef __cplusplus
 }
