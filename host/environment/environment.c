@@ -1,7 +1,6 @@
 // Loads environments: makes cube maps from files. See environment.h.
 #include "environment/environment.h"
 
-#include "base/clock.h"
 #include "environment/faces.h"
 #include "environment/kept.h"
 #include "environment/latlong.h"
@@ -83,7 +82,7 @@ cleanup:
 
 // ---- The cache ----------------------------------------------------------------------------------
 
-#define WORTH_KEEPING_MS 50 // what loads faster is not kept
+#define KEPT_EDGE_MIN 512 // smaller cubes are made in under 50 ms
 
 bool glint_environment_is_likely_kept(const char *path)
 {
@@ -111,15 +110,14 @@ static bool take_kept(const char *path, const glint_layout_request *request,
     return true;
 }
 
-// Keeps an environment that took `ms` to load. What was warned of is not kept, so that each run
-// warns.
-static void keep(const glint_kept_key *key, const glint_source *source, double ms,
+// Keeps an environment. What was warned of is not kept, so that each run warns.
+static void keep(const glint_kept_key *key, const glint_source *source,
                  glint_environment *environment)
 {
     const glint_image *image = &source->image;
     const bool is_stretched =
         source->chart.layout == GLINT_LAYOUT_LATLONG && image->width != 2 * image->height;
-    if (ms < WORTH_KEEPING_MS || source->mended_texels > 0 || is_stretched ||
+    if (environment->radiance.edge < KEPT_EDGE_MIN || source->mended_texels > 0 || is_stretched ||
         !glint_kept_key_holds(environment->name, key)) {
         return;
     }
@@ -144,7 +142,6 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
     if (request != NULL && request->layout == GLINT_LAYOUT_STUDIO) {
         return glint_environment_studio(environment, error);
     }
-    const double begun = glint_now_ms();
     glint_kept_key key;
     const bool has_key = glint_kept_is_on() && glint_kept_key_make(path, request, &key);
     if (has_key && take_kept(path, request, &key, environment)) {
@@ -154,7 +151,7 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
     TRY(glint_source_open(path, request, &source, warnings, error));
     const glint_status status = make(path, &source, environment, error);
     if (has_key && status == GLINT_OK) {
-        keep(&key, &source, glint_now_ms() - begun, environment);
+        keep(&key, &source, environment);
     }
     glint_source_free(&source);
     return status;

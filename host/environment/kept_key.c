@@ -56,12 +56,13 @@ static bool list_files(const char *path, file_list *list)
 // The data that all threads share.
 typedef struct hashing {
     int file;
+    const char *memory; // NULL: read the file
     uint64_t bytes;
     uint64_t *parts;
     atomic_bool has_failed;
 } hashing;
 
-static void hash_part(size_t index, void *context)
+static void hash_file_part(size_t index, void *context)
 {
     hashing *shared = context;
     const uint64_t first = index * PART, left = shared->bytes - first;
@@ -88,17 +89,24 @@ static void hash_part(size_t index, void *context)
     (void)XXH3_freeState(state);
 }
 
-// Hashes an open regular file of `bytes`.
-static bool hash_open_file(int file, uint64_t bytes, XXH3_state_t *into)
+static void hash_memory_part(size_t index, void *context)
+{
+    const hashing *shared = context;
+    const uint64_t first = index * PART, left = shared->bytes - first;
+    shared->parts[index] = XXH3_64bits(shared->memory + first, left < PART ? left : PART);
+}
+
+// Hashes an open regular file of `bytes`, or bytes in memory.
+static bool hash_bytes(int file, const char *memory, uint64_t bytes, XXH3_state_t *into)
 {
     const size_t count = (size_t)((bytes + PART - 1) / PART);
-    hashing shared = {.file = file, .bytes = bytes};
+    hashing shared = {.file = file, .memory = memory, .bytes = bytes};
     shared.parts = calloc(count + 1, sizeof *shared.parts);
     if (shared.parts == NULL || count > PARTS_MAX) {
         free(shared.parts);
         return false;
     }
-    glint_parallel_for(count, hash_part, &shared);
+    glint_parallel_for(count, memory != NULL ? hash_memory_part : hash_file_part, &shared);
     shared.parts[count] = bytes;
     (void)XXH3_128bits_update(into, shared.parts, (count + 1) * sizeof *shared.parts);
     free(shared.parts);
@@ -112,7 +120,7 @@ static bool hash_file(const char *path, struct stat *facts, XXH3_state_t *into)
         return false;
     }
     const bool is_good = fstat(file, facts) == 0 && S_ISREG(facts->st_mode) &&
-                         hash_open_file(file, (uint64_t)facts->st_size, into);
+                         hash_bytes(file, NULL, (uint64_t)facts->st_size, into);
     close(file);
     return is_good;
 }
@@ -144,6 +152,30 @@ static void hash_request(const glint_layout_request *request, const file_list *l
     (void)XXH3_128bits_update(into, numbers, sizeof numbers);
 }
 
+static void finish(XXH3_state_t *state, glint_kept_key *key)
+{
+    hash_program(state);
+    const XXH128_hash_t hash = XXH3_128bits_digest(state);
+    key->hash[0] = hash.low64;
+    key->hash[1] = hash.high64;
+}
+
+bool glint_kept_key_of_cube(const glint_cube *cube, int edge, glint_kept_key *key)
+{
+    const size_t bytes = glint_cube_size(cube) * sizeof(float);
+    const int64_t what[] = {cube->edge, edge};
+    *key = (glint_kept_key){.bytes = bytes};
+    XXH3_state_t *state = XXH3_createState();
+    const bool is_good = state != NULL && XXH3_128bits_reset(state) == XXH_OK &&
+                         hash_bytes(-1, (const char *)cube->texels, bytes, state);
+    if (is_good) {
+        (void)XXH3_128bits_update(state, what, sizeof what);
+        finish(state, key);
+    }
+    (void)XXH3_freeState(state);
+    return is_good;
+}
+
 bool glint_kept_key_make(const char *path, const glint_layout_request *request, glint_kept_key *key)
 {
     *key = (glint_kept_key){0};
@@ -155,11 +187,8 @@ bool glint_kept_key_make(const char *path, const glint_layout_request *request, 
         key->bytes += (uint64_t)key->files[i].st_size;
     }
     if (is_good) {
-        hash_program(state);
         hash_request(request, &list, state);
-        const XXH128_hash_t hash = XXH3_128bits_digest(state);
-        key->hash[0] = hash.low64;
-        key->hash[1] = hash.high64;
+        finish(state, key);
     }
     key->file_count = list.count;
     key->is_folder = list.is_folder;

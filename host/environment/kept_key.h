@@ -2,6 +2,7 @@
 #ifndef GLINT_ENVIRONMENT_KEPT_KEY_H
 #define GLINT_ENVIRONMENT_KEPT_KEY_H
 
+#include "environment/cube.h"
 #include "environment/layouts.h"
 
 #include <stdbool.h>
@@ -22,6 +23,9 @@ typedef struct glint_kept_key {
 // false if that fails.
 bool glint_kept_key_make(const char *path, const glint_layout_request *request,
                          glint_kept_key *key);
+
+// Makes the key of a map of this edge that is computed from a cube. Returns false without memory.
+bool glint_kept_key_of_cube(const glint_cube *cube, int edge, glint_kept_key *key);
 
 // True if the files surely are those that were hashed. Files that were modified in the last two
 // seconds may have changed without a new time of modification.
