@@ -341,8 +341,9 @@ static double plain_texel(const glint_image *image, bool on_edges, int edge, con
         image, edge, openexr_cube_direction(at[0], (at[1] + 0.5) / edge, (at[2] + 0.5) / edge));
     double sum = 0;
     for (int k = 0; k < taps * taps; k++) {
-        const double column = (at[1] + (k % taps + 0.5) / taps) / edge;
-        const double row = (at[2] + (k / taps + 0.5) / taps) / edge;
+        const int i = k % taps, j = k / taps;
+        const double column = (at[1] + (i + 0.5) / taps) / edge;
+        const double row = (at[2] + (j + 0.5) / taps) / edge;
         sum += plain_look_up(image, on_edges, openexr_cube_direction(at[0], column, row), channel);
     }
     return sum / (taps * taps);

@@ -100,8 +100,7 @@ static bool take_kept(const char *path, const glint_layout_request *request,
     glint_source source = {.image = {kept.width, kept.height, kept.channels, NULL},
                            .facts = {.envmap = (glint_envmap)kept.envmap,
                                      .is_direct3d_cube = kept.is_direct3d_cube != 0}};
-    if (glint_source_recall(path, request, key->is_set, key->is_folder, &source, NULL) !=
-            GLINT_OK ||
+    if (glint_source_recall(path, request, key->kind, &source, NULL) != GLINT_OK ||
         set_name(path, environment, NULL) != GLINT_OK) {
         glint_environment_free(environment);
         return false;

@@ -96,7 +96,7 @@ static void fill_band(size_t index, void *context)
         }
     }
     for (int j = first; j < first + BAND && j < edge; j++) {
-        if (shared->chart->on_edges) {
+        if (shared->image != NULL && shared->chart->on_edges) {
             interpolate_row(shared, face, j);
         } else {
             fill_row(shared, face, j, converted);

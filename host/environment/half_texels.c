@@ -61,7 +61,7 @@ static void sum_errors(const float *texels, const double *weights, int count, fl
                        row_sums *sums)
 {
     uint16_t halfs[4 * CHUNK];
-    float errors[4 * CHUNK], seen[4 * CHUNK];
+    float errors[4 * CHUNK] = {0}, seen[4 * CHUNK] = {0};
     glint_floats_to_halfs(texels, 4 * (size_t)count, halfs);
     glint_halfs_to_floats(halfs, 4 * (size_t)count, errors);
     for (int k = 0; k < 4 * count; k++) {

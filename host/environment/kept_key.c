@@ -25,23 +25,19 @@ typedef struct file_list {
     glint_face_files faces;
     const char *paths[6];
     int count;
-    bool is_folder, is_set;
+    glint_source_kind kind;
 } file_list;
 
 // Lists the files of `path`, as glint_source_load finds them. The caller frees `faces`.
 static bool list_files(const char *path, file_list *list)
 {
-    struct stat facts;
-    *list = (file_list){0};
-    const bool exists = stat(path, &facts) == 0;
-    list->is_folder = exists && S_ISDIR(facts.st_mode);
-    list->is_set = list->is_folder || (!exists && strstr(path, "%s") != NULL);
-    if (!list->is_set) {
+    *list = (file_list){.kind = glint_source_kind_of(path)};
+    if (list->kind == GLINT_SOURCE_FILE) {
         list->paths[0] = path;
         list->count = 1;
-        return exists;
+        return true;
     }
-    const glint_status status = list->is_folder
+    const glint_status status = list->kind == GLINT_SOURCE_FOLDER
                                     ? glint_face_files_in_folder(path, &list->faces, NULL)
                                     : glint_face_files_by_pattern(path, &list->faces, NULL);
     for (int face = 0; face < 6; face++) {
@@ -144,8 +140,7 @@ static void hash_request(const glint_layout_request *request, const file_list *l
 {
     static const glint_layout_request nothing = {0};
     request = request != NULL ? request : &nothing;
-    const int64_t flags[] = {request->layout, list->is_folder, list->is_set,
-                             glint_decoder_allows_large()};
+    const int64_t flags[] = {request->layout, list->kind, glint_decoder_allows_large()};
     const double numbers[] = {request->circle[0], request->circle[1], request->circle[2],
                               request->ball_distance, request->ball_fov};
     (void)XXH3_128bits_update(into, flags, sizeof flags);
@@ -191,8 +186,7 @@ bool glint_kept_key_make(const char *path, const glint_layout_request *request, 
         finish(state, key);
     }
     key->file_count = list.count;
-    key->is_folder = list.is_folder;
-    key->is_set = list.is_set;
+    key->kind = list.kind;
     (void)XXH3_freeState(state);
     glint_face_files_free(&list.faces);
     return is_good;

@@ -4,6 +4,7 @@
 
 #include "environment/cube.h"
 #include "environment/layouts.h"
+#include "environment/source.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -16,7 +17,7 @@ typedef struct glint_kept_key {
     // To notice a file that changes while it is read.
     struct stat files[6];
     int file_count;
-    bool is_folder, is_set; // a folder; six files, by a folder or a pattern
+    glint_source_kind kind;
 } glint_kept_key;
 
 // Makes the key of `path` (see glint_environment_load). Reads all files, on all cores. Returns

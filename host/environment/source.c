@@ -61,14 +61,13 @@ static bool leave_stored(const char *path, const glint_layout_request *request,
     return true;
 }
 
-// With `may_leave`: see glint_source_open.
-static glint_status load_file(const char *path, const glint_layout_request *request, bool may_leave,
+static glint_status open_file(const char *path, const glint_layout_request *request,
                               glint_source *source, glint_warnings *warnings, glint_error *error)
 {
     glint_image_file file = {.name = path};
     glint_stored stored;
     TRY(glint_image_read_stored(path, &stored, error));
-    if (may_leave && leave_stored(path, request, &stored, source)) {
+    if (leave_stored(path, request, &stored, source)) {
         return GLINT_OK;
     }
     file.facts = glint_image_facts_of(&stored);
@@ -179,38 +178,46 @@ static glint_status load_faces(const char *path, bool is_folder, glint_source *s
 
 // ---- Either -------------------------------------------------------------------------------------
 
-static glint_status load(const char *path, const glint_layout_request *request, bool may_leave,
-                         glint_source *source, glint_warnings *warnings, glint_error *error)
+glint_source_kind glint_source_kind_of(const char *path)
 {
-    *source = (glint_source){0};
-    request = request != NULL ? request : &nothing_known;
     struct stat facts;
-    const bool exists = stat(path, &facts) == 0;
-    const bool is_folder = exists && S_ISDIR(facts.st_mode);
-    if (is_folder || (!exists && strstr(path, "%s") != NULL)) {
-        TRY(check_asked(path, is_folder, request->layout, error));
-        return load_faces(path, is_folder, source, warnings, error);
+    if (stat(path, &facts) != 0) {
+        return strstr(path, "%s") != NULL ? GLINT_SOURCE_PATTERN : GLINT_SOURCE_FILE;
     }
-    return load_file(path, request, may_leave, source, warnings, error);
-}
-
-glint_status glint_source_load(const char *path, const glint_layout_request *request,
-                               glint_source *source, glint_warnings *warnings, glint_error *error)
-{
-    return load(path, request, false, source, warnings, error);
+    return S_ISDIR(facts.st_mode) ? GLINT_SOURCE_FOLDER : GLINT_SOURCE_FILE;
 }
 
 glint_status glint_source_open(const char *path, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error)
 {
-    return load(path, request, true, source, warnings, error);
+    *source = (glint_source){0};
+    request = request != NULL ? request : &nothing_known;
+    const glint_source_kind kind = glint_source_kind_of(path);
+    if (kind == GLINT_SOURCE_FILE) {
+        return open_file(path, request, source, warnings, error);
+    }
+    TRY(check_asked(path, kind == GLINT_SOURCE_FOLDER, request->layout, error));
+    return load_faces(path, kind == GLINT_SOURCE_FOLDER, source, warnings, error);
 }
 
-glint_status glint_source_recall(const char *path, const glint_layout_request *request, bool is_set,
-                                 bool is_folder, glint_source *source, glint_error *error)
+glint_status glint_source_load(const char *path, const glint_layout_request *request,
+                               glint_source *source, glint_warnings *warnings, glint_error *error)
 {
-    if (is_set) {
-        recognise_faces(is_folder, source);
+    TRY(glint_source_open(path, request, source, warnings, error));
+    if (source->image.pixels != NULL) {
+        return GLINT_OK;
+    }
+    const glint_status status = glint_stored_develop(&source->stored, &source->image, error);
+    glint_stored_free(&source->stored);
+    source->stored = (glint_stored){0};
+    return status;
+}
+
+glint_status glint_source_recall(const char *path, const glint_layout_request *request,
+                                 glint_source_kind kind, glint_source *source, glint_error *error)
+{
+    if (kind != GLINT_SOURCE_FILE) {
+        recognise_faces(kind == GLINT_SOURCE_FOLDER, source);
         return GLINT_OK;
     }
     const glint_image_file file = {path, source->image, source->facts};

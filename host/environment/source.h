@@ -8,8 +8,6 @@
 #include "image/image.h"
 #include "image/stored.h"
 
-#include <stdbool.h>
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -24,6 +22,14 @@ typedef struct glint_source {
     size_t mended_texels; // NaN, infinite or negative texels, replaced (see radiance.h)
 } glint_source;
 
+// What `path` names: a file, or six of them.
+typedef enum glint_source_kind {
+    GLINT_SOURCE_FILE,
+    GLINT_SOURCE_FOLDER,
+    GLINT_SOURCE_PATTERN, // with %s for the face's name
+} glint_source_kind;
+glint_source_kind glint_source_kind_of(const char *path);
+
 // Loads the picture of `path`. Arguments and errors: as glint_environment_load.
 glint_status glint_source_load(const char *path, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
@@ -37,10 +43,10 @@ glint_status glint_source_open(const char *path, const glint_layout_request *req
 glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 
-// Recognises a picture again of which only the size and the facts are known, in `source`. `is_set`:
-// it was six files, of a folder if `is_folder`. Errors: GLINT_BAD_INPUT.
-glint_status glint_source_recall(const char *path, const glint_layout_request *request, bool is_set,
-                                 bool is_folder, glint_source *source, glint_error *error);
+// Recognises a picture again, of which `source` has only the size and the facts. Errors:
+// GLINT_BAD_INPUT.
+glint_status glint_source_recall(const char *path, const glint_layout_request *request,
+                                 glint_source_kind kind, glint_source *source, glint_error *error);
 
 void glint_source_free(glint_source *source);
 

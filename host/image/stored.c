@@ -172,9 +172,10 @@ static void develop_band(size_t index, void *context)
     }
 }
 
-static glint_status develop_values(const glint_stored *stored, float *pixels, glint_error *error)
+static glint_status develop_values(const glint_stored *stored, glint_image *image,
+                                   glint_error *error)
 {
-    job shared = {.pixels = pixels};
+    job shared = {.pixels = image->pixels};
     TRY(glint_development_begin(stored, &shared.development, error));
     glint_parallel_for((count_pixels(&stored->facts) + BAND - 1) / BAND, develop_band, &shared);
     glint_development_end(&shared.development);
@@ -225,7 +226,7 @@ static glint_status set_upright(int orientation, glint_image *image, glint_error
 
 static glint_status develop(const glint_stored *stored, glint_image *image, glint_error *error)
 {
-    TRY(develop_values(stored, image->pixels, error));
+    TRY(develop_values(stored, image, error));
     return set_upright(stored->facts.orientation, image, error);
 }
 
