@@ -42,8 +42,9 @@ static bool leave_stored(const char *path, const glint_layout_request *request,
                          const glint_stored *stored, glint_source *source)
 {
     const glint_stored_facts *facts = &stored->facts;
-    // Codes are always radiance, so nothing needs mending.
-    if (facts->code_bits == 0 || facts->orientation > 1) {
+    // Codes are always radiance, so nothing needs mending, except after an odd power.
+    if (facts->code_bits == 0 || facts->transfer == GLINT_TRANSFER_POWER ||
+        facts->orientation > 1) {
         return false;
     }
     const glint_image_file file = {
