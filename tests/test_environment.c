@@ -338,6 +338,75 @@ static void grey_is_repeated_and_alpha_is_not_used(void **state)
     }
 }
 
+// The place of texel (i, j) of +X −X +Y −Y +Z −Z in a picture of faces: column and row of the face,
+// by the pictures that docs/environments.md describes. The last face of a vertical cross is upside
+// down.
+static void code_place(glint_layout layout, int face, int at[2], int edge)
+{
+    static const int hcross[6][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {3, 1}, {1, 1}};
+    static const int vcross[6][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 3}, {1, 1}};
+    static const int strip[6] = {0, 1, 2, 3, 5, 4};
+    if (layout == GLINT_LAYOUT_VCROSS && face == 4) {
+        at[0] = edge - 1 - at[0];
+        at[1] = edge - 1 - at[1];
+    }
+    const int column = layout == GLINT_LAYOUT_HCROSS   ? hcross[face][0]
+                       : layout == GLINT_LAYOUT_VCROSS ? vcross[face][0]
+                       : layout == GLINT_LAYOUT_HSTRIP ? strip[face]
+                                                       : 0;
+    const int row = layout == GLINT_LAYOUT_HCROSS   ? hcross[face][1]
+                    : layout == GLINT_LAYOUT_VCROSS ? vcross[face][1]
+                    : layout == GLINT_LAYOUT_HSTRIP ? 0
+                                                    : strip[face];
+    at[0] += column * edge;
+    at[1] += row * edge;
+}
+
+// Faces of codes go to the cube without an image between. The judge is the image.
+static void faces_of_codes_are_the_pixels_of_the_image(void **state)
+{
+    (void)state;
+    enum { EDGE = 19 };
+    static const struct {
+        glint_layout layout;
+        int across, down, channels;
+    } pictures[] = {{GLINT_LAYOUT_HCROSS, 4, 3, 3},
+                    {GLINT_LAYOUT_VCROSS, 3, 4, 4},
+                    {GLINT_LAYOUT_HSTRIP, 6, 1, 1},
+                    {GLINT_LAYOUT_VSTRIP, 1, 6, 2},
+                    {GLINT_LAYOUT_VSTRIP, 1, 6, 4}};
+    for (size_t p = 0; p < sizeof pictures / sizeof pictures[0]; p++) {
+        const int channels = pictures[p].channels;
+        glint_image image;
+        assert_int_equal(glint_image_create(pictures[p].across * EDGE, pictures[p].down * EDGE,
+                                            channels, &image, NULL),
+                         GLINT_OK);
+        for (int k = 0; k < image.width * image.height * channels; k++) {
+            image.pixels[k] = (float)fabs(next_random());
+        }
+        assert_int_equal(glint_image_write(scratch_path("codes.png"), &image, NULL, NULL),
+                         GLINT_OK);
+        glint_image_free(&image);
+        assert_int_equal(glint_image_read(scratch_path("codes.png"), &image, NULL, NULL), GLINT_OK);
+        glint_environment environment = load(scratch_path("codes.png"), pictures[p].layout, NULL);
+        assert_int_equal(environment.radiance.edge, EDGE);
+        assert_int_equal(environment.mended_texels, 0);
+        for (int k = 0; k < 6 * EDGE * EDGE; k++) {
+            const int face = k / EDGE / EDGE, i = k % EDGE, j = k / EDGE % EDGE;
+            int at[2] = {i, j};
+            code_place(pictures[p].layout, face, at, EDGE);
+            const float *texel = glint_cube_texel(&environment.radiance, face, i, j);
+            const float *pixel = glint_image_pixel(&image, at[0], at[1]);
+            for (int c = 0; c < 3; c++) {
+                assert_true(texel[c] == pixel[image.channels >= 3 ? c : 0]);
+            }
+            assert_true(texel[3] == 1.0f);
+        }
+        glint_environment_free(&environment);
+        glint_image_free(&image);
+    }
+}
+
 // ---- The studio ---------------------------------------------------------------------------------
 
 static void studio_is_bright_and_dark_and_smooth(void **state)
@@ -504,6 +573,7 @@ int main(void)
         IN_FOLDER(shapes_that_say_too_little_are_refused_with_choices),
         IN_FOLDER(an_odd_latlong_is_taken_when_asked_and_warned_of),
         IN_FOLDER(values_that_are_no_radiance_are_mended_and_counted),
+        IN_FOLDER(faces_of_codes_are_the_pixels_of_the_image),
         IN_FOLDER(grey_is_repeated_and_alpha_is_not_used),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

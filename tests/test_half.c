@@ -112,6 +112,62 @@ static void the_ends_of_the_range_are_kept(void **state)
     assert_int_equal(glint_half_from_float(1e-45f), 0); // the smallest float
 }
 
+// Arrays may use other instructions, whose judge is the conversion of one value.
+static void arrays_are_converted_like_single_values(void **state)
+{
+    (void)state;
+    enum { COUNT = 1 << 16 };
+    static uint16_t halfs[COUNT];
+    static float floats[COUNT];
+    for (unsigned half = 0; half < COUNT; half++) {
+        halfs[half] = (uint16_t)half;
+    }
+    glint_halfs_to_floats(halfs, COUNT, floats);
+    for (unsigned half = 0; half < COUNT; half++) {
+        const float wanted = glint_half_to_float((uint16_t)half);
+        assert_true(isnan(wanted) ? isnan(floats[half])
+                                  : glint_float_bits(floats[half]) == glint_float_bits(wanted));
+    }
+    uint64_t random = 7;
+    for (int round = 0; round < 32; round++) {
+        for (int i = 0; i < COUNT; i++) {
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            floats[i] = glint_float_from_bits((uint32_t)(random >> 32));
+        }
+        glint_floats_to_halfs(floats, COUNT, halfs);
+        for (int i = 0; i < COUNT; i++) {
+            if (isnan(floats[i])) {
+                assert_true(isnan(glint_half_to_float(halfs[i])));
+            } else {
+                assert_int_equal(halfs[i], glint_half_from_float(floats[i]));
+            }
+        }
+    }
+}
+
+// Nothing is written beyond the end, whatever the number of values.
+static void arrays_of_all_lengths_are_converted(void **state)
+{
+    (void)state;
+    float floats[40];
+    uint16_t halfs[40];
+    for (size_t count = 0; count < 35; count++) {
+        for (size_t i = 0; i < 40; i++) {
+            floats[i] = (float)i;
+            halfs[i] = 1;
+        }
+        glint_floats_to_halfs(floats, count, halfs);
+        for (size_t i = 0; i < 40; i++) {
+            assert_int_equal(halfs[i], i < count ? glint_half_from_float((float)i) : 1);
+            floats[i] = -1;
+        }
+        glint_halfs_to_floats(halfs, count, floats);
+        for (size_t i = 0; i < 40; i++) {
+            assert_true(floats[i] == (i < count ? (float)i : -1.0f));
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -119,6 +175,8 @@ int main(void)
         cmocka_unit_test(ties_go_to_the_even_one),
         cmocka_unit_test(floats_of_all_sizes_become_the_nearest_half),
         cmocka_unit_test(the_ends_of_the_range_are_kept),
+        cmocka_unit_test(arrays_are_converted_like_single_values),
+        cmocka_unit_test(arrays_of_all_lengths_are_converted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,11 +94,12 @@ static void every_level_sends_the_same_light(void **state)
         glint_cube_fill_border(&cube);
         const double light = light_of(&cube);
         float *levels = levels_of(&cube);
-        glint_cube level = {edge, levels};
+        glint_cube level = {.edge = edge, .texels = levels};
         double bound = 0;
         while (level.edge > 1) {
             bound += level.edge % 2 == 0 ? 2e-3 : 1.5 / level.edge;
-            level = (glint_cube){level.edge / 2, level.texels + glint_cube_size(&level)};
+            level = (glint_cube){.edge = level.edge / 2,
+                                 .texels = level.texels + glint_cube_size(&level)};
             assert_true(fabs(light_of(&level) / light - 1) < bound);
         }
         free(levels);
@@ -128,11 +129,12 @@ static void levels_lie_in_place(void **state)
         }
         glint_cube_fill_border(&cube);
         float *levels = levels_of(&cube);
-        glint_cube level = {edge, levels};
+        glint_cube level = {.edge = edge, .texels = levels};
         double shift = 0;
         while (level.edge > 3) {
             shift += level.edge % 2 == 0 ? 0 : 3.0 / (level.edge * level.edge);
-            level = (glint_cube){level.edge / 2, level.texels + glint_cube_size(&level)};
+            level = (glint_cube){.edge = level.edge / 2,
+                                 .texels = level.texels + glint_cube_size(&level)};
             assert_true(worst_error(&level) <= 2 * seam_bound(level.edge) + shift);
         }
         free(levels);

@@ -1,9 +1,10 @@
 // Converts between float and half (IEEE 754's binary16). A half has 11 significant bits and
-// exponents from −14 to 15. Below 2⁻¹⁴ it holds multiples of 2⁻²⁴ (denormal). The code is plain C,
-// because not every processor has an instruction for the conversion.
+// exponents from −14 to 15. Below 2⁻¹⁴ it holds multiples of 2⁻²⁴ (denormal). The functions
+// for one value are plain C, because not every processor has an instruction for the conversion.
 #ifndef GLINT_BASE_HALF_H
 #define GLINT_BASE_HALF_H
 
+#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -64,6 +65,12 @@ static inline float glint_half_to_float(uint16_t half)
     uint32_t denormal = glint_float_bits((float)(int32_t)magnitude * 0x1p-24f);
     return glint_float_from_bits(sign | (magnitude < 0x400u ? denormal : normal));
 }
+
+// Converts an array exactly.
+void glint_halfs_to_floats(const uint16_t *halfs, size_t count, float *floats);
+
+// Converts an array as glint_half_from_float does. A NaN may keep more of its bits.
+void glint_floats_to_halfs(const float *floats, size_t count, uint16_t *halfs);
 
 #ifdef __cplusplus
 }

@@ -317,18 +317,23 @@ bool read_pixels(ImageInput &input, const Part &part, TypeDesc type, T *to)
 }
 
 // Reads the pixels as they are in the file, without a frame.
-bool read_values(ImageInput &input, const Part &part, int code_bits, void *to)
+bool read_values(ImageInput &input, const Part &part, const glint_stored_facts &facts, void *to)
 {
-    return code_bits == 8
-               ? read_pixels(input, part, TypeDesc::UINT8, static_cast<std::uint8_t *>(to))
-           : code_bits == 16
-               ? read_pixels(input, part, TypeDesc::UINT16, static_cast<std::uint16_t *>(to))
-               : read_pixels(input, part, TypeDesc::FLOAT, static_cast<float *>(to));
+    if (facts.code_bits == 8) {
+        return read_pixels(input, part, TypeDesc::UINT8, static_cast<std::uint8_t *>(to));
+    }
+    if (facts.code_bits == 16 || facts.is_half != 0) {
+        const TypeDesc type = facts.is_half != 0 ? TypeDesc::HALF : TypeDesc::UINT16;
+        return read_pixels(input, part, type, static_cast<std::uint16_t *>(to));
+    }
+    return read_pixels(input, part, TypeDesc::FLOAT, static_cast<float *>(to));
 }
 
 std::size_t bytes_of(const glint_stored_facts &facts)
 {
-    std::size_t each = facts.code_bits == 0 ? sizeof(float) : std::size_t(facts.code_bits / 8);
+    std::size_t each = facts.code_bits != 0 ? std::size_t(facts.code_bits / 8)
+                       : facts.is_half != 0 ? sizeof(std::uint16_t)
+                                            : sizeof(float);
     return std::size_t(facts.width) * std::size_t(facts.height) * std::size_t(facts.channels) *
            each;
 }
@@ -366,7 +371,7 @@ bool read_framed(ImageInput &input, const Part &part, Memory &memory, glint_stor
 {
     const ImageSpec &spec = part.spec;
     std::vector<float> values(bytes_of(facts) / sizeof(float));
-    const bool is_read = read_values(input, part, facts.code_bits, values.data());
+    const bool is_read = read_values(input, part, facts, values.data());
     const glint_stored_facts window = facts;
     facts.width = spec.full_width;
     facts.height = spec.full_height;
@@ -390,7 +395,9 @@ glint_status decode_part(const glint_decode_request &request, ImageInput &input,
                        error));
         is_read = read_framed(input, part, memory, facts);
     } else {
-        is_read = read_values(input, part, facts.code_bits, memory.grow(bytes_of(facts)));
+        // Halfs stay halfs: they take half the memory, and glint converts them in parallel.
+        facts.is_half = part.spec.format == TypeDesc::HALF && part.spec.channelformats.empty();
+        is_read = read_values(input, part, facts, memory.grow(bytes_of(facts)));
     }
     answer.value_bytes = bytes_of(facts);
     if (!is_read) {

@@ -143,31 +143,75 @@ static void fill_texel(const job *j, const face_axes *axes, int face, int column
     cell[7] = 0;
 }
 
-static void fill_finest(const job *j, const face_axes *axes, int face, int column, int row)
+// Samples along s that are weighed at once. The weights are the same on all six faces.
+#define CHUNK 32
+
+typedef struct sample_row {
+    int first, count; // samples from the face's left edge on
+    double t;
+    double s[CHUNK], u[CHUNK], angle[CHUNK];
+} sample_row;
+
+static void weigh_samples(int parts, int row, sample_row *out)
+{
+    const double h = 2.0 / parts;
+    out->t = (row + 0.5) * h - 1;
+    for (int k = 0; k < out->count; k++) {
+        out->s[k] = (out->first + k + 0.5) * h - 1;
+        out->u[k] = inverse_distance(out->s[k], out->t);
+        out->angle[k] = solid_angle(h, out->u[k]);
+    }
+}
+
+// Sums over a cell, with its directions in the face's axes.
+typedef struct face_sum {
+    cell_sum sum;
+    double u, us, ut;
+} face_sum;
+
+static void add_samples(const job *j, int face, int row, const sample_row *samples, face_sum *to)
 {
     const int parts = j->edge * j->samples;
-    const double h = 2.0 / parts, scale = (double)j->cube->edge / parts;
-    cell_sum sum = {0};
-    double weight_u = 0, weight_us = 0, weight_ut = 0;
-    for (int k = 0; k < j->samples * j->samples; k++) {
-        const int down = k / j->samples, x = column * j->samples + k % j->samples;
-        const int y = row * j->samples + down;
-        const double s = (x + 0.5) * h - 1, t = (y + 0.5) * h - 1, u = inverse_distance(s, t);
+    const double scale = (double)j->cube->edge / parts;
+    for (int k = 0; k < samples->count; k++) {
+        const int x = samples->first + k;
         double light[3];
         if (j->cube->edge == parts) {
-            const float *texel = glint_cube_texel(j->cube, face, x, y);
+            const float *texel = glint_cube_texel(j->cube, face, x, row);
             light[0] = (double)texel[0], light[1] = (double)texel[1], light[2] = (double)texel[2];
         } else {
-            sample_face(j->cube, face, (x + 0.5) * scale, (y + 0.5) * scale, light);
+            sample_face(j->cube, face, (x + 0.5) * scale, (row + 0.5) * scale, light);
         }
-        const double weight = add_light(light, solid_angle(h, u), &sum) * u;
-        weight_u += weight;
-        weight_us += weight * s;
-        weight_ut += weight * t;
+        const double weight = add_light(light, samples->angle[k], &to->sum) * samples->u[k];
+        to->u += weight;
+        to->us += weight * samples->s[k];
+        to->ut += weight * samples->t;
     }
-    add_direction(axes, weight_u, weight_us, weight_ut, &sum);
-    store_cell(&sum, 2.0 / j->edge * middle_of(j->edge, column, row),
-               cell_at(j, face, column, row));
+}
+
+// Fills a cell that is several samples, on all faces.
+static void fill_finest(const job *j, int column, int row)
+{
+    const int parts = j->edge * j->samples;
+    face_sum sums[GLINT_CUBE_FACES] = {0};
+    for (int y = row * j->samples; y < (row + 1) * j->samples; y++) {
+        for (int done = 0; done < j->samples; done += CHUNK) {
+            const int left = j->samples - done;
+            sample_row samples = {.first = column * j->samples + done,
+                                  .count = left < CHUNK ? left : CHUNK};
+            weigh_samples(parts, y, &samples);
+            for (int face = 0; face < GLINT_CUBE_FACES; face++) {
+                add_samples(j, face, y, &samples, &sums[face]);
+            }
+        }
+    }
+    const double size = 2.0 / j->edge * middle_of(j->edge, column, row);
+    for (int face = 0; face < GLINT_CUBE_FACES; face++) {
+        const face_axes axes = axes_of(face);
+        face_sum *of = &sums[face];
+        add_direction(&axes, of->u, of->us, of->ut, &of->sum);
+        store_cell(&of->sum, size, cell_at(j, face, column, row));
+    }
 }
 
 static void fill_coarser(const job *j, int face, int column, int row)
@@ -196,13 +240,29 @@ static void fill_row(size_t index, void *context)
     const int face = (int)index / j->edge, row = (int)index % j->edge;
     const face_axes axes = axes_of(face);
     for (int column = 0; column < j->edge; column++) {
-        if (j->samples == 1 && j->edge == j->cube->edge) {
+        if (j->samples > 0) {
             fill_texel(j, &axes, face, column, row);
-        } else if (j->samples > 0) {
-            fill_finest(j, &axes, face, column, row);
         } else {
             fill_coarser(j, face, column, row);
         }
+    }
+}
+
+// Fills a row of cells that are several samples, on all faces.
+static void fill_finest_row(size_t row, void *context)
+{
+    const job *j = context;
+    for (int column = 0; column < j->edge; column++) {
+        fill_finest(j, column, (int)row);
+    }
+}
+
+static void fill_level(job *j)
+{
+    if (j->samples > 1 || (j->samples == 1 && j->edge != j->cube->edge)) {
+        glint_parallel_for((size_t)j->edge, fill_finest_row, j);
+    } else {
+        glint_parallel_for((size_t)(GLINT_CUBE_FACES * j->edge), fill_row, j);
     }
 }
 
@@ -236,7 +296,7 @@ float glint_cells_fill(const glint_cube *cube, int edge, float *cells)
     j.samples = samples_along(cube->edge, edge);
     float brightness = 0;
     for (; j.level >= 0; j.level--, j.edge /= 2, j.samples = 0) {
-        glint_parallel_for((size_t)(GLINT_CUBE_FACES * j.edge), fill_row, &j);
+        fill_level(&j);
         if (j.edge <= BRIGHTNESS_EDGE && brightness == 0) {
             brightness = brightness_of(&j);
         }

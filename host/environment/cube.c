@@ -2,41 +2,58 @@
 #include "environment/cube.h"
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "kernels/layout.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-// Far above every useful size, and below an int's overflow: (edge + 2)² × 6 × 4 < 2³¹.
-#define EDGE_MAX 9000
-_Static_assert(EDGE_MAX >> GLINT_LEVELS_MAX == 0, "a cube of EDGE_MAX has too many levels");
+_Static_assert(GLINT_CUBE_EDGE_MAX >> GLINT_LEVELS_MAX == 0,
+               "the largest cube has too many levels");
 
 static const int s_axis[GLINT_CUBE_FACES] = GLINT_CUBE_S_AXIS;
 static const int s_sign[GLINT_CUBE_FACES] = GLINT_CUBE_S_SIGN;
 static const int t_axis[GLINT_CUBE_FACES] = GLINT_CUBE_T_AXIS;
 static const int t_sign[GLINT_CUBE_FACES] = GLINT_CUBE_T_SIGN;
 
-glint_status glint_cube_create(int edge, glint_cube *cube, glint_error *error)
+static glint_status create(int edge, void *(*allocate)(size_t, size_t), glint_cube *cube,
+                           glint_error *error)
 {
     *cube = (glint_cube){0};
-    if (edge < 1 || edge > EDGE_MAX) {
+    if (edge < 1 || edge > GLINT_CUBE_EDGE_MAX) {
         return glint_fail(error, GLINT_BAD_INPUT,
                           "environment: a cube of %d texels an edge (1 to %d can be held)", edge,
-                          EDGE_MAX);
+                          GLINT_CUBE_EDGE_MAX);
     }
     glint_cube sized = {.edge = edge};
-    float *texels = glint_allocate(glint_cube_size(&sized), sizeof(float));
+    float *texels = allocate(glint_cube_size(&sized), sizeof(float));
     if (texels == NULL) {
         return glint_fail_memory(error, "an environment");
     }
-    *cube = (glint_cube){edge, texels};
+    *cube = (glint_cube){.edge = edge, .texels = texels};
     return GLINT_OK;
+}
+
+glint_status glint_cube_create(int edge, glint_cube *cube, glint_error *error)
+{
+    return create(edge, glint_allocate, cube, error);
+}
+
+glint_status glint_cube_create_unset(int edge, glint_cube *cube, glint_error *error)
+{
+    return create(edge, glint_allocate_unset, cube, error);
 }
 
 void glint_cube_free(glint_cube *cube)
 {
-    free(cube->texels);
+    if (cube->mapped_from > 0) {
+        char *mapped = (char *)cube->texels - cube->mapped_from;
+        munmap(mapped, cube->mapped_from + glint_cube_size(cube) * sizeof(float));
+    } else {
+        free(cube->texels);
+    }
     *cube = (glint_cube){0};
 }
 
@@ -159,19 +176,24 @@ static void fill_corner(glint_cube *cube, int face, int right, int down)
     }
 }
 
-void glint_cube_fill_border(glint_cube *cube)
+static void fill_face_border(size_t face, void *context)
 {
-    int n = cube->edge;
+    glint_cube *cube = context;
+    const int n = cube->edge;
     const side sides[4] = {
         {-1, 0, 0, 1, 1, 0}, {n, 0, 0, 1, -1, 0}, {0, -1, 1, 0, 0, 1}, {0, n, 1, 0, 0, -1}};
-    for (int face = 0; face < GLINT_CUBE_FACES && n > 0; face++) {
-        for (int k = 0; k < 4; k++) {
-            fill_side(cube, face, &sides[k]);
-        }
-        for (int corner = 0; corner < 4; corner++) {
-            fill_corner(cube, face, corner % 2, corner / 2);
-        }
+    for (int k = 0; k < 4; k++) {
+        fill_side(cube, (int)face, &sides[k]);
     }
+    for (int corner = 0; corner < 4; corner++) {
+        fill_corner(cube, (int)face, corner % 2, corner / 2);
+    }
+}
+
+// A face reads its neighbours' insides and its own border only.
+void glint_cube_fill_border(glint_cube *cube)
+{
+    glint_parallel_for(cube->edge > 0 ? GLINT_CUBE_FACES : 0, fill_face_border, cube);
 }
 
 // The texel of a cube of edge n whose centre has the coordinate s on a face.

@@ -2,6 +2,7 @@
 #include "environment/environment.h"
 
 #include "environment/faces.h"
+#include "environment/kept.h"
 #include "environment/latlong.h"
 #include "environment/sampler.h"
 #include "environment/source.h"
@@ -33,6 +34,9 @@ cleanup:
 static glint_status make_cube(const glint_source *source, glint_cube *cube, glint_error *error)
 {
     const glint_chart *chart = &source->chart;
+    if (source->image.pixels == NULL) {
+        return glint_cube_from_stored_faces(&source->stored, chart, cube, error);
+    }
     if (chart->layout == GLINT_LAYOUT_LATLONG) {
         return glint_cube_from_latlong(&source->image, chart->on_edges,
                                        glint_latlong_edge(chart->height), cube, error);
@@ -49,27 +53,85 @@ static glint_status set_name(const char *name, glint_environment *environment, g
     return environment->name != NULL ? GLINT_OK : glint_fail_memory(error, "an environment's name");
 }
 
-// Makes a cube of the source, and frees the source.
-static glint_status finish(const char *name, glint_source *source, glint_environment *environment,
-                           glint_error *error)
+// Copies what is known about the source, except for its pixels.
+static void describe(const glint_source *source, glint_environment *environment)
 {
     const glint_chart *chart = &source->chart;
     const bool is_set = chart->layout == GLINT_LAYOUT_FACES;
-    *environment = (glint_environment){.layout = chart->layout,
-                                       .reason = source->reason,
-                                       .source_width = chart->width,
-                                       .source_height = is_set ? chart->width : chart->height,
-                                       .mended_texels = source->mended_texels};
+    environment->layout = chart->layout;
+    environment->reason = source->reason;
+    environment->source_width = chart->width;
+    environment->source_height = is_set ? chart->width : chart->height;
+    environment->mended_texels = source->mended_texels;
+}
+
+// Makes a cube of the source.
+static glint_status make(const char *name, const glint_source *source,
+                         glint_environment *environment, glint_error *error)
+{
     glint_status status;
+    describe(source, environment);
     TRY_OR(cleanup, status, make_cube(source, &environment->radiance, error));
     TRY_OR(cleanup, status, set_name(name, environment, error));
 cleanup:
-    glint_source_free(source);
     if (status != GLINT_OK) {
         glint_environment_free(environment);
     }
     return status;
 }
+
+// ---- The cache ----------------------------------------------------------------------------------
+
+#define KEPT_EDGE_MIN 512 // smaller cubes are made in under 50 ms
+
+bool glint_environment_is_likely_kept(const char *path)
+{
+    return glint_kept_is_likely(path);
+}
+
+// Takes the environment from the cache. Returns false if it is not there.
+static bool take_kept(const char *path, const glint_layout_request *request,
+                      const glint_kept_key *key, glint_environment *environment)
+{
+    glint_kept_facts kept;
+    if (!glint_kept_take(key, &kept, &environment->radiance)) {
+        return false;
+    }
+    glint_source source = {.image = {kept.width, kept.height, kept.channels, NULL},
+                           .facts = {.envmap = (glint_envmap)kept.envmap,
+                                     .is_direct3d_cube = kept.is_direct3d_cube != 0}};
+    if (glint_source_recall(path, request, key->kind, &source, NULL) != GLINT_OK ||
+        set_name(path, environment, NULL) != GLINT_OK) {
+        glint_environment_free(environment);
+        return false;
+    }
+    describe(&source, environment);
+    return true;
+}
+
+// Keeps an environment. What was warned of is not kept, so that each run warns.
+static void keep(const glint_kept_key *key, const glint_source *source,
+                 glint_environment *environment)
+{
+    const glint_image *image = &source->image;
+    const bool is_stretched =
+        source->chart.layout == GLINT_LAYOUT_LATLONG && image->width != 2 * image->height;
+    if (environment->radiance.edge < KEPT_EDGE_MIN || source->mended_texels > 0 || is_stretched ||
+        !glint_kept_key_holds(environment->name, key)) {
+        return;
+    }
+    const glint_kept_facts facts = {image->width, image->height, image->channels,
+                                    source->facts.envmap, source->facts.is_direct3d_cube};
+    environment->keeping = glint_kept_begin(key, &facts, &environment->radiance);
+}
+
+void glint_environment_settle(glint_environment *environment)
+{
+    glint_kept_settle(environment->keeping);
+    environment->keeping = NULL;
+}
+
+// ---- Loading ------------------------------------------------------------------------------------
 
 glint_status glint_environment_load(const char *path, const glint_layout_request *request,
                                     glint_environment *environment, glint_warnings *warnings,
@@ -79,9 +141,19 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
     if (request != NULL && request->layout == GLINT_LAYOUT_STUDIO) {
         return glint_environment_studio(environment, error);
     }
+    glint_kept_key key;
+    const bool has_key = glint_kept_is_on() && glint_kept_key_make(path, request, &key);
+    if (has_key && take_kept(path, request, &key, environment)) {
+        return GLINT_OK;
+    }
     glint_source source;
-    TRY(glint_source_load(path, request, &source, warnings, error));
-    return finish(path, &source, environment, error);
+    TRY(glint_source_open(path, request, &source, warnings, error));
+    const glint_status status = make(path, &source, environment, error);
+    if (has_key && status == GLINT_OK) {
+        keep(&key, &source, environment);
+    }
+    glint_source_free(&source);
+    return status;
 }
 
 glint_status glint_environment_from_image(const char *name, glint_image *image,
@@ -93,7 +165,9 @@ glint_status glint_environment_from_image(const char *name, glint_image *image,
     *image = (glint_image){0};
     glint_source source;
     TRY(glint_source_take(&file, request, &source, NULL, error));
-    return finish(name, &source, environment, error);
+    const glint_status status = make(name, &source, environment, error);
+    glint_source_free(&source);
+    return status;
 }
 
 glint_status glint_environment_studio(glint_environment *environment, glint_error *error)
@@ -113,6 +187,7 @@ cleanup:
 
 void glint_environment_free(glint_environment *environment)
 {
+    glint_environment_settle(environment);
     free(environment->name);
     glint_cube_free(&environment->radiance);
     *environment = (glint_environment){0};

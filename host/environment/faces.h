@@ -6,6 +6,7 @@
 #include "environment/chart.h"
 #include "environment/cube.h"
 #include "image/image.h"
+#include "image/stored.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,6 +20,10 @@ void glint_face_on_edges(const glint_image *image, int face, double s, double t,
 // lie on the edges, the cube's texels are interpolated.
 glint_status glint_cube_from_faces(const glint_image *image, const glint_chart *chart,
                                    glint_cube *cube, glint_error *error);
+
+// Does the same with a picture that is not converted yet, whose centres lie inside.
+glint_status glint_cube_from_stored_faces(const glint_stored *stored, const glint_chart *chart,
+                                          glint_cube *cube, glint_error *error);
 
 #ifdef __cplusplus
 }

@@ -60,15 +60,22 @@ static void sum_values(const float *texels, const double *weights, int count, ro
 static void sum_errors(const float *texels, const double *weights, int count, float mean,
                        row_sums *sums)
 {
+    uint16_t halfs[4 * CHUNK];
+    float errors[4 * CHUNK] = {0}, seen[4 * CHUNK] = {0};
+    glint_floats_to_halfs(texels, 4 * (size_t)count, halfs);
+    glint_halfs_to_floats(halfs, 4 * (size_t)count, errors);
+    for (int k = 0; k < 4 * count; k++) {
+        const float magnitude = fabsf(texels[k]);
+        errors[k] -= texels[k];
+        seen[k] = errors[k] / (magnitude > mean ? magnitude : mean);
+    }
     double squared = 0.0, visible = 0.0;
     for (int k = 0; k < count; k++) {
         double texel_squared = 0.0, texel_visible = 0.0;
         for (int c = 0; c < 3; c++) {
-            float value = texels[4 * k + c], magnitude = fabsf(value);
-            float error = glint_half_to_float(glint_half_from_float(value)) - value;
-            float seen = error / (magnitude > mean ? magnitude : mean);
-            texel_squared += (double)error * (double)error;
-            texel_visible += (double)seen * (double)seen;
+            const double error = (double)errors[4 * k + c], relative = (double)seen[4 * k + c];
+            texel_squared += error * error;
+            texel_visible += relative * relative;
         }
         squared += weights[k] * texel_squared;
         visible += weights[k] * texel_visible;
@@ -162,9 +169,7 @@ static void convert_row(size_t index, void *context)
     size_t values = 4 * pitch_of(shared->cube);
     const float *from = shared->cube->texels + index * values;
     uint16_t *to = shared->texels + index * values;
-    for (size_t i = 0; i < values; i++) {
-        to[i] = glint_half_from_float(from[i]);
-    }
+    glint_floats_to_halfs(from, values, to);
 }
 
 void glint_cube_to_half(const glint_cube *cube, uint16_t *texels)

@@ -101,7 +101,7 @@ void glint_mip_levels_to_half(const glint_cube *cube, float *coarser, uint16_t *
     glint_cube_to_half(cube, texels);
     texels += glint_cube_size(cube);
     for (int edge = cube->edge / 2; edge > 0; edge /= 2) {
-        const glint_cube level = {edge, coarser};
+        const glint_cube level = {.edge = edge, .texels = coarser};
         const size_t size = glint_cube_size(&level);
         for (size_t i = 0; i < size; i++) {
             coarser[i] = fmaxf(fminf(coarser[i], GLINT_HALF_MAX), -GLINT_HALF_MAX);

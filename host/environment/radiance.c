@@ -1,8 +1,13 @@
 // Replaces values that are no radiance. See radiance.h.
 #include "environment/radiance.h"
 
+#include "base/half.h"
+#include "base/parallel.h"
+
 #include <math.h>
+#include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 static int color_channels(const glint_image *image)
 {
@@ -54,10 +59,47 @@ static void replace(glint_image *image, float infinity)
     }
 }
 
+#define BAND ((size_t)1 << 16) // values that a thread checks at once
+
+typedef struct check {
+    const float *values;
+    size_t count;
+    atomic_bool is_doubtful;
+} check;
+
+// Finds values, alpha included, that may be no radiance. Adding 2²³ to the bits of a float sets the
+// sign from ∞ on. This loop fits vectors, and almost all pictures pass it.
+static void check_band(size_t index, void *context)
+{
+    check *shared = context;
+    const float *values = shared->values + index * BAND;
+    const size_t left = shared->count - index * BAND, count = left < BAND ? left : BAND;
+    uint32_t signs = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t bits = glint_float_bits(values[i]);
+        signs |= bits | (bits + 0x800000u);
+    }
+    if (signs >> 31 != 0) {
+        atomic_store(&shared->is_doubtful, true);
+    }
+}
+
+// True if all values are radiance. May be false although they are: −0 is doubtful.
+static bool is_all_radiance(const glint_image *image)
+{
+    check shared = {.values = image->pixels,
+                    .count =
+                        (size_t)image->width * (size_t)image->height * (size_t)image->channels};
+    glint_parallel_for((shared.count + BAND - 1) / BAND, check_band, &shared);
+    return !atomic_load(&shared.is_doubtful);
+}
+
 size_t glint_radiance_mend(const char *path, glint_image *image, glint_warnings *warnings)
 {
     mending found = {0};
-    inspect(image, &found);
+    if (!is_all_radiance(image)) {
+        inspect(image, &found);
+    }
     if (found.count == 0) {
         return 0;
     }

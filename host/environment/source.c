@@ -18,7 +18,7 @@ static const glint_layout_request nothing_known = {0};
 glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error)
 {
-    *source = (glint_source){.image = file->image};
+    *source = (glint_source){.image = file->image, .facts = file->facts};
     glint_recognised what;
     const glint_status status =
         glint_layout_recognise(file, request != NULL ? request : &nothing_known, &what, error);
@@ -37,11 +37,44 @@ glint_status glint_source_take(const glint_image_file *file, const glint_layout_
     return GLINT_OK;
 }
 
-static glint_status load_file(const char *path, const glint_layout_request *request,
+// Leaves a file of faces in `stored`. False if it is another file, or if it cannot be used.
+static bool leave_stored(const char *path, const glint_layout_request *request,
+                         const glint_stored *stored, glint_source *source)
+{
+    const glint_stored_facts *facts = &stored->facts;
+    // Codes are always radiance, so nothing needs mending, except after an odd power.
+    if (facts->code_bits == 0 || facts->transfer == GLINT_TRANSFER_POWER ||
+        facts->orientation > 1) {
+        return false;
+    }
+    const glint_image_file file = {
+        path, {facts->width, facts->height, facts->channels, NULL}, glint_image_facts_of(stored)};
+    glint_recognised what;
+    if (glint_layout_recognise(&file, request, &what, NULL) != GLINT_OK || what.chart.on_edges ||
+        glint_layout_cells(what.chart.layout, NULL, NULL) == NULL) {
+        return false;
+    }
+    *source = (glint_source){.image = file.image,
+                             .stored = *stored,
+                             .facts = file.facts,
+                             .chart = what.chart,
+                             .reason = what.reason};
+    return true;
+}
+
+static glint_status open_file(const char *path, const glint_layout_request *request,
                               glint_source *source, glint_warnings *warnings, glint_error *error)
 {
     glint_image_file file = {.name = path};
-    TRY(glint_image_read(path, &file.image, &file.facts, error));
+    glint_stored stored;
+    TRY(glint_image_read_stored(path, &stored, error));
+    if (leave_stored(path, request, &stored, source)) {
+        return GLINT_OK;
+    }
+    file.facts = glint_image_facts_of(&stored);
+    const glint_status status = glint_stored_develop(&stored, &file.image, error);
+    glint_stored_free(&stored);
+    TRY(status);
     return glint_source_take(&file, request, source, warnings, error);
 }
 
@@ -79,14 +112,15 @@ static glint_status read_face(const glint_face_files *files, int face, glint_ima
     glint_status status;
     TRY_OR(cleanup, status, check_face(files, face, &image, edge, error));
     if (face == 0) {
-        TRY_OR(cleanup, status, glint_image_create(edge, 6 * edge, 3, strip, error));
+        TRY_OR(cleanup, status, glint_image_reuse(edge, 6 * edge, 3, strip, error));
     }
-    for (int k = 0; k < edge * edge; k++) {
-        double rgb[3];
-        glint_image_rgb(&image, k % edge, k / edge, rgb);
-        float *pixel = glint_image_pixel(strip, k % edge, face * edge + k / edge);
+    const int step = image.channels >= 3;
+    const size_t pixels = (size_t)edge * (size_t)edge;
+    for (size_t k = 0; k < pixels; k++) {
+        const float *from = image.pixels + k * (size_t)image.channels;
+        float *to = strip->pixels + ((size_t)face * pixels + k) * 3;
         for (int c = 0; c < 3; c++) {
-            pixel[c] = (float)rgb[c];
+            to[c] = from[c * step];
         }
     }
 cleanup:
@@ -125,38 +159,81 @@ cleanup:
     return status;
 }
 
-static glint_status load_faces(const char *path, bool is_folder, glint_source *source,
-                               glint_warnings *warnings, glint_error *error)
+static void recognise_faces(bool is_folder, glint_source *source)
 {
-    TRY(read_faces(path, is_folder, &source->image, error));
     source->chart = (glint_chart){.layout = GLINT_LAYOUT_FACES,
                                   .width = source->image.width,
                                   .height = source->image.height,
                                   .distance = INFINITY};
     source->reason = is_folder ? "six faces in a folder" : "six faces by a pattern";
+}
+
+static glint_status load_faces(const char *path, bool is_folder, glint_source *source,
+                               glint_warnings *warnings, glint_error *error)
+{
+    TRY(read_faces(path, is_folder, &source->image, error));
+    recognise_faces(is_folder, source);
     source->mended_texels = glint_radiance_mend(path, &source->image, warnings);
     return GLINT_OK;
 }
 
 // ---- Either -------------------------------------------------------------------------------------
 
-glint_status glint_source_load(const char *path, const glint_layout_request *request,
+glint_source_kind glint_source_kind_of(const char *path)
+{
+    struct stat facts;
+    if (stat(path, &facts) != 0) {
+        return strstr(path, "%s") != NULL ? GLINT_SOURCE_PATTERN : GLINT_SOURCE_FILE;
+    }
+    return S_ISDIR(facts.st_mode) ? GLINT_SOURCE_FOLDER : GLINT_SOURCE_FILE;
+}
+
+glint_status glint_source_open(const char *path, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error)
 {
     *source = (glint_source){0};
     request = request != NULL ? request : &nothing_known;
-    struct stat facts;
-    const bool exists = stat(path, &facts) == 0;
-    const bool is_folder = exists && S_ISDIR(facts.st_mode);
-    if (is_folder || (!exists && strstr(path, "%s") != NULL)) {
-        TRY(check_asked(path, is_folder, request->layout, error));
-        return load_faces(path, is_folder, source, warnings, error);
+    const glint_source_kind kind = glint_source_kind_of(path);
+    if (kind == GLINT_SOURCE_FILE) {
+        return open_file(path, request, source, warnings, error);
     }
-    return load_file(path, request, source, warnings, error);
+    TRY(check_asked(path, kind == GLINT_SOURCE_FOLDER, request->layout, error));
+    return load_faces(path, kind == GLINT_SOURCE_FOLDER, source, warnings, error);
+}
+
+glint_status glint_source_load(const char *path, const glint_layout_request *request,
+                               glint_source *source, glint_warnings *warnings, glint_error *error)
+{
+    TRY(glint_source_open(path, request, source, warnings, error));
+    if (source->image.pixels != NULL) {
+        return GLINT_OK;
+    }
+    const glint_status status = glint_stored_develop(&source->stored, &source->image, error);
+    glint_stored_free(&source->stored);
+    source->stored = (glint_stored){0};
+    return status;
+}
+
+glint_status glint_source_recall(const char *path, const glint_layout_request *request,
+                                 glint_source_kind kind, glint_source *source, glint_error *error)
+{
+    if (kind != GLINT_SOURCE_FILE) {
+        recognise_faces(kind == GLINT_SOURCE_FOLDER, source);
+        return GLINT_OK;
+    }
+    const glint_image_file file = {path, source->image, source->facts};
+    glint_recognised what;
+    TRY(glint_layout_recognise(&file, request != NULL ? request : &nothing_known, &what, error));
+    source->chart = what.chart;
+    source->reason = what.reason;
+    return GLINT_OK;
 }
 
 void glint_source_free(glint_source *source)
 {
     glint_image_free(&source->image);
+    if (source->stored.path != NULL) { // in a zero source, descriptor 0 is not its file
+        glint_stored_free(&source->stored);
+    }
     *source = (glint_source){0};
 }

@@ -100,54 +100,102 @@ static double panel_share(const panel *which, const frame *plane, glint_vec3 d)
     return inside * (1.0 - which->falloff * (far < 1.0 ? far : 1.0));
 }
 
+// Columns that are computed at once. The compiler puts several into a vector.
+#define CHUNK 16
+_Static_assert(EDGE % CHUNK == 0, "the last chunk would be cut");
+
+// A row of unit directions, and their radiance.
+typedef struct chunk {
+    double x[CHUNK], y[CHUNK], z[CHUNK];
+    double rgb[3][CHUNK];
+} chunk;
+
 // Draws the room without its lights.
-static void room(glint_vec3 d, double rgb[3])
+static void draw_room(chunk *of)
 {
-    // The backdrop glows around a point a little above the horizon, straight ahead.
-    double ahead = -0.985 * d.z + 0.17 * d.y;
-    double glow = smooth_step(0.15, 1.0, ahead);
-    double height = d.y > 0.0 ? d.y : 0.0;
-    double wall = mix(0.16, 0.03, smooth_step(0.0, 0.85, height)) + 0.44 * glow * glow;
-    // The floor takes the backdrop's light far away and darkens towards the feet.
-    double depth = d.y < 0.0 ? -d.y : 0.0;
-    double floor_light = mix(0.13 + 0.24 * glow, 0.035, smooth_step(0.0, 0.7, depth));
-    double above = smooth_step(-0.012, 0.012, d.y);
-    double grey = mix(floor_light, wall, above);
-    // Warm on the left, cool on the right.
-    double side = 0.5 + 0.5 * d.x;
-    rgb[0] = grey * mix(1.10, 0.88, side);
-    rgb[1] = grey * mix(0.99, 0.98, side);
-    rgb[2] = grey * mix(0.86, 1.16, side);
+    for (int k = 0; k < CHUNK; k++) {
+        const double x = of->x[k], y = of->y[k], z = of->z[k];
+        // The backdrop glows around a point a little above the horizon, straight ahead.
+        double ahead = -0.985 * z + 0.17 * y;
+        double glow = smooth_step(0.15, 1.0, ahead);
+        double height = y > 0.0 ? y : 0.0;
+        double wall = mix(0.16, 0.03, smooth_step(0.0, 0.85, height)) + 0.44 * glow * glow;
+        // The floor takes the backdrop's light far away and darkens towards the feet.
+        double depth = y < 0.0 ? -y : 0.0;
+        double floor_light = mix(0.13 + 0.24 * glow, 0.035, smooth_step(0.0, 0.7, depth));
+        double above = smooth_step(-0.012, 0.012, y);
+        double grey = mix(floor_light, wall, above);
+        // Warm on the left, cool on the right.
+        double side = 0.5 + 0.5 * x;
+        of->rgb[0][k] = grey * mix(1.10, 0.88, side);
+        of->rgb[1][k] = grey * mix(0.99, 0.98, side);
+        of->rgb[2][k] = grey * mix(0.86, 1.16, side);
+    }
 }
 
-static void fill_row(size_t index, void *context)
+// Adds a panel. Skips it if all directions are beyond it: each is within half a chunk of texels
+// from one in the middle, so its cosine is at most that much larger.
+static void add_panel(const panel *which, const frame *plane, chunk *of)
+{
+    const glint_vec3 middle = {of->x[CHUNK / 2], of->y[CHUNK / 2], of->z[CHUNK / 2]};
+    const double reach = (double)CHUNK / EDGE;
+    if (glint_vec3_dot(middle, plane->forward) + reach <= plane->farthest) {
+        return;
+    }
+    for (int k = 0; k < CHUNK; k++) {
+        const glint_vec3 d = {of->x[k], of->y[k], of->z[k]};
+        const double share = panel_share(which, plane, d);
+        for (int c = 0; c < 3; c++) {
+            of->rgb[c][k] = mix(of->rgb[c][k], which->color[c], share);
+        }
+    }
+}
+
+static void store_chunk(const chunk *of, float *texels)
+{
+    for (int k = 0; k < CHUNK; k++) {
+        for (int c = 0; c < 3; c++) {
+            texels[4 * k + c] = (float)of->rgb[c][k];
+        }
+        texels[4 * k + 3] = 1.0f;
+    }
+}
+
+// Computes row j of all faces, which share the texels' distances from the middle of the cube.
+static void fill_row(size_t j, void *context)
 {
     const studio *job = context;
-    int face = (int)(index / EDGE), j = (int)(index % EDGE);
-    for (int i = 0; i < EDGE; i++) {
-        double s = (2.0 * i + 1.0) / EDGE - 1.0, t = (2.0 * j + 1.0) / EDGE - 1.0;
-        double scale = 1.0 / sqrt(1.0 + s * s + t * t);
-        glint_vec3 d = glint_vec3_scale(glint_cube_direction(face, s, t), scale);
-        double rgb[3];
-        room(d, rgb);
-        for (size_t k = 0; k < PANELS; k++) {
-            double share = panel_share(&panels[k], &job->frames[k], d);
-            for (int c = 0; c < 3; c++) {
-                rgb[c] = mix(rgb[c], panels[k].color[c], share);
-            }
+    const double t = (2.0 * (double)j + 1.0) / EDGE - 1.0;
+    for (int first = 0; first < EDGE; first += CHUNK) {
+        double s[CHUNK], scale[CHUNK];
+        for (int k = 0; k < CHUNK; k++) {
+            s[k] = (2.0 * (first + k) + 1.0) / EDGE - 1.0;
+            scale[k] = 1.0 / sqrt(1.0 + s[k] * s[k] + t * t);
         }
-        glint_cube_store(job->cube, face, i, j, rgb);
+        for (int face = 0; face < GLINT_CUBE_FACES; face++) {
+            chunk of;
+            for (int k = 0; k < CHUNK; k++) {
+                const glint_vec3 d =
+                    glint_vec3_scale(glint_cube_direction(face, s[k], t), scale[k]);
+                of.x[k] = d.x, of.y[k] = d.y, of.z[k] = d.z;
+            }
+            draw_room(&of);
+            for (size_t k = 0; k < PANELS; k++) {
+                add_panel(&panels[k], &job->frames[k], &of);
+            }
+            store_chunk(&of, glint_cube_texel(job->cube, face, first, (int)j));
+        }
     }
 }
 
 glint_status glint_studio_cube(glint_cube *cube, glint_error *error)
 {
-    TRY(glint_cube_create(EDGE, cube, error));
+    TRY(glint_cube_create_unset(EDGE, cube, error));
     studio job = {.cube = cube};
     for (size_t k = 0; k < PANELS; k++) {
         job.frames[k] = frame_of(&panels[k]);
     }
-    glint_parallel_for((size_t)EDGE * GLINT_CUBE_FACES, fill_row, &job);
+    glint_parallel_for(EDGE, fill_row, &job);
     glint_cube_fill_border(cube);
     return GLINT_OK;
 }

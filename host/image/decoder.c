@@ -282,7 +282,9 @@ static bool is_credible(const glint_decode_request *request, const glint_decode_
         return false;
     }
     const uint64_t pixels = (uint64_t)facts->width * (uint64_t)facts->height;
-    const uint64_t bytes = facts->code_bits == 0 ? sizeof(float) : (uint64_t)facts->code_bits / 8;
+    const uint64_t bytes = facts->code_bits != 0 ? (uint64_t)facts->code_bits / 8
+                           : facts->is_half != 0 ? sizeof(uint16_t)
+                                                 : sizeof(float);
     const uint64_t most = SIZE_MAX / 4 / bytes / (uint64_t)facts->channels;
     return pixels <= most && answer->value_bytes == pixels * (uint64_t)facts->channels * bytes &&
            answer->name_bytes <= GLINT_DECODE_NAMES_MAX;
@@ -454,14 +456,19 @@ void glint_stored_free(glint_stored *stored)
     *stored = (glint_stored){.file = -1};
 }
 
+glint_status glint_stored_fail_of_cut(const glint_stored *stored, glint_error *error)
+{
+    return glint_fail(error, GLINT_BAD_INPUT, "%s: its values were cut off (try again)",
+                      stored->path);
+}
+
 glint_status glint_stored_read(const glint_stored *stored, size_t offset, void *to, size_t bytes,
                                glint_error *error)
 {
     for (char *at = to; bytes > 0;) {
         const ssize_t length = pread(stored->file, at, bytes, (off_t)offset);
         if (length == 0 || (length < 0 && errno != EINTR)) {
-            return glint_fail(error, GLINT_BAD_INPUT, "%s: its values were cut off (try again)",
-                              stored->path);
+            return glint_stored_fail_of_cut(stored, error);
         }
         if (length > 0) {
             at += length;
@@ -487,4 +494,9 @@ void glint_decoder_use_threads(int count)
 void glint_decoder_allow_large(void)
 {
     large_is_allowed = true;
+}
+
+bool glint_decoder_allows_large(void)
+{
+    return large_is_allowed;
 }

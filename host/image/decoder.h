@@ -13,8 +13,8 @@ extern "C" {
 #endif
 
 // The decoder's output for a file: values in a memory file, [height][width][channels], integers of
-// code_bits or floats. glint reads the memory file and does not map it: the decoder may still
-// change or truncate it.
+// code_bits, halfs or floats. glint reads the memory file and does not map it: the decoder may
+// still change or truncate it.
 typedef struct glint_stored {
     const char *path; // path of the image file, borrowed
     glint_stored_facts facts;
@@ -47,10 +47,13 @@ glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits 
 
 void glint_stored_free(glint_stored *stored);
 
-// Reads this number of bytes from `offset` on. Fails with GLINT_BAD_INPUT if the decoder truncated
-// them.
+// Reads this number of bytes from `offset` on; several threads may read at once. Errors: as
+// glint_stored_fail_of_cut.
 glint_status glint_stored_read(const glint_stored *stored, size_t offset, void *to, size_t bytes,
                                glint_error *error);
+
+// Fails with GLINT_BAD_INPUT because the decoder truncated the values.
+glint_status glint_stored_fail_of_cut(const glint_stored *stored, glint_error *error);
 
 // Starts the decoder, so that it loads while the caller works. The first file reports an error.
 void glint_decoder_start(void);
@@ -58,8 +61,9 @@ void glint_decoder_start(void);
 // Sets the number of threads that decode a file. 0, the default, is one for each core.
 void glint_decoder_use_threads(int count);
 
-// Lifts the limits of files (--allow-large-images).
+// Lifts the limits of files (--allow-large-images); true if it did.
 void glint_decoder_allow_large(void);
+bool glint_decoder_allows_large(void);
 
 #ifdef __cplusplus
 }

@@ -52,7 +52,8 @@ typedef enum glint_transfer {
 // A picture as its file stores it.
 typedef struct glint_stored_facts {
     int32_t width, height, channels; // pictures have 1 to 4 channels
-    int32_t code_bits;               // 8 or 16: integers; 0: floats
+    int32_t code_bits;               // 8 or 16: integers; 0: floats or halfs
+    int32_t is_half;                 // the values are halfs
     int32_t transfer;                // a glint_transfer
     float gamma;                     // for GLINT_TRANSFER_POWER: linear = code^gamma
     int32_t is_unassociated;         // alpha is not multiplied into the colour

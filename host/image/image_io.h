@@ -126,7 +126,7 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
 // glint_image_load_ahead starts a thread that loads OpenImageIO, for a caller who writes an image
 // later. The caller must call glint_image_end_loading, which joins the thread, before the process
 // exits. Exit handlers unload libraries, and must not do so while the thread loads them. Only the
-// main thread calls both.
+// main thread calls both. A second call of glint_image_load_ahead has no effect.
 void glint_image_load_ahead(void);
 void glint_image_end_loading(void);
 

@@ -1,10 +1,13 @@
 // Converts stored pictures to images. See stored.h.
 #include "image/stored.h"
 
+#include "base/half.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "image/color.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -43,30 +46,26 @@ static size_t count_pixels(const glint_stored_facts *facts)
     return (size_t)facts->width * (size_t)facts->height;
 }
 
-// The value of each code: unchanged, and linearised.
-typedef struct meanings {
-    float *plain, *linear;
-} meanings;
+#define CHUNK 4096       // number of pixels read at a time
+#define BAND (8 * CHUNK) // number of pixels that a thread develops at a time
 
-#define CHUNK 4096 // number of pixels read at a time
-
-// Pixels as read, with 8 or 16 bits a code.
+// Pixels as read, with 8 or 16 bits a value.
 typedef struct chunk {
-    uint16_t codes[CHUNK * 4];
+    uint16_t values[CHUNK * 4];
     size_t pixels;
 } chunk;
 
 // Is compiled once for each width of codes.
-static inline void develop_each(const glint_stored_facts *facts, const meanings *of,
+static inline void develop_each(const glint_stored_facts *facts, const glint_development *of,
                                 const chunk *from, bool is_wide, float *pixels)
 {
-    const uint8_t *narrow = (const uint8_t *)from->codes;
+    const uint8_t *narrow = (const uint8_t *)from->values;
     const size_t channels = (size_t)facts->channels;
     for (size_t p = 0; p < from->pixels; p++) {
         float curved[4] = {0}, straight[4] = {0};
         for (size_t c = 0; c < channels; c++) {
             const size_t place = p * channels + c;
-            const unsigned code = is_wide ? from->codes[place] : narrow[place];
+            const unsigned code = is_wide ? from->values[place] : narrow[place];
             curved[c] = of->linear[code];
             straight[c] = of->plain[code];
         }
@@ -74,56 +73,113 @@ static inline void develop_each(const glint_stored_facts *facts, const meanings 
     }
 }
 
-static glint_status develop_chunks(const glint_stored *stored, const meanings *of, float *pixels,
-                                   glint_error *error)
+static void multiply_alpha(const glint_stored_facts *facts, float *pixels, size_t count)
 {
-    const glint_stored_facts *facts = &stored->facts;
-    const bool is_wide = facts->code_bits == 16;
-    const size_t channels = (size_t)facts->channels, count = count_pixels(facts);
-    const size_t pixel_bytes = channels * (is_wide ? sizeof(uint16_t) : sizeof(uint8_t));
-    chunk from;
-    for (size_t done = 0; done < count; done += CHUNK) {
-        from.pixels = count - done < CHUNK ? count - done : CHUNK;
-        TRY(glint_stored_read(stored, done * pixel_bytes, from.codes, from.pixels * pixel_bytes,
-                              error));
-        if (is_wide) {
-            develop_each(facts, of, &from, true, pixels + done * channels);
-        } else {
-            develop_each(facts, of, &from, false, pixels + done * channels);
-        }
-    }
-    return GLINT_OK;
-}
-
-static glint_status develop_codes(const glint_stored *stored, float *pixels, glint_error *error)
-{
-    const glint_stored_facts *facts = &stored->facts;
-    const unsigned most = facts->code_bits == 16 ? UINT16_MAX : UINT8_MAX;
-    float *values = glint_allocate_unset(most + 1, 2 * sizeof *values);
-    if (values == NULL) {
-        return glint_fail_memory(error, "an image");
-    }
-    const meanings of = {values, values + most + 1};
-    for (unsigned code = 0; code <= most; code++) {
-        of.plain[code] = (float)((double)code / most);
-        of.linear[code] = linear_of(facts, of.plain[code]);
-    }
-    const glint_status status = develop_chunks(stored, &of, pixels, error);
-    free(values);
-    return status;
-}
-
-static glint_status develop_floats(const glint_stored *stored, float *pixels, glint_error *error)
-{
-    const glint_stored_facts *facts = &stored->facts;
-    const size_t channels = (size_t)facts->channels, count = count_pixels(facts);
-    TRY(glint_stored_read(stored, 0, pixels, stored->value_bytes, error));
+    const size_t channels = (size_t)facts->channels;
     for (size_t p = 0; facts->is_unassociated != 0 && p < count; p++) {
         float value[4] = {0};
         memcpy(value, pixels + p * channels, channels * sizeof *value);
         develop_pixel(facts, value, value, pixels + p * channels);
     }
+}
+
+static size_t bytes_each(const glint_stored_facts *facts)
+{
+    return facts->code_bits != 0 ? (size_t)facts->code_bits / 8
+           : facts->is_half != 0 ? sizeof(uint16_t)
+                                 : sizeof(float);
+}
+
+static void develop_chunk(const glint_development *d, const chunk *from, float *pixels)
+{
+    const glint_stored_facts *facts = &d->stored->facts;
+    if (facts->code_bits == 16) {
+        develop_each(facts, d, from, true, pixels);
+    } else if (facts->code_bits == 8) {
+        develop_each(facts, d, from, false, pixels);
+    } else {
+        glint_halfs_to_floats(from->values, from->pixels * (size_t)facts->channels, pixels);
+        multiply_alpha(facts, pixels, from->pixels);
+    }
+}
+
+bool glint_development_read(const glint_development *d, size_t first, size_t count, float *pixels)
+{
+    const glint_stored_facts *facts = &d->stored->facts;
+    const size_t channels = (size_t)facts->channels, bytes = channels * bytes_each(facts);
+    if (facts->code_bits == 0 && facts->is_half == 0) {
+        if (glint_stored_read(d->stored, first * bytes, pixels, count * bytes, NULL) != GLINT_OK) {
+            return false;
+        }
+        multiply_alpha(facts, pixels, count);
+        return true;
+    }
+    chunk from;
+    for (size_t done = 0; done < count; done += from.pixels) {
+        from.pixels = count - done < CHUNK ? count - done : CHUNK;
+        if (glint_stored_read(d->stored, (first + done) * bytes, from.values, from.pixels * bytes,
+                              NULL) != GLINT_OK) {
+            return false;
+        }
+        develop_chunk(d, &from, pixels + done * channels);
+    }
+    return true;
+}
+
+glint_status glint_development_begin(const glint_stored *stored, glint_development *development,
+                                     glint_error *error)
+{
+    const glint_stored_facts *facts = &stored->facts;
+    const unsigned most = facts->code_bits == 16 ? UINT16_MAX : UINT8_MAX;
+    *development = (glint_development){.stored = stored};
+    if (facts->code_bits == 0) {
+        return GLINT_OK;
+    }
+    float *values = glint_allocate_unset(most + 1, 2 * sizeof *values);
+    if (values == NULL) {
+        return glint_fail_memory(error, "an image");
+    }
+    development->plain = values;
+    development->linear = values + most + 1;
+    for (unsigned code = 0; code <= most; code++) {
+        development->plain[code] = (float)((double)code / most);
+        development->linear[code] = linear_of(facts, development->plain[code]);
+    }
     return GLINT_OK;
+}
+
+void glint_development_end(glint_development *development)
+{
+    free(development->plain);
+    *development = (glint_development){0};
+}
+
+// The data that all threads share.
+typedef struct job {
+    glint_development development;
+    float *pixels;
+    atomic_bool is_cut; // values are missing
+} job;
+
+static void develop_band(size_t index, void *context)
+{
+    job *shared = context;
+    const glint_stored_facts *facts = &shared->development.stored->facts;
+    const size_t first = index * BAND, left = count_pixels(facts) - first;
+    if (!glint_development_read(&shared->development, first, left < BAND ? left : BAND,
+                                shared->pixels + first * (size_t)facts->channels)) {
+        atomic_store(&shared->is_cut, true);
+    }
+}
+
+static glint_status develop_values(const glint_stored *stored, glint_image *image,
+                                   glint_error *error)
+{
+    job shared = {.pixels = image->pixels};
+    TRY(glint_development_begin(stored, &shared.development, error));
+    glint_parallel_for((count_pixels(&stored->facts) + BAND - 1) / BAND, develop_band, &shared);
+    glint_development_end(&shared.development);
+    return atomic_load(&shared.is_cut) ? glint_stored_fail_of_cut(stored, error) : GLINT_OK;
 }
 
 // The stored place of pixel (x, y) of an upright image of `width` × `height`. EXIF's numbers: 2
@@ -170,8 +226,7 @@ static glint_status set_upright(int orientation, glint_image *image, glint_error
 
 static glint_status develop(const glint_stored *stored, glint_image *image, glint_error *error)
 {
-    TRY(stored->facts.code_bits == 0 ? develop_floats(stored, image->pixels, error)
-                                     : develop_codes(stored, image->pixels, error));
+    TRY(develop_values(stored, image, error));
     return set_upright(stored->facts.orientation, image, error);
 }
 
@@ -179,7 +234,8 @@ glint_status glint_stored_develop(const glint_stored *stored, glint_image *image
                                   glint_error *error)
 {
     const glint_stored_facts *facts = &stored->facts;
-    TRY(glint_image_create(facts->width, facts->height, facts->channels, image, error));
+    *image = (glint_image){0};
+    TRY(glint_image_reuse(facts->width, facts->height, facts->channels, image, error));
     const glint_status status = develop(stored, image, error);
     if (status != GLINT_OK) {
         glint_image_free(image);

@@ -326,7 +326,7 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
 {
     *inputs = (glint_inputs){0};
     const double begun = glint_progress_elapsed(display);
-    if (request->env != NULL) {
+    if (request->env != NULL && !glint_environment_is_likely_kept(request->env)) {
         glint_decoder_start(); // the decoder's process starts while the scene loads
     }
     glint_progress_phase(display, "load_scene", "loading the scene");
@@ -352,6 +352,7 @@ glint_status glint_inputs_load_environment(const glint_input_request *request,
                                    &inputs->warnings, error));
     }
     if (request->env_flip != NULL) {
+        glint_environment_settle(&inputs->environment);
         TRY(glint_cube_mirror(&inputs->environment.radiance, request->env_flip, error));
     }
     inputs->environment_ms = glint_now_ms() - begun;

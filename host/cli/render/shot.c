@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "cli/render/plate.h"
+#include "environment/environment.h"
 #include "image/image_io.h"
 
 glint_status render_shot_load(render_shot *shot, const render_request *request,
@@ -11,8 +12,15 @@ glint_status render_shot_load(render_shot *shot, const render_request *request,
     shot->request = request;
     shot->display = display;
     TRY(render_stage_load(&shot->stage, request, display, error));
-    glint_image_load_ahead(); // the scene is good, so glint will write images
-    return render_light_load(&shot->light, &shot->stage, display, error);
+    // The scene is good, so glint will write images. No thread can start while the loader loads
+    // their library. So it loads beside a slow decoder, but after a light that loads fast.
+    const char *env = request->inputs.env;
+    if (env != NULL && !glint_environment_is_likely_kept(env)) {
+        glint_image_load_ahead();
+    }
+    TRY(render_light_load(&shot->light, &shot->stage, display, error));
+    glint_image_load_ahead();
+    return GLINT_OK;
 }
 
 glint_status render_shot_set(render_shot *shot, int frame, double *ms, glint_error *error)
