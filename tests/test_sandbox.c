@@ -1,5 +1,5 @@
 // Tests the sandbox of the image decoder: it may only read files, compute in threads, and answer.
-#include "decoder/sandbox.h"
+#include "codec/sandbox.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -10,8 +10,8 @@ glint_status render_shot_load(render_shot *shot, const render_request *request,
 {
     shot->request = request;
     shot->display = display;
+    glint_image_write_ahead(); // while the scene loads
     TRY(render_stage_load(&shot->stage, request, display, error));
-    glint_image_load_ahead(); // the scene is good, so glint will write images
     return render_light_load(&shot->light, &shot->stage, display, error);
 }
 
@@ -37,6 +37,5 @@ void render_shot_free(render_shot *shot)
 {
     render_light_free(&shot->light);
     render_stage_free(&shot->stage);
-    glint_image_end_loading();
     *shot = (render_shot){0};
 }
