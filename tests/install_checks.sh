@@ -5,8 +5,8 @@ set -eu
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
 cmake --install "$1" --prefix "$prefix" >/dev/null
-render() {
-    "$prefix/bin/glint" render scenes/mirror_sphere.gltf --size 16x9 -o "$prefix/x.png" \
+render() { # render FILE
+    "$prefix/bin/glint" render scenes/mirror_sphere.gltf --size 16x9 -o "$prefix/$1" \
         --progress none
 }
 cd "$(dirname "$0")/.."
@@ -14,11 +14,11 @@ cd "$(dirname "$0")/.."
 [ ! -f "$1/build.ninja" ] ||
     [ "$(ninja -C "$1" -t inputs glint | grep -cx glint-codec)" = 1 ]
 "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr >/dev/null
-render
-[ -s "$prefix/x.png" ]
-rm "$prefix/x.png"
+render x.exr
+[ -s "$prefix/x.exr" ]
+rm "$prefix/x.exr"
 
-# With a codec of another version, or without one, glint must fail to read and to write images, and
+# With a codec that does not run, or without one, glint must fail to read and to write images, and
 # say so.
 # refused STATUS COMMAND…: the command ends with STATUS and one line, which names the codec.
 refused() {
@@ -27,7 +27,7 @@ refused() {
     [ "$status" = "$1" ]
     [ "$(wc -l <<<"$message")" = 1 ]
     grep -q "^glint: glint-codec: .*(install glint anew)$" <<<"$message"
-    [ ! -e "$prefix/x.png" ]
+    [ ! -e "$prefix/x.exr" ]
 }
 read_image() {
     "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr
@@ -37,8 +37,11 @@ rm "$codec" # it may still run
 printf '#!/bin/sh\nexit 9\n' >"$codec"
 chmod +x "$codec"
 refused 3 read_image
-refused 5 render
+refused 5 render x.exr
 rm "$codec"
 refused 3 read_image
-refused 5 render
+refused 5 render x.exr
 "$prefix/bin/glint" info scenes/mirror_sphere.gltf >/dev/null
+# glint encodes PNG itself.
+render x.png
+[ -s "$prefix/x.png" ]

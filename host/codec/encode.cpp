@@ -1,4 +1,5 @@
-// Encodes image files through OpenImageIO. See encode.h and image/encoding.h.
+// Encodes image files through OpenImageIO. See encode.h and image/encoding.h. PNG is encoded by
+// glint itself (image/png.c).
 //
 // It encodes a file in memory, and glint writes it (image/output_file.c). So this process needs no
 // right to write files.
@@ -118,11 +119,7 @@ void describe_codes(ImageSpec &spec, const std::string &plugin, const char *give
     }
     // The colours are already unpremultiplied.
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (plugin == "png") {
-        // Deflation takes most of the time. Level 2 is three times as fast as the default, 6. Its
-        // files are some percent larger.
-        spec.attribute("png:compressionLevel", is_given ? std::atoi(given) : 2);
-    } else if (plugin == "jpeg") {
+    if (plugin == "jpeg") {
         spec.attribute("CompressionQuality", is_given ? std::atoi(given) : 95);
         spec.attribute("jpeg:subsampling", "4:4:4");
     } else {

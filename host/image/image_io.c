@@ -7,6 +7,7 @@
 #include "image/encoder.h"
 #include "image/formats.h"
 #include "image/output_file.h"
+#include "image/png.h"
 #include "image/stored.h"
 
 #include <stdlib.h>
@@ -145,7 +146,9 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
     }
     const glint_file_values values = glint_file_values_of(glint_image_written_format(path), image,
                                                           options != NULL ? options : &defaults);
-    return glint_encoder_run(path, &values, encoded, error);
+    return values.format->kind == GLINT_WRITTEN_PNG
+               ? glint_png_encode(path, &values, (size_t)glint_codec_threads(), encoded, error)
+               : glint_encoder_run(path, &values, encoded, error);
 }
 
 glint_status glint_image_write(const char *path, const glint_image *image,
@@ -158,9 +161,12 @@ glint_status glint_image_write(const char *path, const glint_image *image,
     return status;
 }
 
-void glint_image_write_ahead(void)
+void glint_image_write_ahead(const char *path)
 {
-    glint_codec_start();
+    const glint_written_format *format = glint_image_written_format(path);
+    if (format != NULL && format->kind != GLINT_WRITTEN_PNG) {
+        glint_codec_start();
+    }
 }
 
 void glint_image_use_threads(int count)

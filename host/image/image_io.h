@@ -1,5 +1,5 @@
-// Reads and writes image files. Another process decodes and encodes them, with OpenImageIO
-// (codec_messages.h).
+// Reads and writes image files. Another process decodes them, and encodes all but PNG, with
+// OpenImageIO (codec_messages.h).
 #ifndef GLINT_IMAGE_IMAGE_IO_H
 #define GLINT_IMAGE_IMAGE_IO_H
 
@@ -123,8 +123,9 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
                                 const glint_write_options *options, glint_encoded *encoded,
                                 glint_error *error);
 
-// Starts the process that encodes, for a caller who writes an image later.
-void glint_image_write_ahead(void);
+// Starts the process that encodes, for a caller who writes an image to `path` later. PNG needs no
+// other process.
+void glint_image_write_ahead(const char *path);
 
 // Sets the number of threads for each read or write. 0, the default, is one for each core. 1 is the
 // caller's thread alone, for callers that encode several images in parallel.

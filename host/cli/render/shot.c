@@ -10,7 +10,7 @@ glint_status render_shot_load(render_shot *shot, const render_request *request,
 {
     shot->request = request;
     shot->display = display;
-    glint_image_write_ahead(); // while the scene loads
+    glint_image_write_ahead(request->output); // while the scene loads
     TRY(render_stage_load(&shot->stage, request, display, error));
     return render_light_load(&shot->light, &shot->stage, display, error);
 }
