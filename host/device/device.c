@@ -5,6 +5,7 @@
 #include "device/opencl.h"
 #include "device/opencl_error.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,6 +106,46 @@ static void sort_devices(found_device *devices, size_t count)
     }
 }
 
+// ---- Starting the drivers -----------------------------------------------------------------------
+
+// Only the main thread uses these.
+static pthread_t starter;
+static bool is_starting, was_started;
+
+// Loads the drivers and makes them find their devices. Whoever opens a device reports failures.
+static void *start_drivers(void *unused)
+{
+    cl_platform_id platforms[MAX_PLATFORMS];
+    cl_uint count = 0;
+    if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &count) != CL_SUCCESS) {
+        return unused;
+    }
+    for (cl_uint p = 0; p < count && p < MAX_PLATFORMS; p++) {
+        cl_uint unread;
+        (void)clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, 0, NULL, &unread);
+    }
+    return unused;
+}
+
+void glint_device_start_drivers(void)
+{
+    if (!was_started) {
+        was_started = true;
+        glint_driver_cache_prepare(); // may set an environment variable, so not on the thread
+        is_starting = pthread_create(&starter, NULL, start_drivers, NULL) == 0;
+    }
+}
+
+void glint_device_await_drivers(void)
+{
+    if (is_starting) {
+        pthread_join(starter, NULL);
+        is_starting = false;
+    }
+}
+
+// ---- Finding devices ----------------------------------------------------------------------------
+
 // Sets *devices to NULL if, and only if, it fails.
 static glint_status find_devices(found_device **devices, size_t *count, glint_error *error)
 {
@@ -113,6 +154,7 @@ static glint_status find_devices(found_device **devices, size_t *count, glint_er
     // Find the platforms.
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
+    glint_device_await_drivers();
     glint_driver_cache_prepare();
     cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count);
     if (code != CL_SUCCESS || platform_count == 0) {
