@@ -144,7 +144,7 @@ static decoded check(const glint_image *image, const glint_write_options *option
     assert_int_equal(read.height, image->height);
     assert_int_equal(read.channels, values.channels);
     const size_t size = (size_t)read.width * read.height * read.channels;
-    unsigned char *wanted = malloc(size);
+    unsigned char *wanted = malloc(1 + size);
     assert_non_null(wanted);
     glint_file_values_fill(&values, 0, image->height, wanted);
     assert_memory_equal(read.codes, wanted, size);

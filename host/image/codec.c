@@ -138,24 +138,42 @@ static bool receive(int socket, int milliseconds, glint_codec_answer *answer)
     return length == (ssize_t)sizeof *answer;
 }
 
+// Says why the codec did not report that it is ready, and `how` it ended. `version` is the one that
+// it reported; "": none.
+static glint_status fail_of_start(glint_status failure, int how, const char *version,
+                                  glint_error *error)
+{
+    if (version[0] != '\0') {
+        return glint_fail(error, failure,
+                          GLINT_CODEC_PROGRAM ": it is of glint %.40s, not of " GLINT_VERSION
+                                              " (install glint anew)",
+                          version);
+    }
+    if (WIFSIGNALED(how)) {
+        return glint_fail(error, failure,
+                          GLINT_CODEC_PROGRAM ": it was ended by signal %d, %s (free some memory, "
+                                              "or run this again)",
+                          WTERMSIG(how), strsignal(WTERMSIG(how)));
+    }
+    return glint_fail(error, failure,
+                      GLINT_CODEC_PROGRAM ": it does not run (status %d) (install glint anew)",
+                      WEXITSTATUS(how));
+}
+
 // Waits until the codec has loaded its libraries. The caller holds the lock. `answer` is room for
 // its message.
 static glint_status await_ready(glint_status failure, glint_codec_answer *answer,
                                 glint_error *error)
 {
-    if (!codec.is_ready) {
-        codec.is_ready = receive(codec.socket, -1, answer) &&
-                         answer->kind == GLINT_CODEC_IS_READY &&
-                         strcmp(answer->message, GLINT_VERSION) == 0;
-    }
     if (codec.is_ready) {
         return GLINT_OK;
     }
-    const int how = stop();
-    return glint_fail(error, failure,
-                      GLINT_CODEC_PROGRAM ": it does not run (status %d), or is not of "
-                                          "glint " GLINT_VERSION " (install glint anew)",
-                      WIFEXITED(how) ? WEXITSTATUS(how) : -1);
+    const bool is_heard = receive(codec.socket, -1, answer) && answer->kind == GLINT_CODEC_IS_READY;
+    codec.is_ready = is_heard && strcmp(answer->message, GLINT_VERSION) == 0;
+    if (codec.is_ready) {
+        return GLINT_OK;
+    }
+    return fail_of_start(failure, stop(), is_heard ? answer->message : "", error);
 }
 
 // ---- Requests -----------------------------------------------------------------------------------
