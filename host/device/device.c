@@ -6,6 +6,7 @@
 #include "device/opencl_error.h"
 
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -112,17 +113,28 @@ static void sort_devices(found_device *devices, size_t count)
 static pthread_t starter;
 static bool is_starting, was_started;
 
-// Loads the drivers and makes them find their devices. Whoever opens a device reports failures.
-static void *start_drivers(void *unused)
+// Makes the drivers find their devices. Whoever opens a device reports failures.
+static void find_all(void)
 {
     cl_platform_id platforms[MAX_PLATFORMS];
-    cl_uint count = 0;
+    cl_uint count = 0, unread;
     if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &count) != CL_SUCCESS) {
-        return unused;
+        return;
     }
     for (cl_uint p = 0; p < count && p < MAX_PLATFORMS; p++) {
-        cl_uint unread;
         (void)clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, 0, NULL, &unread);
+    }
+}
+
+// LLVM gives the thread that loads it a stack for signals. Take it back: AddressSanitizer frees the
+// thread's stack when the thread ends, and takes LLVM's for its own.
+static void *start_drivers(void *unused)
+{
+    stack_t before;
+    const bool is_known = sigaltstack(NULL, &before) == 0;
+    find_all();
+    if (is_known) {
+        (void)sigaltstack(&before, NULL);
     }
     return unused;
 }
