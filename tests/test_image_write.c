@@ -426,6 +426,43 @@ static void processes_that_died_are_started_anew(void **state)
     assert_int_equal(scratch_count(), 3);
 }
 
+static void *write_small(void *path)
+{
+    float pixel[3] = {0.25f, 0.5f, 1.0f};
+    const glint_image image = {1, 1, 3, pixel};
+    return glint_image_write(path, &image, NULL, NULL) == GLINT_OK ? NULL : path;
+}
+
+// A regression test: the first images of an encoder each set OpenImageIO's number of threads, at
+// once, and it crashed.
+static void a_new_encoder_may_begin_with_several_images(void **state)
+{
+    (void)state;
+    enum { THREADS = 4, ROUNDS = 60 };
+    static char paths[THREADS][512];
+    pthread_t threads[THREADS];
+    for (int i = 0; i < THREADS; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%d.%s", i, i % 2 == 0 ? "hdr" : "exr");
+        snprintf(paths[i], sizeof paths[i], "%s", scratch_path(name));
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        glint_image_use_threads(1 + round % 2);
+        for (int i = 0; i < THREADS; i++) {
+            assert_int_equal(pthread_create(&threads[i], NULL, write_small, paths[i]), 0);
+        }
+        for (int i = 0; i < THREADS; i++) {
+            void *failed = NULL;
+            pthread_join(threads[i], &failed);
+            assert_null(failed);
+        }
+        if (round % 3 != 0) { // the others change the number in an encoder that runs
+            end_encoder(child_of(child_of(getpid())));
+        }
+    }
+    glint_image_use_threads(0);
+}
+
 // A process that forks must not share memory files or the codec with its child.
 static void a_fork_writes_too(void **state)
 {
@@ -605,6 +642,7 @@ int main(void)
         IN_FOLDER(exposure_is_stops_and_leaves_exr_alone),
         IN_FOLDER(threads_may_read_and_write_at_once),
         IN_FOLDER(processes_that_died_are_started_anew),
+        IN_FOLDER(a_new_encoder_may_begin_with_several_images),
         IN_FOLDER(a_fork_writes_too),
         IN_FOLDER(png_metadata_is_text_with_its_values),
         IN_FOLDER(exr_metadata_has_openexrs_types),

@@ -4,7 +4,6 @@
 // It encodes a file in memory, and glint writes it (image/output_file.c). So this process needs no
 // right to write files.
 #include "codec/encode.h"
-#include "codec/decode.h"
 #include "codec/mapping.hpp"
 #include "image/encoding.h"
 #include "image/image_io.h"
@@ -234,7 +233,6 @@ glint_status try_to_encode(const glint_codec_request &request, int file, glint_c
 
 void glint_encode(const glint_codec_request *request, int memory, glint_codec_answer *answer)
 {
-    glint_codec_set_threads(request->threads);
     glint_error error = {};
     answer->kind = GLINT_CODEC_DONE;
     answer->status = try_to_encode(*request, memory, *answer, &error);

@@ -2,6 +2,7 @@
 #include "codec/encoder.h"
 
 #include "codec/answer.h"
+#include "codec/decode.h"
 #include "codec/encode.h"
 #include "codec/sandbox.h"
 
@@ -27,6 +28,13 @@ typedef struct job {
     glint_codec_answer answer;
 } job;
 
+// The jobs at work. `lock` guards the count.
+static struct {
+    pthread_mutex_t lock;
+    pthread_cond_t is_none;
+    size_t count;
+} jobs = {.lock = PTHREAD_MUTEX_INITIALIZER, .is_none = PTHREAD_COND_INITIALIZER};
+
 static void *work(void *context)
 {
     job *own = context;
@@ -35,12 +43,37 @@ static void *work(void *context)
     close(own->files.answers);
     close(own->files.results);
     free(own);
+    pthread_mutex_lock(&jobs.lock);
+    jobs.count--;
+    if (jobs.count == 0) {
+        pthread_cond_signal(&jobs.is_none);
+    }
+    pthread_mutex_unlock(&jobs.lock);
     return NULL;
+}
+
+// OpenImageIO's threads must not change in number while it works.
+static void use_threads(int wanted)
+{
+    static int threads = -1;
+    if (threads != wanted) {
+        pthread_mutex_lock(&jobs.lock);
+        while (jobs.count > 0) {
+            pthread_cond_wait(&jobs.is_none, &jobs.lock);
+        }
+        pthread_mutex_unlock(&jobs.lock);
+        glint_codec_set_threads(wanted);
+        threads = wanted;
+    }
 }
 
 // Without a thread for the job, this thread does it.
 static void begin(job *received)
 {
+    use_threads(received->request.threads);
+    pthread_mutex_lock(&jobs.lock);
+    jobs.count++;
+    pthread_mutex_unlock(&jobs.lock);
     pthread_t thread;
     if (pthread_create(&thread, NULL, work, received) == 0) {
         pthread_detach(thread);
