@@ -13,6 +13,8 @@ cd "$(dirname "$0")/.."
 # ./glint builds only the target of the program.
 [ ! -f "$1/build.ninja" ] ||
     [ "$(ninja -C "$1" -t inputs glint | grep -cx glint-codec)" = 1 ]
+# Only the codec links OpenImageIO and its hundreds of libraries.
+[ "$(ldd "$prefix/bin/glint" | grep -c OpenImageIO)" = 0 ]
 "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr >/dev/null
 render x.exr
 [ -s "$prefix/x.exr" ]
