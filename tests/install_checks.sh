@@ -1,41 +1,49 @@
 #!/usr/bin/env bash
-# Tests an installation: installs glint, renders, then removes the decoder and the codec.
+# Tests an installation: installs glint, renders, then replaces and removes the codec.
 # install_checks.sh BUILD
 set -eu
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
 cmake --install "$1" --prefix "$prefix" >/dev/null
-render() {
-    "$prefix/bin/glint" render scenes/mirror_sphere.gltf --size 16x9 -o "$prefix/x.png" \
+render() { # render FILE
+    "$prefix/bin/glint" render scenes/mirror_sphere.gltf --size 16x9 -o "$prefix/$1" \
         --progress none
 }
 cd "$(dirname "$0")/.."
 # ./glint builds only the target of the program.
 [ ! -f "$1/build.ninja" ] ||
-    [ "$(ninja -C "$1" -t inputs glint | grep -cE '^(libglint_codec\.so|glint-decoder)$')" = 2 ]
+    [ "$(ninja -C "$1" -t inputs glint | grep -cx glint-codec)" = 1 ]
+# Only the codec links OpenImageIO and its hundreds of libraries.
+[ "$(ldd "$prefix/bin/glint" | grep -c OpenImageIO)" = 0 ]
 "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr >/dev/null
-render
-[ -s "$prefix/x.png" ]
-rm "$prefix/x.png"
+render x.exr
+[ -s "$prefix/x.exr" ]
+rm "$prefix/x.exr"
 
-# Without the decoder glint must fail to read images, and say so.
-# refused STATUS FILE: the message of the last command line names the missing file.
+# With a codec that does not run, or without one, glint must fail to read and to write images, and
+# say so.
+# refused STATUS COMMAND…: the command ends with STATUS and one line, which names the codec.
 refused() {
+    local status=0 message
+    message=$("${@:2}" 2>&1) || status=$?
     [ "$status" = "$1" ]
     [ "$(wc -l <<<"$message")" = 1 ]
-    grep -q "^glint: $2: .*(install glint anew)$" <<<"$message"
-    [ ! -e "$prefix/x.png" ]
+    grep -q "^glint: glint-codec: .*(install glint anew)$" <<<"$message"
+    [ ! -e "$prefix/x.exr" ]
 }
-rm -f "$prefix"/lib*/glint/glint-decoder "$prefix"/lib*/*/glint/glint-decoder
-render
-rm "$prefix/x.png"
-status=0
-message=$("$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr 2>&1) || status=$?
-refused 3 glint-decoder
-
-# Without the codec glint cannot write images.
-rm -f "$prefix"/lib*/glint/libglint_codec.so "$prefix"/lib*/*/glint/libglint_codec.so
+read_image() {
+    "$prefix/bin/glint" info scenes/axes.gltf --env scenes/axes.hdr
+}
+codec=$(find "$prefix" -name glint-codec)
+rm "$codec" # it may still run
+printf '#!/bin/sh\nexit 9\n' >"$codec"
+chmod +x "$codec"
+refused 3 read_image
+refused 5 render x.exr
+rm "$codec"
+refused 3 read_image
+refused 5 render x.exr
 "$prefix/bin/glint" info scenes/mirror_sphere.gltf >/dev/null
-status=0
-message=$(render 2>&1) || status=$?
-refused 5 libglint_codec.so
+# glint encodes PNG itself.
+render x.png
+[ -s "$prefix/x.png" ]

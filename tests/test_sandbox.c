@@ -1,5 +1,6 @@
-// Tests the sandbox of the image decoder: it may only read files, compute in threads, and answer.
-#include "decoder/sandbox.h"
+// Tests the sandbox of the codec's children: it may only read files, compute in threads, and
+// answer.
+#include "codec/sandbox.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -95,6 +96,28 @@ static void work_goes_on(void **state)
     assert_int_equal(in_child(work), 0);
 }
 
+static int keep_two(void)
+{
+    int ends[2], other = open("/dev/null", O_RDONLY);
+    if (other < 0 || pipe(ends) != 0) {
+        return 1;
+    }
+    const int high = fcntl(ends[1], F_DUPFD, 200), kept[] = {high, -1, ends[0]};
+    glint_sandbox_close_others(kept, 3);
+    return fcntl(ends[0], F_GETFD) < 0                                  ? 2
+           : fcntl(high, F_GETFD) < 0                                   ? 3
+           : fcntl(STDERR_FILENO, F_GETFD) < 0                          ? 4
+           : fcntl(other, F_GETFD) >= 0 || fcntl(ends[1], F_GETFD) >= 0 ? 5
+           : fcntl(high + 1, F_GETFD) >= 0                              ? 6
+                                                                        : 0;
+}
+
+static void only_given_descriptors_stay_open(void **state)
+{
+    (void)state;
+    assert_int_equal(in_child(keep_two), 0);
+}
+
 static int use_memory(void)
 {
     const glint_decode_limits limits = {.memory_bytes = 64 * MIB, .cpu_seconds = 5, .seconds = 60};
@@ -137,6 +160,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(others_cannot_be_reached),
         cmocka_unit_test(work_goes_on),
+        cmocka_unit_test(only_given_descriptors_stay_open),
         cmocka_unit_test(memory_is_limited),
         cmocka_unit_test(time_is_limited),
     };

@@ -8,6 +8,7 @@
 #include "cli/common/say.h"
 #include "cli/common/signals.h"
 #include "device/driver_cache.h"
+#include "image/codec.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -97,6 +98,7 @@ static glint_status run_and_tidy(const glint_command *command, void *request,
         glint_say("warning: %s", note);
     }
     glint_driver_cache_release();
+    glint_codec_abandon();
     return status;
 }
 

@@ -5,6 +5,8 @@
 #include "device/opencl.h"
 #include "device/opencl_error.h"
 
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,6 +107,57 @@ static void sort_devices(found_device *devices, size_t count)
     }
 }
 
+// ---- Starting the drivers -----------------------------------------------------------------------
+
+// Only the main thread uses these.
+static pthread_t starter;
+static bool is_starting, was_started;
+
+// Makes the drivers find their devices. Whoever opens a device reports failures.
+static void find_all(void)
+{
+    cl_platform_id platforms[MAX_PLATFORMS];
+    cl_uint count = 0, unread;
+    if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &count) != CL_SUCCESS) {
+        return;
+    }
+    for (cl_uint p = 0; p < count && p < MAX_PLATFORMS; p++) {
+        (void)clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, 0, NULL, &unread);
+    }
+}
+
+// LLVM gives the thread that loads it a stack for signals. Take it back: AddressSanitizer frees the
+// thread's stack when the thread ends, and takes LLVM's for its own.
+static void *start_drivers(void *unused)
+{
+    stack_t before;
+    const bool is_known = sigaltstack(NULL, &before) == 0;
+    find_all();
+    if (is_known) {
+        (void)sigaltstack(&before, NULL);
+    }
+    return unused;
+}
+
+void glint_device_start_drivers(void)
+{
+    if (!was_started) {
+        was_started = true;
+        glint_driver_cache_prepare(); // may set an environment variable, so not on the thread
+        is_starting = pthread_create(&starter, NULL, start_drivers, NULL) == 0;
+    }
+}
+
+void glint_device_await_drivers(void)
+{
+    if (is_starting) {
+        pthread_join(starter, NULL);
+        is_starting = false;
+    }
+}
+
+// ---- Finding devices ----------------------------------------------------------------------------
+
 // Sets *devices to NULL if, and only if, it fails.
 static glint_status find_devices(found_device **devices, size_t *count, glint_error *error)
 {
@@ -113,6 +166,7 @@ static glint_status find_devices(found_device **devices, size_t *count, glint_er
     // Find the platforms.
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint platform_count = 0;
+    glint_device_await_drivers();
     glint_driver_cache_prepare();
     cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count);
     if (code != CL_SUCCESS || platform_count == 0) {

@@ -9,6 +9,13 @@
 
 typedef struct glint_device glint_device; // opaque: context, queues, OpenCL's handles
 
+// glint_device_start_drivers starts a thread that loads the drivers, for a caller who opens a
+// device later. A caller who then opens none must call glint_device_await_drivers, which joins the
+// thread, before the process exits: exit handlers unload libraries. Only the main thread calls
+// both.
+void glint_device_start_drivers(void);
+void glint_device_await_drivers(void);
+
 // Lists all devices of all platforms that can compile kernels: GPUs first, then CPUs, then others.
 // The caller frees `*list` with free(). Fails with GLINT_DEVICE_FAILED if there is no platform or
 // no device; the message says what to install.

@@ -1,26 +1,37 @@
-// Declares the codec: a separate shared library (host/codec/, libglint_codec.so) that encodes
-// images through OpenImageIO. image_io.c loads it when glint first writes an image. OpenImageIO
-// depends on 260 libraries. Linking them takes 0.4 s, more than most commands need.
+// Starts glint-codec and sends it requests: glint's side of codec_messages.h.
 #ifndef GLINT_IMAGE_CODEC_H
 #define GLINT_IMAGE_CODEC_H
 
-#include "image/image_io.h"
+#include "base/status.h"
+#include "image/codec_messages.h"
+
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef struct glint_codec {
-    const char *version; // GLINT_VERSION; must equal the program's
-    // Encodes as glint_image_encode. The caller passes a zero result.
-    glint_status (*encode)(const char *path, const glint_image *image,
-                           const glint_write_options *options, glint_encoded *encoded,
-                           glint_error *error);
-    void (*use_threads)(int count);
-} glint_codec;
+#define GLINT_CODEC_PROGRAM "glint-codec"
 
-// The codec's only symbol.
-extern const glint_codec glint_codec_functions;
+// Sends the request and waits for the answer; starts the codec if it does not run. Sets
+// files->answers; the caller keeps the other files. If no answer
+// comes within `seconds` (0: for ever), *answer is a GLINT_CODEC_CHILD_DIED with status 0. Several
+// threads may ask at once. Errors, if the codec could not be asked: GLINT_OUTPUT_FAILED for
+// GLINT_ENCODE, GLINT_BAD_INPUT for all other work.
+glint_status glint_codec_ask(const glint_codec_request *request, glint_codec_files *files,
+                             uint32_t seconds, glint_codec_answer *answer, glint_error *error);
+
+// Starts the codec, so that it loads its libraries while the caller works. The first request
+// reports an error.
+void glint_codec_start(void);
+
+// Ends a codec that still loads its libraries. A codec that has loaded them ends by itself as soon
+// as this process ends.
+void glint_codec_abandon(void);
+
+// Sets and gives the number of threads that work on a file. 0, the default, is one for each core.
+void glint_codec_use_threads(int count);
+int glint_codec_threads(void);
 
 #ifdef __cplusplus
 }

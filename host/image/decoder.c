@@ -1,26 +1,20 @@
-// Decodes image files in another process: glint's side. See decoder.h and decoding.h.
+// Decodes image files in another process: glint's side. See decoder.h and codec.h.
 #include "image/decoder.h"
 
+#include "image/codec.h"
 #include "image/image_io.h"
+#include "image/memory_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
-#include <limits.h>
-#include <poll.h>
-#include <pthread.h>
 #include <signal.h>
-#include <spawn.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define PROGRAM "glint-decoder"
 #define MIB (UINT64_C(1) << 20)
 
 // ---- Limits -------------------------------------------------------------------------------------
@@ -57,205 +51,20 @@ glint_decode_limits glint_decoder_limits(uint64_t file_bytes)
     };
 }
 
-static atomic_int threads_each; // set by glint_decoder_use_threads
-
-// ---- The decoder's process ----------------------------------------------------------------------
-
-// `lock` guards the other members.
-static struct {
-    pthread_mutex_t lock;
-    pid_t owner;   // the process that started the decoder; a fork of it must start its own
-    pid_t process; // the decoder
-    int socket;    // to the decoder; valid if owner is this process
-    bool is_ready; // the decoder has reported that it is ready
-} decoder = {.lock = PTHREAD_MUTEX_INITIALIZER};
-
-// The decoder is installed beside the codec (CMakeLists.txt). In the build it is beside the
-// program, or above it.
-static bool find_program(char path[PATH_MAX])
-{
-    static const char *const places[] = {"/../" GLINT_LIBRARY_FOLDER "/", "/", "/../"};
-    char own[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
-    if (length < 0) {
-        return false;
-    }
-    own[length] = '\0';
-    *strrchr(own, '/') = '\0';
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        const int written = snprintf(path, PATH_MAX, "%s%s" PROGRAM, own, places[i]);
-        if (written < PATH_MAX && access(path, X_OK) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Starts `path`. Its only descriptors are `socket` and /dev/null. Signals stay blocked there: glint
-// handles the signals of a terminal or a batch system.
-static int spawn(const char *path, int socket, pid_t *process)
-{
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    sigset_t all, blocked;
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_adddup2(&files, socket, GLINT_DECODER_SOCKET);
-    for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; standard++) {
-        posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
-    }
-    posix_spawn_file_actions_addclosefrom_np(&files, GLINT_DECODER_SOCKET + 1);
-    sigfillset(&all);
-    sigemptyset(&blocked);
-    const int ours[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-    for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++) {
-        sigaddset(&blocked, ours[i]);
-    }
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setsigmask(&attributes, &blocked);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    char name[] = PROGRAM;
-    char *const arguments[] = {name, NULL};
-    const int fault = posix_spawn(process, path, &files, &attributes, arguments, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-    return fault;
-}
-
-// Starts the decoder unless it runs. The caller holds the lock.
-static glint_status start(glint_error *error)
-{
-    if (decoder.owner == getpid()) {
-        return GLINT_OK;
-    }
-    char path[PATH_MAX];
-    if (!find_program(path)) {
-        return glint_fail(error, GLINT_BAD_INPUT,
-                          PROGRAM ": the decoder is not there (install glint anew)");
-    }
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, PROGRAM ": no socket to it: %s (try again)",
-                          strerror(errno));
-    }
-    const int fault = spawn(path, ends[1], &decoder.process);
-    close(ends[1]);
-    if (fault != 0) {
-        close(ends[0]);
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: cannot be started: %s (install glint anew)",
-                          path, strerror(fault));
-    }
-    decoder.owner = getpid();
-    decoder.socket = ends[0];
-    decoder.is_ready = false;
-    return GLINT_OK;
-}
-
-// Stops the decoder. The caller holds the lock.
-static int stop(void)
-{
-    int how = 0;
-    close(decoder.socket);
-    kill(decoder.process, SIGKILL);
-    while (waitpid(decoder.process, &how, 0) < 0 && errno == EINTR) {
-    }
-    decoder.owner = 0;
-    return how;
-}
-
-// Receives one answer. False if the other end is gone, or does not answer in time (−1: wait for
-// ever).
-static bool receive(int socket, int milliseconds, glint_decode_answer *answer)
-{
-    struct pollfd waited = {.fd = socket, .events = POLLIN};
-    ssize_t length;
-    do {
-        const int ready = poll(&waited, 1, milliseconds);
-        length = ready > 0 ? recv(socket, answer, sizeof *answer, 0) : ready;
-    } while (length < 0 && errno == EINTR);
-    answer->message[GLINT_MESSAGE_CAPACITY - 1] = '\0';
-    return length == (ssize_t)sizeof *answer;
-}
-
-// Waits until the decoder has loaded its libraries. The caller holds the lock.
-static glint_status await_ready(glint_error *error)
-{
-    glint_decode_answer *answer = malloc(sizeof *answer);
-    if (answer == NULL) {
-        return glint_fail_memory(error, "a file's decoder");
-    }
-    if (!decoder.is_ready) {
-        decoder.is_ready = receive(decoder.socket, -1, answer) &&
-                           answer->kind == GLINT_DECODER_IS_READY &&
-                           strcmp(answer->message, GLINT_VERSION) == 0;
-    }
-    free(answer);
-    if (decoder.is_ready) {
-        return GLINT_OK;
-    }
-    const int how = stop();
-    return glint_fail(error, GLINT_BAD_INPUT,
-                      PROGRAM ": it does not run (status %d), or is not of glint " GLINT_VERSION
-                              " (install glint anew)",
-                      WIFEXITED(how) ? WEXITSTATUS(how) : -1);
-}
-
-// The descriptors of a request.
-typedef struct descriptors {
-    int files[GLINT_DECODE_DESCRIPTORS];
-    size_t count;
-} descriptors;
-
-// Sends the request and its descriptors as one packet.
-static bool send_request(int socket, const glint_decode_request *request, const descriptors *given)
-{
-    const size_t length = given->count * sizeof(int);
-    union {
-        struct cmsghdr header;
-        char bytes[CMSG_SPACE(GLINT_DECODE_DESCRIPTORS * sizeof(int))];
-    } control = {0};
-    struct iovec packet = {(void *)request, sizeof *request};
-    struct msghdr message = {.msg_iov = &packet,
-                             .msg_iovlen = 1,
-                             .msg_control = &control,
-                             .msg_controllen = CMSG_SPACE(length)};
-    struct cmsghdr *rights = CMSG_FIRSTHDR(&message);
-    rights->cmsg_level = SOL_SOCKET;
-    rights->cmsg_type = SCM_RIGHTS;
-    rights->cmsg_len = CMSG_LEN(length);
-    memcpy(CMSG_DATA(rights), given->files, length);
-    ssize_t sent;
-    do {
-        sent = sendmsg(socket, &message, MSG_NOSIGNAL);
-    } while (sent < 0 && errno == EINTR);
-    return sent == (ssize_t)sizeof *request;
-}
-
-// Submits a request. If the decoder is gone, starts it once more. The caller holds the lock.
-static glint_status submit(const glint_decode_request *request, const descriptors *given,
-                           glint_error *error)
-{
-    for (int attempt = 0; attempt < 2; attempt++) {
-        TRY(start(error));
-        TRY(await_ready(error));
-        if (send_request(decoder.socket, request, given)) {
-            return GLINT_OK;
-        }
-        (void)stop();
-    }
-    return glint_fail(error, GLINT_BAD_INPUT, "%s: " PROGRAM " does not listen (try again)",
-                      request->path);
-}
-
 // ---- Answers ------------------------------------------------------------------------------------
 
-// Advice for a file that exceeds its limits.
-static const char *way_out(const glint_decode_request *request)
+static bool is_mesh(const glint_codec_request *request)
 {
-    return request->is_mesh ? "export it without Draco" : "give --allow-large-images";
+    return request->work == GLINT_DECODE_MESH;
 }
 
-static glint_status fail_of_death(const glint_decode_request *request, int how, glint_error *error)
+// Advice for a file that exceeds its limits.
+static const char *way_out(const glint_codec_request *request)
+{
+    return is_mesh(request) ? "export it without Draco" : "give --allow-large-images";
+}
+
+static glint_status fail_of_death(const glint_codec_request *request, int how, glint_error *error)
 {
     const int number = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
     if (number == SIGXCPU || number == SIGALRM) {
@@ -268,13 +77,14 @@ static glint_status fail_of_death(const glint_decode_request *request, int how, 
     return glint_fail(error, GLINT_BAD_INPUT,
                       "%s: the decoder failed on it: it is damaged or unusual (make the file "
                       "anew, or %s)",
-                      request->path, request->is_mesh ? way_out(request) : "convert it to EXR");
+                      request->path, is_mesh(request) ? way_out(request) : "convert it to EXR");
 }
 
-static bool is_credible(const glint_decode_request *request, const glint_decode_answer *answer)
+static bool is_credible(const glint_codec_request *request, const glint_codec_answer *answer)
 {
     const glint_stored_facts *facts = &answer->facts;
-    const int32_t channels_max = request->all_channels ? GLINT_PICTURE_CHANNELS_MAX : 4;
+    const int32_t channels_max =
+        request->work == GLINT_DECODE_CHANNELS ? GLINT_PICTURE_CHANNELS_MAX : 4;
     if (facts->width < 1 || facts->height < 1 || facts->channels < 1 ||
         facts->channels > channels_max ||
         (facts->code_bits != 0 && facts->code_bits != 8 && facts->code_bits != 16) ||
@@ -290,15 +100,15 @@ static bool is_credible(const glint_decode_request *request, const glint_decode_
            answer->name_bytes <= GLINT_DECODE_NAMES_MAX;
 }
 
-static const char *what_is_decoded(const glint_decode_request *request)
+static const char *what_is_decoded(const glint_codec_request *request)
 {
-    return request->is_mesh ? "a mesh" : "an image";
+    return is_mesh(request) ? "a mesh" : "an image";
 }
 
-static glint_status take(const glint_decode_request *request, const glint_decode_answer *answer,
+static glint_status take(const glint_codec_request *request, const glint_codec_answer *answer,
                          glint_stored *stored, glint_error *error)
 {
-    if (answer->kind == GLINT_DECODED && answer->status == GLINT_OUT_OF_MEMORY) {
+    if (answer->kind == GLINT_CODEC_DONE && answer->status == GLINT_OUT_OF_MEMORY) {
         if (request->limits.memory_bytes == 0) {
             return glint_fail_memory(error, what_is_decoded(request));
         }
@@ -306,13 +116,13 @@ static glint_status take(const glint_decode_request *request, const glint_decode
                           "%s: takes more than %" PRIu64 " MiB to decode (it is damaged; or %s)",
                           request->path, request->limits.memory_bytes / MIB, way_out(request));
     }
-    if (answer->kind == GLINT_DECODED && answer->status != GLINT_OK) {
+    if (answer->kind == GLINT_CODEC_DONE && answer->status != GLINT_OK) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s", answer->message);
     }
-    if (answer->kind != GLINT_DECODED) {
+    if (answer->kind != GLINT_CODEC_DONE) {
         return fail_of_death(request, answer->status, error);
     }
-    if (!request->is_mesh && !is_credible(request, answer)) {
+    if (!is_mesh(request) && !is_credible(request, answer)) {
         return fail_of_death(request, 0, error);
     }
     stored->facts = answer->facts;
@@ -321,31 +131,22 @@ static glint_status take(const glint_decode_request *request, const glint_decode
     return GLINT_OK;
 }
 
-// Asks the decoder. `image` is a file with the image's bytes; −1: the decoder opens the path.
-static glint_status ask(const glint_decode_request *request, int image, glint_stored *stored,
+// Asks the codec. `image` is a file with the image's bytes; −1: the codec opens the path.
+static glint_status ask(const glint_codec_request *request, int image, glint_stored *stored,
                         glint_error *error)
 {
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: no socket to its decoder: %s (try again)",
-                          request->path, strerror(errno));
+    const uint32_t seconds = request->limits.seconds;
+    glint_codec_files files = {-1, stored->file, image};
+    glint_codec_answer *answer = calloc(1, sizeof *answer);
+    if (answer == NULL) {
+        return glint_fail_memory(error, what_is_decoded(request));
     }
-    pthread_mutex_lock(&decoder.lock);
-    const descriptors given = {{ends[1], stored->file, image}, image < 0 ? 2 : 3};
-    glint_status status = submit(request, &given, error);
-    pthread_mutex_unlock(&decoder.lock);
-    close(ends[1]);
-    glint_decode_answer *answer = malloc(sizeof *answer);
-    if (status == GLINT_OK && answer == NULL) {
-        status = glint_fail_memory(error, what_is_decoded(request));
-    } else if (status == GLINT_OK) {
-        const uint32_t seconds = request->limits.seconds;
-        const int patience = seconds > 0 ? (int)(seconds + PATIENCE_SECONDS) * 1000 : -1;
-        status = receive(ends[0], patience, answer) ? take(request, answer, stored, error)
-                                                    : fail_of_death(request, 0, error);
+    glint_status status = glint_codec_ask(
+        request, &files, seconds > 0 ? seconds + PATIENCE_SECONDS : 0, answer, error);
+    if (status == GLINT_OK) {
+        status = take(request, answer, stored, error);
     }
     free(answer);
-    close(ends[0]);
     return status;
 }
 
@@ -375,7 +176,7 @@ static int open_bytes(const glint_image_source *source)
     return file;
 }
 
-static glint_status run(glint_decode_request *request, const glint_image_source *source,
+static glint_status run(glint_codec_request *request, const glint_image_source *source,
                         glint_stored *stored, glint_error *error)
 {
     if (strlen(source->path) >= sizeof request->path) {
@@ -384,7 +185,7 @@ static glint_status run(glint_decode_request *request, const glint_image_source 
     snprintf(request->path, sizeof request->path, "%s", source->path);
     snprintf(request->plugin, sizeof request->plugin, "%s", source->plugin);
     request->file_bytes = source->size;
-    request->threads = atomic_load(&threads_each);
+    request->threads = glint_codec_threads();
     stored->file = memfd_create("glint picture", MFD_CLOEXEC);
     const int image = source->bytes != NULL ? open_bytes(source) : -1;
     glint_status status;
@@ -406,11 +207,11 @@ glint_status glint_decoder_run_within(const glint_image_source *source, bool all
                                       glint_error *error)
 {
     *stored = (glint_stored){.path = source->path, .file = -1};
-    glint_decode_request *request = calloc(1, sizeof *request);
+    glint_codec_request *request = calloc(1, sizeof *request);
     if (request == NULL) {
         return glint_fail_memory(error, "an image");
     }
-    request->all_channels = all_channels;
+    request->work = all_channels ? GLINT_DECODE_CHANNELS : GLINT_DECODE_PICTURE;
     request->limits = *limits;
     const glint_status status = run(request, source, stored, error);
     free(request);
@@ -424,12 +225,12 @@ glint_status glint_decoder_run_mesh(const char *name, const glint_decode_limits 
                                     uint64_t *index_bytes, glint_error *error)
 {
     glint_stored stored = {.path = name, .file = file};
-    glint_decode_request *request = calloc(1, sizeof *request);
+    glint_codec_request *request = calloc(1, sizeof *request);
     if (request == NULL) {
         return glint_fail_memory(error, "a mesh");
     }
     snprintf(request->path, sizeof request->path, "%s", name);
-    request->is_mesh = 1;
+    request->work = GLINT_DECODE_MESH;
     request->limits = *limits;
     request->threads = 1;
     const glint_status status = ask(request, -1, &stored, error);
@@ -465,30 +266,10 @@ glint_status glint_stored_fail_of_cut(const glint_stored *stored, glint_error *e
 glint_status glint_stored_read(const glint_stored *stored, size_t offset, void *to, size_t bytes,
                                glint_error *error)
 {
-    for (char *at = to; bytes > 0;) {
-        const ssize_t length = pread(stored->file, at, bytes, (off_t)offset);
-        if (length == 0 || (length < 0 && errno != EINTR)) {
-            return glint_stored_fail_of_cut(stored, error);
-        }
-        if (length > 0) {
-            at += length;
-            offset += (size_t)length;
-            bytes -= (size_t)length;
-        }
+    if (!glint_memory_file_read(stored->file, offset, to, bytes)) {
+        return glint_stored_fail_of_cut(stored, error);
     }
     return GLINT_OK;
-}
-
-void glint_decoder_start(void)
-{
-    pthread_mutex_lock(&decoder.lock);
-    (void)start(NULL);
-    pthread_mutex_unlock(&decoder.lock);
-}
-
-void glint_decoder_use_threads(int count)
-{
-    atomic_store(&threads_each, count);
 }
 
 void glint_decoder_allow_large(void)

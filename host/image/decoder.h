@@ -1,9 +1,9 @@
-// Decodes image files in another process. See decoding.h.
+// Decodes image files in another process. See codec_messages.h.
 #ifndef GLINT_IMAGE_DECODER_H
 #define GLINT_IMAGE_DECODER_H
 
 #include "base/status.h"
-#include "image/decoding.h"
+#include "image/codec_messages.h"
 #include "image/formats.h"
 
 #include <stddef.h>
@@ -54,12 +54,6 @@ glint_status glint_stored_read(const glint_stored *stored, size_t offset, void *
 
 // Fails with GLINT_BAD_INPUT because the decoder truncated the values.
 glint_status glint_stored_fail_of_cut(const glint_stored *stored, glint_error *error);
-
-// Starts the decoder, so that it loads while the caller works. The first file reports an error.
-void glint_decoder_start(void);
-
-// Sets the number of threads that decode a file. 0, the default, is one for each core.
-void glint_decoder_use_threads(int count);
 
 // Lifts the limits of files (--allow-large-images); true if it did.
 void glint_decoder_allow_large(void);

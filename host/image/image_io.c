@@ -1,109 +1,17 @@
-// Reads image files with the decoder (decoder.h) and writes them with the codec (codec.h). See
-// image_io.h.
+// Reads and writes image files, which another process decodes and encodes. See image_io.h.
 #include "image/image_io.h"
 
 #include "base/memory.h"
 #include "image/codec.h"
 #include "image/decoder.h"
+#include "image/encoder.h"
 #include "image/formats.h"
 #include "image/output_file.h"
+#include "image/png.h"
 #include "image/stored.h"
 
-#include <dlfcn.h>
-#include <pthread.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define CODEC_FILE "libglint_codec.so"
-
-// ---- The codec ----------------------------------------------------------------------------------
-
-// `lock` guards the other members.
-static struct {
-    pthread_mutex_t lock;
-    const glint_codec *codec; // NULL: not loaded yet, or not available
-    bool is_tried;
-    char fault[GLINT_MESSAGE_CAPACITY]; // why the codec is not available
-    int threads;                        // requested number; 0: one for each core
-} loaded = {.lock = PTHREAD_MUTEX_INITIALIZER};
-
-// The program's run path says where the library is. RTLD_LOCAL hides the symbols of OpenImageIO's
-// libraries from OpenCL drivers. The library stays until the process ends.
-static const glint_codec *open_codec(char fault[static GLINT_MESSAGE_CAPACITY])
-{
-    void *library = dlopen(CODEC_FILE, RTLD_NOW | RTLD_LOCAL);
-    const glint_codec *codec = library != NULL ? dlsym(library, "glint_codec_functions") : NULL;
-    if (codec == NULL) {
-        snprintf(fault, GLINT_MESSAGE_CAPACITY, "%s", dlerror());
-    } else if (strcmp(codec->version, GLINT_VERSION) != 0) {
-        snprintf(fault, GLINT_MESSAGE_CAPACITY, "it belongs to glint %s", codec->version);
-        codec = NULL;
-    }
-    return codec;
-}
-
-// Loads the codec at the first call. NULL: it cannot be loaded.
-static const glint_codec *get_codec(void)
-{
-    pthread_mutex_lock(&loaded.lock);
-    if (!loaded.is_tried) {
-        loaded.is_tried = true;
-        loaded.codec = open_codec(loaded.fault);
-        if (loaded.codec != NULL && loaded.threads != 0) {
-            loaded.codec->use_threads(loaded.threads);
-        }
-    }
-    const glint_codec *codec = loaded.codec;
-    pthread_mutex_unlock(&loaded.lock);
-    return codec;
-}
-
-static glint_status require_codec(const glint_codec **codec, glint_error *error)
-{
-    *codec = get_codec();
-    if (*codec == NULL) {
-        return glint_fail(error, GLINT_OUTPUT_FAILED,
-                          CODEC_FILE ": the image library cannot be loaded: %s "
-                                     "(install glint anew)",
-                          loaded.fault);
-    }
-    return GLINT_OK;
-}
-
-static pthread_t loader;
-static bool is_loading;
-
-static void *load_beside(void *unused)
-{
-    (void)unused;
-    (void)get_codec(); // writers report a failure
-    return NULL;
-}
-
-void glint_image_load_ahead(void)
-{
-    is_loading = is_loading || pthread_create(&loader, NULL, load_beside, NULL) == 0;
-}
-
-void glint_image_end_loading(void)
-{
-    if (is_loading) {
-        pthread_join(loader, NULL);
-        is_loading = false;
-    }
-}
-
-void glint_image_use_threads(int count)
-{
-    pthread_mutex_lock(&loaded.lock);
-    loaded.threads = count;
-    if (loaded.codec != NULL) {
-        loaded.codec->use_threads(count);
-    }
-    pthread_mutex_unlock(&loaded.lock);
-    glint_decoder_use_threads(count);
-}
 
 // ---- Reading ------------------------------------------------------------------------------------
 
@@ -245,13 +153,15 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
 {
     *encoded = (glint_encoded){0};
     const glint_write_options defaults = {0};
-    const glint_codec *codec;
     TRY(glint_image_check_output(path, options, error));
     if (image->pixels == NULL) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s: there are no pixels to write", path);
     }
-    TRY(require_codec(&codec, error));
-    return codec->encode(path, image, options != NULL ? options : &defaults, encoded, error);
+    const glint_file_values values = glint_file_values_of(glint_image_written_format(path), image,
+                                                          options != NULL ? options : &defaults);
+    return values.format->kind == GLINT_WRITTEN_PNG
+               ? glint_png_encode(path, &values, (size_t)glint_codec_threads(), encoded, error)
+               : glint_encoder_run(path, &values, encoded, error);
 }
 
 glint_status glint_image_write(const char *path, const glint_image *image,
@@ -262,4 +172,17 @@ glint_status glint_image_write(const char *path, const glint_image *image,
     const glint_status status = glint_output_file_write(path, encoded.bytes, encoded.size, error);
     free(encoded.bytes);
     return status;
+}
+
+void glint_image_write_ahead(const char *path)
+{
+    const glint_written_format *format = glint_image_written_format(path);
+    if (format != NULL && format->kind != GLINT_WRITTEN_PNG) {
+        glint_codec_start();
+    }
+}
+
+void glint_image_use_threads(int count)
+{
+    glint_codec_use_threads(count);
 }

@@ -1,5 +1,5 @@
-// Reads and writes image files through OpenImageIO. Another process reads them (decoder.h). A
-// library, loaded when first needed, writes them (codec.h).
+// Reads and writes image files. Another process decodes them, and encodes all but PNG, with
+// OpenImageIO (codec_messages.h).
 #ifndef GLINT_IMAGE_IMAGE_IO_H
 #define GLINT_IMAGE_IMAGE_IO_H
 
@@ -105,7 +105,7 @@ glint_status glint_image_check_output(const char *path, const glint_write_option
 //
 // The file appears whole or not at all: a temporary name in the same folder, fsync, rename. Stale
 // temporaries of dead processes are removed. A symbolic link is followed and stays; devices and
-// pipes are refused. host/codec/encode.cpp says what becomes of values that a format cannot hold.
+// pipes are refused. file_values.h says what becomes of values that a format cannot hold.
 // `options` may be NULL. Errors: GLINT_OUTPUT_FAILED with the file's name and the cause; then no
 // file is left behind.
 glint_status glint_image_write(const char *path, const glint_image *image,
@@ -123,12 +123,9 @@ glint_status glint_image_encode(const char *path, const glint_image *image,
                                 const glint_write_options *options, glint_encoded *encoded,
                                 glint_error *error);
 
-// glint_image_load_ahead starts a thread that loads OpenImageIO, for a caller who writes an image
-// later. The caller must call glint_image_end_loading, which joins the thread, before the process
-// exits. Exit handlers unload libraries, and must not do so while the thread loads them. Only the
-// main thread calls both. A second call of glint_image_load_ahead has no effect.
-void glint_image_load_ahead(void);
-void glint_image_end_loading(void);
+// Starts the process that encodes, for a caller who writes an image to `path` later. PNG needs no
+// other process.
+void glint_image_write_ahead(const char *path);
 
 // Sets the number of threads for each read or write. 0, the default, is one for each core. 1 is the
 // caller's thread alone, for callers that encode several images in parallel.

@@ -1,4 +1,4 @@
-// Defines the request for a mesh that glint sends to its decoder (decoding.h).
+// Defines the request for a mesh that glint sends to its codec (codec_messages.h).
 //
 // glint knows from the scene's accessors what a mesh must hold. It lays out the memory file: this
 // job, the packed bytes, then room for the results. The child fills the room and answers with

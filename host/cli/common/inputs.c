@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "image/codec.h"
 #include "image/decoder.h"
 #include "scene/built_in.h"
 #include "scene/shares.h"
@@ -327,7 +328,7 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
     *inputs = (glint_inputs){0};
     const double begun = glint_progress_elapsed(display);
     if (request->env != NULL && !glint_environment_is_likely_kept(request->env)) {
-        glint_decoder_start(); // the decoder's process starts while the scene loads
+        glint_codec_start(); // the codec's process starts while the scene loads
     }
     glint_progress_phase(display, "load_scene", "loading the scene");
     TRY(load_scene(request, inputs, error));

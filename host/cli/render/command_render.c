@@ -7,6 +7,7 @@
 #include "cli/render/each_camera.h"
 #include "cli/render/run.h"
 #include "cli/render/summary.h"
+#include "device/device.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -189,10 +190,12 @@ static glint_status run_request(render_request *request, glint_error *error)
     if (request->progress_fd > 0) {
         TRY(glint_progress_send_to(&run.display, request->progress_fd, error));
     }
+    glint_device_start_drivers(); // while the scene loads
     TRY_OR(cleanup, status, load(&run, request, error));
     status = prepare_and_render(&run, error);
 
 cleanup:
+    glint_device_await_drivers();
     glint_progress_end(&run.display);
     render_run_free(&run);
     return status;

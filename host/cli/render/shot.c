@@ -3,7 +3,6 @@
 
 #include "base/clock.h"
 #include "cli/render/plate.h"
-#include "environment/environment.h"
 #include "image/image_io.h"
 
 glint_status render_shot_load(render_shot *shot, const render_request *request,
@@ -11,16 +10,9 @@ glint_status render_shot_load(render_shot *shot, const render_request *request,
 {
     shot->request = request;
     shot->display = display;
+    glint_image_write_ahead(request->output); // while the scene loads
     TRY(render_stage_load(&shot->stage, request, display, error));
-    // The scene is good, so glint will write images. No thread can start while the loader loads
-    // their library. So it loads beside a slow decoder, but after a light that loads fast.
-    const char *env = request->inputs.env;
-    if (env != NULL && !glint_environment_is_likely_kept(env)) {
-        glint_image_load_ahead();
-    }
-    TRY(render_light_load(&shot->light, &shot->stage, display, error));
-    glint_image_load_ahead();
-    return GLINT_OK;
+    return render_light_load(&shot->light, &shot->stage, display, error);
 }
 
 glint_status render_shot_set(render_shot *shot, int frame, double *ms, glint_error *error)
@@ -45,6 +37,5 @@ void render_shot_free(render_shot *shot)
 {
     render_light_free(&shot->light);
     render_stage_free(&shot->stage);
-    glint_image_end_loading();
     *shot = (render_shot){0};
 }

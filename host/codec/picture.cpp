@@ -4,7 +4,7 @@
 // mipmapped file, level 0. It refuses deep pixels. It puts an EXR's pixels into the display window;
 // pixels outside the data window are zero. An EXR with the envmap attribute is only its data
 // window. ICC profiles are not applied.
-#include "decoder/decode.hpp"
+#include "codec/decode.hpp"
 
 #include "image/image_io.h"
 
@@ -30,7 +30,7 @@ namespace
 {
 
 // The first line of OpenImageIO's message, without the file's name: our own message has it.
-std::string cause_of(ImageInput &input, const glint_decode_request &request)
+std::string cause_of(ImageInput &input, const glint_codec_request &request)
 {
     const std::string path = opened_path(request);
     std::string text = input.geterror();
@@ -207,7 +207,7 @@ std::uint64_t expansion_max(const char *plugin)
 }
 
 // Checks the size before anything of this size is allocated.
-glint_status check_size(const glint_decode_request &request, const Part &part, glint_error *error)
+glint_status check_size(const glint_codec_request &request, const Part &part, glint_error *error)
 {
     const char *path = request.path;
     const ImageSpec &spec = part.spec;
@@ -338,7 +338,7 @@ std::size_t bytes_of(const glint_stored_facts &facts)
            each;
 }
 
-bool is_framed(const glint_decode_request &request, const Part &part,
+bool is_framed(const glint_codec_request &request, const Part &part,
                const glint_stored_facts &facts)
 {
     const ImageSpec &spec = part.spec;
@@ -380,8 +380,8 @@ bool read_framed(ImageInput &input, const Part &part, Memory &memory, glint_stor
     return is_read;
 }
 
-glint_status decode_part(const glint_decode_request &request, ImageInput &input, Memory &memory,
-                         glint_decode_answer &answer, glint_error *error)
+glint_status decode_part(const glint_codec_request &request, ImageInput &input, Memory &memory,
+                         glint_codec_answer &answer, glint_error *error)
 {
     const char *path = request.path;
     glint_stored_facts &facts = answer.facts;
@@ -428,7 +428,7 @@ bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
     return at + 4 <= bytes.size();
 }
 
-glint_status check_jpeg(const glint_decode_request &request, glint_error *error)
+glint_status check_jpeg(const glint_codec_request &request, glint_error *error)
 {
     std::vector<unsigned char> bytes(request.file_bytes);
     std::FILE *file = std::fopen(opened_path(request).c_str(), "rbe");
@@ -446,8 +446,8 @@ glint_status check_jpeg(const glint_decode_request &request, glint_error *error)
 
 } // namespace
 
-glint_status decode_picture(const glint_decode_request &request, Memory &memory,
-                            glint_decode_answer &answer, glint_error *error)
+glint_status decode_picture(const glint_codec_request &request, Memory &memory,
+                            glint_codec_answer &answer, glint_error *error)
 {
     const char *path = request.path;
     if (std::strcmp(request.plugin, "jpeg") == 0) {

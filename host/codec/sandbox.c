@@ -1,5 +1,5 @@
-// Restricts a decoder's system calls and resources. See sandbox.h.
-#include "decoder/sandbox.h"
+// Restricts a child's system calls and resources. See sandbox.h.
+#include "codec/sandbox.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -159,6 +159,32 @@ bool glint_sandbox_enter(void)
     return fault == 0;
 }
 
+// ---- Descriptors --------------------------------------------------------------------------------
+
+static bool is_among(int descriptor, const int *kept, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (kept[i] == descriptor) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void glint_sandbox_close_others(const int *kept, size_t count)
+{
+    int last = GLINT_CODEC_SOCKET - 1;
+    for (size_t i = 0; i < count; i++) {
+        last = kept[i] > last ? kept[i] : last;
+    }
+    for (int descriptor = GLINT_CODEC_SOCKET; descriptor < last; descriptor++) {
+        if (!is_among(descriptor, kept, count)) {
+            (void)close(descriptor);
+        }
+    }
+    closefrom(last + 1);
+}
+
 // ---- Limits -------------------------------------------------------------------------------------
 
 #define THREAD_STACK (UINT64_C(2) << 20)
@@ -195,9 +221,14 @@ static void make_threads_small(void)
     mallopt(M_ARENA_MAX, 1);
 }
 
-void glint_sandbox_limit(const glint_decode_limits *limits, int threads)
+void glint_sandbox_leave_no_core(void)
 {
     limit(RLIMIT_CORE, 0);
+}
+
+void glint_sandbox_limit(const glint_decode_limits *limits, int threads)
+{
+    glint_sandbox_leave_no_core();
     limit(RLIMIT_NOFILE, FILES_MAX);
     if (limits->cpu_seconds > 0) {
         // A process can ignore SIGXCPU. SIGKILL follows one second later.

@@ -1,8 +1,8 @@
-// Declares what the parts of the decoder share.
-#ifndef GLINT_DECODER_DECODE_HPP
-#define GLINT_DECODER_DECODE_HPP
+// Declares what the parts that decode share.
+#ifndef GLINT_CODEC_DECODE_HPP
+#define GLINT_CODEC_DECODE_HPP
 
-#include "decoder/decode.h"
+#include "codec/decode.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace glint
 {
 
 // The path to open: the file, or the image in memory.
-inline std::string opened_path(const glint_decode_request &request)
+inline std::string opened_path(const glint_codec_request &request)
 {
     return request.file < 0 ? request.path : "/proc/self/fd/" + std::to_string(request.file);
 }
@@ -41,18 +41,18 @@ class Memory
 };
 
 // Decode a picture, or all channels. They throw OpenImageIO's exceptions and std::bad_alloc.
-glint_status decode_picture(const glint_decode_request &request, Memory &memory,
-                            glint_decode_answer &answer, glint_error *error);
-glint_status decode_channels(const glint_decode_request &request, Memory &memory,
-                             glint_decode_answer &answer, glint_error *error);
+glint_status decode_picture(const glint_codec_request &request, Memory &memory,
+                            glint_codec_answer &answer, glint_error *error);
+glint_status decode_channels(const glint_codec_request &request, Memory &memory,
+                             glint_codec_answer &answer, glint_error *error);
 
 // Decodes a mesh. The memory file `file` holds the job and receives the results.
-glint_status decode_mesh(const glint_decode_request &request, int file, glint_decode_answer &answer,
+glint_status decode_mesh(const glint_codec_request &request, int file, glint_codec_answer &answer,
                          glint_error *error);
 
 // Refuses a picture that takes more than the request allows.
-glint_status check_cost(const glint_decode_request &request, std::int64_t width,
-                        std::int64_t height, std::int64_t channels, glint_error *error);
+glint_status check_cost(const glint_codec_request &request, std::int64_t width, std::int64_t height,
+                        std::int64_t channels, glint_error *error);
 
 } // namespace glint
 

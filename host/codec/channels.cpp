@@ -1,5 +1,5 @@
 // Decodes all channels of an EXR. See decode.hpp.
-#include "decoder/decode.hpp"
+#include "codec/decode.hpp"
 
 #include <OpenImageIO/imageio.h>
 
@@ -14,13 +14,13 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-glint_status refuse(const glint_decode_request &request, const char *why, glint_error *error)
+glint_status refuse(const glint_codec_request &request, const char *why, glint_error *error)
 {
     return glint_fail(error, GLINT_BAD_INPUT, "%s: %s", request.path, why);
 }
 
-glint_status take(const glint_decode_request &request, ImageInput &input, glint::Memory &memory,
-                  glint_decode_answer &answer, glint_error *error)
+glint_status take(const glint_codec_request &request, ImageInput &input, glint::Memory &memory,
+                  glint_codec_answer &answer, glint_error *error)
 {
     const ImageSpec &spec = input.spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 ||
@@ -50,8 +50,8 @@ glint_status take(const glint_decode_request &request, ImageInput &input, glint:
 
 } // namespace
 
-glint_status glint::decode_channels(const glint_decode_request &request, Memory &memory,
-                                    glint_decode_answer &answer, glint_error *error)
+glint_status glint::decode_channels(const glint_codec_request &request, Memory &memory,
+                                    glint_codec_answer &answer, glint_error *error)
 {
     std::unique_ptr<ImageInput> input = ImageInput::create(request.plugin);
     ImageSpec spec;

@@ -1,5 +1,5 @@
 // Maps the memory file and limits the size of a picture. See decode.hpp.
-#include "decoder/decode.hpp"
+#include "codec/decode.hpp"
 
 #include <new>
 #include <sys/mman.h>
@@ -35,8 +35,8 @@ std::uint8_t *Memory::grow(std::size_t bytes)
 // The most values (pixels times channels) of a picture: 4 GiB of floats.
 static constexpr std::uint64_t values_max = std::uint64_t(1) << 30;
 
-glint_status check_cost(const glint_decode_request &request, std::int64_t width,
-                        std::int64_t height, std::int64_t channels, glint_error *error)
+glint_status check_cost(const glint_codec_request &request, std::int64_t width, std::int64_t height,
+                        std::int64_t channels, glint_error *error)
 {
     const std::uint64_t mib = 1u << 20;
     if (width < 1 || height < 1 || width > INT32_MAX || height > INT32_MAX) {

@@ -1,7 +1,7 @@
 // Decodes the file of a request. See decode.h.
-#include "decoder/decode.h"
+#include "codec/decode.h"
 
-#include "decoder/decode.hpp"
+#include "codec/decode.hpp"
 
 #include <OpenImageIO/imageio.h>
 
@@ -15,17 +15,18 @@ namespace glint
 namespace
 {
 
-glint_status decode(const glint_decode_request &request, Memory &memory,
-                    glint_decode_answer &answer, glint_error *error)
+glint_status decode(const glint_codec_request &request, Memory &memory, glint_codec_answer &answer,
+                    glint_error *error)
 {
     try {
-        if (request.is_mesh != 0) {
+        if (request.work == GLINT_DECODE_MESH) {
             return decode_mesh(request, memory.file(), answer, error);
         }
-        return request.all_channels != 0 ? decode_channels(request, memory, answer, error)
-                                         : decode_picture(request, memory, answer, error);
+        return request.work == GLINT_DECODE_CHANNELS
+                   ? decode_channels(request, memory, answer, error)
+                   : decode_picture(request, memory, answer, error);
     } catch (const std::bad_alloc &) {
-        return glint_fail_memory(error, request.is_mesh != 0 ? "a mesh" : "an image");
+        return glint_fail_memory(error, request.work == GLINT_DECODE_MESH ? "a mesh" : "an image");
     } catch (const std::exception &fault) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", request.path,
                           fault.what());
@@ -39,20 +40,25 @@ glint_status decode(const glint_decode_request &request, Memory &memory,
 
 } // namespace glint
 
-void glint_decode_prepare(void)
+void glint_codec_prepare(void)
 {
     // Creating a reader loads the list of plugins.
     (void)OIIO::ImageInput::create("openexr");
 }
 
-void glint_decode(const glint_decode_request *request, int memory, glint_decode_answer *answer)
+void glint_codec_set_threads(int threads)
 {
-    OIIO::attribute("threads", request->threads);
+    OIIO::attribute("threads", threads);
     // Here too 0 is one thread for each core. −1 is the caller's thread alone.
-    OIIO::attribute("exr_threads", request->threads == 1 ? -1 : request->threads);
+    OIIO::attribute("exr_threads", threads == 1 ? -1 : threads);
+}
+
+void glint_decode(const glint_codec_request *request, int memory, glint_codec_answer *answer)
+{
+    glint_codec_set_threads(request->threads);
     glint::Memory values(memory);
     glint_error error = {};
-    answer->kind = GLINT_DECODED;
+    answer->kind = GLINT_CODEC_DONE;
     answer->status = glint::decode(*request, values, *answer, &error);
     std::memcpy(answer->message, error.message, sizeof answer->message);
 }

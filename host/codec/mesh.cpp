@@ -2,7 +2,8 @@
 //
 // In fuzzing, files of some hundred bytes made Draco run for minutes and take gigabytes. So it runs
 // here, within limits, and never in glint's process.
-#include "decoder/decode.hpp"
+#include "codec/decode.hpp"
+#include "codec/mapping.hpp"
 #include "image/mesh_decoding.h"
 
 #include <draco/compression/decode.h>
@@ -12,45 +13,12 @@
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <sys/mman.h>
-#include <sys/stat.h>
 
 namespace glint
 {
 
 namespace
 {
-
-// Maps the memory file, which has the job and room for the results.
-class Mapping
-{
-  public:
-    explicit Mapping(int file)
-    {
-        struct stat facts = {};
-        if (fstat(file, &facts) == 0) {
-            bytes_ = static_cast<std::size_t>(facts.st_size);
-            at_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-        }
-        if (at_ == MAP_FAILED) {
-            throw std::bad_alloc();
-        }
-    }
-    Mapping(const Mapping &) = delete;
-    Mapping &operator=(const Mapping &) = delete;
-    ~Mapping()
-    {
-        munmap(at_, bytes_);
-    }
-    unsigned char *at(std::uint64_t offset) const
-    {
-        return static_cast<unsigned char *>(at_) + offset;
-    }
-
-  private:
-    void *at_ = MAP_FAILED;
-    std::size_t bytes_ = 0;
-};
 
 [[noreturn]] void refuse(const std::string &cause)
 {
@@ -128,7 +96,7 @@ void take_indices(const draco::Mesh &mesh, unsigned char *to)
 
 } // namespace
 
-glint_status decode_mesh(const glint_decode_request &request, int file, glint_decode_answer &answer,
+glint_status decode_mesh(const glint_codec_request &request, int file, glint_codec_answer &answer,
                          glint_error *error)
 {
     const Mapping mapping(file);
