@@ -56,8 +56,8 @@
             GLINT_SOLID, 0, SWITCHED, PATHS)                                                       \
     FEATURE(ABSORPTION, "light is absorbed inside solids by Beer and Lambert's law", GLINT_SOLID,  \
             0, IDLE, PATHS)                                                                        \
-    FEATURE(PAINT, "matte paint is lit by the environment's irradiance", GLINT_GEOMETRY, 0, IDLE,  \
-            PATHS)                                                                                 \
+    FEATURE(PAINT, "matte paint is lit by the environment's irradiance", GLINT_GEOMETRY, 0,        \
+            SWITCHED, PATHS)                                                                       \
     FEATURE(DIFFUSE_TRANSMISSION, "matte paint is lit from behind, too", GLINT_PAINT,              \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS, SWITCHED,   \
             EVERYTHING)                                                                            \
@@ -92,7 +92,7 @@
             GLINT_SOLID,                                                                           \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION || GLINT_TERMS, SWITCHED,   \
             EVERYTHING)                                                                            \
-    FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, IDLE, PATHS)      \
+    FEATURE(BLEND, "the lecture's blend of paint and mirror", GLINT_GEOMETRY, 0, SWITCHED, PATHS)  \
     FEATURE(LIGHTS, "punctual lights shine on matte paint, and cast shadows",                      \
             GLINT_PAINT || GLINT_BLEND,                                                            \
             GLINT_HITS || GLINT_VERTEX_COLOR || GLINT_VERTEX_DIRECTION, SWITCHED, EVERYTHING)      \
@@ -118,21 +118,22 @@
     FEATURE(IRRADIANCE_HARMONICS, "the irradiance is a polynomial of the normal and no map",       \
             GLINT_PAINT || GLINT_BLEND, 0, SWITCHED, EVERYTHING)                                   \
     FEATURE(PROXY, "the environment is as far away as a box or a sphere around the scene", 1, 0,   \
-            ACTIVE, NONE)                                                                          \
+            SWITCHED, EVERYTHING)                                                                  \
     FEATURE(MIP_LEVELS, "the environment is averaged over what a pixel sees of it", 1, 0,          \
             SWITCHED, EVERYTHING)                                                                  \
     FEATURE(VERTEX_COLOR, "colours are found at vertices and interpolated", GLINT_SMOOTH_NORMALS,  \
             GLINT_VERTEX_DIRECTION || GLINT_HITS, ACTIVE, NONE)                                    \
     FEATURE(VERTEX_DIRECTION, "directions are found at vertices and interpolated",                 \
             GLINT_SMOOTH_NORMALS, GLINT_VERTEX_COLOR || GLINT_HITS, ACTIVE, NONE)                  \
-    FEATURE(PIXEL_LIST, "the pixels that are rendered stand in a list", 1, GLINT_TILES, ACTIVE,    \
-            NONE)                                                                                  \
+    FEATURE(PIXEL_LIST, "the pixels that are rendered stand in a list", 1, GLINT_TILES, SWITCHED,  \
+            MIRRORS)                                                                               \
     FEATURE(HITS, "a pixel holds what its ray met instead of a colour", GLINT_GEOMETRY, 0, ACTIVE, \
             NONE)                                                                                  \
     FEATURE(TERMS, "what pixels are the sum of is stored, to light them anew", 1, 0, ACTIVE, NONE) \
     FEATURE(TRUNCATION_SQUARES, "how unevenly truncated light is spread over pixels is counted",   \
             1, 0, IDLE, MIRRORS)                                                                   \
-    FEATURE(DIAGNOSTICS, "layers tell what became of each pixel's paths", 1, 0, ACTIVE, NONE)
+    FEATURE(DIAGNOSTICS, "layers tell what became of each pixel's paths", 1, 0, SWITCHED,          \
+            EVERYTHING)
 
 // The numbers of the features: a general kernel finds the features that a scene needs as bits of
 // glint_frame_record.features.

@@ -323,7 +323,9 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     const lanes_int depth = surfaces_met(ray) + (lane_int)1;
     tally->deepest = SELECT(there & (depth > tally->deepest), depth, tally->deepest);
 #if GLINT_DIAGNOSTICS
-    note_surfaces(tally->layers, &all->pixels[slot], there, depth);
+    if (HAS(DIAGNOSTICS)) {
+        note_surfaces(tally->layers, &all->pixels[slot], there, depth);
+    }
 #endif
     // Add direct light from the lights, then scatter.
 #if GLINT_LIGHTS
@@ -443,7 +445,9 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     tally->counts[GLINT_COUNT_TOTAL_REFLECTIONS] +=
         (ulong)count_lanes(reflects & out.total_reflection);
 #if GLINT_DIAGNOSTICS
-    note_total_reflections(tally->layers, &all->pixels[slot], reflects & out.total_reflection);
+    if (HAS(DIAGNOSTICS)) {
+        note_total_reflections(tally->layers, &all->pixels[slot], reflects & out.total_reflection);
+    }
 #endif
 #if GLINT_SPLIT
     split_path(all, slot, &reflected, &transmitted, reflects, transmits, tally);
@@ -487,7 +491,7 @@ static inline void note_look_ups(const cube_map *map, real3 direction, const pat
 static inline real3 environment_seen(const glint_frame_record *frame, const path *ray,
                                      const primary *first)
 {
-    if (!GLINT_PROXY) {
+    if (!HAS_IN(frame, PROXY)) {
         return ray->direction;
     }
     const real behind =
@@ -498,13 +502,16 @@ static inline real3 environment_seen(const glint_frame_record *frame, const path
 #if GLINT_ROUGH
 // Gathers the light that the rays in `escaped` hold. Leaves them the weight for the environment's
 // light. Returns the rays whose weight is not 0.
-static inline mask bring_held(paths *all, int slot, mask escaped, tally *tally)
+static inline mask bring_held(const scene_buffers *scene, paths *all, int slot, mask escaped,
+                              tally *tally)
 {
     path *ray = &all->ray[slot];
 #if GLINT_DIAGNOSTICS
-    note_truncation(tally->layers, &all->pixels[slot],
-                    escaped & (ray->shown < R(1.0)) & (ray->looked_up == (lane_int)1),
-                    scale(ray->weight, R(1.0) - ray->shown));
+    if (HAS(DIAGNOSTICS)) {
+        note_truncation(tally->layers, &all->pixels[slot],
+                        escaped & (ray->shown < R(1.0)) & (ray->looked_up == (lane_int)1),
+                        scale(ray->weight, R(1.0) - ray->shown));
+    }
 #endif
     gather(all, slot, ray->held, escaped & (ray->shown < R(1.0)));
     ray->weight = select3(escaped, scale(ray->weight, ray->shown), ray->weight);
@@ -531,7 +538,7 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     }
 #endif
 #if GLINT_ROUGH
-    escaped = bring_held(all, slot, escaped, tally);
+    escaped = bring_held(scene, all, slot, escaped, tally);
 #endif
     // Look up the environment for escaped rays.
     if (any_lane(escaped) && !(HAS(TRANSPARENT) && first != 0)) {
@@ -539,8 +546,10 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
         const real3 direction = turn_into_environment(frame, environment_seen(frame, ray, first));
         look_up_later(later, scene, ray, direction, escaped, &all->pixels[slot]);
 #if GLINT_DIAGNOSTICS
-        note_look_ups(&scene->environment, direction, ray, escaped, &all->pixels[slot],
-                      tally->layers);
+        if (HAS(DIAGNOSTICS)) {
+            note_look_ups(&scene->environment, direction, ray, escaped, &all->pixels[slot],
+                          tally->layers);
+        }
 #endif
 #if GLINT_TERMS
         note_terms(tally->terms, &all->pixels[slot], escaped, ray->direction, GLINT_TERM_RADIANCE,

@@ -8,14 +8,16 @@
 #include "features.h"
 
 // Checks needs and excludes of each feature. If a check fails, an array with the feature's name has
-// a negative size, and the compiler refuses it.
+// a negative size, and the compiler refuses it. General kernels contain features that exclude each
+// other; the plan never switches both on.
 #define CHECK(name, meaning, needs, excludes, ...)                                                 \
     typedef char name##_lacks_what_it_needs[!GLINT_##name || (needs) ? 1 : -1];                    \
-    typedef char name##_is_beside_what_it_excludes[!GLINT_##name || !(excludes) ? 1 : -1];
+    typedef char                                                                                   \
+        name##_is_beside_what_it_excludes[GLINT_GENERAL || !GLINT_##name || !(excludes) ? 1 : -1];
 GLINT_FEATURES(CHECK)
 #undef CHECK
 
-#define NEEDS_IRRADIANCE (GLINT_PAINT || GLINT_BLEND)
+#define NEEDS_IRRADIANCE (HAS(PAINT) || HAS(BLEND)) // the map exists only then
 // Paths gather light besides the environment's look-ups.
 #define GATHERS                                                                                    \
     (!GLINT_HITS &&                                                                                \
@@ -313,10 +315,12 @@ static inline void level_rounds(const tally *tally, const glint_frame_record *fr
             LANE(sum->alpha[g], lane) *= share;
         }
 #if GLINT_DIAGNOSTICS
-        glint_layers_record *record = &tally->layers->of_pixel[i];
-        record->truncated *= (float)share;
-        record->total_reflections =
-            (int)((scalar)record->total_reflections * share + R(0.5));
+        if (HAS_IN(frame, DIAGNOSTICS)) {
+            glint_layers_record *record = &tally->layers->of_pixel[i];
+            record->truncated *= (float)share;
+            record->total_reflections =
+                (int)((scalar)record->total_reflections * share + R(0.5));
+        }
 #endif
     }
 }
@@ -371,8 +375,10 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
             }
         }
 #if GLINT_DIAGNOSTICS
-        tally->layers->is_middle = i == k / 2 * (k + 1);
-        note_first_surfaces(tally->layers, scene, frame, &image, &t);
+        if (HAS(DIAGNOSTICS)) {
+            tally->layers->is_middle = i == k / 2 * (k + 1);
+            note_first_surfaces(tally->layers, scene, frame, &image, &t);
+        }
 #endif
         // Add the sample to the pixels.
 #if GLINT_HITS
@@ -402,8 +408,10 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     tally tally = no_tally();
 #if GLINT_DIAGNOSTICS
     layers layers;
-    begin_layers(&layers);
     tally.layers = &layers;
+    if (HAS(DIAGNOSTICS)) {
+        begin_layers(&layers);
+    }
 #endif
 #if GLINT_TERMS
     terms terms;
@@ -416,7 +424,9 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     // Report before storing the pixels: an atomic operation waits for all earlier stores.
     report(&tally, frame, out->counters);
 #if GLINT_DIAGNOSTICS
-    store_layers(&layers, frame, column, row, out->layers);
+    if (HAS(DIAGNOSTICS)) {
+        store_layers(&layers, frame, column, row, out->layers);
+    }
 #endif
 #if GLINT_TERMS
     store_terms(&terms);

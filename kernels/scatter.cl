@@ -575,7 +575,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
         kept = SELECT(result.rough, scatter_lobe(scene, s, dielectric - glass, &result), kept);
     }
 #endif
-    if (GLINT_PAINT) {
+    if (HAS(PAINT)) {
         scatter_paint(scene, s, irradiance, dielectric - glass, kept, &result);
     }
 #if GLINT_ROUGH && GLINT_LIGHTS
@@ -595,7 +595,7 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
         scatter_from_sheen(scene, s, &result);
     }
 #endif
-    if (GLINT_BLEND) {
+    if (HAS(BLEND)) {
         scatter_blend(s, irradiance, &result);
     }
     if (GLINT_EMISSION) {

@@ -36,7 +36,7 @@ typedef struct tile {
     scalar middle_x, middle_y;
     scalar largest_x, largest_y;
     scalar step;                           // between neighbouring pixels; not with PIXEL_LIST
-    scalar half_x, half_y;                 // half extents of the tile's pixels, with PIXEL_LIST
+    scalar half_x, half_y; // half extents of the tile's pixels, with PIXEL_LIST: it is one group
     scalar planes[4][3], plane_offsets[4]; // ≥ 0 inside
     real key[TILE_GROUPS];                 // of the nearest hit; see image_key
     lanes_int place[TILE_GROUPS];          // of the triangle hit; −1: none
@@ -194,7 +194,7 @@ static inline void clear_tile(const image_space *s, const glint_frame_record *fr
 
 // Sets the positions of the tile's samples, and their bounds: low x, high x, low y and high y.
 #if GLINT_PIXEL_LIST
-static inline void place_tile(const glint_frame_record *frame, global const uint *listed, int column,
+static inline void place_list(const glint_frame_record *frame, global const uint *listed, int column,
                               int row, scalar right, scalar down, tile *t, scalar bounds[4])
 {
     lanes_int x, y;
@@ -217,10 +217,17 @@ static inline void place_tile(const glint_frame_record *frame, global const uint
     t->center_x = block_of(bounds[0] + t->half_x);
     t->center_y = block_of(bounds[3] - t->half_y);
 }
-#else
+#endif
+
 static inline void place_tile(const glint_frame_record *frame, global const uint *listed, int column,
                               int row, scalar right, scalar down, tile *t, scalar bounds[4])
 {
+#if GLINT_PIXEL_LIST
+    if (HAS_IN(frame, PIXEL_LIST)) {
+        place_list(frame, listed, column, row, right, down, t, bounds);
+        return;
+    }
+#endif
     for (int i = 0; i < TILE_COLUMNS; i++) {
         t->x[i] = place_x(frame, image_column(frame, group_columns(column, i)), right);
     }
@@ -228,6 +235,10 @@ static inline void place_tile(const glint_frame_record *frame, global const uint
         t->y[i] = place_y(frame, image_row(frame, group_rows(row, i * TILE_COLUMNS)), down);
     }
     t->step = (scalar)frame->step;
+#if GLINT_PIXEL_LIST
+    t->half_x = R(0.5) * (scalar)(PACKET_WIDTH - 1) * t->step;
+    t->half_y = R(0.5) * (scalar)(PACKET_HEIGHT - 1) * t->step;
+#endif
     bounds[0] = LANE(t->x[0], 0);
     bounds[1] = bounds[0] + R(2.0) * TILE_HALF_X(t);
     bounds[3] = LANE(t->y[0], 0);
@@ -240,7 +251,6 @@ static inline void place_tile(const glint_frame_record *frame, global const uint
     t->center_x += bounds[0] + GROUP_HALF_X(t);
     t->center_y += bounds[3] - GROUP_HALF_Y(t);
 }
-#endif
 
 // Prepares a tile for tracing; `column` and `row` name its first pixel.
 static inline void begin_tile(const image_space *s, const glint_frame_record *frame,

@@ -38,6 +38,9 @@ static void render_by(glint_kernel_choice kernels, const glint_scene *scene,
     const glint_frame_request request = {renderer, &camera, NULL, &frame->image, &frame->report};
     assert_int_equal(glint_renderer_frame(&request, &error), GLINT_OK);
     frame->plan = *glint_renderer_plan(renderer);
+    if (settings.aovs != 0) {
+        assert_int_equal(glint_renderer_layers(renderer, &frame->layers, &error), GLINT_OK);
+    }
     const glint_kernel_kind general = glint_general_kernel_of(&frame->plan);
     const glint_kernel_kind kind = glint_renderer_kernels(renderer);
     assert_int_equal(kind, kernels == GLINT_KERNELS_SPECIAL ? GLINT_KERNEL_SPECIAL : general);
@@ -63,6 +66,14 @@ static void assert_same_counts(const glint_frame_report *a, const glint_frame_re
     assert_alike(t->rms, u->rms);
 }
 
+static void assert_same_layers(const glint_layers *a, const glint_layers *b, size_t pixels)
+{
+    assert_int_equal(a->count, b->count);
+    if (a->count > 0) {
+        assert_memory_equal(a->values, b->values, pixels * a->count * sizeof *a->values);
+    }
+}
+
 // Returns the general kernel that was compared; GLINT_KERNEL_SPECIAL: none serves the plan.
 static glint_kernel_kind compare(const glint_scene *scene, const glint_settings *settings,
                                  const char *what)
@@ -81,6 +92,8 @@ static glint_kernel_kind compare(const glint_scene *scene, const glint_settings 
         }
         assert_int_equal(different, 0);
         assert_same_counts(&frames[0].report, &frames[1].report);
+        assert_same_layers(&frames[0].layers, &frames[1].layers,
+                           (size_t)(settings->width * settings->height));
     }
     test_frame_free(&frames[0]);
     test_frame_free(&frames[1]);
@@ -160,6 +173,21 @@ static void with_squares(glint_settings *s)
     s->depth = 3;
 }
 
+static void with_layers(glint_settings *s)
+{
+    s->aovs = GLINT_AOV_ALL;
+}
+
+static void as_a_list(glint_settings *s)
+{
+    static uint32_t pixels[3][GLINT_LIST_COLUMNS];
+    for (uint32_t i = 0; i < 3 * GLINT_LIST_COLUMNS; i++) {
+        pixels[i / GLINT_LIST_COLUMNS][i % GLINT_LIST_COLUMNS] = i * 83;
+    }
+    s->list = &pixels[0][0];
+    s->list_rows = 3;
+}
+
 static void in_double(glint_settings *s)
 {
     s->precision = GLINT_PRECISION_DOUBLE;
@@ -182,6 +210,11 @@ static const comparison comparisons[] = {
     {"wine", with_defaults, GLINT_KERNEL_EVERYTHING, false},
     {"water", with_defaults, GLINT_KERNEL_EVERYTHING, false},
     {"materials", through_levels, GLINT_KERNEL_EVERYTHING, false},
+    {"lights", with_layers, GLINT_KERNEL_EVERYTHING, false},
+    {"gallery", as_a_list, GLINT_KERNEL_PATHS, false},
+    {"mirror_sphere", as_a_list, GLINT_KERNEL_MIRRORS, true},
+    {"textures", as_a_list, GLINT_KERNEL_EVERYTHING, true},
+    {"glass_sphere", with_layers, GLINT_KERNEL_EVERYTHING, true},
     {"materials", by_harmonics, GLINT_KERNEL_EVERYTHING, true},
     {"materials", smooth, GLINT_KERNEL_PATHS, true},
     {"gallery", without_fresnel, GLINT_KERNEL_PATHS, true},

@@ -260,8 +260,8 @@ static void mirrors_agree_with_paths(void **state)
         test_render(&scene, &environment, NULL, &settings, &mirrors);
         settings.all_features = true;
         test_render(&scene, &environment, NULL, &settings, &paths);
-        assert_true(paths.plan.features[GLINT_FEATURE_PAINT].compiled);
-        assert_false(mirrors.plan.features[GLINT_FEATURE_PAINT].compiled);
+        assert_true(paths.plan.features[GLINT_FEATURE_GLASS].compiled);
+        assert_false(mirrors.plan.features[GLINT_FEATURE_GLASS].compiled);
         for (size_t p = 0; p < 4 * (size_t)(settings.width * settings.height); p++) {
             assert_true(fabs(mirrors.exact[p] - paths.exact[p]) <= cases[i].error);
         }

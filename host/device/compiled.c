@@ -39,6 +39,8 @@ static void add_driver(XXH3_state_t *state, const struct glint_device *device)
     add(state, device->capabilities.name);
     add(state, device->capabilities.driver);
     add(state, device->capabilities.opencl_version);
+    const char *more = getenv("POCL_EXTRA_BUILD_FLAGS");
+    add(state, more != NULL ? more : "");
 }
 
 // Writes the path of the mark. False if there can be none.

@@ -27,7 +27,8 @@ static glint_kernel_kind least_kernel_with(glint_feature feature)
     return (glint_kernel_kind)least[feature];
 }
 
-static glint_variant general_variant(glint_kernel_kind kind)
+// Without tiles a general kernel also renders lists of pixels, which exclude tiles.
+static glint_variant general_variant(const glint_plan *plan, glint_kernel_kind kind)
 {
     glint_variant variant = {.is_general = true,
                              .stack_capacity = kind == GLINT_KERNEL_MIRRORS ? 0 : GLINT_STACK_LEAST,
@@ -36,6 +37,7 @@ static glint_variant general_variant(glint_kernel_kind kind)
         const glint_kernel_kind least = least_kernel_with((glint_feature)i);
         variant.features[i] = least != GLINT_KERNEL_SPECIAL && least <= kind;
     }
+    variant.features[GLINT_FEATURE_PIXEL_LIST] &= !plan->tiles;
     return variant;
 }
 
@@ -49,7 +51,7 @@ static bool takes_one_lookup(const glint_plan *plan)
 // True if the plan's sizes fit the general kernel's.
 static bool has_room(const glint_plan *plan, glint_kernel_kind kind)
 {
-    const glint_variant variant = general_variant(kind);
+    const glint_variant variant = general_variant(plan, kind);
     glint_plan own = *plan;
     own.stack_capacity = variant.stack_capacity;
     return plan->stack_capacity <= variant.stack_capacity &&
@@ -75,6 +77,12 @@ glint_kernel_kind glint_general_kernel_of(const glint_plan *plan)
     return has_room(plan, kind) ? kind : GLINT_KERNEL_SPECIAL;
 }
 
+bool glint_kernel_has(const glint_plan *plan, glint_kernel_kind kind, glint_feature feature)
+{
+    return kind == GLINT_KERNEL_SPECIAL ? plan->features[feature].compiled
+                                        : general_variant(plan, kind).features[feature];
+}
+
 void glint_kernel_options(const glint_plan *plan, glint_kernel_kind kind, char *text,
                           size_t capacity)
 {
@@ -82,6 +90,6 @@ void glint_kernel_options(const glint_plan *plan, glint_kernel_kind kind, char *
         glint_plan_build_options(plan, text, capacity);
         return;
     }
-    const glint_variant variant = general_variant(kind);
+    const glint_variant variant = general_variant(plan, kind);
     glint_plan_write_options(plan, &variant, text, capacity);
 }

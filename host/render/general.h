@@ -24,6 +24,9 @@ const char *glint_kernel_kind_name(glint_kernel_kind kind);
 // rounds differently, and has a general kernel of its own.
 glint_kernel_kind glint_general_kernel_of(const glint_plan *plan);
 
+// True if the plan's kernel of a kind contains the feature.
+bool glint_kernel_has(const glint_plan *plan, glint_kernel_kind kind, glint_feature feature);
+
 // Writes the build options of the plan's kernel of a kind, at most `capacity` bytes. General
 // kernels depend on few properties of a plan: precision, width, tiles.
 void glint_kernel_options(const glint_plan *plan, glint_kernel_kind kind, char *text,
@@ -35,11 +38,17 @@ typedef struct glint_general_report {
     double ms;
 } glint_general_report;
 
+// Which general kernel to compile.
+typedef struct glint_general_request {
+    glint_kernel_kind kind;
+    glint_precision precision;
+    bool for_lists; // without tiles: it renders lists of pixels, as --max-error and --mend need
+} glint_general_request;
+
 // Compiles a general kernel for the device, with the packets that it renders with, so that the
-// driver's cache holds it. Errors: as
-// glint_program_build; GLINT_DEVICE_FAILED if the device lacks the precision.
-glint_status glint_general_compile(glint_device *device, glint_kernel_kind kind,
-                                   glint_precision precision, glint_general_report *report,
-                                   glint_error *error);
+// driver's cache holds it. Errors: as glint_program_build; GLINT_DEVICE_FAILED if the device lacks
+// the precision.
+glint_status glint_general_compile(glint_device *device, const glint_general_request *request,
+                                   glint_general_report *report, glint_error *error);
 
 #endif

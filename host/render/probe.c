@@ -40,6 +40,7 @@ _Static_assert(CHUNK_ELEMENTS % (16 * 16) == 0, "a chunk is no whole number of w
 struct glint_probe {
     glint_renderer *renderer; // the scene on the device
     cl_program program;
+    glint_kernel_kind kind;
     cl_kernel kernels[GLINT_PROBE_PARTS]; // kernels called so far
     cl_mem in, out;                       // room for a chunk of the largest elements
     void *staging;                        // the same on the host
@@ -72,7 +73,7 @@ static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe
                          glint_error *error)
 {
     glint_settings settings = *inputs->settings;
-    // Test the general kernels, not those with a proved depth.
+    // Test kernels for every depth, not those with a proved depth.
     if (settings.depth == 0) {
         settings.depth = GLINT_DEPTH_MAX;
     }
@@ -81,7 +82,10 @@ static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe
     without_frames.without_frames = true;
     TRY(glint_renderer_create(&without_frames, &probe->renderer, error));
     char options[4096];
-    glint_plan_build_options(&probe->renderer->plan, options, sizeof options);
+    const glint_plan *plan = &probe->renderer->plan;
+    probe->kind = settings.kernels == GLINT_KERNELS_GENERAL ? glint_general_kernel_of(plan)
+                                                            : GLINT_KERNEL_SPECIAL;
+    glint_kernel_options(plan, probe->kind, options, sizeof options);
     const glint_program_request request = {inputs->kernel_dir, options, true};
     TRY(glint_program_build(probe->renderer->device, &request, &probe->program, error));
     return create_buffers(probe, error);
@@ -144,10 +148,11 @@ void glint_probe_view(const glint_probe *probe, const glint_camera *camera,
 }
 
 // Elements per work-item: PATH_GROUPS packets, see kernels/traverse_together.cl.
-static size_t elements_per_item(const glint_plan *plan)
+static size_t elements_per_item(const glint_probe *probe)
 {
-    const bool follows = plan->features[GLINT_FEATURE_INTERREFLECTION].compiled ||
-                         plan->features[GLINT_FEATURE_SPLIT].compiled;
+    const glint_plan *plan = &probe->renderer->plan;
+    const bool follows = glint_kernel_has(plan, probe->kind, GLINT_FEATURE_INTERREFLECTION) ||
+                         glint_kernel_has(plan, probe->kind, GLINT_FEATURE_SPLIT);
     const size_t side = follows ? GLINT_TILE_SIDE(plan->tiles) : 1;
     return side * side * (size_t)plan->kernel_width;
 }
@@ -215,7 +220,7 @@ static cl_int call_chunk(const glint_probe *probe, const glint_probe_work *work,
     const glint_renderer *r = probe->renderer;
     const glint_probe_part part = work->part;
     const size_t left = work->count - first, count = left < CHUNK_ELEMENTS ? left : CHUNK_ELEMENTS;
-    const size_t per_item = elements_per_item(&r->plan), local = 1;
+    const size_t per_item = elements_per_item(probe), local = 1;
     const size_t items = (count + per_item - 1) / per_item;
     const double *in = work->in + first * parts[part].in;
     cl_int code = write_elements(probe, part, in, count, items * per_item);

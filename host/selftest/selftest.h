@@ -59,6 +59,7 @@ typedef struct glint_selftest_options {
     glint_precision precision;
     uint64_t rays; // for each case that counts leaks; 0: GLINT_SELFTEST_RAYS
     uint32_t seed; // each seed draws other numbers
+    glint_kernel_choice kernels;
 } glint_selftest_options;
 
 // The name of a case ("rays_at_shared_edges") and a line on what it does and expects. Both are NULL

@@ -294,6 +294,7 @@ glint_settings trial_settings(const trial *t)
     settings.roughness = GLINT_ROUGHNESS_SMOOTH;
     settings.precision = t->options->precision;
     settings.kernel_width = t->options->width;
+    settings.kernels = t->options->kernels;
     return settings;
 }
 

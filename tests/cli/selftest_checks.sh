@@ -9,7 +9,7 @@ quick=equal_indices,metal_at_its_ends
 
 # ---- help and mistakes --------------------------------------------------------------------------
 
-check 'selftest --help tells every option' help_mentions selftest list quick jobs case precision kernel-width \
+check 'selftest --help tells every option' help_mentions selftest list quick jobs case precision kernel-width kernels \
     rays seed case-timeout fail-fast device kernel-dir expect junit json help
 run --help
 check 'glint --help lists it' grep -q '^  selftest ' stdout

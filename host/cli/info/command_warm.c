@@ -16,6 +16,7 @@ enum { FLOAT, DOUBLE, BOTH };
 typedef struct warm_request {
     const char *device;
     int precision; // FLOAT, DOUBLE or BOTH
+    bool lists;
 } warm_request;
 
 static const glint_option options[] = {
@@ -27,6 +28,9 @@ static const glint_option options[] = {
      .help = "The kernels for float frames, for double frames, or both.", .fallback = "float",
      .offset = offsetof(warm_request, precision),
      .choices = GLINT_CHOICES("float", "double", "both")},
+    {GLINT_OPTION_FLAG, .name = "lists",
+     .help = "Also the kernels that render lists of pixels, which --max-error and --mend need.",
+     .offset = offsetof(warm_request, lists)},
     GLINT_OPTION_END,
 };
 
@@ -35,14 +39,13 @@ static const glint_option *const groups[] = {options, NULL};
 // A kernel to compile, and what came of it.
 typedef struct job {
     const char *device; // as glint_device_open expects it
-    glint_kernel_kind kind;
-    glint_precision precision;
+    glint_general_request kernel;
     char *line; // for the user
     glint_status status;
     glint_error error;
 } job;
 
-#define MOST_JOBS (2 * (GLINT_KERNEL_KINDS - 1))
+#define MOST_JOBS (4 * (GLINT_KERNEL_KINDS - 1))
 
 static glint_status compile(void *context, char **text, glint_error *error)
 {
@@ -51,10 +54,11 @@ static glint_status compile(void *context, char **text, glint_error *error)
     glint_general_report report;
     glint_status status;
     TRY(glint_device_open(j->device, &device, error));
-    TRY_OR(cleanup, status, glint_general_compile(device, j->kind, j->precision, &report, error));
-    if (asprintf(text, "%-22s %-6s  %-8s  %5.1f s", glint_kernel_kind_name(j->kind),
-                 j->precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
-                 report.was_compiled ? "kept" : "compiled", report.ms / 1000) < 0) {
+    TRY_OR(cleanup, status, glint_general_compile(device, &j->kernel, &report, error));
+    if (asprintf(text, "%-22s %-6s %-5s  %-8s  %5.1f s", glint_kernel_kind_name(j->kernel.kind),
+                 j->kernel.precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
+                 j->kernel.for_lists ? "lists" : "tiles", report.was_compiled ? "kept" : "compiled",
+                 report.ms / 1000) < 0) {
         *text = NULL;
         status = glint_fail_memory(error, "a line");
     }
@@ -76,11 +80,16 @@ static size_t list_jobs(const warm_request *request, job jobs[MOST_JOBS])
 {
     size_t count = 0;
     for (int kind = GLINT_KERNEL_KINDS - 1; kind > GLINT_KERNEL_SPECIAL; kind--) {
-        for (int precision = FLOAT; precision <= DOUBLE; precision++) {
-            if (request->precision == precision || request->precision == BOTH) {
-                jobs[count++] = (job){.device = request->device,
-                                      .kind = (glint_kernel_kind)kind,
-                                      .precision = (glint_precision)precision};
+        for (int i = 0; i < 4; i++) {
+            const int precision = i % 2, for_lists = i / 2;
+            if ((request->precision == precision || request->precision == BOTH) &&
+                (!for_lists || request->lists)) {
+                jobs[count++] =
+                    (job){request->device,
+                          {(glint_kernel_kind)kind, (glint_precision)precision, for_lists != 0},
+                          NULL,
+                          GLINT_OK,
+                          {0}};
             }
         }
     }

@@ -38,6 +38,7 @@ typedef struct selftest_request {
     const char *kernel_dir;
     int width;     // index into `widths`
     int precision; // index into the choices of --precision
+    int kernels;   // index into the choices of --kernels
     double rays;
     int seed;
     int jobs;       // cases that run at the same time; 0: not given
@@ -50,6 +51,7 @@ typedef struct selftest_request {
 static const int widths[] = {0, 1, 8, 16};
 enum { ALL_WIDTHS = 4 };
 enum { FLOAT, DOUBLE, ALL_PRECISIONS, UNSAID };
+enum { SPECIAL, GENERAL, NOT_SAID };
 
 // ---- Options -----------------------------------------------------------------------------------
 
@@ -124,6 +126,11 @@ static const glint_option selftest_options[] = {
              "one after the other.",
      .fallback = "auto", .offset = offsetof(selftest_request, width),
      .choices = GLINT_CHOICES("auto", "1", "8", "16", "all")},
+    {GLINT_OPTION_CHOICE, .name = "kernels", .argument = "KIND",
+     .help = "special: the kernels that frames of such scenes have, compiled for each case. "
+             "general: those of glint warm, where they serve; a tenth of the time.",
+     .fallback = "special; with --quick general", .offset = offsetof(selftest_request, kernels),
+     .choices = GLINT_CHOICES("special", "general")},
     {GLINT_OPTION_REAL, .name = "rays", .argument = "N",
      .help = "Rays for each case that counts leaks.", .fallback = "262144; with --quick 16384",
      .offset = offsetof(selftest_request, rays), .minimum = 1, .maximum = GLINT_SELFTEST_RAYS_MAX},
@@ -167,6 +174,7 @@ static void set_defaults(void *context)
 {
     selftest_request *request = context;
     request->precision = UNSAID;
+    request->kernels = NOT_SAID;
     request->limit_s = DEFAULT_LIMIT;
     request->rays = 0;
 }
@@ -176,6 +184,9 @@ static void complete(selftest_request *request)
 {
     if (request->precision == UNSAID) {
         request->precision = request->quick ? FLOAT : ALL_PRECISIONS;
+    }
+    if (request->kernels == NOT_SAID) {
+        request->kernels = request->quick ? GENERAL : SPECIAL;
     }
     if (request->jobs == 0) {
         const int processors = glint_usable_cores();
@@ -305,11 +316,13 @@ static glint_status take_result(void *context, selftest_job *job, glint_error *e
 static void add_jobs(selftest_work *work, int width, glint_precision precision)
 {
     const selftest_request *request = work->request;
-    const glint_selftest_options options = {.kernel_dir = request->kernel_dir,
-                                            .width = width,
-                                            .precision = precision,
-                                            .rays = (uint64_t)request->rays,
-                                            .seed = (uint32_t)request->seed};
+    const glint_selftest_options options = {
+        .kernel_dir = request->kernel_dir,
+        .width = width,
+        .precision = precision,
+        .kernels = request->kernels == GENERAL ? GLINT_KERNELS_GENERAL : GLINT_KERNELS_SPECIAL,
+        .rays = (uint64_t)request->rays,
+        .seed = (uint32_t)request->seed};
     bool is_first = true;
     for (size_t i = 0; glint_selftest_name(i) != NULL; i++) {
         if (!request->cases.any || request->cases.has[i]) {

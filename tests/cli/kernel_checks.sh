@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Tests which kernels run: general kernels that glint warm compiled, special ones, or what there is.
+# kernel_checks.sh GLINT JSON_GET SCENES
+# shellcheck source-path=SCRIPTDIR source=common.sh
+. "$(dirname -- "$0")/common.sh"
+scene=$3/mirror_sphere.gltf
+export POCL_CACHE_DIR=$work/cache
+picture=("$scene" --size 16x9 -o out/x.exr --stats out/stats.json --progress none)
+
+check 'warm --help tells every option' help_mentions warm device precision lists help
+check 'glint --help lists it' bash -c '"$0" --help | grep -q "^ *warm "' "$glint"
+refuses 2 'unknown option' warm --nonsense
+refuses 2 'float' warm --precision half
+refuses 4 'nothing' warm --device nothing
+
+# An empty cache: no general kernel delays the first picture.
+run render "${picture[@]}"
+check 'an empty cache: special kernels' stat_is special kernels
+run render "${picture[@]}" --kernels general
+check 'asked for: general kernels' stat_is 'general (mirrors)' kernels
+cp out/x.exr general.exr
+run render "${picture[@]}"
+check 'both are compiled: special kernels' stat_is special kernels
+run compare out/x.exr general.exr --fail-above max=0
+check 'both show the same' test "$status" -eq 0
+
+# A cache that holds general kernels alone.
+rm -rf cache
+run warm
+check 'warm compiles three kernels' test "$status" -eq 0 -a "$(grep -c compiled stdout)" -eq 3
+run warm
+check 'warm keeps them' test "$status" -eq 0 -a "$(grep -c kept stdout)" -eq 3
+run render "${picture[@]}"
+check 'warm: general kernels' stat_is 'general (mirrors)' kernels
+run render "$3/glass_sphere.gltf" "${picture[@]:1}"
+check 'warm: general kernels for paths' stat_is 'general (paths)' kernels
+run render "${picture[@]}" --shading vertex-color
+check 'warm: special kernels where no general one serves' stat_is special kernels
+run render "${picture[@]}" --kernels special
+check 'warm: special kernels, asked for' stat_is special kernels
+
+# Marks that are wrong, or that PoCL does not stand behind, cost time alone.
+mv cache/glint marks
+rm -rf cache
+mkdir cache
+mv marks cache/glint
+run render "${picture[@]}"
+check 'marks without kernels: rendered' test "$status" -eq 0 -a -s out/x.exr
+POCL_KERNEL_CACHE=0 run render "${picture[@]}"
+check 'PoCL keeps nothing: special kernels' stat_is special kernels
+
+# Eight processes and one cache, four of them warm it.
+rm -rf cache
+for i in 1 2 3 4; do
+    "$glint" warm >"warm$i.txt" 2>&1 &
+    "$glint" render "$scene" --size 16x9 -o "out/p$i.exr" --progress none 2>"p$i.txt" &
+done
+wait
+check 'eight processes: four pictures' test "$(find out -name 'p?.exr' | wc -l)" -eq 4
+for i in 2 3 4; do
+    run compare "out/p$i.exr" out/p1.exr --fail-above max=0
+    check "eight processes: picture $i is picture 1" test "$status" -eq 0
+done
+check 'eight processes: all warm' test "$(cat warm?.txt | grep -cE ' (compiled|kept) ')" -eq 12
+
+# A process that is killed while it compiles.
+rm -rf cache
+"$glint" warm >/dev/null 2>&1 &
+sleep 1
+pkill -KILL -P $! 2>/dev/null
+kill -KILL $! 2>/dev/null
+{ wait; } 2>/dev/null
+run render "${picture[@]}"
+check 'killed while it compiled: the next run renders' test "$status" -eq 0 -a -s out/x.exr
+finish
