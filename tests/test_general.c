@@ -93,7 +93,7 @@ static glint_kernel_kind compare(const glint_scene *scene, const glint_settings 
         assert_int_equal(different, 0);
         assert_same_counts(&frames[0].report, &frames[1].report);
         assert_same_layers(&frames[0].layers, &frames[1].layers,
-                           (size_t)(settings->width * settings->height));
+                           (size_t)settings->width * (size_t)settings->height);
     }
     test_frame_free(&frames[0]);
     test_frame_free(&frames[1]);
