@@ -8,7 +8,7 @@ packages_to_build='
     cmake/cmake ninja-build/ninja gcc/gcc g++/g++ pkg-config/pkg-config
     pocl-opencl-icd ocl-icd-opencl-dev opencl-c-headers
     libopenimageio-dev libtinygltf-dev libmeshoptimizer-dev libdraco-dev nlohmann-json3-dev libjansson-dev
-    libxxhash-dev zlib1g-dev libseccomp-dev'
+    libxxhash-dev libpng-dev libseccomp-dev'
 
 packages_to_test='
     libcmocka-dev oclgrind/oclgrind clang/clang clang-tidy/clang-tidy
@@ -28,7 +28,7 @@ packages_to_test_fully='
     slurmctld slurmd slurm-client munge procps/pkill'
 
 needs_in_words="CMake 3.25, a C11 and C++17 compiler, pkg-config, an OpenCL ICD loader with its \
-headers, PoCL or another OpenCL 1.2 driver, OpenImageIO, tinygltf, meshoptimizer, Draco, nlohmann-json, jansson, xxHash, zlib and \
+headers, PoCL or another OpenCL 1.2 driver, OpenImageIO, tinygltf, meshoptimizer, Draco, nlohmann-json, jansson, xxHash, libpng and \
 libseccomp"
 
 say() {

@@ -30,7 +30,7 @@ typedef struct encoding {
 static const encoding encodings[] = {
     {"exr", "none", false}, {"exr", "rle", false},   {"exr", "zips", false}, {"exr", "zip", false},
     {"exr", "piz", false},  {"exr", "pxr24", false}, {"exr", "b44", false},  {"exr", "dwaa", false},
-    {"exr", "zip", true},   {"png", "1", false},     {"png", "2", false},    {"png", "6", false},
+    {"exr", "zip", true},   {"png", "1", false},     {"png", "4", false},    {"png", "6", false},
     {"hdr", NULL, false},   {"tiff", "zip", false},  {"jpg", "95", false},
 };
 enum { ENCODINGS = sizeof encodings / sizeof *encodings };

@@ -510,15 +510,19 @@ static void png_metadata_is_text_with_its_values(void **state)
     (void)state;
     const glint_metadata metadata[] = {
         {.name = "glint:frame", .type = GLINT_METADATA_INT, .integer = 42},
-        {.name = "glint:exposure", .type = GLINT_METADATA_FLOAT, .real = 1.5f}};
+        {.name = "matrix", .type = GLINT_METADATA_MATRIX}, // left out
+        {.name = "glint:exposure", .type = GLINT_METADATA_FLOAT, .real = 1.5f},
+        {.name = "scene", .type = GLINT_METADATA_STRING, .string = "a b"},
+        {.name = "nothing", .type = GLINT_METADATA_STRING}};
+    static const char text[] = "tEXtDescription\0glint:frame: 42\nglint:exposure: 1.5\nscene: a b\n"
+                               "nothing: \n";
     glint_image image = make_ramp(3);
-    const glint_write_options options = {.metadata = metadata, .metadata_count = 2};
+    const glint_write_options options = {.metadata = metadata, .metadata_count = 5};
     assert_int_equal(glint_image_write(scratch_path("m.png"), &image, &options, NULL), GLINT_OK);
     size_t length;
     unsigned char *bytes = scratch_read("m.png", &length);
     assert_non_null(bytes);
-    assert_non_null(memmem(bytes, length, "glint:frame: 42\n", 16));
-    assert_non_null(memmem(bytes, length, "glint:exposure: 1.5\n", 20));
+    assert_non_null(memmem(bytes, length, text, sizeof text - 1));
     free(bytes);
     glint_image_free(&image);
 }

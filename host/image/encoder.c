@@ -2,7 +2,6 @@
 #include "image/encoder.h"
 
 #include "base/memory.h"
-#include "base/parallel.h"
 #include "image/codec.h"
 #include "image/description.h"
 #include "image/memory_file.h"
@@ -11,8 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define BAND 16 // rows that a thread converts at once
 
 // The texts of a job, one after the other.
 typedef struct texts {
@@ -87,21 +84,6 @@ static glint_encode_job make_job(const glint_file_values *values, size_t text_by
 
 // ---- The memory file ----------------------------------------------------------------------------
 
-typedef struct bands {
-    const glint_file_values *values;
-    unsigned char *to;
-} bands;
-
-static void fill_band(size_t index, void *context)
-{
-    const bands *shared = context;
-    const glint_image *image = shared->values->image;
-    const int first = (int)index * BAND;
-    const int rows = image->height - first < BAND ? image->height - first : BAND;
-    const size_t row_bytes = (size_t)image->width * shared->values->pixel_bytes;
-    glint_file_values_fill(shared->values, first, rows, shared->to + (size_t)first * row_bytes);
-}
-
 static void fill_attributes(const glint_write_options *options, size_t count, unsigned char *to)
 {
     for (size_t i = 0; i < count; i++) {
@@ -117,10 +99,8 @@ static void fill_attributes(const glint_write_options *options, size_t count, un
 static void fill(const glint_memory_file *file, const glint_encode_job *job,
                  const glint_file_values *values, const texts *made)
 {
-    bands shared = {values, file->at + job->pixel_offset};
     memcpy(file->at, job, sizeof *job);
-    glint_parallel_for_on((size_t)glint_codec_threads(),
-                          ((size_t)values->image->height + BAND - 1) / BAND, fill_band, &shared);
+    glint_file_values_fill(values, (size_t)glint_codec_threads(), file->at + job->pixel_offset);
     fill_attributes(values->options, job->attribute_count, file->at + job->attribute_offset);
     memcpy(file->at + job->text_offset, made->bytes, made->size);
 }

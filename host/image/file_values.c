@@ -2,6 +2,7 @@
 #include "image/file_values.h"
 
 #include "base/half.h"
+#include "base/parallel.h"
 #include "image/color.h"
 #include "image/tone.h"
 
@@ -151,8 +152,8 @@ static void fill_codes(const glint_file_values *values, const float *from, unsig
     }
 }
 
-void glint_file_values_fill(const glint_file_values *values, int first_row, int rows,
-                            unsigned char *to)
+// Writes `rows` rows from `first_row` on to `to`.
+static void fill_rows(const glint_file_values *values, int first_row, int rows, unsigned char *to)
 {
     const glint_image *image = values->image;
     const size_t first = (size_t)first_row * (size_t)image->width;
@@ -167,4 +168,31 @@ void glint_file_values_fill(const glint_file_values *values, int first_row, int 
     } else {
         fill_linear(values, from, to, pixels);
     }
+}
+
+// ---- Threads ------------------------------------------------------------------------------------
+
+#define BAND 16 // rows that a thread converts at once
+
+typedef struct bands {
+    const glint_file_values *values;
+    unsigned char *to;
+} bands;
+
+static void fill_band(size_t index, void *context)
+{
+    const bands *shared = context;
+    const glint_image *image = shared->values->image;
+    const int first = (int)index * BAND;
+    const int rows = image->height - first < BAND ? image->height - first : BAND;
+    const size_t row_bytes = (size_t)image->width * shared->values->pixel_bytes;
+    fill_rows(shared->values, first, rows, shared->to + (size_t)first * row_bytes);
+}
+
+void glint_file_values_fill(const glint_file_values *values, size_t threads, unsigned char *to)
+{
+    bands shared = {.values = values};
+    shared.to = to;
+    glint_parallel_for_on(threads, ((size_t)values->image->height + BAND - 1) / BAND, fill_band,
+                          &shared);
 }

@@ -30,9 +30,8 @@ typedef struct glint_file_values {
 glint_file_values glint_file_values_of(const glint_written_format *format, const glint_image *image,
                                        const glint_write_options *options);
 
-// Writes `rows` rows from `first_row` on to `to`: [rows][width] pixels, packed tightly. Threads may
-// fill different rows at once.
-void glint_file_values_fill(const glint_file_values *values, int first_row, int rows,
-                            unsigned char *to);
+// Writes all pixels to `to`: [height][width] pixels, packed tightly. Converts them on `threads`
+// threads (0: one for each core).
+void glint_file_values_fill(const glint_file_values *values, size_t threads, unsigned char *to);
 
 #endif
