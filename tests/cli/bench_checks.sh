@@ -190,7 +190,7 @@ rm -f mirror mirror_sphere.bin
 # stops SIGNAL STATUS DELAY: runs the program in a session of its own, to find processes that it
 # leaves running.
 stops() {
-    setsid "$glint" bench mirror --size 1920x1080 --samples 16 --json out/x.json >stdout 2>stderr &
+    setsid "$glint" bench mirror --size 1920x1080 --samples 16 --seconds 60 --json out/x.json >stdout 2>stderr &
     local process=$!
     sleep "$3"
     kill "-$1" "$process"
