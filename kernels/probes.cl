@@ -98,11 +98,11 @@ static inline void probe_store_hit(global scalar *out, size_t packet, int values
 }
 
 // Finds the closest hits of a work-item's rays, as for secondary rays; sets the rays.
-static inline void probe_closest(const scene_buffers *scene, global const scalar *in, path *rays,
-                                 closest *hits)
+static NOT_INLINED void probe_closest(const scene_buffers *scene, global const scalar *in,
+                                      size_t first, path *rays, closest *hits)
 {
     mask active[PATH_GROUPS];
-    probe_rays(in, get_global_id(0) * PATH_GROUPS, rays, active);
+    probe_rays(in, first, rays, active);
     trace_groups(scene, rays, active, hits);
 }
 
@@ -112,7 +112,7 @@ kernel void probe_trace(PROBE_ARGUMENTS)
     const size_t first = get_global_id(0) * PATH_GROUPS;
     path rays[PATH_GROUPS];
     closest hits[PATH_GROUPS];
-    probe_closest(&scene, in, rays, hits);
+    probe_closest(&scene, in, first, rays, hits);
     for (int g = 0; g < PATH_GROUPS; g++) {
         probe_store_hit(out, first + g, GLINT_PROBE_HIT, numbers, &hits[SLOT(g)]);
     }
@@ -121,7 +121,7 @@ kernel void probe_trace(PROBE_ARGUMENTS)
 // Stores the reflected and the transmitted branch of rays at their next surface. glint_probe_bounce
 // describes the GLINT_PROBE_BOUNCE numbers.
 #if GLINT_GEOMETRY
-static inline void probe_surface(const scene_buffers *scene, const path *ray, closest *hit,
+static NOT_INLINED void probe_surface(const scene_buffers *scene, const path *ray, closest *hit,
                                  global scalar *out, size_t packet)
 {
     const int values = GLINT_PROBE_BOUNCE;
@@ -166,7 +166,7 @@ kernel void probe_bounce(PROBE_ARGUMENTS)
     const size_t first = get_global_id(0) * PATH_GROUPS;
     path rays[PATH_GROUPS];
     closest hits[PATH_GROUPS];
-    probe_closest(&scene, in, rays, hits);
+    probe_closest(&scene, in, first, rays, hits);
     for (int g = 0; g < PATH_GROUPS; g++) {
         for (int i = 4; i < GLINT_PROBE_BOUNCE; i++) {
             probe_store(out, first + g, GLINT_PROBE_BOUNCE, i, real_of(0));

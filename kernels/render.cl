@@ -37,6 +37,15 @@ GLINT_FEATURES(CHECK)
 // Some pixels are rendered in several rounds.
 #define HAS_ROUNDS (GLINT_FACETS || GLINT_DISPERSION)
 
+// PoCL makes three functions of a kernel, and compiles three times what is inlined into them. It
+// inlines all functions that ask for the work-item's number. So kernels ask for it themselves, and
+// call functions that are not inlined. GPUs inline all.
+#if GLINT_WIDTH > 1
+#define NOT_INLINED __attribute__((noinline))
+#else
+#define NOT_INLINED
+#endif
+
 #include "layout.h"
 #include "arguments.h"
 #include "lanes.cl"
@@ -124,9 +133,10 @@ static inline ulong squared_truncation(const tally *tally, const glint_frame_rec
 }
 #endif
 
-static inline void report(tally *tally, const glint_frame_record *frame, global uint *counters)
+// Adds the work-item's counts to the counters; `slot` is the work-item's number.
+static inline void report(tally *tally, const glint_frame_record *frame, uint slot,
+                          global uint *counters)
 {
-    const uint slot = (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0));
     ulong *counts = tally->counts;
     counts[GLINT_COUNT_DEEPEST] = (ulong)largest_lane(to_real(tally->deepest));
     counts[GLINT_COUNT_WEIGHT_BY_DEPTH] = cut_units(tally, frame, BY_DEPTH);
@@ -399,10 +409,11 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
 
 typedef struct outputs {
     GLINT_OUTPUT_ARGUMENTS(MEMBER)
+    uint slot; // the work-item's number, for the counters
 } outputs;
 
 // Renders the tile whose first pixel is in the given column and row.
-static inline void render_tile(const scene_buffers *scene, const glint_frame_record *frame,
+static NOT_INLINED void render_tile(const scene_buffers *scene, const glint_frame_record *frame,
                                int column, int row, const outputs *out)
 {
     tally tally = no_tally();
@@ -422,7 +433,7 @@ static inline void render_tile(const scene_buffers *scene, const glint_frame_rec
     scalar sums[TILE_GROUPS * PIXEL_VALUES];
     sample_tile(scene, frame, column, row, sums, &sum, &tally);
     // Report before storing the pixels: an atomic operation waits for all earlier stores.
-    report(&tally, frame, out->counters);
+    report(&tally, frame, out->slot, out->counters);
 #if GLINT_DIAGNOSTICS
     if (HAS(DIAGNOSTICS)) {
         store_layers(&layers, frame, column, row, out->layers);
@@ -463,6 +474,7 @@ kernel void render_tiles(GLINT_SCENE_ARGUMENTS(PARAMETER) GLINT_OUTPUT_ARGUMENTS
     if (column >= frame.width || row >= frame.height) {
         return;
     }
-    const outputs out = {pixels, counters, layers, terms};
+    const uint slot = (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0));
+    const outputs out = {pixels, counters, layers, terms, slot};
     render_tile(&scene, &frame, column, row, &out);
 }

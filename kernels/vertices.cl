@@ -129,7 +129,7 @@ static inline real3 weighted_radiance(const scene_buffers *scene, const glint_fr
 }
 
 // Shades a packet of a cluster's vertices, from lane `first` on.
-static inline void shade_packet(const scene_buffers *scene, const glint_frame_record *frame,
+static NOT_INLINED void shade_packet(const scene_buffers *scene, const glint_frame_record *frame,
                                 size_t cluster, int first, global float *values)
 {
     global const float *vertices = scene->clusters + cluster * GLINT_CLUSTER_VALUES;
