@@ -6,8 +6,9 @@
 //   needs     a condition: the kernel compiles with the feature only if it is true; 1: always
 //   excludes  a condition: the kernel compiles with the feature only if it is false; 0: none
 //   unneeded  the effect of the feature if no scene or setting needs it. IDLE: it changes no bit of
-//             a frame. SWITCHED: in a general kernel the code asks HAS(NAME) before it uses the
-//             feature. ACTIVE: it changes the frame, or accesses buffers that do not exist then
+//             a frame; general kernels may ask HAS(NAME) to save time. SWITCHED: in a general
+//             kernel the code asks HAS(NAME) before it uses the feature. ACTIVE: it changes the
+//             frame, or accesses buffers that do not exist then
 //   general   the smallest general kernel that contains the feature; each contains all features of
 //             the smaller ones. NONE: no general kernel has the feature
 // A special kernel contains the features that one scene needs. A general kernel, compiled with

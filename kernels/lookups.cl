@@ -15,6 +15,7 @@ typedef struct lookups {
 #if READS_LEVELS
     level_choice levels[LOOKUPS];
     cube_point coarser[LOOKUPS]; // the same points on the next level
+    bool are_levels;             // else all points are on level 0
     int level_count;
     int level_starts[GLINT_LEVELS_MAX]; // number of texels before a level
 #endif
@@ -24,14 +25,16 @@ typedef struct lookups {
 
 #define ALL_RAYS ((uint)((1 << GLINT_WIDTH) - 1))
 
-static inline void begin_lookups(lookups *l, const cube_map *map, scalar *sums)
+static inline void begin_lookups(lookups *l, const scene_buffers *scene, scalar *sums)
 {
+    const cube_map *map = &scene->environment;
     l->count = 0;
     l->sums = sums;
 #if READS_LEVELS
+    l->are_levels = HAS(MIP_LEVELS) || HAS(FACETS);
     l->level_count = 0;
     int start = 0;
-    for (int edge = map->edge; edge > 0; edge /= 2) {
+    for (int edge = map->edge; edge > 0 && l->are_levels; edge /= 2) {
         const int pitch = edge + 2 * GLINT_CUBE_BORDER;
         l->level_starts[l->level_count++] = start;
         start += GLINT_CUBE_FACES * pitch * pitch;
@@ -52,6 +55,9 @@ static inline scalar4 look_up(const lookups *l, const cube_map *map, int i, int 
 {
     int edge = map->edge;
 #if READS_LEVELS
+    if (!l->are_levels) {
+        return fetch_at(&l->points[i], map, edge, lane);
+    }
     edge >>= LANE_INT(l->levels[i].level, lane);
 #endif
     scalar4 light = fetch_at(&l->points[i], map, edge, lane);
@@ -113,10 +119,10 @@ static inline void find_points(lookups *l, const scene_buffers *scene, const pat
 #if READS_LEVELS
     const int last = max(l->level_count - 1, 0);
     level_choice choice = {int_of(0), real_of(0)};
-    if (HAS(MIP_LEVELS) || HAS(FACETS)) {
+    if (l->are_levels) {
         choice = choose_level(spread_seen(scene, rays), direction, map->edge, last);
+        l->levels[i] = choice;
     }
-    l->levels[i] = choice;
     if (any_lane((choice.level > (lane_int)0) | (choice.blend > R(0.0)))) {
         lanes_int next_edges = int_of(0), next = int_of(0);
         for (int lane = 0; lane < GLINT_WIDTH; lane++) {

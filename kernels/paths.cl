@@ -161,8 +161,13 @@ typedef struct paths {
 } paths;
 
 #if GATHERS
-static inline void gather(paths *all, int slot, real3 light, mask lit)
+static inline void gather(const scene_buffers *scene, paths *all, int slot, real3 light, mask lit)
 {
+    if (!HAS(SPLIT)) { // then a slot's paths belong to the group's pixels
+        real3 *own = &all->radiance[slot];
+        *own = select3(lit, add(*own, light), *own);
+        return;
+    }
 #if GLINT_SPLIT
     lit = lit & ((light.x != R(0.0)) | (light.y != R(0.0)) | (light.z != R(0.0)));
     for (uint left = mask_bits(lit); left != 0; left &= left - 1) {
@@ -172,24 +177,23 @@ static inline void gather(paths *all, int slot, real3 light, mask lit)
         LANE(sum->y, pixel % GLINT_WIDTH) += LANE(light.y, lane);
         LANE(sum->z, pixel % GLINT_WIDTH) += LANE(light.z, lane);
     }
-#else
-    real3 *sum = &all->radiance[slot];
-    *sum = select3(lit, add(*sum, light), *sum);
 #endif
 }
 #endif
 
 #if SEES_THROUGH
 // gather for a single number.
-static inline void uncover(paths *all, int slot, real share, mask seen)
+static inline void uncover(const scene_buffers *scene, paths *all, int slot, real share, mask seen)
 {
+    if (!HAS(SPLIT)) {
+        all->uncovered[slot] += SELECT(seen, share, real_of(0));
+        return;
+    }
 #if GLINT_SPLIT
     for (uint left = mask_bits(seen); left != 0; left &= left - 1) {
         const int lane = lowest_bit(left), pixel = pixel_of(all->pixels[slot], lane);
         LANE(all->uncovered[pixel / GLINT_WIDTH], pixel % GLINT_WIDTH) += LANE(share, lane);
     }
-#else
-    all->uncovered[slot] += SELECT(seen, share, real_of(0));
 #endif
 }
 #endif
@@ -287,7 +291,9 @@ static inline scattering scatter_on_path(const scene_buffers *scene,
         scatter(scene, s, negate(ray->direction), &media, irradiance, &media_lost);
     ray->media = SELECT(met, media, ray->media);
 #if GLINT_ABSORPTION
-    ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
+    if (HAS(ABSORPTION)) {
+        ray->weight = select3(met, absorbed_weight(scene, ray, hit->t), ray->weight);
+    }
 #endif
     tally->counts[GLINT_COUNT_MEDIA_OVERFLOWS] += (ulong)count_lanes(met & media_lost);
     return out;
@@ -346,16 +352,16 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
 #endif
     // Gather the light that the surface sends, and the light of its lobes.
 #if GATHERS
-    gather(all, slot, multiply(ray->weight, out.emitted), met);
+    gather(scene, all, slot, multiply(ray->weight, out.emitted), met);
 #endif
 #if GLINT_ROUGH
     const wanted_lobe wanted = lobe_of_surface(&s, &out, met);
     seen_lobe seen = see_lobe(scene, frame, &wanted, ray);
-    gather(all, slot, seen.matte, met);
+    gather(scene, all, slot, seen.matte, met);
 #if GLINT_SHEEN
     if (HAS(SHEEN)) {
         const wanted_lobe of_sheen = lobe_of_sheen(&s, &out, met);
-        gather(all, slot, see_lobe(scene, frame, &of_sheen, ray).matte, met);
+        gather(scene, all, slot, see_lobe(scene, frame, &of_sheen, ray).matte, met);
     }
 #endif
 #if GLINT_CLEARCOAT
@@ -363,7 +369,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     if (HAS(CLEARCOAT)) {
         const wanted_lobe of_coat = lobe_of_coat(&s, &out, met);
         coat = see_lobe(scene, frame, &of_coat, ray);
-        gather(all, slot, coat.matte, met);
+        gather(scene, all, slot, coat.matte, met);
         join_lobes(&s, &out, &coat, &seen);
     }
 #endif
@@ -404,7 +410,7 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     mask reflects = met & (largest3(reflected.weight) > R(0.0));
     end_branch(frame, &reflected, reflects, &all->pixels[slot], tally);
     tally->counts[GLINT_COUNT_REFLECTED] += (ulong)count_lanes(reflects);
-    if (!TWO_WAYS) {
+    if (!TWO_WAYS) { // no surface lets light pass, so no path splits
         assign_path(ray, &reflected, reflects);
         return reflects;
     }
@@ -450,13 +456,14 @@ static inline mask meet_surfaces(const scene_buffers *scene, const glint_frame_r
     }
 #endif
 #if GLINT_SPLIT
-    split_path(all, slot, &reflected, &transmitted, reflects, transmits, tally);
-    return mask_none();
-#else
+    if (HAS(SPLIT)) {
+        split_path(all, slot, &reflected, &transmitted, reflects, transmits, tally);
+        return mask_none();
+    }
+#endif
     assign_path(ray, &transmitted, transmits);
     assign_path(ray, &reflected, reflects);
     return reflects | transmits;
-#endif
 }
 
 // Begins the paths of a group with the primary rays in `active`.
@@ -513,7 +520,7 @@ static inline mask bring_held(const scene_buffers *scene, paths *all, int slot, 
                         scale(ray->weight, R(1.0) - ray->shown));
     }
 #endif
-    gather(all, slot, ray->held, escaped & (ray->shown < R(1.0)));
+    gather(scene, all, slot, ray->held, escaped & (ray->shown < R(1.0)));
     ray->weight = select3(escaped, scale(ray->weight, ray->shown), ray->weight);
     return escaped & (ray->shown > R(0.0));
 }
@@ -532,7 +539,7 @@ static inline void advance_paths(const scene_buffers *scene, const glint_frame_r
     if (HAS(ALPHA) && HAS(TRANSPARENT)) {
         const mask past = escaped & (all->ray[slot].met == all->ray[slot].passed);
         if (first == 0) { // else the pixel shows only background
-            uncover(all, slot, all->ray[slot].weight.x, past);
+            uncover(scene, all, slot, all->ray[slot].weight.x, past);
         }
         escaped = escaped & !past;
     }
@@ -584,7 +591,9 @@ static inline void follow_paths(const scene_buffers *scene, const glint_frame_re
         hits[SLOT(i)].place = first[SLOT(i)].places;
     }
 #if GLINT_SPLIT
-    no_branches(&all->branches);
+    if (HAS(SPLIT)) {
+        no_branches(&all->branches);
+    }
 #endif
     for (bool are_primary = true; are_primary || any_active(all->active); are_primary = false) {
         if (!are_primary) {
@@ -597,7 +606,9 @@ static inline void follow_paths(const scene_buffers *scene, const glint_frame_re
             }
         }
 #if GLINT_SPLIT
-        take_branches(&all->branches, all->ray, all->pixels, all->active);
+        if (HAS(SPLIT)) {
+            take_branches(&all->branches, all->ray, all->pixels, all->active);
+        }
 #endif
     }
 }

@@ -358,7 +358,7 @@ static inline void sample_tile(const scene_buffers *scene, const glint_frame_rec
     const mask *inside = in_image;
 #endif
     lookups later;
-    begin_lookups(&later, &scene->environment, sums);
+    begin_lookups(&later, scene, sums);
 #endif
     const int k = SAMPLES_PER_AXIS(frame), count = k * k;
     tile t;

@@ -556,16 +556,15 @@ static inline scattering scatter(const scene_buffers *scene, const surface *s, r
         result.reflected_weight = real3_of(s->metallic, s->metallic, s->metallic);
     }
     // Glass.
-    if (GLINT_GLASS) {
+    if (HAS(GLASS)) {
         scatter_glass(scene, s, v, glass, media, &result, media_lost);
+    } else {
+        result.transmitted = negate(v);
+        result.media_transmitted = *media;
+        result.total_reflection = mask_none();
+        result.eta = real_of(1);
+        result.bend = real_of(0);
     }
-#if (GLINT_ALPHA || COATS_APART) && !GLINT_GLASS
-    result.transmitted = negate(v);
-    result.media_transmitted = *media;
-    result.total_reflection = mask_none();
-    result.eta = real_of(1);
-    result.bend = real_of(0);
-#endif
     result.media_reflected = *media;
     // Paint and rough lobes.
     irradiance = light_on_paint(scene, s, irradiance);

@@ -198,8 +198,10 @@ static inline void pass_surfaces(const scene_buffers *scene, path *rays, closest
 #endif
     real3 passing = light_passing(scene, &s);
 #if GLINT_ABSORPTION
-    passing = multiply(passing, medium_transmittance(scene, medium_on_top(scene, rays->media),
-                                                     SELECT(met, hit->t, real_of(0))));
+    if (HAS(ABSORPTION)) {
+        passing = multiply(passing, medium_transmittance(scene, medium_on_top(scene, rays->media),
+                                                         SELECT(met, hit->t, real_of(0))));
+    }
 #endif
     *left = select3(met, multiply(*left, passing), *left);
     rays->media = SELECT(met, beyond, rays->media);

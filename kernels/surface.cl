@@ -111,9 +111,9 @@ typedef struct surface {
 // A clear coat may have its own branch beside the branch from the layers below.
 #define COATS_APART (GLINT_CLEARCOAT && GLINT_SPLIT)
 #if TRANSMITS || COATS_APART
-#define TWO_WAYS 1
+#define TWO_WAYS (HAS(GLASS) || HAS(ALPHA) || (HAS(CLEARCOAT) && HAS(SPLIT)))
 #else
-#define TWO_WAYS 0
+#define TWO_WAYS false
 #endif
 #if GLINT_DISPERSION
 #define IOR_STEP(surface) (surface)->ior_step
@@ -362,8 +362,9 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #endif
 }
 
-// Sets the material's values that the compiled features need, for the rays in `yes`.
-static inline void set_material(surface *s, mask yes, global const glint_material_record *m)
+// Sets the material's values that the features need, for the rays in `yes`.
+static inline void set_material(const scene_buffers *scene, surface *s, mask yes,
+                                global const glint_material_record *m)
 {
     s->base_color.x = SELECT(yes, real_of(m->base_color[0]), s->base_color.x);
     s->base_color.y = SELECT(yes, real_of(m->base_color[1]), s->base_color.y);
@@ -384,10 +385,12 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
     s->roughness = SELECT(yes, real_of(m->roughness), s->roughness);
 #endif
 #if GLINT_SPECULAR
-    s->specular = SELECT(yes, real_of(m->specular), s->specular);
-    s->specular_color.x = SELECT(yes, real_of(m->specular_color[0]), s->specular_color.x);
-    s->specular_color.y = SELECT(yes, real_of(m->specular_color[1]), s->specular_color.y);
-    s->specular_color.z = SELECT(yes, real_of(m->specular_color[2]), s->specular_color.z);
+    if (HAS(SPECULAR)) {
+        s->specular = SELECT(yes, real_of(m->specular), s->specular);
+        s->specular_color.x = SELECT(yes, real_of(m->specular_color[0]), s->specular_color.x);
+        s->specular_color.y = SELECT(yes, real_of(m->specular_color[1]), s->specular_color.y);
+        s->specular_color.z = SELECT(yes, real_of(m->specular_color[2]), s->specular_color.z);
+    }
 #endif
 #if GLINT_CLEARCOAT
     s->clearcoat = SELECT(yes, real_of(m->clearcoat), s->clearcoat);
@@ -395,27 +398,35 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
         SELECT(yes, real_of(m->clearcoat_roughness), s->clearcoat_roughness);
 #endif
 #if GLINT_DIFFUSE_TRANSMISSION
-    s->through = SELECT(yes, real_of(m->diffuse_transmission), s->through);
-    global const float *through = m->diffuse_transmission_color;
-    s->through_color.x = SELECT(yes, real_of(through[0]), s->through_color.x);
-    s->through_color.y = SELECT(yes, real_of(through[1]), s->through_color.y);
-    s->through_color.z = SELECT(yes, real_of(through[2]), s->through_color.z);
+    if (HAS(DIFFUSE_TRANSMISSION)) {
+        s->through = SELECT(yes, real_of(m->diffuse_transmission), s->through);
+        global const float *through = m->diffuse_transmission_color;
+        s->through_color.x = SELECT(yes, real_of(through[0]), s->through_color.x);
+        s->through_color.y = SELECT(yes, real_of(through[1]), s->through_color.y);
+        s->through_color.z = SELECT(yes, real_of(through[2]), s->through_color.z);
+    }
 #endif
 #if GLINT_SHEEN
-    s->sheen_color.x = SELECT(yes, real_of(m->sheen_color[0]), s->sheen_color.x);
-    s->sheen_color.y = SELECT(yes, real_of(m->sheen_color[1]), s->sheen_color.y);
-    s->sheen_color.z = SELECT(yes, real_of(m->sheen_color[2]), s->sheen_color.z);
-    s->sheen_roughness = SELECT(yes, real_of(m->sheen_roughness), s->sheen_roughness);
+    if (HAS(SHEEN)) {
+        s->sheen_color.x = SELECT(yes, real_of(m->sheen_color[0]), s->sheen_color.x);
+        s->sheen_color.y = SELECT(yes, real_of(m->sheen_color[1]), s->sheen_color.y);
+        s->sheen_color.z = SELECT(yes, real_of(m->sheen_color[2]), s->sheen_color.z);
+        s->sheen_roughness = SELECT(yes, real_of(m->sheen_roughness), s->sheen_roughness);
+    }
 #endif
 #if GLINT_BRUSHED
-    s->anisotropy = SELECT(yes, real_of(m->anisotropy), s->anisotropy);
-    s->brush_x = SELECT(yes, real_of(m->brush_direction[0]), s->brush_x);
-    s->brush_y = SELECT(yes, real_of(m->brush_direction[1]), s->brush_y);
+    if (HAS(BRUSHED)) {
+        s->anisotropy = SELECT(yes, real_of(m->anisotropy), s->anisotropy);
+        s->brush_x = SELECT(yes, real_of(m->brush_direction[0]), s->brush_x);
+        s->brush_y = SELECT(yes, real_of(m->brush_direction[1]), s->brush_y);
+    }
 #endif
 #if GLINT_IRIDESCENCE
-    s->film = SELECT(yes, real_of(m->iridescence), s->film);
-    s->film_ior = SELECT(yes, real_of(m->iridescence_ior), s->film_ior);
-    s->film_thickness = SELECT(yes, real_of(m->iridescence_thickness[1]), s->film_thickness);
+    if (HAS(IRIDESCENCE)) {
+        s->film = SELECT(yes, real_of(m->iridescence), s->film);
+        s->film_ior = SELECT(yes, real_of(m->iridescence_ior), s->film_ior);
+        s->film_thickness = SELECT(yes, real_of(m->iridescence_thickness[1]), s->film_thickness);
+    }
 #endif
     s->blend = SELECT(yes, real_of(m->blend), s->blend);
     s->flags = SELECT(yes, int_of((lane_int)m->flags), s->flags);
@@ -424,13 +435,13 @@ static inline void set_material(surface *s, mask yes, global const glint_materia
 
 static inline void load_materials(const scene_buffers *scene, const triangle *t, surface *s)
 {
-    set_material(s, mask_all(), scene->materials);
+    set_material(scene, s, mask_all(), scene->materials);
 #if GLINT_MANY_MATERIALS
     uint left = mask_bits(t->material != (lane_int)0);
     while (left != 0) {
         int number;
         mask here = next_alike(t->material, &left, &number);
-        set_material(s, here, scene->materials + number);
+        set_material(scene, s, here, scene->materials + number);
     }
 #endif
 }

@@ -99,7 +99,7 @@ static inline surface surface_at_vertices(const scene_buffers *scene, real3 norm
     s.normal = select3(is_zero3(normals), v, s.normal); // a triangle without area has no normal
     s.geometric_normal = s.lit_normal = s.normal;
     s.cosine = SMALLER(fabs(dot3(s.normal, v)), real_of(1));
-    set_material(&s, mask_all(), scene->materials + (GLINT_MANY_MATERIALS ? material : 0));
+    set_material(scene, &s, mask_all(), scene->materials + (GLINT_MANY_MATERIALS ? material : 0));
     return s;
 }
 

@@ -8,7 +8,8 @@ export POCL_CACHE_DIR=$work/cache
 picture=("$scene" --size 16x9 -o out/x.exr --stats out/stats.json --progress none)
 
 check 'warm --help tells every option' help_mentions warm device precision lists help
-check 'glint --help lists it' bash -c '"$0" --help | grep -q "^ *warm "' "$glint"
+lists_it() { "$glint" --help | grep -q '^ *warm '; }
+check 'glint --help lists it' lists_it
 refuses 2 'unknown option' warm --nonsense
 refuses 2 'float' warm --precision half
 refuses 4 'nothing' warm --device nothing
