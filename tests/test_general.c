@@ -1,6 +1,6 @@
 // General kernels give the bits of special kernels. Scenes of scenes/ with every kind of setting,
 // and scenes whose materials have lobes chosen by chance, are rendered with both. GLINT_TEST_ROUNDS
-// scenes of the second kind (6).
+// scenes of the second kind (4).
 #include "base/random.h"
 #include "render/general.h"
 #include "support/render.h"
@@ -354,7 +354,7 @@ static void any_lobes_have_the_bits_of_special_kernels(void **state)
 {
     (void)state;
     static const char *const scenes[] = {"textures", "materials", "lights", "gallery", "wine"};
-    const int count = rounds() != NULL ? atoi(rounds()) : 6;
+    const int count = rounds() != NULL ? atoi(rounds()) : 4;
     glint_random random = {2026};
     for (int i = 0; i < count; i++) {
         glint_scene scene = {0};

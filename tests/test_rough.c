@@ -16,7 +16,7 @@ static const float roughnesses[] = {0.02F, 0.06F, 0.1F, 0.2F, 0.3F, 0.5F, 0.7F, 
 
 static glint_settings rough_frame(glint_roughness roughness, int depth)
 {
-    glint_settings settings = judged_frame(32, 24, depth);
+    glint_settings settings = judged_frame(20, 15, depth);
     settings.roughness = roughness;
     return settings;
 }
@@ -126,7 +126,7 @@ static void paths_go_on_from_rough_surfaces(void **state)
         for (int variant = 0; variant < 5; variant++) {
             judged j = {.scene = names[i],
                         .environment = &environment,
-                        .settings = judged_frame(32, 24, 3),
+                        .settings = judged_frame(20, 15, 3),
                         .feature = GLINT_FEATURE_ROUGH,
                         .roughness = 0.4F,
                         .metallic = -1,

@@ -115,6 +115,13 @@ glint_device_bytes glint_renderer_device_bytes(const glint_renderer *renderer);
 // The kind of kernels that the next frame runs, unless its camera needs others.
 glint_kernel_kind glint_renderer_kernels(const glint_renderer *renderer);
 
+// True if the settings leave the choice of kernels to glint, and general ones run. Then the kernels
+// that glint_plan_build_options describes would be faster.
+bool glint_renderer_wants_special(const glint_renderer *renderer);
+
+// Takes special kernels that somebody has compiled since. Errors: as building kernels.
+glint_status glint_renderer_take_special(glint_renderer *renderer, glint_error *error);
+
 // A frame to render. Pointers are borrowed.
 typedef struct glint_frame_request {
     glint_renderer *renderer;

@@ -51,4 +51,9 @@ typedef struct glint_general_request {
 glint_status glint_general_compile(glint_device *device, const glint_general_request *request,
                                    glint_general_report *report, glint_error *error);
 
+// Compiles special kernels with these build options (glint_plan_build_options) in the same way.
+// Errors: GLINT_USAGE for options without a packet's width; as glint_program_build.
+glint_status glint_special_compile(glint_device *device, const char *options,
+                                   glint_general_report *report, glint_error *error);
+
 #endif

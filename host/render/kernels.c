@@ -114,15 +114,20 @@ void glint_kernels_note_run(const glint_kernel_request *request, glint_kernels *
     kernels->have_run = true;
 }
 
-glint_status glint_kernels_compile(const glint_kernel_request *request, glint_kernel_kind kind,
-                                   bool *was_compiled, glint_error *error)
+bool glint_kernels_have_special(glint_kernel_cache *cache, const glint_kernel_request *request)
 {
     char options[OPTIONS_BYTES];
-    glint_kernel_options(request->plan, kind, options, sizeof options);
+    glint_kernel_options(request->plan, GLINT_KERNEL_SPECIAL, options, sizeof options);
+    return are_compiled(cache, request, options);
+}
+
+glint_status glint_kernels_compile(const glint_kernel_request *request, const char *options,
+                                   bool *was_compiled, glint_error *error)
+{
     const glint_program_request program = program_request(request, options);
     *was_compiled = glint_program_is_compiled(request->device, &program);
     glint_kernels made = {0};
-    glint_status status = renew(request, options, kind, &made, error);
+    glint_status status = renew(request, options, GLINT_KERNEL_SPECIAL, &made, error);
     if (status == GLINT_OK) {
         const glint_launcher launcher = {
             .device = request->device, .plan = request->plan, .kernels = &made};

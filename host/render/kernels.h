@@ -43,10 +43,15 @@ typedef struct glint_kernel_request {
 glint_status glint_kernel_cache_get(glint_kernel_cache *cache, const glint_kernel_request *request,
                                     glint_kernels **kernels, glint_error *error);
 
-// Compiles a general kernel and runs it once, over no pixels. *was_compiled: the driver's cache
-// held it. Errors: as glint_kernel_cache_get.
-glint_status glint_kernels_compile(const glint_kernel_request *request, glint_kernel_kind kind,
+// Compiles kernels with these build options and runs them once, over no pixels. Of the plan, only
+// the packets' width counts. *was_compiled: the driver's cache held them. Errors: as
+// glint_kernel_cache_get.
+glint_status glint_kernels_compile(const glint_kernel_request *request, const char *options,
                                    bool *was_compiled, glint_error *error);
+
+// True if the request's special kernels are ready in this process, or compiled in the driver's
+// cache.
+bool glint_kernels_have_special(glint_kernel_cache *cache, const glint_kernel_request *request);
 
 // Notes that the kernels have run for the first time, by which the driver has compiled all of them.
 void glint_kernels_note_run(const glint_kernel_request *request, glint_kernels *kernels);

@@ -308,6 +308,22 @@ void glint_renderer_free(glint_renderer *renderer)
     free(renderer);
 }
 
+bool glint_renderer_wants_special(const glint_renderer *r)
+{
+    return r->settings.kernels == GLINT_KERNELS_AUTO && r->kernel_dir == NULL &&
+           glint_renderer_kernels(r) != GLINT_KERNEL_SPECIAL;
+}
+
+glint_status glint_renderer_take_special(glint_renderer *r, glint_error *error)
+{
+    const glint_kernel_request request = {r->device, r->kernel_dir, &r->plan, r->settings.kernels};
+    if (!glint_renderer_wants_special(r) || !glint_kernels_have_special(&r->cache, &request)) {
+        return GLINT_OK;
+    }
+    r->bands_per_ms = 0;
+    return note(r, GLINT_RENDERER_LACKS_SETTINGS, find_kernels(r, error));
+}
+
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer)
 {
     return &renderer->plan;

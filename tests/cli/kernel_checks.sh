@@ -7,7 +7,7 @@ scene=$3/mirror_sphere.gltf
 export POCL_CACHE_DIR=$work/cache
 picture=("$scene" --size 16x9 -o out/x.exr --stats out/stats.json --progress none)
 
-check 'warm --help tells every option' help_mentions warm device precision lists help
+check 'warm --help tells every option' help_mentions warm device precision lists build-options help
 lists_it() { "$glint" --help | grep -q '^ *warm '; }
 check 'glint --help lists it' lists_it
 refuses 2 'unknown option' warm --nonsense
@@ -40,6 +40,28 @@ check 'warm: special kernels where no general one serves' stat_is special kernel
 run render "${picture[@]}" --kernels special
 check 'warm: special kernels, asked for' stat_is special kernels
 
+# A long sequence begins with general kernels; special ones are compiled meanwhile.
+clean
+refuses 2 'GLINT_WIDTH' warm --build-options '-w'
+marks() { find cache/glint -type f | wc -l; }
+before=$(marks)
+"$glint" render "$3/glass_sphere.gltf" --turntable 9999 --samples 4 -o out/f.####.png --progress none 2>stderr &
+for _ in $(seq 900); do
+    [ "$(marks)" -eq "$before" ] || break
+    sleep 0.1
+done
+check 'a long sequence: special kernels are compiled meanwhile' test "$(marks)" -gt "$before"
+kill -INT $!
+wait $!
+check 'a long sequence: stopped' test $? -eq 130
+rm -rf out/*
+"$glint" render "$3/glass_sphere.gltf" --turntable 9999 --samples 4 -o out/f.####.png --progress none 2>stderr &
+sleep 1
+check 'a long sequence: one process is enough' test -z "$(pgrep -P $!)"
+kill -INT $!
+wait $!
+rm -rf out/*
+
 # Marks that are wrong, or that PoCL does not stand behind, cost time alone.
 mv cache/glint marks
 rm -rf cache
@@ -50,19 +72,20 @@ check 'marks without kernels: rendered' test "$status" -eq 0 -a -s out/x.exr
 POCL_KERNEL_CACHE=0 run render "${picture[@]}"
 check 'PoCL keeps nothing: special kernels' stat_is special kernels
 
-# Eight processes and one cache, four of them warm it.
+# Eight processes and one cache: two warm it, six render.
 rm -rf cache
-for i in 1 2 3 4; do
-    "$glint" warm >"warm$i.txt" 2>&1 &
+for i in 1 2; do "$glint" warm >"warm$i.txt" 2>&1 & done
+for i in 1 2 3 4 5 6; do
     "$glint" render "$scene" --size 16x9 -o "out/p$i.exr" --progress none 2>"p$i.txt" &
 done
 wait
-check 'eight processes: four pictures' test "$(find out -name 'p?.exr' | wc -l)" -eq 4
-for i in 2 3 4; do
+check 'eight processes: six pictures' test "$(find out -name 'p?.exr' | wc -l)" -eq 6
+for i in 2 3 4 5 6; do
     run compare "out/p$i.exr" out/p1.exr --fail-above max=0
     check "eight processes: picture $i is picture 1" test "$status" -eq 0
 done
-check 'eight processes: all warm' test "$(cat warm?.txt | grep -cE ' (compiled|kept) ')" -eq 12
+check 'eight processes: all warm' test "$(cat warm?.txt | grep -cE ' (compiled|kept) ')" -eq 6
+rm -rf out/*
 
 # A process that is killed while it compiles.
 rm -rf cache

@@ -17,6 +17,7 @@ typedef struct warm_request {
     const char *device;
     int precision; // FLOAT, DOUBLE or BOTH
     bool lists;
+    const char *build_options; // of special kernels; NULL: general kernels
 } warm_request;
 
 static const glint_option options[] = {
@@ -31,6 +32,10 @@ static const glint_option options[] = {
     {GLINT_OPTION_FLAG, .name = "lists",
      .help = "Also the kernels that render lists of pixels, which --max-error and --mend need.",
      .offset = offsetof(warm_request, lists)},
+    {GLINT_OPTION_TEXT, .name = "build-options", .argument = "TEXT",
+     .help =
+         "Instead, the special kernels of a scene: plan.build_options of glint info SCENE --json.",
+     .offset = offsetof(warm_request, build_options)},
     GLINT_OPTION_END,
 };
 
@@ -40,7 +45,8 @@ static const glint_option *const groups[] = {options, NULL};
 typedef struct job {
     const char *device; // as glint_device_open expects it
     glint_general_request kernel;
-    char *line; // for the user
+    const char *build_options; // of special kernels instead; NULL: none
+    char *line;                // for the user
     glint_status status;
     glint_error error;
 } job;
@@ -54,11 +60,18 @@ static glint_status compile(void *context, char **text, glint_error *error)
     glint_general_report report;
     glint_status status;
     TRY(glint_device_open(j->device, &device, error));
-    TRY_OR(cleanup, status, glint_general_compile(device, &j->kernel, &report, error));
+    TRY_OR(cleanup, status,
+           j->build_options != NULL
+               ? glint_special_compile(device, j->build_options, &report, error)
+               : glint_general_compile(device, &j->kernel, &report, error));
     if (asprintf(text, "%-22s %-6s %-5s  %-8s  %5.1f s", glint_kernel_kind_name(j->kernel.kind),
-                 j->kernel.precision == GLINT_PRECISION_DOUBLE ? "double" : "float",
-                 j->kernel.for_lists ? "lists" : "tiles", report.was_compiled ? "kept" : "compiled",
-                 report.ms / 1000) < 0) {
+                 j->build_options != NULL                        ? ""
+                 : j->kernel.precision == GLINT_PRECISION_DOUBLE ? "double"
+                                                                 : "float",
+                 j->build_options != NULL ? ""
+                 : j->kernel.for_lists    ? "lists"
+                                          : "tiles",
+                 report.was_compiled ? "kept" : "compiled", report.ms / 1000) < 0) {
         *text = NULL;
         status = glint_fail_memory(error, "a line");
     }
@@ -79,17 +92,19 @@ static void compile_elsewhere(size_t index, void *context)
 static size_t list_jobs(const warm_request *request, job jobs[MOST_JOBS])
 {
     size_t count = 0;
+    if (request->build_options != NULL) {
+        jobs[0] = (job){.device = request->device, .build_options = request->build_options};
+        return 1;
+    }
     for (int kind = GLINT_KERNEL_KINDS - 1; kind > GLINT_KERNEL_SPECIAL; kind--) {
         for (int i = 0; i < 4; i++) {
             const int precision = i % 2, for_lists = i / 2;
             if ((request->precision == precision || request->precision == BOTH) &&
                 (!for_lists || request->lists)) {
-                jobs[count++] =
-                    (job){request->device,
-                          {(glint_kernel_kind)kind, (glint_precision)precision, for_lists != 0},
-                          NULL,
-                          GLINT_OK,
-                          {0}};
+                jobs[count++] = (job){
+                    .device = request->device,
+                    .kernel = {(glint_kernel_kind)kind, (glint_precision)precision, for_lists != 0},
+                };
             }
         }
     }

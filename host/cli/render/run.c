@@ -109,7 +109,7 @@ static glint_status reach(render_run *run, glint_sequence_frame *frame, const ch
     run->build_ms += glint_lap_ms(&clock);
     frame->camera = render_stage_camera(&run->shot.stage, frame->number);
     look_ahead(run);
-    return GLINT_OK;
+    return glint_renderer_take_special(run->tracer.renderer, error);
 }
 
 static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame)
@@ -147,10 +147,21 @@ static glint_status render_within(void *context, glint_sequence_frame *frame,
     return glint_error_bound_frame(&run->tracer.bound, &request, &run->choice, error);
 }
 
+// Compiles special kernels if the rest of the sequence takes long, by the time of this frame.
+static void consider_kernels(render_run *run, double frame_ms)
+{
+    const render_totals *totals = &run->frames.totals;
+    const double done = (double)(totals->rendered + totals->skipped + totals->failed) + 1;
+    const double left = (double)run->frames.count - done;
+    render_kernels_ahead_consider(&run->kernels, run->tracer.renderer,
+                                  glint_device_capabilities(run->tracer.device), left * frame_ms);
+}
+
 static void frame_is_traced(void *context, glint_sequence_frame *frame)
 {
     render_run *run = context;
     glint_progress_traced(&run->display);
+    consider_kernels(run, frame->report.kernel_ms);
     render_writer_pack(&run->shot, &run->tracer, run->build_ms,
                        run->request->max_error > 0 ? &run->choice : NULL, frame);
     run->tracer.tree = "kept";
@@ -261,6 +272,7 @@ glint_status render_run_frames(render_run *run, glint_error *error)
 
 void render_run_free(render_run *run)
 {
+    render_kernels_ahead_end(&run->kernels);
     render_shot_free(&run->shot); // first: the thread that loads ahead uses the renderer
     render_frames_free(&run->frames);
     render_tracer_free(&run->tracer);

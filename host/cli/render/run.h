@@ -3,6 +3,7 @@
 #define GLINT_CLI_RENDER_RUN_H
 
 #include "cli/render/frames.h"
+#include "cli/render/kernels_ahead.h"
 #include "cli/render/shot.h"
 #include "cli/render/tracer.h"
 
@@ -13,6 +14,7 @@ typedef struct render_run {
     render_shot shot;
     render_tracer tracer;
     render_frames frames;
+    render_kernels_ahead kernels;
     double build_ms;           // build time of the frame that is being traced
     glint_error_choice choice; // the latest choice of --max-error
     double rendering_begun_ms; // milliseconds after the display began
