@@ -4,26 +4,21 @@
 #include "image/color.h"
 #include "image/image_io.h"
 #include "support/image_bytes.h"
+#include "support/image_files.h"
 #include "support/scratch.h"
+#include "support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include <cmocka.h>
 
 // ---- Colour -------------------------------------------------------------------------------------
-
-static double curve(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 static void srgb_codes_survive_decoding_and_encoding(void **state)
 {
@@ -45,7 +40,7 @@ static void eight_bit_codes_are_the_rounded_curve(void **state)
     for (uint32_t bits = 0x38800000u; bits <= 0x3f800000u; bits += 37) {
         float linear;
         memcpy(&linear, &bits, sizeof linear);
-        double exact = 255.0 * curve((double)linear);
+        double exact = 255.0 * srgb_from_linear((double)linear);
         if (fabs(glint_linear_to_srgb8(linear) - exact) > 0.5 + 1e-9) {
             fail_msg("%a becomes %d, exactly %f", (double)linear, glint_linear_to_srgb8(linear),
                      exact);
@@ -69,16 +64,6 @@ static void values_outside_the_range_are_clamped(void **state)
 
 // ---- Reading handmade files ---------------------------------------------------------------------
 
-static glint_image read_image(const char *name, glint_image_facts *facts)
-{
-    glint_image image;
-    glint_error error = {0};
-    if (glint_image_read(scratch_path(name), &image, facts, &error) != GLINT_OK) {
-        fail_msg("%s", error.message);
-    }
-    return image;
-}
-
 static void refuse(const char *path, const char *said)
 {
     glint_image image;
@@ -98,7 +83,7 @@ static void radiance_pixels_are_mantissas_times_a_power(void **state)
     image_bytes file = hdr_bytes(3, 2, rgbe);
     scratch_write("a.hdr", file.bytes, (long)file.length);
     image_bytes_free(&file);
-    glint_image image = read_image("a.hdr", NULL);
+    glint_image image = image_file_read("a.hdr", NULL);
     assert_int_equal(image.width, 3);
     assert_int_equal(image.height, 2);
     assert_int_equal(image.channels, 3);
@@ -120,12 +105,7 @@ static glint_image read_tiff(const tiff_recipe *recipe, glint_image_facts *facts
     image_bytes file = tiff_bytes(recipe);
     scratch_write("a.tif", file.bytes, (long)file.length);
     image_bytes_free(&file);
-    return read_image("a.tif", facts);
-}
-
-static double decode(double code)
-{
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
+    return image_file_read("a.tif", facts);
 }
 
 static void whole_numbers_are_linearised_and_floats_are_not(void **state)
@@ -139,14 +119,14 @@ static void whole_numbers_are_linearised_and_floats_are_not(void **state)
     glint_image image = read_tiff(&(tiff_recipe){256, 1, 3, 8, 0, 1, codes}, &facts);
     assert_true(facts.was_encoded);
     for (int i = 0; i < 256 * 3; i++) {
-        assert_true(fabs((double)image.pixels[i] - decode(codes[i] / 255.0)) < 1e-7);
+        assert_true(fabs((double)image.pixels[i] - linear_from_srgb(codes[i] / 255.0)) < 1e-7);
         codes[i] = (uint16_t)(i * 85);
     }
     glint_image_free(&image);
     image = read_tiff(&(tiff_recipe){256, 1, 3, 16, 0, 1, codes}, &facts);
     assert_true(facts.was_encoded);
     for (int i = 0; i < 256 * 3; i++) {
-        assert_true(fabs((double)image.pixels[i] - decode(codes[i] / 65535.0)) < 1e-7);
+        assert_true(fabs((double)image.pixels[i] - linear_from_srgb(codes[i] / 65535.0)) < 1e-7);
     }
     glint_image_free(&image);
 }
@@ -165,7 +145,7 @@ static void alpha_is_premultiplied_after_linearising(void **state)
             assert_true(fabs((double)image.pixels[4 * p + 3] - alpha) < 1e-7);
             for (int c = 0; c < 3 && alpha > 0.0; c++) {
                 double code = codes[4 * p + c] / 255.0;
-                double wanted = alpha * decode(extra == 2 ? code : code / alpha);
+                double wanted = alpha * linear_from_srgb(extra == 2 ? code : code / alpha);
                 // The power multiplies relative rounding errors by 2.4.
                 assert_true(fabs((double)image.pixels[4 * p + c] - wanted) <= 1e-6 * wanted);
             }
@@ -180,11 +160,11 @@ static void grey_and_grey_with_alpha_keep_their_channels(void **state)
     const uint16_t codes[] = {0, 255, 128, 64, 255, 0};
     glint_image image = read_tiff(&(tiff_recipe){6, 1, 1, 8, 0, 1, codes}, NULL);
     assert_int_equal(image.channels, 1);
-    assert_true(fabs((double)image.pixels[2] - decode(128 / 255.0)) < 1e-7);
+    assert_true(fabs((double)image.pixels[2] - linear_from_srgb(128 / 255.0)) < 1e-7);
     glint_image_free(&image);
     image = read_tiff(&(tiff_recipe){3, 1, 2, 8, 2, 1, codes}, NULL);
     assert_int_equal(image.channels, 2);
-    assert_true(fabs((double)image.pixels[2] - decode(128 / 255.0) * 64 / 255.0) < 1e-7);
+    assert_true(fabs((double)image.pixels[2] - linear_from_srgb(128 / 255.0) * 64 / 255.0) < 1e-7);
     glint_image_free(&image);
 }
 
@@ -228,7 +208,7 @@ static glint_image read_exr(const exr_recipe *recipe, glint_image_facts *facts)
     image_bytes file = exr_bytes(recipe);
     scratch_write("a.exr", file.bytes, (long)file.length);
     image_bytes_free(&file);
-    return read_image("a.exr", facts);
+    return image_file_read("a.exr", facts);
 }
 
 static void exr_channels_are_found_by_name(void **state)
@@ -322,7 +302,7 @@ static void webp_is_read(void **state)
     static const char file[] =
         "RIFF\x1a\0\0\0WEBPVP8L\x0d\0\0\0\x2f\0\0\0\x10\x07\x10\x11\x11\x88\x88\xfe\x07";
     scratch_write("a.webp", file, sizeof file);
-    glint_image image = read_image("a.webp", NULL);
+    glint_image image = image_file_read("a.webp", NULL);
     assert_int_equal(image.width, 1);
     assert_int_equal(image.height, 1);
     assert_int_equal(image.channels, 4);
@@ -338,7 +318,7 @@ static void content_decides_over_the_extension(void **state)
     image_bytes file = exr_bytes(&recipe);
     scratch_write("really_an_exr.hdr", file.bytes, (long)file.length);
     image_bytes_free(&file);
-    glint_image image = read_image("really_an_exr.hdr", NULL);
+    glint_image image = image_file_read("really_an_exr.hdr", NULL);
     assert_true(image.pixels[0] == coded_value(2, 0, 0, NULL));
     glint_image_free(&image);
 }
@@ -372,23 +352,6 @@ static void a_small_file_that_claims_to_be_huge_is_refused(void **state)
     refuse(scratch_path("huge.hdr"), "40000 × 40000");
 }
 
-// Writes noise, which no encoding makes short, so every part of the file matters.
-static void write_noise(const char *name, int channels)
-{
-    glint_image image;
-    glint_error error = {0};
-    assert_int_equal(glint_image_create(40, 30, channels, &image, &error), GLINT_OK);
-    unsigned seed = 1;
-    for (int i = 0; i < 40 * 30 * channels; i++) {
-        seed = seed * 1664525u + 1013904223u;
-        image.pixels[i] = (float)(seed >> 8) / 16777216.0f;
-    }
-    if (glint_image_write(scratch_path(name), &image, NULL, &error) != GLINT_OK) {
-        fail_msg("%s", error.message);
-    }
-    glint_image_free(&image);
-}
-
 static const char *const noise_names[] = {"n.exr", "n.hdr", "n.png", "n.tif", "n.jpg"};
 
 static void truncated_files_are_refused(void **state)
@@ -396,7 +359,7 @@ static void truncated_files_are_refused(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof noise_names / sizeof noise_names[0]; k++) {
         size_t length;
-        write_noise(noise_names[k], 3);
+        image_file_write_noise(noise_names[k], 3);
         unsigned char *bytes = scratch_read(noise_names[k], &length);
         assert_non_null(bytes);
         for (size_t part = 1; part < 20; part += 3) {
@@ -414,7 +377,7 @@ static void damaged_files_are_survived(void **state)
     unsigned seed = 2;
     for (size_t k = 0; k < sizeof noise_names / sizeof noise_names[0]; k++) {
         size_t length;
-        write_noise(noise_names[k], 3);
+        image_file_write_noise(noise_names[k], 3);
         unsigned char *bytes = scratch_read(noise_names[k], &length);
         assert_non_null(bytes);
         for (int round = 0; round < 15; round++) {

@@ -2,53 +2,19 @@
 // must follow OpenEXR's file layout. Impossible requests must fail before any work. test_image.c
 // tests the reader separately.
 #include "image/image_io.h"
+#include "support/image_files.h"
 #include "support/scratch.h"
+#include "support/srgb.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <setjmp.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmocka.h>
-
-static double curve(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-static glint_image read_image(const char *name, glint_image_facts *facts)
-{
-    glint_image image;
-    glint_error error = {0};
-    if (glint_image_read(scratch_path(name), &image, facts, &error) != GLINT_OK) {
-        fail_msg("%s", error.message);
-    }
-    return image;
-}
-
-// Writes noise, which no encoding makes short, so every part of the file matters.
-static void write_noise(const char *name, int channels)
-{
-    glint_image image;
-    glint_error error = {0};
-    assert_int_equal(glint_image_create(40, 30, channels, &image, &error), GLINT_OK);
-    unsigned seed = 1;
-    for (int i = 0; i < 40 * 30 * channels; i++) {
-        seed = seed * 1664525u + 1013904223u;
-        image.pixels[i] = (float)(seed >> 8) / 16777216.0f;
-    }
-    if (glint_image_write(scratch_path(name), &image, NULL, &error) != GLINT_OK) {
-        fail_msg("%s", error.message);
-    }
-    glint_image_free(&image);
-}
 
 // ---- Writing and reading again ------------------------------------------------------------------
 
@@ -91,7 +57,8 @@ static void compare_pixel(const float *wrote, const float *read, int channels,
         double error = fabs((double)wrote[c] - (double)read[c]);
         if (allowed->codes > 0.0) {
             // Alpha has eight bits, too. The division must not use the rounded alpha.
-            double before = curve((double)wrote[c] / alpha), after = curve((double)read[c] / alpha);
+            double before = srgb_from_linear((double)wrote[c] / alpha),
+                   after = srgb_from_linear((double)read[c] / alpha);
             error = 255.0 * fabs(before - after) - (has_alpha ? 0.5 / alpha : 0.0);
             assert_true(error <= allowed->codes);
         } else {
@@ -118,7 +85,7 @@ static void what_is_written_is_read_again(void **state)
                 GLINT_OK) {
                 fail_msg("%s", error.message);
             }
-            glint_image read = read_image(formats[k].name, NULL);
+            glint_image read = image_file_read(formats[k].name, NULL);
             assert_int_equal(read.channels, formats[k].channels_back[channels]);
             for (int p = 0; p < 64 * 16 && read.channels == channels; p++) {
                 compare_pixel(wrote.pixels + p * channels, read.pixels + p * channels, channels,
@@ -144,7 +111,7 @@ static void float_exr_is_exact_and_every_compression_reads_back(void **state)
         if (glint_image_write(scratch_path("a.exr"), &wrote, &options, &error) != GLINT_OK) {
             fail_msg("%s", error.message);
         }
-        glint_image read = read_image("a.exr", NULL);
+        glint_image read = image_file_read("a.exr", NULL);
         if (k < 5) {
             assert_memory_equal(wrote.pixels, read.pixels, 64 * 16 * 4 * sizeof(float));
         }
@@ -214,7 +181,8 @@ static void a_reader_of_the_picture_does_not_see_further_channels(void **state)
             options.channel_count = 2;
             assert_int_equal(glint_image_write(scratch_path("b.exr"), &wrote, &options, NULL),
                              GLINT_OK);
-            glint_image plain = read_image("a.exr", NULL), layered = read_image("b.exr", NULL);
+            glint_image plain = image_file_read("a.exr", NULL),
+                        layered = image_file_read("b.exr", NULL);
             assert_int_equal(layered.channels, in_image);
             assert_memory_equal(plain.pixels, layered.pixels,
                                 64 * 16 * (size_t)in_image * sizeof(float));
@@ -237,13 +205,13 @@ static void jpeg_is_close_and_over_black(void **state)
         wrote.pixels[4 * p + 3] = 0.5f;
     }
     assert_int_equal(glint_image_write(scratch_path("a.jpg"), &wrote, NULL, NULL), GLINT_OK);
-    read = read_image("a.jpg", NULL);
+    read = image_file_read("a.jpg", NULL);
     assert_int_equal(read.channels, 3);
     double worst = 0.0;
     for (int p = 0; p < 64 * 64; p++) {
         for (int c = 0; c < 3; c++) {
-            worst = fmax(worst, fabs(curve((double)wrote.pixels[4 * p + c]) -
-                                     curve((double)read.pixels[3 * p + c])));
+            worst = fmax(worst, fabs(srgb_from_linear((double)wrote.pixels[4 * p + c]) -
+                                     srgb_from_linear((double)read.pixels[3 * p + c])));
         }
     }
     // At quality 95 the largest quantisation step is 12 of 255, for the finest luma detail. A
@@ -260,8 +228,8 @@ static void jpeg_orientation_is_applied(void **state)
     static const unsigned char exif[] = {0xff, 0xe1, 0, 34, 'E', 'x', 'i', 'f', 0, 0,  'M', 'M',
                                          0,    42,   0, 0,  0,   8,   0,   1,   1, 18, 0,   3,
                                          0,    0,    0, 1,  0,   6,   0,   0,   0, 0,  0,   0};
-    write_noise("a.jpg", 3);
-    glint_image plain = read_image("a.jpg", NULL);
+    image_file_write_noise("a.jpg", 3);
+    glint_image plain = image_file_read("a.jpg", NULL);
     size_t length;
     unsigned char *bytes = scratch_read("a.jpg", &length);
     assert_non_null(bytes);
@@ -274,7 +242,7 @@ static void jpeg_orientation_is_applied(void **state)
     scratch_write("b.jpg", longer, (long)(length + sizeof exif));
     free(bytes);
     free(longer);
-    glint_image turned = read_image("b.jpg", NULL);
+    glint_image turned = image_file_read("b.jpg", NULL);
     assert_int_equal(turned.width, plain.height);
     assert_int_equal(turned.height, plain.width);
     for (int y = 0; y < turned.height; y++) {
@@ -297,7 +265,7 @@ static void values_that_half_cannot_hold_are_clamped(void **state)
                               1.0f,     2.0f,      -INFINITY, 3.0f,      1e30f, 4.0f};
     glint_image image = {8, 1, 3, (float *)values};
     assert_int_equal(glint_image_write(scratch_path("a.exr"), &image, NULL, NULL), GLINT_OK);
-    glint_image read = read_image("a.exr", NULL);
+    glint_image read = image_file_read("a.exr", NULL);
     for (int i = 0; i < 24; i++) {
         if (isnan(values[i])) {
             assert_true(isnan(read.pixels[i]));
@@ -309,7 +277,7 @@ static void values_that_half_cannot_hold_are_clamped(void **state)
     glint_image_free(&read);
     // RGBE has one exponent for three values: a pixel with 1e30 has no room for small values.
     assert_int_equal(glint_image_write(scratch_path("a.hdr"), &image, NULL, NULL), GLINT_OK);
-    read = read_image("a.hdr", NULL);
+    read = image_file_read("a.hdr", NULL);
     for (int i = 0; i < 24; i++) {
         assert_true(isfinite(read.pixels[i]) && read.pixels[i] >= 0.0f);
     }
@@ -324,168 +292,14 @@ static void exposure_is_stops_and_leaves_exr_alone(void **state)
     glint_write_options options = {.exposure = 2.0f};
     assert_int_equal(glint_image_write(scratch_path("a.png"), &image, &options, NULL), GLINT_OK);
     assert_int_equal(glint_image_write(scratch_path("a.exr"), &image, &options, NULL), GLINT_OK);
-    glint_image png = read_image("a.png", NULL), exr = read_image("a.exr", NULL);
+    glint_image png = image_file_read("a.png", NULL), exr = image_file_read("a.exr", NULL);
     for (int c = 0; c < 3; c++) {
-        assert_true(fabs(255.0 * (curve((double)png.pixels[c]) - curve(4.0 * (double)gray[c]))) <
-                    0.5001);
+        assert_true(fabs(255.0 * (srgb_from_linear((double)png.pixels[c]) -
+                                  srgb_from_linear(4.0 * (double)gray[c]))) < 0.5001);
         assert_true(fabs((double)(exr.pixels[c] - gray[c])) <= (double)gray[c] / 2048);
     }
     glint_image_free(&png);
     glint_image_free(&exr);
-}
-
-// Threads share one codec.
-static void *read_and_write(void *argument)
-{
-    const char *name = argument;
-    for (int round = 0; round < 12; round++) {
-        glint_image read;
-        if (glint_image_read(scratch_path("shared.jpg"), &read, NULL, NULL) != GLINT_OK ||
-            glint_image_write(name, &read, NULL, NULL) != GLINT_OK) {
-            return argument;
-        }
-        glint_image_free(&read);
-    }
-    return NULL;
-}
-
-static void threads_may_read_and_write_at_once(void **state)
-{
-    (void)state;
-    enum { THREADS = 4 };
-    static const char *const names[THREADS] = {"t.exr", "t.png", "t.tif", "t.hdr"};
-    static char paths[THREADS][512];
-    pthread_t threads[THREADS];
-    write_noise("shared.jpg", 3);
-    for (int i = 0; i < THREADS; i++) {
-        snprintf(paths[i], sizeof paths[i], "%s", scratch_path(names[i]));
-        assert_int_equal(pthread_create(&threads[i], NULL, read_and_write, paths[i]), 0);
-    }
-    for (int i = 0; i < THREADS; i++) {
-        void *failed = NULL;
-        pthread_join(threads[i], &failed);
-        assert_null(failed);
-    }
-    assert_int_equal(scratch_count(), THREADS + 1);
-}
-
-// ---- The processes that encode ------------------------------------------------------------------
-
-// The one child of a process. Its main thread must have started it.
-static pid_t child_of(pid_t process)
-{
-    char path[64];
-    int child = 0;
-    snprintf(path, sizeof path, "/proc/%d/task/%d/children", (int)process, (int)process);
-    FILE *file = fopen(path, "r");
-    if (file == NULL) {
-        print_message("skipped: this kernel does not list children\n");
-        skip();
-    }
-    assert_int_equal(fscanf(file, "%d", &child), 1);
-    fclose(file);
-    return child;
-}
-
-// Kills the codec, our child. Waits until all its threads are gone, and leaves a zombie.
-static void end_codec(pid_t codec)
-{
-    siginfo_t how;
-    assert_int_equal(kill(codec, SIGKILL), 0);
-    assert_int_equal(waitid(P_PID, (id_t)codec, &how, WEXITED | WNOWAIT), 0);
-}
-
-// Kills the encoder, a child of the codec. Waits until the codec has noticed.
-static void end_encoder(pid_t encoder)
-{
-    assert_int_equal(kill(encoder, SIGKILL), 0);
-    while (kill(encoder, 0) == 0) {
-        usleep(1000);
-    }
-}
-
-static void processes_that_died_are_started_anew(void **state)
-{
-    (void)state;
-    write_noise("a.exr", 4);
-    const pid_t codec = child_of(getpid());
-    end_encoder(child_of(codec));
-    write_noise("b.exr", 4);
-    assert_int_equal(child_of(getpid()), codec);
-    end_codec(codec);
-    write_noise("c.exr", 4);
-    assert_true(child_of(getpid()) != codec);
-    size_t lengths[3];
-    for (int i = 0; i < 3; i++) {
-        static const char *const names[] = {"a.exr", "b.exr", "c.exr"};
-        glint_image read = read_image(names[i], NULL);
-        glint_image_free(&read);
-        free(scratch_read(names[i], &lengths[i]));
-    }
-    assert_true(lengths[0] == lengths[1] && lengths[0] == lengths[2]);
-    assert_int_equal(scratch_count(), 3);
-}
-
-static void *write_small(void *path)
-{
-    float pixel[3] = {0.25f, 0.5f, 1.0f};
-    const glint_image image = {1, 1, 3, pixel};
-    return glint_image_write(path, &image, NULL, NULL) == GLINT_OK ? NULL : path;
-}
-
-// A regression test: the first images of an encoder each set OpenImageIO's number of threads, at
-// once, and it crashed.
-static void a_new_encoder_may_begin_with_several_images(void **state)
-{
-    (void)state;
-    enum { THREADS = 4, ROUNDS = 60 };
-    static char paths[THREADS][512];
-    pthread_t threads[THREADS];
-    for (int i = 0; i < THREADS; i++) {
-        char name[16];
-        snprintf(name, sizeof name, "%d.%s", i, i % 2 == 0 ? "hdr" : "exr");
-        snprintf(paths[i], sizeof paths[i], "%s", scratch_path(name));
-    }
-    for (int round = 0; round < ROUNDS; round++) {
-        glint_image_use_threads(1 + round % 2);
-        for (int i = 0; i < THREADS; i++) {
-            assert_int_equal(pthread_create(&threads[i], NULL, write_small, paths[i]), 0);
-        }
-        for (int i = 0; i < THREADS; i++) {
-            void *failed = NULL;
-            pthread_join(threads[i], &failed);
-            assert_null(failed);
-        }
-        if (round % 3 != 0) { // the others change the number in an encoder that runs
-            end_encoder(child_of(child_of(getpid())));
-        }
-    }
-    glint_image_use_threads(0);
-}
-
-// A process that forks must not share memory files or the codec with its child.
-static void a_fork_writes_too(void **state)
-{
-    (void)state;
-    write_noise("a.exr", 4);
-    const pid_t process = fork();
-    if (process == 0) {
-        glint_image image;
-        const bool is_written =
-            glint_image_read(scratch_path("a.exr"), &image, NULL, NULL) == GLINT_OK &&
-            glint_image_write(scratch_path("b.exr"), &image, NULL, NULL) == GLINT_OK;
-        _exit(is_written ? 0 : 1);
-    }
-    for (int i = 0; i < 20; i++) {
-        write_noise("c.exr", 3);
-    }
-    int how = 0;
-    assert_int_equal(waitpid(process, &how, 0), process);
-    assert_true(WIFEXITED(how) && WEXITSTATUS(how) == 0);
-    glint_image first = read_image("a.exr", NULL), second = read_image("b.exr", NULL);
-    assert_memory_equal(first.pixels, second.pixels, sizeof(float) * 40 * 30 * 4);
-    glint_image_free(&first);
-    glint_image_free(&second);
 }
 
 // ---- Metadata, as OpenEXR's file layout has it --------------------------------------------------
@@ -574,7 +388,7 @@ static void exr_metadata_has_openexrs_types(void **state)
     assert_int_equal(glint_image_write(scratch_path("a.hdr"), &image, &options, NULL), GLINT_OK);
     for (int k = 0; k < 4; k++) {
         static const char *const names[] = {"a.png", "a.tif", "a.jpg", "a.hdr"};
-        glint_image read = read_image(names[k], NULL);
+        glint_image read = image_file_read(names[k], NULL);
         glint_image_free(&read);
     }
     glint_image_free(&image);
@@ -596,7 +410,7 @@ static void envmap_cube_is_written_as_the_attribute(void **state)
     assert_int_equal(envmap[0], 1);
     free(bytes);
     glint_image_facts facts = {0};
-    image = read_image("a.exr", &facts);
+    image = image_file_read("a.exr", &facts);
     assert_int_equal(facts.envmap, GLINT_ENVMAP_CUBE);
     assert_int_equal(image.height, 24);
     glint_image_free(&image);
@@ -644,10 +458,6 @@ int main(void)
         IN_FOLDER(jpeg_orientation_is_applied),
         IN_FOLDER(values_that_half_cannot_hold_are_clamped),
         IN_FOLDER(exposure_is_stops_and_leaves_exr_alone),
-        IN_FOLDER(threads_may_read_and_write_at_once),
-        IN_FOLDER(processes_that_died_are_started_anew),
-        IN_FOLDER(a_new_encoder_may_begin_with_several_images),
-        IN_FOLDER(a_fork_writes_too),
         IN_FOLDER(png_metadata_is_text_with_its_values),
         IN_FOLDER(exr_metadata_has_openexrs_types),
         IN_FOLDER(envmap_cube_is_written_as_the_attribute),

@@ -2,6 +2,7 @@
 #include "image/image_io.h"
 #include "image/tone.h"
 #include "support/scratch.h"
+#include "support/srgb.h"
 
 #include <float.h>
 #include <math.h>
@@ -215,11 +216,6 @@ static void agx_keeps_grey(void **state)
 
 // ---- In files ----------------------------------------------------------------------------------
 
-static double srgb(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-}
-
 static void judge_pixel(curve_function *judge, const float *linear, double scale, const float *read)
 {
     const double before[3] = {(double)linear[0] * scale, (double)linear[1] * scale,
@@ -227,7 +223,8 @@ static void judge_pixel(curve_function *judge, const float *linear, double scale
     double wanted[3];
     judge(before, wanted);
     for (int c = 0; c < 3; c++) {
-        assert_true(255 * fabs(srgb(wanted[c]) - srgb((double)read[c])) < 0.51);
+        assert_true(255 * fabs(srgb_from_linear(wanted[c]) - srgb_from_linear((double)read[c])) <
+                    0.51);
     }
 }
 

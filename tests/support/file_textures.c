@@ -2,6 +2,7 @@
 #include "support/file_textures.h"
 
 #include "image/decoder.h"
+#include "support/srgb.h"
 #include "support/textured_plane.h"
 
 #include <jansson.h>
@@ -52,7 +53,7 @@ static void fill_first_level(const glint_stored *stored, bool is_color, oracle_i
             const int from = channels >= 3 ? c : c == 3 ? 1 : 0; // grey with alpha
             double value =
                 from < channels ? code_at(codes, bits, i * (size_t)channels + (size_t)from) : 1;
-            image->texels[0][i][c] = c < 3 && is_color ? srgb_of_code(value) : value;
+            image->texels[0][i][c] = c < 3 && is_color ? linear_from_srgb(value) : value;
         }
     }
     free(codes);

@@ -4,6 +4,7 @@
 #include "image/image_io.h"
 #include "support/gltf_text.h"
 #include "support/scratch.h"
+#include "support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -47,11 +48,6 @@ bool textured_plane_meet(const glint_settings *settings, int pixel, meeting *m)
     return t > 0 && fabs(m->at[0]) < 4 && m->at[1] < 2 && m->at[1] > -14;
 }
 
-double srgb_of_code(double code)
-{
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
-
 void write_codes(const char *name, const int size[2], const unsigned char (*codes)[4])
 {
     glint_image image;
@@ -59,7 +55,7 @@ void write_codes(const char *name, const int size[2], const unsigned char (*code
     for (int i = 0; i < size[0] * size[1]; i++) {
         const float alpha = (float)codes[i][3] / 255.0F;
         for (int c = 0; c < 3; c++) {
-            image.pixels[4 * i + c] = alpha * (float)srgb_of_code(codes[i][c] / 255.0);
+            image.pixels[4 * i + c] = alpha * (float)linear_from_srgb(codes[i][c] / 255.0);
         }
         image.pixels[4 * i + 3] = alpha;
     }

@@ -61,9 +61,6 @@ typedef struct meeting {
 // Returns false if the ray misses the plane.
 bool textured_plane_meet(const glint_settings *settings, int pixel, meeting *m);
 
-// Decodes sRGB: the linear value of a code in [0, 1].
-double srgb_of_code(double code);
-
 // Writes width × height texels of R, G, B, A to the PNG NAME in the scratch folder.
 void write_codes(const char *name, const int size[2], const unsigned char (*codes)[4]);
 
