@@ -1,11 +1,15 @@
-// Tests the base library: errors, warnings, allocation, vectors.
+// Tests the base library: errors, warnings, allocation, vectors, whole reads and writes.
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/plain_text.h"
 #include "base/regular_file.h"
 #include "base/status.h"
 #include "base/vector.h"
+#include "base/whole_io.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -210,6 +215,54 @@ static void pipes_are_not_waited_for(void **state)
     rmdir(folder);
 }
 
+// A pipe takes and gives 64 KiB a call.
+enum { SENT = 1 << 20 };
+
+static void *send_bytes(void *context)
+{
+    const int pipe = *(int *)context;
+    static unsigned char bytes[SENT];
+    for (int i = 0; i < SENT; i++) {
+        bytes[i] = (unsigned char)(i % 251);
+    }
+    const bool is_sent = glint_write_all(pipe, bytes, sizeof bytes);
+    close(pipe);
+    return is_sent ? NULL : context;
+}
+
+static void bytes_are_read_and_written_as_a_whole(void **state)
+{
+    (void)state;
+    int ends[2];
+    pthread_t sender;
+    void *failed = NULL;
+    static unsigned char bytes[SENT];
+    assert_int_equal(pipe(ends), 0);
+    assert_int_equal(pthread_create(&sender, NULL, send_bytes, &ends[1]), 0);
+    assert_true(glint_read_all(ends[0], bytes, sizeof bytes));
+    for (int i = 0; i < SENT; i++) {
+        assert_int_equal(bytes[i], i % 251);
+    }
+    assert_false(glint_read_all(ends[0], bytes, 1)); // the other end is closed
+    assert_int_equal(errno, 0);
+    pthread_join(sender, &failed);
+    assert_null(failed);
+    close(ends[0]);
+
+    const int file = memfd_create("test", MFD_CLOEXEC);
+    assert_true(glint_write_all_at(file, 2, "glint", 5));
+    assert_true(glint_read_all_at(file, 3, bytes, 4));
+    assert_memory_equal(bytes, "lint", 4);
+    assert_false(glint_read_all_at(file, 3, bytes, 5));
+    assert_int_equal(errno, 0);
+    assert_true(glint_write_all(file, "", 0));
+    close(file);
+    const int full = open("/dev/full", O_WRONLY | O_CLOEXEC);
+    assert_false(glint_write_all(full, "a", 1));
+    assert_int_equal(errno, ENOSPC);
+    close(full);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -218,6 +271,7 @@ int main(void)
         cmocka_unit_test(text_becomes_plain),
         cmocka_unit_test(a_list_of_names_is_cut_not_overrun),
         cmocka_unit_test(pipes_are_not_waited_for),
+        cmocka_unit_test(bytes_are_read_and_written_as_a_whole),
         cmocka_unit_test(a_warning_is_said_once),
         cmocka_unit_test(allocation_is_zeroed_aligned_and_safe_from_overflow),
         cmocka_unit_test(large_memory_is_aligned_and_safe_from_overflow),

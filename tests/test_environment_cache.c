@@ -2,10 +2,10 @@
 // shared or out of date never changes what is loaded. The judge is the same file, loaded without a
 // cache.
 #include "base/cache_folder.h"
+#include "environment/cache.h"
+#include "environment/cached_irradiance.h"
 #include "environment/environment.h"
 #include "environment/irradiance.h"
-#include "environment/kept.h"
-#include "environment/kept_irradiance.h"
 #include "image/image_io.h"
 #include "support/direction_maps.h"
 #include "support/scratch.h"
@@ -66,7 +66,7 @@ static glint_environment load(const char *path)
     if (glint_environment_load(path, NULL, &environment, NULL, &error) != GLINT_OK) {
         fail_msg("%s", error.message);
     }
-    glint_environment_settle(&environment); // the entry is complete
+    glint_environment_end_write(&environment); // the entry is complete
     return environment;
 }
 
@@ -156,9 +156,9 @@ static void the_second_load_is_the_first_one(void **state)
 {
     (void)state;
     const char *path = write_map("map.exr", 2 * ROWS, 0.5f);
-    assert_false(glint_environment_is_likely_kept(path));
+    assert_false(glint_env_cache_may_have(path));
     assert_false(load_and_compare(path));
-    assert_true(glint_environment_is_likely_kept(path));
+    assert_true(glint_env_cache_may_have(path));
     assert_true(load_and_compare(path));
     assert_int_equal(count_files("tmp", NULL), 0);
     // The name of a file does not matter, and the entry has no other's name.
@@ -275,7 +275,7 @@ static void irradiance_is_kept(void **state)
     assert_int_equal(glint_irradiance_map(&environment.radiance, 16, &plain, NULL), GLINT_OK);
     for (int k = 0; k < 2; k++) {
         glint_cube kept;
-        assert_int_equal(glint_irradiance_map_kept(&environment.radiance, 16, &kept, NULL),
+        assert_int_equal(glint_irradiance_map_cached(&environment.radiance, 16, &kept, NULL),
                          GLINT_OK);
         assert_true((kept.mapped_from > 0) == (k == 1));
         assert_memory_equal(kept.texels, plain.texels, glint_cube_size(&plain) * sizeof(float));
@@ -283,7 +283,8 @@ static void irradiance_is_kept(void **state)
     }
     glint_cube_texel(&environment.radiance, 3, 1, 1)[0] = 9;
     glint_cube other;
-    assert_int_equal(glint_irradiance_map_kept(&environment.radiance, 16, &other, NULL), GLINT_OK);
+    assert_int_equal(glint_irradiance_map_cached(&environment.radiance, 16, &other, NULL),
+                     GLINT_OK);
     assert_int_equal(other.mapped_from, 0);
     glint_cube_free(&other);
     glint_cube_free(&plain);
@@ -292,19 +293,28 @@ static void irradiance_is_kept(void **state)
 
 // ---- Damage -------------------------------------------------------------------------------------
 
+// Loads a map, so that the cache has one entry. Returns the map's path.
+static const char *keep_one(glint_environment *plain, char entry[PATH_MAX], long long *bytes)
+{
+    const char *path = write_map("map.exr", 2 * ROWS, 0.5f);
+    *plain = load_plainly(path);
+    assert_false(load_like(path, plain));
+    the_only_entry(entry);
+    struct stat facts;
+    assert_int_equal(stat(entry, &facts), 0);
+    *bytes = facts.st_size;
+    return path;
+}
+
 static void a_damaged_entry_is_replaced(void **state)
 {
     (void)state;
-    const char *path = write_map("map.exr", 2 * ROWS, 0.5f);
-    glint_environment plain = load_plainly(path);
+    glint_environment plain;
     char entry[PATH_MAX];
-    assert_false(load_like(path, &plain));
-    the_only_entry(entry);
-    struct stat whole;
-    assert_int_equal(stat(entry, &whole), 0);
+    long long bytes = 0;
+    const char *path = keep_one(&plain, entry, &bytes);
     // The header's members, its checksum, the first texel, texels in the middle, the last one.
-    const long long places[] = {
-        0, 8, 12, 16, 32, 40, 48, 72, 4096, 4096 + (9 << 20), whole.st_size - 1};
+    const long long places[] = {0, 8, 12, 16, 32, 40, 48, 71, 4096, 4096 + (9 << 20), bytes - 1};
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         const int file = open(entry, O_RDWR);
         unsigned char byte = 0;
@@ -321,15 +331,11 @@ static void a_damaged_entry_is_replaced(void **state)
 static void an_entry_of_another_length_is_replaced(void **state)
 {
     (void)state;
-    const char *path = write_map("map.exr", 2 * ROWS, 0.5f);
-    glint_environment plain = load_plainly(path);
+    glint_environment plain;
     char entry[PATH_MAX];
-    assert_false(load_like(path, &plain));
-    the_only_entry(entry);
-    struct stat whole;
-    assert_int_equal(stat(entry, &whole), 0);
-    const long long lengths[] = {
-        0, 1, 70, 4096, whole.st_size / 2, whole.st_size - 1, whole.st_size + 1};
+    long long bytes = 0;
+    const char *path = keep_one(&plain, entry, &bytes);
+    const long long lengths[] = {0, 1, 70, 4096, bytes / 2, bytes - 1, bytes + 1};
     for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
         assert_int_equal(truncate(entry, lengths[k]), 0);
         assert_false(load_like(path, &plain));
@@ -427,12 +433,12 @@ static void what_is_too_large_is_not_kept(void **state)
     (void)state;
     char limit[16];
     const char *path = write_map("map.exr", 2 * ROWS, 0.5f);
-    snprintf(limit, sizeof limit, "%d", GLINT_KEPT_SHARE * (ENTRY_MIB - 1));
+    snprintf(limit, sizeof limit, "%d", GLINT_ENV_CACHE_SHARE * (ENTRY_MIB - 1));
     assert_false(load_within(path, limit));
     assert_false(load_within(path, limit));
     assert_false(load_within(path, "0"));
     assert_int_equal(count_files(".cube", NULL), 0);
-    snprintf(limit, sizeof limit, "%d", GLINT_KEPT_SHARE * ENTRY_MIB);
+    snprintf(limit, sizeof limit, "%d", GLINT_ENV_CACHE_SHARE * ENTRY_MIB);
     assert_false(load_within(path, limit));
     assert_true(load_within(path, limit));
     assert_true(load_within(path, "nonsense")); // the usual limit

@@ -32,7 +32,7 @@ bool glint_cache_folder_find(const char *name, char path[PATH_MAX])
     return home != NULL && home[0] == '/' && join(home, "/.cache/glint/", name, path);
 }
 
-bool glint_cache_folder_make(const char *path)
+bool glint_cache_folder_make(const char *path, mode_t mode)
 {
     char part[PATH_MAX];
     const int length = snprintf(part, sizeof part, "%s", path);
@@ -41,10 +41,10 @@ bool glint_cache_folder_make(const char *path)
     }
     for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
-        (void)mkdir(part, 0700);
+        (void)mkdir(part, mode);
         *slash = '/';
     }
-    return mkdir(part, 0700) == 0 || errno == EEXIST;
+    return mkdir(part, mode) == 0 || errno == EEXIST;
 }
 
 // ---- Room ---------------------------------------------------------------------------------------
@@ -59,7 +59,7 @@ typedef struct entry {
 typedef struct listing {
     entry *entries;
     size_t count, capacity;
-    uint64_t bytes; // of all entries
+    uint64_t bytes; // of all entries and temporaries
 } listing;
 
 static void add(listing *list, const char *name, const struct stat *facts)
@@ -86,11 +86,6 @@ static bool has_ending(const char *name, const char *ending)
     return length > wanted && strcmp(name + length - wanted, ending) == 0;
 }
 
-static bool is_stale(const char *name, const struct stat *facts)
-{
-    return strncmp(name, ".tmp-", 5) == 0 && time(NULL) - facts->st_mtim.tv_sec > PATIENCE;
-}
-
 static listing list_entries(DIR *folder, const char *ending)
 {
     listing list = {0};
@@ -100,8 +95,11 @@ static listing list_entries(DIR *folder, const char *ending)
             !S_ISREG(facts.st_mode)) {
             continue;
         }
-        if (is_stale(at->d_name, &facts)) {
-            (void)unlinkat(dirfd(folder), at->d_name, 0);
+        if (strncmp(at->d_name, GLINT_CACHE_TEMPORARY, strlen(GLINT_CACHE_TEMPORARY)) == 0) {
+            const bool is_stale = time(NULL) - facts.st_mtim.tv_sec > PATIENCE;
+            if (!is_stale || unlinkat(dirfd(folder), at->d_name, 0) != 0) {
+                list.bytes += (uint64_t)facts.st_size;
+            }
         } else if (has_ending(at->d_name, ending)) {
             add(&list, at->d_name, &facts);
         }
@@ -128,8 +126,9 @@ void glint_cache_folder_make_room(const char *path, const char *ending, uint64_t
         qsort(list.entries, list.count, sizeof *list.entries, compare_use);
     }
     for (size_t i = 0; i < list.count && list.bytes + bytes > limit; i++) {
-        (void)unlinkat(dirfd(folder), list.entries[i].name, 0);
-        list.bytes -= list.entries[i].bytes;
+        if (unlinkat(dirfd(folder), list.entries[i].name, 0) == 0) {
+            list.bytes -= list.entries[i].bytes;
+        }
     }
     free(list.entries);
     closedir(folder);

@@ -1,6 +1,8 @@
 // Runs work in a child process. See child.h.
 #include "base/child.h"
 
+#include "base/whole_io.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -34,21 +36,6 @@ bool glint_child_is_abandoned(void)
     return own_pipe >= 0 && poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR) != 0;
 }
 
-static bool send_all(int pipe, const void *from, size_t size)
-{
-    for (const char *bytes = from; size > 0;) {
-        ssize_t done = write(pipe, bytes, size);
-        if (done < 0 && errno != EINTR) {
-            return false;
-        }
-        if (done > 0) {
-            bytes += done;
-            size -= (size_t)done;
-        }
-    }
-    return true;
-}
-
 _Noreturn static void be_child(const glint_child *child, int pipe)
 {
     own_pipe = pipe;
@@ -62,9 +49,9 @@ _Noreturn static void be_child(const glint_child *child, int pipe)
     reply.has_details = error.details != NULL;
     reply.details_length = reply.has_details ? strlen(error.details) : 0;
     reply.text_length = text != NULL ? strlen(text) : 0;
-    bool sent = send_all(pipe, &reply, sizeof reply) &&
-                send_all(pipe, error.details, reply.details_length) &&
-                send_all(pipe, text, reply.text_length);
+    bool sent = glint_write_all(pipe, &reply, sizeof reply) &&
+                glint_write_all(pipe, error.details, reply.details_length) &&
+                glint_write_all(pipe, text, reply.text_length);
     _exit(sent ? 0 : 1);
 }
 

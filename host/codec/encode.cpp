@@ -4,15 +4,16 @@
 // It encodes a file in memory, and glint writes it (image/output_file.c). So this process needs no
 // right to write files.
 #include "codec/encode.h"
+#include "base/whole_io.h"
 #include "codec/mapping.hpp"
 #include "image/encoding.h"
+#include "image/formats.h"
 #include "image/image_io.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -109,20 +110,17 @@ void describe_exr(ImageSpec &spec, const glint_encode_job &job, const glint::Map
 
 // A named attribute that OpenImageIO knows from EXIF would add a directory to a TIFF. For it
 // OpenImageIO must read back its output, which it cannot do from memory. So all metadata is text.
-void describe_codes(ImageSpec &spec, const std::string &plugin, const char *given,
-                    const char *description)
+void describe_codes(ImageSpec &spec, const glint_encode_job &job, const char *description)
 {
-    const bool is_given = given[0] != '\0';
-    if (plugin != "tiff") {
-        spec.attribute("oiio:ColorSpace", "sRGB");
-    }
+    const bool is_given = job.compression[0] != '\0';
     // The colours are already unpremultiplied.
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (plugin == "jpeg") {
-        spec.attribute("CompressionQuality", is_given ? std::atoi(given) : 95);
+    if (job.format == GLINT_WRITTEN_JPEG) {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        spec.attribute("CompressionQuality", is_given ? std::atoi(job.compression) : 95);
         spec.attribute("jpeg:subsampling", "4:4:4");
     } else {
-        spec.attribute("compression", is_given ? given : "zip");
+        spec.attribute("compression", is_given ? job.compression : "zip");
     }
     if (description[0] != '\0') {
         spec.attribute("ImageDescription", description);
@@ -136,16 +134,15 @@ TypeDesc type_of(std::int32_t value_type)
                                             : TypeDesc::FLOAT;
 }
 
-ImageSpec describe(const std::string &plugin, const glint_encode_job &job,
-                   const glint::Mapping &memory)
+ImageSpec describe(const glint_encode_job &job, const glint::Mapping &memory)
 {
     ImageSpec spec(job.width, job.height, job.channels, type_of(job.value_type));
     Texts texts(memory.at(job.text_offset));
     name_channels(spec, job);
-    if (plugin == "openexr") {
+    if (job.format == GLINT_WRITTEN_EXR) {
         describe_exr(spec, job, memory, texts);
-    } else if (plugin != "hdr") {
-        describe_codes(spec, plugin, job.compression, texts.next());
+    } else if (job.format != GLINT_WRITTEN_HDR) {
+        describe_codes(spec, job, texts.next());
     }
     return spec;
 }
@@ -160,19 +157,6 @@ std::string cause_of(const ImageOutput &output)
     return text.empty() ? "the encoder failed without saying why" : text;
 }
 
-bool write_all(int file, const std::vector<unsigned char> &bytes, std::uint64_t offset)
-{
-    for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t length =
-            pwrite(file, bytes.data() + done, bytes.size() - done, off_t(offset + done));
-        if (length < 0 && errno != EINTR) {
-            return false;
-        }
-        done += length > 0 ? std::size_t(length) : 0;
-    }
-    return true;
-}
-
 using File = OIIO::Filesystem::IOVecOutput;
 
 // The file is complete when this function has returned: OpenImageIO finishes some files when it
@@ -181,7 +165,7 @@ glint_status encode(const glint_codec_request &request, const glint_encode_job &
                     const glint::Mapping &memory, File &file, glint_error *error)
 {
     const char *path = request.path;
-    const ImageSpec spec = describe(request.plugin, job, memory);
+    const ImageSpec spec = describe(job, memory);
     std::unique_ptr<ImageOutput> output = ImageOutput::create(request.plugin);
     if (output == nullptr) {
         return glint_fail(error, GLINT_OUTPUT_FAILED,
@@ -206,7 +190,8 @@ glint_status encode_in(int memory_file, const glint_codec_request &request,
     File file;
     TRY(encode(request, job, memory, file, error));
     answer.value_bytes = file.buffer().size();
-    return write_all(memory_file, file.buffer(), job.file_offset)
+    return glint_write_all_at(memory_file, job.file_offset, file.buffer().data(),
+                              file.buffer().size())
                ? GLINT_OK
                : glint_fail(error, GLINT_OUTPUT_FAILED, "%s: not enough memory to encode it",
                             request.path);

@@ -331,11 +331,8 @@ bool read_values(ImageInput &input, const Part &part, const glint_stored_facts &
 
 std::size_t bytes_of(const glint_stored_facts &facts)
 {
-    std::size_t each = facts.code_bits != 0 ? std::size_t(facts.code_bits / 8)
-                       : facts.is_half != 0 ? sizeof(std::uint16_t)
-                                            : sizeof(float);
     return std::size_t(facts.width) * std::size_t(facts.height) * std::size_t(facts.channels) *
-           each;
+           glint_stored_value_bytes(&facts);
 }
 
 bool is_framed(const glint_codec_request &request, const Part &part,

@@ -1,6 +1,7 @@
 // Watches and repairs the driver's cache of compiled kernels. See driver_cache.h.
 #include "device/driver_cache.h"
 
+#include "base/cache_folder.h"
 #include "base/status.h"
 
 #include <errno.h>
@@ -73,25 +74,12 @@ void glint_driver_cache_set_device(const char *device)
         by);
 }
 
-// Makes the folder and the folders above it. False if that fails.
-static bool make_folder(const char *path)
-{
-    char part[PATH_MAX];
-    snprintf(part, sizeof part, "%s", path);
-    for (char *slash = strchr(part + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        (void)mkdir(part, 0777);
-        *slash = '/';
-    }
-    return mkdir(part, 0777) == 0 || errno == EEXIST;
-}
-
 // Why the folder cannot keep kernels; NULL: it can.
 static const char *find_fault(void)
 {
     struct stat facts;
     struct statvfs room;
-    if (!make_folder(folder)) {
+    if (!glint_cache_folder_make(folder, 0777)) {
         return strerror(errno);
     }
     if (stat(folder, &facts) == 0 && !S_ISDIR(facts.st_mode)) {
@@ -254,7 +242,8 @@ bool glint_driver_cache_clean(void)
 bool glint_driver_cache_name_mark(const char *name, char *path, size_t capacity)
 {
     int length = snprintf(path, capacity, "%s/" MARKS, folder);
-    if (folder[0] == '\0' || length < 0 || (size_t)length >= capacity || !make_folder(path)) {
+    if (folder[0] == '\0' || length < 0 || (size_t)length >= capacity ||
+        !glint_cache_folder_make(path, 0777)) {
         return false;
     }
     length = snprintf(path, capacity, "%s/" MARKS "/%s", folder, name);

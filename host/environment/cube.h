@@ -18,14 +18,16 @@ extern "C" {
 typedef struct glint_cube {
     int edge;      // texels along a face's edge, without the border
     float *texels; // [6][edge + 2][edge + 2][4], owned
-    // The texels are mapped from a file, this many bytes behind its beginning (kept.h). 0: they are
-    // allocated.
+    // The texels are mapped from a file, this many bytes behind its beginning (cache.h). 0: they
+    // are allocated.
     size_t mapped_from;
 } glint_cube;
 
 // Far above every useful size, and below an int's overflow: (edge + 2)² × 6 × 4 < 2³¹.
 #define GLINT_CUBE_EDGE_MAX 9000
 
+// Makes a cube of zeros with this edge. Errors: GLINT_OUT_OF_MEMORY, also above
+// GLINT_CUBE_EDGE_MAX.
 glint_status glint_cube_create(int edge, glint_cube *cube, glint_error *error);
 // Does the same without setting the texels, for a caller that sets them all.
 glint_status glint_cube_create_unset(int edge, glint_cube *cube, glint_error *error);

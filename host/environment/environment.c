@@ -1,8 +1,8 @@
 // Loads environments: makes cube maps from files. See environment.h.
 #include "environment/environment.h"
 
+#include "environment/cache.h"
 #include "environment/faces.h"
-#include "environment/kept.h"
 #include "environment/latlong.h"
 #include "environment/sampler.h"
 #include "environment/source.h"
@@ -82,24 +82,19 @@ cleanup:
 
 // ---- The cache ----------------------------------------------------------------------------------
 
-#define KEPT_EDGE_MIN 512 // smaller cubes are made in under 50 ms
-
-bool glint_environment_is_likely_kept(const char *path)
-{
-    return glint_kept_is_likely(path);
-}
+#define CACHED_EDGE_MIN 512 // smaller cubes are made in under 50 ms
 
 // Takes the environment from the cache. Returns false if it is not there.
-static bool take_kept(const char *path, const glint_layout_request *request,
-                      const glint_kept_key *key, glint_environment *environment)
+static bool take_cached(const char *path, const glint_layout_request *request,
+                        const glint_env_cache_key *key, glint_environment *environment)
 {
-    glint_kept_facts kept;
-    if (!glint_kept_take(key, &kept, &environment->radiance)) {
+    glint_env_cache_facts facts;
+    if (!glint_env_cache_take(key, &facts, &environment->radiance)) {
         return false;
     }
-    glint_source source = {.image = {kept.width, kept.height, kept.channels, NULL},
-                           .facts = {.envmap = (glint_envmap)kept.envmap,
-                                     .is_direct3d_cube = kept.is_direct3d_cube != 0}};
+    glint_source source = {.image = {facts.width, facts.height, facts.channels, NULL},
+                           .facts = {.envmap = (glint_envmap)facts.envmap,
+                                     .is_direct3d_cube = facts.is_direct3d_cube != 0}};
     if (glint_source_recall(path, request, key->kind, &source, NULL) != GLINT_OK ||
         set_name(path, environment, NULL) != GLINT_OK) {
         glint_environment_free(environment);
@@ -109,26 +104,24 @@ static bool take_kept(const char *path, const glint_layout_request *request,
     return true;
 }
 
-// Keeps an environment. What was warned of is not kept, so that each run warns.
-static void keep(const glint_kept_key *key, const glint_source *source,
-                 glint_environment *environment)
+// Begins to write an environment to the cache, unless it was warned of: each run shall warn.
+static void begin_write(const glint_env_cache_key *key, const glint_source *source,
+                        glint_environment *environment)
 {
     const glint_image *image = &source->image;
-    const bool is_stretched =
-        source->chart.layout == GLINT_LAYOUT_LATLONG && image->width != 2 * image->height;
-    if (environment->radiance.edge < KEPT_EDGE_MIN || source->mended_texels > 0 || is_stretched ||
-        !glint_kept_key_holds(environment->name, key)) {
+    if (environment->radiance.edge < CACHED_EDGE_MIN || source->is_warned ||
+        !glint_env_cache_key_holds(environment->name, key)) {
         return;
     }
-    const glint_kept_facts facts = {image->width, image->height, image->channels,
-                                    source->facts.envmap, source->facts.is_direct3d_cube};
-    environment->keeping = glint_kept_begin(key, &facts, &environment->radiance);
+    const glint_env_cache_facts facts = {image->width, image->height, image->channels,
+                                         source->facts.envmap, source->facts.is_direct3d_cube};
+    environment->write = glint_env_cache_begin_write(key, &facts, &environment->radiance);
 }
 
-void glint_environment_settle(glint_environment *environment)
+void glint_environment_end_write(glint_environment *environment)
 {
-    glint_kept_settle(environment->keeping);
-    environment->keeping = NULL;
+    glint_env_cache_end_write(environment->write);
+    environment->write = NULL;
 }
 
 // ---- Loading ------------------------------------------------------------------------------------
@@ -141,16 +134,16 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
     if (request != NULL && request->layout == GLINT_LAYOUT_STUDIO) {
         return glint_environment_studio(environment, error);
     }
-    glint_kept_key key;
-    const bool has_key = glint_kept_is_on() && glint_kept_key_make(path, request, &key);
-    if (has_key && take_kept(path, request, &key, environment)) {
+    glint_env_cache_key key;
+    const bool has_key = glint_env_cache_is_on() && glint_env_cache_key_make(path, request, &key);
+    if (has_key && take_cached(path, request, &key, environment)) {
         return GLINT_OK;
     }
     glint_source source;
     TRY(glint_source_open(path, request, &source, warnings, error));
     const glint_status status = make(path, &source, environment, error);
     if (has_key && status == GLINT_OK) {
-        keep(&key, &source, environment);
+        begin_write(&key, &source, environment);
     }
     glint_source_free(&source);
     return status;
@@ -187,7 +180,7 @@ cleanup:
 
 void glint_environment_free(glint_environment *environment)
 {
-    glint_environment_settle(environment);
+    glint_environment_end_write(environment);
     free(environment->name);
     glint_cube_free(&environment->radiance);
     *environment = (glint_environment){0};

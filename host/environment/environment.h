@@ -39,14 +39,15 @@ typedef struct glint_environment {
     glint_cube radiance;
     glint_proxy proxy;    // used only if the settings say so
     size_t mended_texels; // NaN, infinite or negative texels, replaced (see radiance.h)
-    // The cache's entry that is being written from `radiance` (kept.h). NULL: none.
-    struct glint_keeping *keeping;
+    // The cache's entry that is being written from `radiance` (cache.h). NULL: none.
+    struct glint_env_cache_write *write;
 } glint_environment;
 
 // Reads `path`: a file, a folder with six faces, or a pattern with one %s for the face's name. If
 // `request` does not name the layout, it is recognised from the envmap attribute, the name pattern
 // and the shape. If the shape is ambiguous, glint refuses it and names the choices. `request` may
-// be NULL. Takes the cube from the cache if it is there, and keeps it there else. Errors:
+// be NULL. Takes the cube from the cache if it is there, else loads the file and writes the
+// cube to the cache. Errors:
 // GLINT_BAD_INPUT.
 glint_status glint_environment_load(const char *path, const glint_layout_request *request,
                                     glint_environment *environment, glint_warnings *warnings,
@@ -58,11 +59,8 @@ glint_status glint_environment_from_image(const char *name, glint_image *image,
                                           const glint_layout_request *request,
                                           glint_environment *environment, glint_error *error);
 
-// True if the load will probably need no decoder, because the cache has the environment (kept.h).
-bool glint_environment_is_likely_kept(const char *path);
-
 // Waits until nobody reads the radiance, for a caller that changes it.
-void glint_environment_settle(glint_environment *environment);
+void glint_environment_end_write(glint_environment *environment);
 
 // Makes the built-in studio (studio.h), named "studio". Errors: GLINT_OUT_OF_MEMORY.
 glint_status glint_environment_studio(glint_environment *environment, glint_error *error);

@@ -15,6 +15,12 @@
 
 static const glint_layout_request nothing_known = {0};
 
+static void mend(const char *name, glint_source *source, glint_warnings *warnings)
+{
+    source->mended_texels = glint_radiance_mend(name, &source->image, warnings);
+    source->is_warned |= source->mended_texels > 0;
+}
+
 glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error)
 {
@@ -28,12 +34,13 @@ glint_status glint_source_take(const glint_image_file *file, const glint_layout_
     }
     const glint_image *taken = &source->image;
     if (what.chart.layout == GLINT_LAYOUT_LATLONG && taken->width != 2 * taken->height) {
+        source->is_warned = true;
         glint_warn(warnings, "%s: %d × %d pixels are not 2:1: stretched over the whole sphere",
                    file->name, taken->width, taken->height);
     }
     source->chart = what.chart;
     source->reason = what.reason;
-    source->mended_texels = glint_radiance_mend(file->name, &source->image, warnings);
+    mend(file->name, source, warnings);
     return GLINT_OK;
 }
 
@@ -173,7 +180,7 @@ static glint_status load_faces(const char *path, bool is_folder, glint_source *s
 {
     TRY(read_faces(path, is_folder, &source->image, error));
     recognise_faces(is_folder, source);
-    source->mended_texels = glint_radiance_mend(path, &source->image, warnings);
+    mend(path, source, warnings);
     return GLINT_OK;
 }
 
@@ -210,7 +217,6 @@ glint_status glint_source_load(const char *path, const glint_layout_request *req
     }
     const glint_status status = glint_stored_develop(&source->stored, &source->image, error);
     glint_stored_free(&source->stored);
-    source->stored = (glint_stored){0};
     return status;
 }
 
@@ -232,8 +238,6 @@ glint_status glint_source_recall(const char *path, const glint_layout_request *r
 void glint_source_free(glint_source *source)
 {
     glint_image_free(&source->image);
-    if (source->stored.path != NULL) { // in a zero source, descriptor 0 is not its file
-        glint_stored_free(&source->stored);
-    }
+    glint_stored_free(&source->stored);
     *source = (glint_source){0};
 }

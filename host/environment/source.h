@@ -8,6 +8,9 @@
 #include "image/image.h"
 #include "image/stored.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -20,6 +23,7 @@ typedef struct glint_source {
     glint_chart chart;
     const char *reason;   // how glint knows the layout; static text
     size_t mended_texels; // NaN, infinite or negative texels, replaced (see radiance.h)
+    bool is_warned;       // a warning was given, if anybody wanted warnings
 } glint_source;
 
 // What `path` names: a file, or six of them.
@@ -35,11 +39,12 @@ glint_status glint_source_load(const char *path, const glint_layout_request *req
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 
 // Does the same, but leaves faces of 8- or 16-bit codes in `stored`: they are needed once, texel by
-// texel, and take a quarter of the memory there.
+// texel, and take a quarter or half of the memory there.
 glint_status glint_source_open(const char *path, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 
-// Does the same with a single file's content. Takes the image over, and frees it on failure.
+// Does what glint_source_load does with a single file's content. Takes the image over, and frees it
+// on failure.
 glint_status glint_source_take(const glint_image_file *file, const glint_layout_request *request,
                                glint_source *source, glint_warnings *warnings, glint_error *error);
 

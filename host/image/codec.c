@@ -16,6 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#define PATIENCE_SECONDS 30 // for an answer, beyond the request's time
+
 static atomic_int threads_each; // set by glint_codec_use_threads
 
 // ---- The codec's process ------------------------------------------------------------------------
@@ -31,7 +33,7 @@ static struct {
 
 // The installed codec is in the folder of libraries (CMakeLists.txt). In the build it is beside the
 // program, or above it.
-static bool find_program(char path[PATH_MAX])
+bool glint_codec_find(char path[PATH_MAX])
 {
     static const char *const places[] = {"/../" GLINT_LIBRARY_FOLDER "/", "/", "/../"};
     char own[PATH_MAX];
@@ -89,7 +91,7 @@ static glint_status start(glint_status failure, glint_error *error)
         return GLINT_OK;
     }
     char path[PATH_MAX];
-    if (!find_program(path)) {
+    if (!glint_codec_find(path)) {
         return glint_fail(error, failure,
                           GLINT_CODEC_PROGRAM ": the program that decodes and encodes images is "
                                               "not there (install glint anew)");
@@ -124,22 +126,22 @@ static int stop(void)
     return how;
 }
 
-// Receives one answer. False if the other end is gone, or does not answer in time (−1: wait for
-// ever).
-static bool receive(int socket, int milliseconds, glint_codec_answer *answer)
+// Receives one packet, an answer if it has an answer's size. Returns its bytes; 0 or −1 if the
+// other end is gone, or does not answer in time (−1: wait for ever).
+static ssize_t receive(int socket, int milliseconds, glint_codec_answer *answer)
 {
     struct pollfd waited = {.fd = socket, .events = POLLIN};
     ssize_t length;
     do {
         const int ready = poll(&waited, 1, milliseconds);
-        length = ready > 0 ? recv(socket, answer, sizeof *answer, 0) : ready;
+        length = ready > 0 ? recv(socket, answer, sizeof *answer, MSG_TRUNC) : ready;
     } while (length < 0 && errno == EINTR);
     answer->message[GLINT_MESSAGE_CAPACITY - 1] = '\0';
-    return length == (ssize_t)sizeof *answer;
+    return length;
 }
 
 // Says why the codec did not report that it is ready, and `how` it ended. `version` is the one that
-// it reported; "": none.
+// it reported; "": it ended before.
 static glint_status fail_of_start(glint_status failure, int how, const char *version,
                                   glint_error *error)
 {
@@ -168,12 +170,14 @@ static glint_status await_ready(glint_status failure, glint_codec_answer *answer
     if (codec.is_ready) {
         return GLINT_OK;
     }
-    const bool is_heard = receive(codec.socket, -1, answer) && answer->kind == GLINT_CODEC_IS_READY;
-    codec.is_ready = is_heard && strcmp(answer->message, GLINT_VERSION) == 0;
+    const ssize_t length = receive(codec.socket, -1, answer);
+    const bool is_known = length == (ssize_t)sizeof *answer && answer->kind == GLINT_CODEC_IS_READY;
+    codec.is_ready = is_known && strcmp(answer->message, GLINT_VERSION) == 0;
     if (codec.is_ready) {
         return GLINT_OK;
     }
-    return fail_of_start(failure, stop(), is_heard ? answer->message : "", error);
+    const char *version = is_known ? answer->message : length > 0 ? "of an unknown version" : "";
+    return fail_of_start(failure, stop(), version, error);
 }
 
 // ---- Requests -----------------------------------------------------------------------------------
@@ -196,8 +200,17 @@ static glint_status submit(const glint_codec_request *request, const glint_codec
                       request->path);
 }
 
-glint_status glint_codec_ask(const glint_codec_request *request, glint_codec_files *files,
-                             uint32_t seconds, glint_codec_answer *answer, glint_error *error)
+// Milliseconds until a request's answer is given up; −1: never. The codec ends its children itself.
+static int patience_of(const glint_codec_request *request)
+{
+    const uint32_t seconds = request->limits.seconds;
+    return seconds > 0 && seconds < INT_MAX / 1000 - PATIENCE_SECONDS
+               ? (int)(seconds + PATIENCE_SECONDS) * 1000
+               : -1;
+}
+
+glint_status glint_codec_ask(const glint_codec_request *request, int results, int image,
+                             glint_codec_answer *answer, glint_error *error)
 {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -206,13 +219,13 @@ glint_status glint_codec_ask(const glint_codec_request *request, glint_codec_fil
                           "%s: no socket to " GLINT_CODEC_PROGRAM ": %s (try again)", request->path,
                           strerror(errno));
     }
-    files->answers = ends[1];
+    const glint_codec_files files = {ends[1], results, image};
     pthread_mutex_lock(&codec.lock);
-    const glint_status status = submit(request, files, answer, error);
+    const glint_status status = submit(request, &files, answer, error);
     pthread_mutex_unlock(&codec.lock);
     close(ends[1]);
-    const int patience = seconds > 0 && seconds < INT_MAX / 1000 ? (int)seconds * 1000 : -1;
-    if (status == GLINT_OK && !receive(ends[0], patience, answer)) {
+    if (status == GLINT_OK &&
+        receive(ends[0], patience_of(request), answer) != (ssize_t)sizeof *answer) {
         *answer = (glint_codec_answer){.kind = GLINT_CODEC_CHILD_DIED};
     }
     close(ends[0]);
@@ -234,7 +247,7 @@ void glint_codec_abandon(void)
 {
     pthread_mutex_lock(&codec.lock);
     if (codec.owner == getpid() && !codec.is_ready) {
-        (void)kill(codec.process, SIGKILL);
+        (void)stop();
     }
     pthread_mutex_unlock(&codec.lock);
 }

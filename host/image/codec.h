@@ -5,7 +5,8 @@
 #include "base/status.h"
 #include "image/codec_messages.h"
 
-#include <stddef.h>
+#include <limits.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,13 +14,16 @@ extern "C" {
 
 #define GLINT_CODEC_PROGRAM "glint-codec"
 
-// Sends the request and waits for the answer; starts the codec if it does not run. Sets
-// files->answers; the caller keeps the other files. If no answer
-// comes within `seconds` (0: for ever), *answer is a GLINT_CODEC_CHILD_DIED with status 0. Several
-// threads may ask at once. Errors, if the codec could not be asked: GLINT_OUTPUT_FAILED for
-// GLINT_ENCODE, GLINT_BAD_INPUT for all other work.
-glint_status glint_codec_ask(const glint_codec_request *request, glint_codec_files *files,
-                             uint32_t seconds, glint_codec_answer *answer, glint_error *error);
+// Sends the request with its memory file and waits for the answer; starts the codec if it does not
+// run. `image` is a file with the bytes of an image to decode; −1: none. The caller keeps both
+// files. If no answer comes in the request's time and a little more, *answer is a
+// GLINT_CODEC_CHILD_DIED with status 0. Several threads may ask at once. Errors, if the codec could
+// not be asked: GLINT_OUTPUT_FAILED for GLINT_ENCODE, GLINT_BAD_INPUT for all other work.
+glint_status glint_codec_ask(const glint_codec_request *request, int results, int image,
+                             glint_codec_answer *answer, glint_error *error);
+
+// Finds the codec's program. False if it is not there.
+bool glint_codec_find(char path[PATH_MAX]);
 
 // Starts the codec, so that it loads its libraries while the caller works. The first request
 // reports an error.

@@ -13,6 +13,7 @@
 #include "base/status.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -74,6 +75,14 @@ typedef struct glint_stored_facts {
     int32_t envmap;                  // a glint_envmap
     int32_t is_direct3d_cube;
 } glint_stored_facts;
+
+// The bytes of one value.
+static inline size_t glint_stored_value_bytes(const glint_stored_facts *facts)
+{
+    return facts->code_bits != 0 ? (size_t)facts->code_bits / 8
+           : facts->is_half != 0 ? sizeof(uint16_t)
+                                 : sizeof(float);
+}
 
 typedef enum glint_codec_answer_kind {
     GLINT_CODEC_IS_READY,   // the codec has started

@@ -1,9 +1,9 @@
 // Decodes image files in another process: glint's side. See decoder.h and codec.h.
 #include "image/decoder.h"
 
+#include "base/whole_io.h"
 #include "image/codec.h"
 #include "image/image_io.h"
-#include "image/memory_file.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -34,7 +34,6 @@
 // Other work may keep the cores busy.
 #define SECONDS_LEAST 60
 #define SECONDS_EACH 20 // for each second of CPU time
-#define PATIENCE_SECONDS 30
 
 glint_decode_limits glint_decoder_limits(uint64_t file_bytes)
 {
@@ -83,18 +82,16 @@ static glint_status fail_of_death(const glint_codec_request *request, int how, g
 static bool is_credible(const glint_codec_request *request, const glint_codec_answer *answer)
 {
     const glint_stored_facts *facts = &answer->facts;
-    const int32_t channels_max =
-        request->work == GLINT_DECODE_CHANNELS ? GLINT_PICTURE_CHANNELS_MAX : 4;
-    if (facts->width < 1 || facts->height < 1 || facts->channels < 1 ||
-        facts->channels > channels_max ||
+    const bool is_channels = request->work == GLINT_DECODE_CHANNELS; // they are floats
+    const int32_t channels_max = is_channels ? GLINT_PICTURE_CHANNELS_MAX : 4;
+    if ((is_channels && (facts->code_bits != 0 || facts->is_half != 0)) || facts->width < 1 ||
+        facts->height < 1 || facts->channels < 1 || facts->channels > channels_max ||
         (facts->code_bits != 0 && facts->code_bits != 8 && facts->code_bits != 16) ||
         facts->envmap < GLINT_ENVMAP_NONE || facts->envmap > GLINT_ENVMAP_CUBE) {
         return false;
     }
     const uint64_t pixels = (uint64_t)facts->width * (uint64_t)facts->height;
-    const uint64_t bytes = facts->code_bits != 0 ? (uint64_t)facts->code_bits / 8
-                           : facts->is_half != 0 ? sizeof(uint16_t)
-                                                 : sizeof(float);
+    const uint64_t bytes = glint_stored_value_bytes(facts);
     const uint64_t most = SIZE_MAX / 4 / bytes / (uint64_t)facts->channels;
     return pixels <= most && answer->value_bytes == pixels * (uint64_t)facts->channels * bytes &&
            answer->name_bytes <= GLINT_DECODE_NAMES_MAX;
@@ -135,14 +132,11 @@ static glint_status take(const glint_codec_request *request, const glint_codec_a
 static glint_status ask(const glint_codec_request *request, int image, glint_stored *stored,
                         glint_error *error)
 {
-    const uint32_t seconds = request->limits.seconds;
-    glint_codec_files files = {-1, stored->file, image};
     glint_codec_answer *answer = calloc(1, sizeof *answer);
     if (answer == NULL) {
         return glint_fail_memory(error, what_is_decoded(request));
     }
-    glint_status status = glint_codec_ask(
-        request, &files, seconds > 0 ? seconds + PATIENCE_SECONDS : 0, answer, error);
+    glint_status status = glint_codec_ask(request, stored->file, image, answer, error);
     if (status == GLINT_OK) {
         status = take(request, answer, stored, error);
     }
@@ -152,24 +146,11 @@ static glint_status ask(const glint_codec_request *request, int image, glint_sto
 
 // ---- For callers --------------------------------------------------------------------------------
 
-static bool write_all(int file, const char *bytes, size_t count)
-{
-    while (count > 0) {
-        const ssize_t written = write(file, bytes, count);
-        if (written < 0 && errno != EINTR) {
-            return false;
-        }
-        bytes += written > 0 ? written : 0;
-        count -= written > 0 ? (size_t)written : 0;
-    }
-    return true;
-}
-
 // Makes a file with the bytes of an image in memory; −1 if that fails.
 static int open_bytes(const glint_image_source *source)
 {
     const int file = memfd_create("glint image", MFD_CLOEXEC);
-    if (file >= 0 && !write_all(file, source->bytes, (size_t)source->size)) {
+    if (file >= 0 && !glint_write_all(file, source->bytes, (size_t)source->size)) {
         close(file);
         return -1;
     }
@@ -251,10 +232,10 @@ glint_status glint_decoder_run(const glint_image_source *source, bool all_channe
 
 void glint_stored_free(glint_stored *stored)
 {
-    if (stored->file >= 0) {
+    if (stored->path != NULL && stored->file >= 0) {
         close(stored->file);
     }
-    *stored = (glint_stored){.file = -1};
+    *stored = (glint_stored){0};
 }
 
 glint_status glint_stored_fail_of_cut(const glint_stored *stored, glint_error *error)
@@ -266,7 +247,7 @@ glint_status glint_stored_fail_of_cut(const glint_stored *stored, glint_error *e
 glint_status glint_stored_read(const glint_stored *stored, size_t offset, void *to, size_t bytes,
                                glint_error *error)
 {
-    if (!glint_memory_file_read(stored->file, offset, to, bytes)) {
+    if (!glint_read_all_at(stored->file, offset, to, bytes)) {
         return glint_stored_fail_of_cut(stored, error);
     }
     return GLINT_OK;

@@ -14,9 +14,9 @@ extern "C" {
 
 // The decoder's output for a file: values in a memory file, [height][width][channels], integers of
 // code_bits, halfs or floats. glint reads the memory file and does not map it: the decoder may
-// still change or truncate it.
+// still change or truncate it. Zero is valid: nothing is stored.
 typedef struct glint_stored {
-    const char *path; // path of the image file, borrowed
+    const char *path; // path of the image file, borrowed; NULL: there is no memory file
     glint_stored_facts facts;
     size_t value_bytes;
     // With all_channels: bytes of the names after the values, [channels] texts, each with its final

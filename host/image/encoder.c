@@ -2,6 +2,7 @@
 #include "image/encoder.h"
 
 #include "base/memory.h"
+#include "base/whole_io.h"
 #include "image/codec.h"
 #include "image/description.h"
 #include "image/memory_file.h"
@@ -10,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 // The texts of a job, one after the other.
 typedef struct texts {
@@ -61,6 +63,7 @@ static glint_encode_job make_job(const glint_file_values *values, size_t text_by
     const glint_write_options *options = values->options;
     const bool is_exr = values->format->kind == GLINT_WRITTEN_EXR;
     glint_encode_job job = {
+        .format = values->format->kind,
         .width = image->width,
         .height = image->height,
         .color = values->color,
@@ -107,38 +110,44 @@ static void fill(const glint_memory_file *file, const glint_encode_job *job,
 
 // ---- The answer ---------------------------------------------------------------------------------
 
-// A place in a memory file.
-typedef struct place {
-    int file;
-    uint64_t offset;
-} place;
-
 static glint_status fail_of_death(const char *path, glint_error *error)
 {
     return glint_fail(error, GLINT_OUTPUT_FAILED,
                       "%s: could not be encoded: " GLINT_CODEC_PROGRAM
-                      " died (free some memory, or "
-                      "run this again)",
+                      " died (free some memory, or run this again)",
                       path);
 }
 
-// Reads the encoded file, which begins at `encoded_at` of the memory file.
-static glint_status take(const char *path, const glint_codec_answer *answer, place encoded_at,
+// The part of a memory file that is for the encoded file.
+typedef struct room {
+    int file;
+    uint64_t offset;
+} room;
+
+// True if the room has as many bytes.
+static bool holds(const room *from, uint64_t bytes)
+{
+    struct stat facts;
+    return fstat(from->file, &facts) == 0 && (uint64_t)facts.st_size >= from->offset &&
+           bytes <= (uint64_t)facts.st_size - from->offset;
+}
+
+static glint_status take(const char *path, const glint_codec_answer *answer, const room *from,
                          glint_encoded *encoded, glint_error *error)
 {
-    if (answer->kind != GLINT_CODEC_DONE) {
-        return fail_of_death(path, error);
-    }
-    if (answer->status != GLINT_OK) {
+    if (answer->kind == GLINT_CODEC_DONE && answer->status != GLINT_OK) {
         return glint_fail(error, GLINT_OUTPUT_FAILED, "%s", answer->message);
+    }
+    if (answer->kind != GLINT_CODEC_DONE || answer->value_bytes == 0 ||
+        !holds(from, answer->value_bytes)) {
+        return fail_of_death(path, error);
     }
     encoded->bytes = malloc(answer->value_bytes);
     if (encoded->bytes == NULL) {
         return glint_fail_memory(error, "an encoded image");
     }
     encoded->size = answer->value_bytes;
-    if (!glint_memory_file_read(encoded_at.file, encoded_at.offset, encoded->bytes,
-                                encoded->size)) {
+    if (!glint_read_all_at(from->file, from->offset, encoded->bytes, encoded->size)) {
         free(encoded->bytes);
         *encoded = (glint_encoded){0};
         return fail_of_death(path, error);
@@ -146,38 +155,27 @@ static glint_status take(const char *path, const glint_codec_answer *answer, pla
     return GLINT_OK;
 }
 
-// Sends the job in `file`, and waits.
-static glint_status ask(const char *path, const glint_written_format *format, int file,
-                        glint_codec_answer *answer, glint_error *error)
-{
-    glint_codec_files files = {-1, file, -1};
-    glint_codec_request *request = calloc(1, sizeof *request);
-    if (request == NULL) {
-        return glint_fail_memory(error, "an image to encode");
-    }
-    request->work = GLINT_ENCODE;
-    request->threads = glint_codec_threads();
-    snprintf(request->path, sizeof request->path, "%s", path);
-    snprintf(request->plugin, sizeof request->plugin, "%s", format->plugin);
-    const glint_status status = glint_codec_ask(request, &files, 0, answer, error);
-    free(request);
-    return status;
-}
-
-static glint_status encode_in(const glint_memory_file *file, const char *path,
-                              const glint_file_values *values, glint_encoded *encoded,
+// Encodes the job, which lies before the room in the same file.
+static glint_status encode_in(const room *results, const char *path,
+                              const glint_written_format *format, glint_encoded *encoded,
                               glint_error *error)
 {
+    glint_codec_request *request = calloc(1, sizeof *request);
     glint_codec_answer *answer = calloc(1, sizeof *answer);
-    if (answer == NULL) {
-        return glint_fail_memory(error, "an encoded image");
+    glint_status status = GLINT_OK;
+    if (request == NULL || answer == NULL) {
+        status = glint_fail_memory(error, "an image to encode");
+    } else {
+        request->work = GLINT_ENCODE;
+        request->threads = glint_codec_threads();
+        snprintf(request->path, sizeof request->path, "%s", path);
+        snprintf(request->plugin, sizeof request->plugin, "%s", format->plugin);
+        status = glint_codec_ask(request, results->file, -1, answer, error);
     }
-    const glint_encode_job *job = (const glint_encode_job *)(const void *)file->at;
-    const place encoded_at = {file->file, job->file_offset};
-    glint_status status = ask(path, values->format, file->file, answer, error);
     if (status == GLINT_OK) {
-        status = take(path, answer, encoded_at, encoded, error);
+        status = take(path, answer, results, encoded, error);
     }
+    free(request);
     free(answer);
     return status;
 }
@@ -197,7 +195,8 @@ glint_status glint_encoder_run(const char *path, const glint_file_values *values
     }
     fill(&file, &job, values, &made);
     free(made.bytes);
-    const glint_status status = encode_in(&file, path, values, encoded, error);
+    const glint_status status =
+        encode_in(&(room){file.file, job.file_offset}, path, values->format, encoded, error);
     if (status == GLINT_OK) {
         glint_memory_file_give_back(&file);
     } else {

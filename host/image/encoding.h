@@ -24,6 +24,7 @@ typedef enum glint_value_type {
 // The texts, each with its final zero: the names of the further channels, then name and string of
 // each attribute, then the description.
 typedef struct glint_encode_job {
+    int32_t format; // a glint_written_kind
     int32_t width, height;
     int32_t color, channels; // channels of the picture: without alpha, and all
     int32_t value_type;      // a glint_value_type: of the picture

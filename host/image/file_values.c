@@ -8,9 +8,6 @@
 
 #include <math.h>
 #include <string.h>
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 
 static size_t value_bytes(glint_value_type type)
 {
@@ -48,35 +45,18 @@ static float clamp_to_half(float value)
                                      : value;
 }
 
-#if defined(__x86_64__)
-// Every processor with AVX2 has these conversions. (Not every compiler knows "f16c" in
-// __builtin_cpu_supports.)
-__attribute__((target("avx,f16c"))) static size_t halves_by_eight(const float *from,
-                                                                  unsigned char *to, size_t count)
+static void fill_halfs(const float *from, unsigned char *to, size_t count)
 {
-    const __m256 high = _mm256_set1_ps(GLINT_HALF_MAX), low = _mm256_set1_ps(-GLINT_HALF_MAX);
-    size_t i = 0;
-    for (; i + 8 <= count; i += 8) {
-        // min and max return their second operand if one is NaN, so NaN stays.
-        const __m256 value = _mm256_max_ps(low, _mm256_min_ps(high, _mm256_loadu_ps(from + i)));
-        _mm_storeu_si128((__m128i *)(to + 2 * i),
-                         _mm256_cvtps_ph(value, _MM_FROUND_TO_NEAREST_INT));
-    }
-    return i;
-}
-#endif
-
-static void fill_halves(const float *from, unsigned char *to, size_t count)
-{
-    size_t i = 0;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) {
-        i = halves_by_eight(from, to, count);
-    }
-#endif
-    for (; i < count; i++) {
-        const uint16_t half = glint_half_from_float(clamp_to_half(from[i]));
-        memcpy(to + 2 * i, &half, sizeof half);
+    enum { CHUNK = 256 };
+    float clamped[CHUNK];
+    uint16_t halfs[CHUNK];
+    for (size_t done = 0; done < count; done += CHUNK) {
+        const size_t now = count - done < CHUNK ? count - done : CHUNK;
+        for (size_t i = 0; i < now; i++) {
+            clamped[i] = clamp_to_half(from[done + i]);
+        }
+        glint_floats_to_halfs(clamped, now, halfs);
+        memcpy(to + 2 * done, halfs, now * sizeof *halfs);
     }
 }
 
@@ -87,7 +67,7 @@ static void fill_linear(const glint_file_values *values, const float *from, unsi
     if (values->type == GLINT_VALUE_FLOAT) {
         memcpy(to, from, count * sizeof(float));
     } else {
-        fill_halves(from, to, count);
+        fill_halfs(from, to, count);
     }
 }
 

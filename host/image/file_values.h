@@ -27,6 +27,7 @@ typedef struct glint_file_values {
     size_t pixel_bytes;   // bytes of a pixel, with the further channels of an EXR
 } glint_file_values;
 
+// Decides the channels and the type of the values.
 glint_file_values glint_file_values_of(const glint_written_format *format, const glint_image *image,
                                        const glint_write_options *options);
 

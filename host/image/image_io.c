@@ -15,23 +15,6 @@
 
 // ---- Reading ------------------------------------------------------------------------------------
 
-glint_image_facts glint_image_facts_of(const glint_stored *stored)
-{
-    return (glint_image_facts){
-        .envmap = (glint_envmap)stored->facts.envmap,
-        .was_encoded = stored->facts.transfer != GLINT_TRANSFER_LINEAR,
-        .is_direct3d_cube = stored->facts.is_direct3d_cube != 0,
-    };
-}
-
-glint_status glint_image_read_stored(const char *path, glint_stored *stored, glint_error *error)
-{
-    *stored = (glint_stored){.file = -1};
-    glint_image_source source;
-    TRY(glint_image_find_source(path, &source, error));
-    return glint_decoder_run(&source, false, stored, error);
-}
-
 glint_status glint_image_read(const char *path, glint_image *image, glint_image_facts *facts,
                               glint_error *error)
 {

@@ -1,4 +1,4 @@
-// Makes and reads memory files. See memory_file.h.
+// Makes memory files. See memory_file.h.
 #include "image/memory_file.h"
 
 #include <errno.h>
@@ -16,8 +16,6 @@ static struct {
     glint_memory_file files[IDLE_MOST];
     size_t count;
 } idle = {.lock = PTHREAD_MUTEX_INITIALIZER};
-
-// ---- Making -------------------------------------------------------------------------------------
 
 // Takes all memory at once, so that writing to the mapping cannot fail.
 static bool make(size_t bytes, glint_memory_file *made)
@@ -82,22 +80,4 @@ void glint_memory_file_give_back(const glint_memory_file *taken)
     if (!is_kept) {
         glint_memory_file_free(taken);
     }
-}
-
-// ---- Reading ------------------------------------------------------------------------------------
-
-bool glint_memory_file_read(int file, size_t offset, void *to, size_t bytes)
-{
-    for (char *at = to; bytes > 0;) {
-        const ssize_t length = pread(file, at, bytes, (off_t)offset);
-        if (length == 0 || (length < 0 && errno != EINTR)) {
-            return false;
-        }
-        if (length > 0) {
-            at += length;
-            offset += (size_t)length;
-            bytes -= (size_t)length;
-        }
-    }
-    return true;
 }

@@ -1,4 +1,4 @@
-// Makes and reads memory files: files without a name, in memory, that glint shares with its codec.
+// Makes memory files: files without a name, in memory, that glint shares with its codec.
 #ifndef GLINT_IMAGE_MEMORY_FILE_H
 #define GLINT_IMAGE_MEMORY_FILE_H
 
@@ -13,16 +13,16 @@ typedef struct glint_memory_file {
     unsigned char *at;
 } glint_memory_file;
 
-// Takes a file of at least this size, one that was given back if there is one: making one takes as
-// long as filling it. Its contents are arbitrary. False: failed, errno says why.
+// Takes a file of at least this size. Its contents are arbitrary. Uses a file that was given back
+// if it is large enough, because making a file takes as long as filling it. False: failed, errno
+// says why.
 bool glint_memory_file_take(size_t bytes, glint_memory_file *taken);
 
-// Gives the file back for the next use. No other process may still write to it.
+// Gives the file back for the next use. No other process may still write to it. At most 16 files
+// wait; they stay in memory until the process ends.
 void glint_memory_file_give_back(const glint_memory_file *taken);
 
+// Frees a file that was taken, instead of giving it back.
 void glint_memory_file_free(const glint_memory_file *taken);
-
-// Reads `bytes` bytes from `offset` on. False if the file is too short.
-bool glint_memory_file_read(int file, size_t offset, void *to, size_t bytes);
 
 #endif

@@ -8,6 +8,8 @@
 // The next run removes the others.
 #include "image/output_file.h"
 
+#include "base/whole_io.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -370,18 +372,11 @@ static int open_temporary(const place *where, temporary *made)
     return EEXIST;
 }
 
-static int write_all(int file, const unsigned char *bytes, size_t size)
+// Returns 0 or the cause, an errno.
+static int write_and_sync(int file, const unsigned char *bytes, size_t size)
 {
-    while (size > 0) {
-        // Linux writes at most 2 GiB a call.
-        ssize_t done = write(file, bytes, size < (1u << 30) ? size : (1u << 30));
-        if (done < 0 && errno != EINTR) {
-            return errno;
-        }
-        if (done > 0) {
-            bytes += done;
-            size -= (size_t)done;
-        }
+    if (!glint_write_all(file, bytes, size)) {
+        return errno;
     }
     // Some file systems cannot sync and say so. Others report an earlier write error here.
     if (fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP) {
@@ -432,7 +427,7 @@ glint_status glint_output_file_write(const char *path, const void *bytes, size_t
     // Write a temporary file.
     cause = open_temporary(&where, &made);
     if (cause == 0) {
-        cause = write_all(made.file, bytes, size);
+        cause = write_and_sync(made.file, bytes, size);
     }
     if (made.file >= 0 && close(made.file) != 0 && cause == 0 && errno != EINTR) {
         cause = errno;

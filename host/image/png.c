@@ -78,8 +78,8 @@ static void describe(png_structp png, png_infop info, const glint_file_values *v
         text.text = description;
         png_set_text(png, info, &text, 1);
     }
-    // One filter. Trying all of them for each row takes 15 ms more at 1280 × 720, and makes files
-    // hardly smaller (docs/measurements.md).
+    // One filter. Trying all of them for each row takes longer, and makes files hardly smaller
+    // (docs/measurements.md).
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(png, level != NULL ? atoi(level) : LEVEL);
 }
@@ -113,7 +113,7 @@ glint_status glint_png_encode(const char *path, const glint_file_values *values,
     png_infop info = png != NULL ? png_create_info_struct(png) : NULL;
     glint_status status = GLINT_OK;
     if (description == NULL || codes == NULL || info == NULL) {
-        status = glint_fail(error, GLINT_OUTPUT_FAILED, "%s: not enough memory to encode it", path);
+        status = glint_fail_memory(error, "an encoded image");
         goto cleanup;
     }
     glint_file_values_fill(values, threads, codes);

@@ -1,4 +1,4 @@
-// Converts stored pictures to images. See stored.h.
+// Reads stored pictures, and converts them to images. See stored.h.
 #include "image/stored.h"
 
 #include "base/half.h"
@@ -12,6 +12,25 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+glint_image_facts glint_image_facts_of(const glint_stored *stored)
+{
+    return (glint_image_facts){
+        .envmap = (glint_envmap)stored->facts.envmap,
+        .was_encoded = stored->facts.transfer != GLINT_TRANSFER_LINEAR,
+        .is_direct3d_cube = stored->facts.is_direct3d_cube != 0,
+    };
+}
+
+glint_status glint_image_read_stored(const char *path, glint_stored *stored, glint_error *error)
+{
+    *stored = (glint_stored){0};
+    glint_image_source source;
+    TRY(glint_image_find_source(path, &source, error));
+    return glint_decoder_run(&source, false, stored, error);
+}
+
+// ---- Converting ---------------------------------------------------------------------------------
 
 static float linear_of(const glint_stored_facts *facts, float code)
 {
@@ -83,13 +102,6 @@ static void multiply_alpha(const glint_stored_facts *facts, float *pixels, size_
     }
 }
 
-static size_t bytes_each(const glint_stored_facts *facts)
-{
-    return facts->code_bits != 0 ? (size_t)facts->code_bits / 8
-           : facts->is_half != 0 ? sizeof(uint16_t)
-                                 : sizeof(float);
-}
-
 static void develop_chunk(const glint_development *d, const chunk *from, float *pixels)
 {
     const glint_stored_facts *facts = &d->stored->facts;
@@ -106,7 +118,8 @@ static void develop_chunk(const glint_development *d, const chunk *from, float *
 bool glint_development_read(const glint_development *d, size_t first, size_t count, float *pixels)
 {
     const glint_stored_facts *facts = &d->stored->facts;
-    const size_t channels = (size_t)facts->channels, bytes = channels * bytes_each(facts);
+    const size_t channels = (size_t)facts->channels,
+                 bytes = channels * glint_stored_value_bytes(facts);
     if (facts->code_bits == 0 && facts->is_half == 0) {
         if (glint_stored_read(d->stored, first * bytes, pixels, count * bytes, NULL) != GLINT_OK) {
             return false;

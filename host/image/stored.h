@@ -1,4 +1,5 @@
-// Converts a picture as its file stores it to an image: linear, premultiplied, upright.
+// Reads a picture as its file stores it, and converts it to an image: linear, premultiplied,
+// upright.
 #ifndef GLINT_IMAGE_STORED_H
 #define GLINT_IMAGE_STORED_H
 
@@ -13,6 +14,7 @@
 // Decodes a file without converting it. Errors: as glint_image_read. The caller frees it.
 glint_status glint_image_read_stored(const char *path, glint_stored *stored, glint_error *error);
 
+// The facts that glint_image_read gives.
 glint_image_facts glint_image_facts_of(const glint_stored *stored);
 
 // Converts `stored`, which has 1 to 4 channels. Errors: GLINT_OUT_OF_MEMORY.

@@ -3,10 +3,10 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "environment/cached_irradiance.h"
 #include "environment/cells.h"
 #include "environment/harmonics.h"
 #include "environment/irradiance.h"
-#include "environment/kept_irradiance.h"
 #include "environment/lobe_albedo.h"
 #include "kernels/layout.h"
 #include "render/upload.h"
@@ -76,8 +76,8 @@ static glint_status make_map(glint_light *light, cl_mem *buffer, glint_error *er
 {
     glint_cube map = {0};
     double clock = glint_now_ms();
-    TRY(glint_irradiance_map_kept(&light->environment->radiance, GLINT_IRRADIANCE_EDGE, &map,
-                                  error));
+    TRY(glint_irradiance_map_cached(&light->environment->radiance, GLINT_IRRADIANCE_EDGE, &map,
+                                    error));
     light->irradiance_ms += glint_lap_ms(&clock);
     const glint_status status =
         upload_irradiance(light, map.texels, glint_cube_size(&map), buffer, error);

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "environment/cached_irradiance.h"
 #include "environment/irradiance.h"
 #include "kernels/layout.h"
 
@@ -209,8 +210,8 @@ glint_status glint_terms_relight(const glint_terms *terms, const glint_environme
     glint_status status =
         glint_image_create(terms->channels.width, terms->channels.height, 4, image, error);
     if (status == GLINT_OK && terms->has_irradiance) {
-        status =
-            glint_irradiance_map(&environment->radiance, GLINT_IRRADIANCE_EDGE, &irradiance, error);
+        status = glint_irradiance_map_cached(&environment->radiance, GLINT_IRRADIANCE_EDGE,
+                                             &irradiance, error);
     }
     if (status == GLINT_OK) {
         glint_parallel_for((size_t)terms->channels.height, light_row, &work);

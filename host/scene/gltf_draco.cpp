@@ -5,6 +5,7 @@
 #include "scene/gltf_draco.hpp"
 
 #include "base/free_memory.h"
+#include "base/whole_io.h"
 #include "image/decoder.h"
 #include "image/mesh_decoding.h"
 #include "scene/gltf_accessor.hpp"
@@ -207,17 +208,8 @@ class MemoryFile
     }
     void write(std::uint64_t offset, const void *bytes, std::size_t count) const
     {
-        const auto *at = static_cast<const unsigned char *>(bytes);
-        while (count > 0) {
-            const ssize_t written = pwrite(file_, at, count, static_cast<off_t>(offset));
-            if (written < 0 && errno != EINTR) {
-                throw shortage(std::string("a memory file cannot be written: ") +
-                               std::strerror(errno));
-            }
-            const std::size_t step = written > 0 ? static_cast<std::size_t>(written) : 0;
-            at += step;
-            offset += step;
-            count -= step;
+        if (!glint_write_all_at(file_, offset, bytes, count)) {
+            throw shortage(std::string("a memory file cannot be written: ") + std::strerror(errno));
         }
     }
 

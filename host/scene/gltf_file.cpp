@@ -3,6 +3,8 @@
 // that a scene refers to must lie under its folder.
 #include "scene/gltf_file.hpp"
 
+#include "base/whole_io.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -71,20 +73,7 @@ class File
     // Fills `bytes` from an offset. Returns false if the file ends before, or cannot be read.
     bool read(std::uint64_t offset, void *bytes, std::size_t count) const
     {
-        auto *target = static_cast<char *>(bytes);
-        while (count > 0) {
-            ssize_t got = pread(descriptor_, target, count, static_cast<off_t>(offset));
-            if (got < 0 && errno == EINTR) {
-                continue;
-            }
-            if (got <= 0) {
-                return false;
-            }
-            target += got;
-            offset += static_cast<std::uint64_t>(got);
-            count -= static_cast<std::size_t>(got);
-        }
-        return true;
+        return glint_read_all_at(descriptor_, offset, bytes, count);
     }
 
   private:

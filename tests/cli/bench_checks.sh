@@ -145,8 +145,8 @@ clean
 # breaks FOLDER WEIGHT: copies the kernels with another start weight of primary rays.
 breaks() {
     cp -r "$root/kernels" "$1"
-    sed -i "/ray\.weight = /s/real_of(1)/real_of($2)/g" "$1/paths.cl"
-    ! cmp -s "$root/kernels/paths.cl" "$1/paths.cl"
+    sed -i "/ray\.weight = /s/real_of(1)/real_of($2)/g" "$1"/*.cl
+    ! diff -qr "$root/kernels" "$1" >/dev/null
 }
 check 'kernels that make pictures two per cent too bright' breaks too_bright 1.02f
 check 'kernels that make pictures of NaN' breaks not_finite NAN

@@ -28,6 +28,13 @@ clean
 cp "$other_codec" "$codec"
 refuses 5 'glint-codec: it is of glint 0.0.0' render "${picture[@]}" -o out/x.exr
 refuses 3 'glint-codec: it is of glint 0.0.0' info "$scene" --env "$(dirname "$scene")/axes.hdr"
+export OTHER_CODEC=packet
+refuses 5 'glint-codec: it is of glint of an unknown version, not' render "${picture[@]}" -o out/x.exr
+OTHER_CODEC=halfs
+printf '\x76\x2f\x31\x01\x02\0\0\0' >in/layers.exr
+refuses 3 'in/layers.exr: the decoder failed on it' \
+    relight in/layers.exr --env "$(dirname "$scene")/axes.hdr" -o out/x.png
+unset OTHER_CODEC
 rm "$codec"
 # shellcheck disable=SC2016 # the codec's own $$
 printf '#!/bin/sh\nkill -9 $$\n' >"$codec"

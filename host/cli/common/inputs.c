@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "environment/cache.h"
 #include "image/codec.h"
 #include "image/decoder.h"
 #include "scene/built_in.h"
@@ -327,7 +328,7 @@ glint_status glint_inputs_load_scene(const glint_input_request *request,
 {
     *inputs = (glint_inputs){0};
     const double begun = glint_progress_elapsed(display);
-    if (request->env != NULL && !glint_environment_is_likely_kept(request->env)) {
+    if (request->env != NULL && !glint_env_cache_may_have(request->env)) {
         glint_codec_start(); // the codec's process starts while the scene loads
     }
     glint_progress_phase(display, "load_scene", "loading the scene");
@@ -353,7 +354,7 @@ glint_status glint_inputs_load_environment(const glint_input_request *request,
                                    &inputs->warnings, error));
     }
     if (request->env_flip != NULL) {
-        glint_environment_settle(&inputs->environment);
+        glint_environment_end_write(&inputs->environment);
         TRY(glint_cube_mirror(&inputs->environment.radiance, request->env_flip, error));
     }
     inputs->environment_ms = glint_now_ms() - begun;

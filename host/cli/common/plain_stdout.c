@@ -2,6 +2,7 @@
 #include "cli/common/plain_stdout.h"
 
 #include "base/plain_text.h"
+#include "base/whole_io.h"
 
 #include <errno.h>
 #include <stdbool.h>
@@ -15,18 +16,11 @@ static struct {
     int fault; // errno of the first failed write
 } output;
 
-static bool write_all(const char *bytes, size_t length)
+static bool write_bytes(const char *bytes, size_t length)
 {
-    while (length > 0) {
-        const ssize_t done = write(STDOUT_FILENO, bytes, length);
-        if (done < 0 && errno != EINTR) {
-            output.fault = output.fault != 0 ? output.fault : errno;
-            return false;
-        }
-        if (done > 0) {
-            bytes += done;
-            length -= (size_t)done;
-        }
+    if (!glint_write_all(STDOUT_FILENO, bytes, length)) {
+        output.fault = output.fault != 0 ? output.fault : errno;
+        return false;
     }
     return true;
 }
@@ -67,7 +61,7 @@ static ssize_t write_plain(void *unused, const char *bytes, size_t length)
         const size_t total = output.kept_length + now;
         const size_t written = copy_plain(joined, total, plain, &output.kept_length);
         memcpy(output.kept, joined + total - output.kept_length, output.kept_length);
-        if (!write_all(plain, written)) {
+        if (!write_bytes(plain, written)) {
             return 0; // stdio takes 0 as an error
         }
         done += now;

@@ -5,6 +5,7 @@
 #include "cli/selftest/worker.h"
 
 #include "base/clock.h"
+#include "base/whole_io.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -37,37 +38,12 @@ typedef struct answer {
 
 // ---- In the worker ------------------------------------------------------------------------------
 
-static bool read_all(int from, void *to, size_t size)
-{
-    for (char *bytes = to; size > 0;) {
-        const ssize_t done = read(from, bytes, size);
-        if (done == 0 || (done < 0 && errno != EINTR)) {
-            return false;
-        }
-        bytes += done > 0 ? done : 0;
-        size -= done > 0 ? (size_t)done : 0;
-    }
-    return true;
-}
-
-static bool write_all(int to, const void *from, size_t size)
-{
-    for (const char *bytes = from; size > 0;) {
-        const ssize_t done = write(to, bytes, size);
-        if (done < 0 && errno != EINTR) {
-            return false;
-        }
-        bytes += done > 0 ? done : 0;
-        size -= done > 0 ? (size_t)done : 0;
-    }
-    return true;
-}
-
 static bool send_answer(int to, answer *a, const glint_error *error)
 {
     memcpy(a->message, error->message, sizeof a->message);
     a->details_length = error->details != NULL ? strlen(error->details) : 0;
-    return write_all(to, a, sizeof *a) && write_all(to, error->details, a->details_length);
+    return glint_write_all(to, a, sizeof *a) &&
+           glint_write_all(to, error->details, a->details_length);
 }
 
 static void work(const char *device_name, int requests, int answers)
@@ -81,7 +57,7 @@ static void work(const char *device_name, int requests, int answers)
     }
     bool goes_on = send_answer(answers, &a, &error) && device != NULL;
     request wanted;
-    while (goes_on && read_all(requests, &wanted, sizeof wanted)) {
+    while (goes_on && glint_read_all(requests, &wanted, sizeof wanted)) {
         glint_error_free(&error);
         error = (glint_error){0};
         wanted.options.device = device;
@@ -290,7 +266,7 @@ glint_status selftest_worker_run(selftest_worker *w, size_t index,
     static _Thread_local answer a; // too large for a stack
     bool is_late = false;
     w->said[0] = '\0';
-    if (write_all(w->requests, &wanted, sizeof wanted) &&
+    if (glint_write_all(w->requests, &wanted, sizeof wanted) &&
         receive_answer(w, &a, w->limit_s, error, &is_late)) {
         *result = a.result;
         return a.status;

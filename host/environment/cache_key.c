@@ -1,12 +1,15 @@
-// Identifies the files of an environment by their content. See kept_key.h.
-#include "environment/kept_key.h"
+// Identifies the files of an environment by their content. See cache_key.h.
+#include "environment/cache_key.h"
 
 #include "base/parallel.h"
+#include "environment/checksum.h"
 #include "environment/face_files.h"
+#include "image/codec.h"
 #include "image/decoder.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,7 +55,6 @@ static bool list_files(const char *path, file_list *list)
 // The data that all threads share.
 typedef struct hashing {
     int file;
-    const char *memory; // NULL: read the file
     uint64_t bytes;
     uint64_t *parts;
     atomic_bool has_failed;
@@ -85,24 +87,17 @@ static void hash_file_part(size_t index, void *context)
     (void)XXH3_freeState(state);
 }
 
-static void hash_memory_part(size_t index, void *context)
-{
-    const hashing *shared = context;
-    const uint64_t first = index * PART, left = shared->bytes - first;
-    shared->parts[index] = XXH3_64bits(shared->memory + first, left < PART ? left : PART);
-}
-
-// Hashes an open regular file of `bytes`, or bytes in memory.
-static bool hash_bytes(int file, const char *memory, uint64_t bytes, XXH3_state_t *into)
+// Hashes an open regular file of `bytes`.
+static bool hash_open_file(int file, uint64_t bytes, XXH3_state_t *into)
 {
     const size_t count = (size_t)((bytes + PART - 1) / PART);
-    hashing shared = {.file = file, .memory = memory, .bytes = bytes};
+    hashing shared = {.file = file, .bytes = bytes};
     shared.parts = calloc(count + 1, sizeof *shared.parts);
     if (shared.parts == NULL || count > PARTS_MAX) {
         free(shared.parts);
         return false;
     }
-    glint_parallel_for(count, memory != NULL ? hash_memory_part : hash_file_part, &shared);
+    glint_parallel_for(count, hash_file_part, &shared);
     shared.parts[count] = bytes;
     (void)XXH3_128bits_update(into, shared.parts, (count + 1) * sizeof *shared.parts);
     free(shared.parts);
@@ -116,23 +111,21 @@ static bool hash_file(const char *path, struct stat *facts, XXH3_state_t *into)
         return false;
     }
     const bool is_good = fstat(file, facts) == 0 && S_ISREG(facts->st_mode) &&
-                         hash_bytes(file, NULL, (uint64_t)facts->st_size, into);
+                         hash_open_file(file, (uint64_t)facts->st_size, into);
     close(file);
     return is_good;
 }
 
-// Another program may make other cubes, even if its version is the same: developers build often.
-static void hash_program(XXH3_state_t *into)
+static void hash_program(const char *path, XXH3_state_t *into)
 {
     struct stat facts;
     int64_t program[3] = {0};
-    if (stat("/proc/self/exe", &facts) == 0) {
+    if (stat(path, &facts) == 0) {
         program[0] = facts.st_size;
         program[1] = facts.st_mtim.tv_sec;
         program[2] = facts.st_mtim.tv_nsec;
     }
     (void)XXH3_128bits_update(into, program, sizeof program);
-    (void)XXH3_128bits_update(into, GLINT_VERSION, sizeof GLINT_VERSION);
 }
 
 static void hash_request(const glint_layout_request *request, const file_list *list,
@@ -147,22 +140,25 @@ static void hash_request(const glint_layout_request *request, const file_list *l
     (void)XXH3_128bits_update(into, numbers, sizeof numbers);
 }
 
-static void finish(XXH3_state_t *state, glint_kept_key *key)
+// Another program may make other cubes, even if its version is the same: developers build often.
+static void finish(XXH3_state_t *state, glint_env_cache_key *key)
 {
-    hash_program(state);
+    char codec[PATH_MAX];
+    hash_program("/proc/self/exe", state);
+    hash_program(glint_codec_find(codec) ? codec : "", state);
+    (void)XXH3_128bits_update(state, GLINT_VERSION, sizeof GLINT_VERSION);
     const XXH128_hash_t hash = XXH3_128bits_digest(state);
     key->hash[0] = hash.low64;
     key->hash[1] = hash.high64;
 }
 
-bool glint_kept_key_of_cube(const glint_cube *cube, int edge, glint_kept_key *key)
+bool glint_env_cache_key_of_cube(const glint_cube *cube, int edge, glint_env_cache_key *key)
 {
-    const size_t bytes = glint_cube_size(cube) * sizeof(float);
-    const int64_t what[] = {cube->edge, edge};
-    *key = (glint_kept_key){.bytes = bytes};
+    uint64_t what[3] = {(uint64_t)cube->edge, (uint64_t)edge};
+    *key = (glint_env_cache_key){.bytes = glint_cube_size(cube) * sizeof(float)};
     XXH3_state_t *state = XXH3_createState();
     const bool is_good = state != NULL && XXH3_128bits_reset(state) == XXH_OK &&
-                         hash_bytes(-1, (const char *)cube->texels, bytes, state);
+                         glint_checksum(cube->texels, key->bytes, &what[2]);
     if (is_good) {
         (void)XXH3_128bits_update(state, what, sizeof what);
         finish(state, key);
@@ -171,9 +167,10 @@ bool glint_kept_key_of_cube(const glint_cube *cube, int edge, glint_kept_key *ke
     return is_good;
 }
 
-bool glint_kept_key_make(const char *path, const glint_layout_request *request, glint_kept_key *key)
+bool glint_env_cache_key_make(const char *path, const glint_layout_request *request,
+                              glint_env_cache_key *key)
 {
-    *key = (glint_kept_key){0};
+    *key = (glint_env_cache_key){.begun = time(NULL)};
     file_list list;
     XXH3_state_t *state = XXH3_createState();
     bool is_good = list_files(path, &list) && state != NULL && XXH3_128bits_reset(state) == XXH_OK;
@@ -201,14 +198,14 @@ static bool is_same_file(const struct stat *a, const struct stat *b)
            a->st_ctim.tv_sec == b->st_ctim.tv_sec && a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
 }
 
-bool glint_kept_key_holds(const char *path, const glint_kept_key *key)
+bool glint_env_cache_key_holds(const char *path, const glint_env_cache_key *key)
 {
     file_list list;
     bool is_same = list_files(path, &list) && list.count == key->file_count;
     for (int i = 0; is_same && i < list.count; i++) {
         struct stat now;
         is_same = stat(list.paths[i], &now) == 0 && is_same_file(&now, &key->files[i]) &&
-                  time(NULL) - now.st_mtim.tv_sec > FRESH;
+                  key->begun - now.st_mtim.tv_sec > FRESH;
     }
     glint_face_files_free(&list.faces);
     return is_same;
