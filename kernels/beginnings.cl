@@ -14,7 +14,7 @@ static inline void note_begun(const scene_buffers *scene, lanes_int media, lanes
 {
     lane_int more = LANE_INT(before, lane), known = LANE_INT(media, lane);
     for (; more != 0; more >>= scene->media_bits) {
-        const lane_int medium = more & MEDIUM_MASK;
+        const lane_int medium = more & medium_mask(scene);
 #if GLINT_OVERLAPS
         if (HAS(OVERLAPS)) {
             if (!remove_medium(scene, &known, medium)) {
@@ -27,7 +27,7 @@ static inline void note_begun(const scene_buffers *scene, lanes_int media, lanes
 #endif
         bool is_known = false;
         for (lane_int left = known; left != 0; left >>= scene->media_bits) {
-            is_known |= (left & MEDIUM_MASK) == medium;
+            is_known |= (left & medium_mask(scene)) == medium;
         }
         if (!is_known && *count < scene->media_capacity) {
             LANE_INT(*begun, lane) |= medium << (scene->media_bits * (*count)++);

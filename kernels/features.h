@@ -19,9 +19,11 @@
 #ifndef GLINT_KERNELS_FEATURES_H
 #define GLINT_KERNELS_FEATURES_H
 
-// The general kernels, by size. MIRRORS: paths end at their first surface, a mirror (mirrors.cl).
-// PATHS: paths over smooth and matte surfaces. EVERYTHING: all that glTF files describe.
-#define GLINT_GENERAL_KERNELS(KERNEL) KERNEL(MIRRORS) KERNEL(PATHS) KERNEL(EVERYTHING)
+// The general kernels, by size, with the names that users see. MIRRORS: paths end at their first
+// surface, a mirror (mirrors.cl). PATHS: paths over smooth and matte surfaces. EVERYTHING: all that
+// glTF files describe.
+#define GLINT_GENERAL_KERNELS(KERNEL)                                                              \
+    KERNEL(MIRRORS, "mirrors") KERNEL(PATHS, "paths") KERNEL(EVERYTHING, "everything")
 
 #define GLINT_FEATURES(FEATURE)                                                                    \
     FEATURE(GEOMETRY, "rays are traced against triangles", 1, 0, SWITCHED, MIRRORS)                \

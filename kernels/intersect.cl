@@ -31,7 +31,7 @@ typedef struct closest {
     real t;          // in lengths of the direction; HUGE: no hit
     real b1, b2;     // barycentric weights of the second and third vertex
     lanes_int place; // of the triangle hit, −1: none
-} closest; // of the triangle hit; −1: none
+} closest;           // of the triangle hit; −1: none
 
 // Widens the far distance, so that rounding never loses a box that the ray touches (Ize, Robust BVH
 // Ray Traversal, 2013). Each side has a difference, a product and a division. OpenCL allows an
@@ -97,13 +97,12 @@ static inline mask rays_meet_box(const packet *p, global const float *node, int 
 typedef struct leaf {
     const scene_buffers *scene;
     global const float *cluster;
-    global const int *numbers;
     int first;
 } leaf;
 
 static inline leaf leaf_at(const scene_buffers *scene, int index)
 {
-    const leaf l = {scene, scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES, scene->numbers,
+    const leaf l = {scene, scene->clusters + (size_t)index * GLINT_CLUSTER_VALUES,
                     index * GLINT_CLUSTER_LANES};
     return l;
 }
@@ -231,8 +230,7 @@ static inline bool lie_in_plane(const scene_buffers *scene, const float own[9],
             off[v] = fused(n, corners[3 * v + k] - (scalar)own[k], off[v]);
         }
     }
-    return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <=
-           START_OFFSET(scene) * farthest;
+    return LARGEST3(fabs(off[0]), fabs(off[1]), fabs(off[2])) <= START_OFFSET(scene) * farthest;
 }
 
 // True if a triangle lies in the plane of the triangle at place `start`; −1: none.
@@ -359,7 +357,8 @@ static inline bool intersect_triangle(const packet *p, const real *origin, int a
         }
         mask taken = inside & (t < hit->t), tied = inside & (t == hit->t);
         if (any_lane(tied)) {
-            taken = taken | (tied & has_lower_number(leaf->numbers, place, hit->place, tied));
+            taken =
+                taken | (tied & has_lower_number(leaf->scene->numbers, place, hit->place, tied));
         }
         found = found || any_lane(taken);
         hit->t = SELECT(taken, t, hit->t);
@@ -513,7 +512,7 @@ static inline bool take_if_nearer(const lone_ray *ray, const leaf *leaf, const c
         return false;
     }
     const int place = leaf->first + i, rival = (int)LANE_INT(hit->place, lane);
-    if (t == before && rival >= 0 && leaf->numbers[place] > leaf->numbers[rival]) {
+    if (t == before && rival >= 0 && leaf->scene->numbers[place] > leaf->scene->numbers[rival]) {
         return false;
     }
     LANE(hit->t, lane) = t;

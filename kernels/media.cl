@@ -2,14 +2,26 @@
 // `media_capacity` entries of `media_bits` bits each; the innermost solid is in the lowest bits. It
 // has at most 30 bits, so the number is never negative. Entry 0 is empty space.
 
-#define MEDIUM_MASK ((lane_int)((1 << scene->media_bits) - 1))
-#define MEDIA_MASK ((lane_int)((1 << (scene->media_bits * scene->media_capacity)) - 1))
+// The bits of the innermost entry, and of the whole stack.
+static inline lane_int medium_mask(const scene_buffers *scene)
+{
+    return (1 << scene->media_bits) - 1;
+}
+
+static inline lane_int media_mask(const scene_buffers *scene)
+{
+    return (1 << (scene->media_bits * scene->media_capacity)) - 1;
+}
+
 // The first bit of the outermost entry.
-#define OUTERMOST (scene->media_bits * (scene->media_capacity - 1))
+static inline lane_int outermost_bit(const scene_buffers *scene)
+{
+    return scene->media_bits * (scene->media_capacity - 1);
+}
 
 static inline lanes_int medium_on_top(const scene_buffers *scene, lanes_int media)
 {
-    return media & MEDIUM_MASK;
+    return media & medium_mask(scene);
 }
 
 // Pushes `medium` onto the stack. If the stack was full, it loses its outermost entry, and `lost`
@@ -21,8 +33,8 @@ static inline lanes_int enter_medium(const scene_buffers *scene, lanes_int media
         *lost = mask_none();
         return medium;
     }
-    *lost = (media >> (lane_int)OUTERMOST) != (lane_int)0;
-    return ((media << (lane_int)scene->media_bits) & MEDIA_MASK) | medium;
+    *lost = (media >> outermost_bit(scene)) != (lane_int)0;
+    return ((media << (lane_int)scene->media_bits) & media_mask(scene)) | medium;
 }
 
 // Removes the innermost entry `medium` from the stack. Without such an entry the stack stays
@@ -36,7 +48,7 @@ static inline lanes_int leave_medium(const scene_buffers *scene, lanes_int media
     mask searched = media != (lane_int)0;
     for (int k = 0; k < scene->media_capacity && any_lane(searched); k++) {
         const lane_int below = k * scene->media_bits, above = below + scene->media_bits;
-        mask here = searched & (((media >> below) & MEDIUM_MASK) == medium);
+        mask here = searched & (((media >> below) & medium_mask(scene)) == medium);
         lanes_int inner = media & (lane_int)((1 << below) - 1);
         left = SELECT(here, ((media >> above) << below) | inner, left);
         searched = searched & !here & ((media >> above) != (lane_int)0);
@@ -48,7 +60,7 @@ static inline lanes_int leave_medium(const scene_buffers *scene, lanes_int media
 // With OVERLAPS each stack is sorted: the highest medium is on top, whatever the path entered last.
 static inline lane_int top_medium(const scene_buffers *scene, lane_int media)
 {
-    return media & MEDIUM_MASK;
+    return media & medium_mask(scene);
 }
 
 // Inserts `medium` into the stack. True if the stack was full and lost its lowest entry.
@@ -56,12 +68,12 @@ static inline bool insert_medium(const scene_buffers *scene, lane_int *media, la
 {
     const lane_int old = *media;
     int shift = 0;
-    while (((old >> shift) & MEDIUM_MASK) > medium) {
+    while (((old >> shift) & medium_mask(scene)) > medium) {
         shift += scene->media_bits;
     }
     const lane_int above = old & (((lane_int)1 << shift) - 1), below = old >> shift;
-    *media = (((((below << scene->media_bits) | medium) << shift) | above)) & MEDIA_MASK;
-    return (old >> OUTERMOST) != 0;
+    *media = (((((below << scene->media_bits) | medium) << shift) | above)) & media_mask(scene);
+    return (old >> outermost_bit(scene)) != 0;
 }
 
 // Removes `medium` from the stack. False if it was not in the stack.
@@ -69,7 +81,7 @@ static inline bool remove_medium(const scene_buffers *scene, lane_int *media, la
 {
     const lane_int old = *media;
     for (int shift = 0; (old >> shift) != 0; shift += scene->media_bits) {
-        if (((old >> shift) & MEDIUM_MASK) == medium) {
+        if (((old >> shift) & medium_mask(scene)) == medium) {
             const lane_int above = old & (((lane_int)1 << shift) - 1);
             *media = (((old >> shift) >> scene->media_bits) << shift) | above;
             return true;

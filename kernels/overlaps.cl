@@ -99,7 +99,7 @@ static inline void cross_triangle(const crossing_ray *c, const scene_buffers *sc
                                   crossed_solids *all)
 {
     const int place = leaf->first + i, lane = c->ray.lane;
-    const int number = leaf->numbers[place];
+    const int number = scene->numbers[place];
     const glint_solid_record solid = scene->solids[number];
     if (place == c->place || (solid.medium & GLINT_SOLID_TOUCHES) == 0) {
         return;
@@ -177,7 +177,8 @@ static inline media_sides cross_all(const scene_buffers *scene, lane_int media,
     media_sides sides = {media, media, false};
     for (int i = 0; i < all->count; i++) {
         const crossed_solid *solid = &all->solids[i];
-        if (!solid->stays && !solid->enters && !remove_medium(scene, &sides.beyond, solid->medium)) {
+        if (!solid->stays && !solid->enters &&
+            !remove_medium(scene, &sides.beyond, solid->medium)) {
             sides.lost |= insert_medium(scene, &sides.before, solid->medium);
         }
     }
@@ -264,8 +265,9 @@ static inline void note_crossing(const scene_buffers *scene, const crossed_solid
     LANE_INT(c->before, lane) = sides.before;
     LANE_INT(c->beyond, lane) = sides.beyond;
     LANE_INT(c->lost, lane) = sides.lost;
-    LANE_INT(c->gone, lane) = !by_other && scene->media[top_medium(scene, sides.before)].material ==
-                                               scene->media[top_medium(scene, sides.beyond)].material;
+    LANE_INT(c->gone, lane) =
+        !by_other && scene->media[top_medium(scene, sides.before)].material ==
+                         scene->media[top_medium(scene, sides.beyond)].material;
     LANE_INT(c->several, lane) = all->count > (by_other ? 0 : 1);
     const crossed_solid *met = shown_of(scene, all, &sides);
     if (met == 0) {

@@ -1,5 +1,5 @@
-// Divides light at a surface (rules 3 to 6). It finds the light that the surface adds itself, and
-// the weights and directions of the reflected and the transmitted branch.
+// Divides light at a surface (rules 3 to 6 and 9). It finds the light that the surface adds itself,
+// and the weights and directions of the reflected and the transmitted branch.
 
 #if GLINT_ALPHA
 // Rule 9: a partly covering surface scatters only the share of its coverage. The rest of the light

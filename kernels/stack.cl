@@ -23,11 +23,11 @@ typedef struct scene_buffers {
     global const glint_material_record *materials;
     global const glint_medium_record *media;
     global const glint_solid_record *solids; // of the triangles, by their numbers
-    global const float *attributes; // of the triangles' corners, by the triangles' numbers
+    global const float *attributes;          // of the triangles' corners, by the triangles' numbers
     global const glint_texture_record *textures;
     global const ushort *texels;
     global const glint_light_record *lights;
-    float anisotropy; // from the frame record
+    float anisotropy;               // from the frame record
     int media_bits, media_capacity; // from the frame record
     cube_map environment, irradiance;
     cell_map cells;
@@ -42,15 +42,16 @@ typedef struct scene_buffers {
 #endif
 
 // Makes scene_buffers from the arguments of a kernel.
+typedef char all_feature_words_are_copied[GLINT_FEATURE_WORDS == 2 ? 1 : -1];
 #define SCENE_OF_ARGUMENTS                                                                         \
-    {{frame.features[0], frame.features[1]},                                                       \
-     nodes, clusters, normals, numbers, materials, media, solids, attributes, textures, texels,    \
-     lights, frame.anisotropy, frame.media_bits, frame.media_capacity,                             \
-     {environment, frame.environment_edge, TEXELS_ARE_HALF},                                       \
-     {irradiance, frame.irradiance_edge, false},                                                   \
-     {lobes, frame.cells_last, frame.cells_tolerance, frame.compensation},                         \
-     vertices,                                                                                     \
-     listed}
+    {                                                                                              \
+        {frame.features[0], frame.features[1]}, nodes, clusters, normals, numbers, materials,      \
+            media, solids, attributes, textures, texels, lights, frame.anisotropy,                 \
+            frame.media_bits, frame.media_capacity,                                                \
+            {environment, frame.environment_edge, TEXELS_ARE_HALF},                                \
+            {irradiance, frame.irradiance_edge, false},                                            \
+            {lobes, frame.cells_last, frame.cells_tolerance, frame.compensation}, vertices, listed \
+    }
 
 typedef global const float *node_pointer;
 

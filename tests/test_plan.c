@@ -537,8 +537,8 @@ static void every_feature_is_passed_to_the_compiler_as_0_or_1(void **state)
     make_scene(&s, &white_paint, 1);
     glint_plan plan;
     assert_int_equal(plan_for(&s, &wide_cpu, &glint_settings_default, &plan, NULL), GLINT_OK);
-    char options[4096];
-    glint_plan_build_options(&plan, options, sizeof options);
+    char options[GLINT_BUILD_OPTIONS_BYTES];
+    glint_plan_build_options(&plan, options);
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         char wanted[80];
         snprintf(wanted, sizeof wanted, "-DGLINT_%s=%d", glint_feature_name((glint_feature)i),

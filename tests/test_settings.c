@@ -56,9 +56,9 @@ static glint_settings vary(const glint_settings *first, const variation *v)
 
 static void check_plan(const glint_plan *plan, const glint_plan *other)
 {
-    char options[2][4096];
-    glint_plan_build_options(plan, options[0], sizeof options[0]);
-    glint_plan_build_options(other, options[1], sizeof options[1]);
+    char options[2][GLINT_BUILD_OPTIONS_BYTES];
+    glint_plan_build_options(plan, options[0]);
+    glint_plan_build_options(other, options[1]);
     assert_string_equal(options[0], options[1]);
     assert_int_equal(plan->depth, other->depth);
     assert_int_equal(plan->depth_is_exact, other->depth_is_exact);

@@ -94,7 +94,7 @@ static glint_status run_and_tidy(const glint_command *command, void *request,
 {
     const glint_status status = command->run(request, arguments, error);
     const char *note = glint_driver_cache_note();
-    if (note != NULL) {
+    if (note != NULL && status == GLINT_OK) {
         glint_say("warning: %s", note);
     }
     glint_driver_cache_release();

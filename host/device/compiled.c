@@ -1,4 +1,4 @@
-// Marks programs that PoCL's cache holds. See compiled.h.
+// Stamps programs that PoCL's cache holds. See compiled.h.
 #include "device/compiled.h"
 
 #include "device/driver_cache.h"
@@ -13,12 +13,16 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-// True if the driver is PoCL, and keeps what it compiles.
-static bool keeps_programs(const struct glint_device *device)
+static bool is_pocl(const struct glint_device *device)
+{
+    return strcmp(device->capabilities.platform, "Portable Computing Language") == 0;
+}
+
+// True if PoCL keeps what it compiles.
+static bool is_cache_on(void)
 {
     const char *use = getenv("POCL_KERNEL_CACHE");
-    return strcmp(device->capabilities.platform, "Portable Computing Language") == 0 &&
-           (use == NULL || strcmp(use, "0") != 0);
+    return use == NULL || strcmp(use, "0") != 0;
 }
 
 static void add(XXH3_state_t *state, const char *text)
@@ -43,18 +47,17 @@ static void add_driver(XXH3_state_t *state, const struct glint_device *device)
     add(state, more != NULL ? more : "");
 }
 
-// Writes the path of the mark. False if there can be none.
-static bool name_mark(const struct glint_device *device, const glint_program_request *request,
-                      char path[PATH_MAX])
+// Writes the path of the stamp. False if there can be none.
+static bool name_stamp(const struct glint_device *device, const glint_program_request *request,
+                       char path[PATH_MAX])
 {
     XXH3_state_t *state = NULL;
-    if (request->kernel_dir != NULL || !keeps_programs(device) ||
+    if (request->kernel_dir != NULL || !is_pocl(device) || !is_cache_on() ||
         (state = XXH3_createState()) == NULL) {
         return false;
     }
     XXH3_128bits_reset(state);
     add(state, glint_kernel_source);
-    add(state, request->with_probes ? glint_probe_source : "");
     add(state, request->options);
     add_driver(state, device);
     const XXH128_hash_t hash = XXH3_128bits_digest(state);
@@ -62,24 +65,41 @@ static bool name_mark(const struct glint_device *device, const glint_program_req
     char name[48];
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64, (uint64_t)hash.high64,
              (uint64_t)hash.low64);
-    return glint_driver_cache_name_mark(name, path, PATH_MAX);
+    return glint_driver_cache_name_stamp(name, path, PATH_MAX);
 }
 
 bool glint_program_is_compiled(const struct glint_device *device,
                                const glint_program_request *request)
 {
     char path[PATH_MAX];
-    return name_mark(device, request, path) && access(path, F_OK) == 0;
+    return name_stamp(device, request, path) && access(path, F_OK) == 0;
 }
 
-void glint_program_mark_compiled(const struct glint_device *device,
-                                 const glint_program_request *request)
+void glint_program_stamp_compiled(const struct glint_device *device,
+                                  const glint_program_request *request)
 {
     char path[PATH_MAX];
-    if (name_mark(device, request, path)) {
-        const int mark = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-        if (mark >= 0) {
-            close(mark);
+    if (name_stamp(device, request, path)) {
+        const int stamp = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+        if (stamp >= 0) {
+            close(stamp);
         }
     }
+}
+
+glint_status glint_programs_check_cache(const struct glint_device *device, glint_error *error)
+{
+    const char *fault = glint_driver_cache_fault();
+    if (!is_pocl(device)) {
+        return GLINT_OK;
+    }
+    if (!is_cache_on()) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "POCL_KERNEL_CACHE=0: PoCL keeps no kernels (unset it)");
+    }
+    if (fault != NULL) {
+        return glint_fail(error, GLINT_OUTPUT_FAILED,
+                          "%s (let POCL_CACHE_DIR name a folder that can be written)", fault);
+    }
+    return GLINT_OK;
 }

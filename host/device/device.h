@@ -12,7 +12,7 @@ typedef struct glint_device glint_device; // opaque: context, queues, OpenCL's h
 // glint_device_start_drivers starts a thread that loads the drivers, for a caller who opens a
 // device later. A caller who then opens none must call glint_device_await_drivers, which joins the
 // thread, before the process exits: exit handlers unload libraries. Only the main thread calls
-// both.
+// both, and glint_device_list and glint_device_open, which wait for the drivers.
 void glint_device_start_drivers(void);
 void glint_device_await_drivers(void);
 

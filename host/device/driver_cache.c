@@ -20,13 +20,14 @@
 
 #define FOLDER_NAME "POCL_CACHE_DIR"
 #define MARK "glint-died"       // file in the cache: the time when the run began to compile
-#define MARKS "glint"           // folder of glint_driver_cache_name_mark
+#define STAMPS "glint"          // folder of glint_driver_cache_name_stamp
 #define TOUCHED "last_accessed" // file in an entry; PoCL touches it when it uses the entry
 #define LEAST_ROOM (UINT64_C(16) << 20)
 #define SLACK 2 // seconds that the clocks of files may be behind
 
-static char folder[PATH_MAX];    // the cache; "": not known yet
-static char temporary[PATH_MAX]; // our own folder; "": none
+static char folder[PATH_MAX];              // the cache; "": not known yet
+static char temporary[PATH_MAX];           // our own folder; "": none
+static char fault[GLINT_MESSAGE_CAPACITY]; // why the cache can keep nothing; "": it can
 static char note[GLINT_MESSAGE_CAPACITY];
 static char epitaph[GLINT_MESSAGE_CAPACITY];
 static char run_epitaph[GLINT_MESSAGE_CAPACITY];
@@ -34,7 +35,7 @@ static atomic_bool runs;
 static char mark_path[PATH_MAX + sizeof "/" MARK];
 static char mark_text[32];
 static time_t begun;
-static atomic_int users; // compilations under way
+static atomic_bool is_used; // a compilation is under way
 static void (*watcher)(void);
 
 // ---- The folder ---------------------------------------------------------------------------------
@@ -97,7 +98,7 @@ static const char *find_fault(void)
 
 static void remove_tree(const char *path)
 {
-    char name[PATH_MAX + sizeof "/" MARKS];
+    char name[PATH_MAX + sizeof "/" STAMPS];
     snprintf(name, sizeof name, "%s", path);
     FTS *tree = fts_open((char *[]){name, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
     for (FTSENT *entry; tree != NULL && (entry = fts_read(tree)) != NULL;) {
@@ -112,19 +113,19 @@ static void remove_tree(const char *path)
     }
 }
 
-static void remove_marks(void)
+static void remove_stamps(void)
 {
-    char marks[PATH_MAX + sizeof "/" MARKS];
-    snprintf(marks, sizeof marks, "%s/" MARKS, folder);
-    remove_tree(marks);
+    char stamps[PATH_MAX + sizeof "/" STAMPS];
+    snprintf(stamps, sizeof stamps, "%s/" STAMPS, folder);
+    remove_tree(stamps);
 }
 
-// Removes the entries used since `since`, and all marks. An entry is a folder in a folder of the
+// Removes the entries used since `since`, and all stamps. An entry is a folder in a folder of the
 // cache.
 static bool remove_used_since(time_t since)
 {
     bool is_any = false;
-    remove_marks();
+    remove_stamps();
     char name[PATH_MAX];
     snprintf(name, sizeof name, "%s", folder);
     FTS *tree = fts_open((char *[]){name, NULL}, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
@@ -169,14 +170,13 @@ static void mend_after_death(void)
 }
 
 // Sends kernels to a temporary folder of this run.
-static void take_temporary(const char *fault)
+static void take_temporary(void)
 {
     const char *place = getenv("TMPDIR");
     snprintf(temporary, sizeof temporary, "%s/glint-kernels-XXXXXX",
              place != NULL && place[0] != '\0' ? place : "/tmp");
     const bool is_made = mkdtemp(temporary) != NULL && setenv(FOLDER_NAME, temporary, 1) == 0;
-    snprintf(note, sizeof note, "%.500s: the kernel cache cannot be used: %.100s; kernels are %s",
-             folder, fault,
+    snprintf(note, sizeof note, "%.700s; kernels are %s", fault,
              is_made ? "compiled for this run alone (" FOLDER_NAME " names another folder)"
                      : "not kept (let " FOLDER_NAME " name a folder that can be written)");
     if (is_made) {
@@ -192,9 +192,11 @@ void glint_driver_cache_prepare(void)
         return;
     }
     find_folder();
-    const char *fault = find_fault();
-    if (fault != NULL) {
-        take_temporary(fault);
+    const char *why = find_fault();
+    if (why != NULL) {
+        snprintf(fault, sizeof fault, "%.500s: the kernel cache cannot be used: %.100s", folder,
+                 why);
+        take_temporary();
     } else {
         mend_after_death();
     }
@@ -208,6 +210,11 @@ void glint_driver_cache_release(void)
     }
 }
 
+const char *glint_driver_cache_fault(void)
+{
+    return fault[0] != '\0' ? fault : NULL;
+}
+
 const char *glint_driver_cache_note(void)
 {
     return note[0] != '\0' ? note : NULL;
@@ -215,10 +222,9 @@ const char *glint_driver_cache_note(void)
 
 void glint_driver_cache_begin(void)
 {
-    if (atomic_fetch_add(&users, 1) == 0) { // the mark names the earliest
-        begun = time(NULL);
-        snprintf(mark_text, sizeof mark_text, "%lld\n", (long long)begun);
-    }
+    begun = time(NULL);
+    snprintf(mark_text, sizeof mark_text, "%lld\n", (long long)begun);
+    atomic_store(&is_used, true);
     if (watcher != NULL) {
         watcher();
     }
@@ -231,7 +237,7 @@ void glint_driver_cache_watch(void (*watch)(void))
 
 void glint_driver_cache_end(void)
 {
-    atomic_fetch_sub(&users, 1);
+    atomic_store(&is_used, false);
 }
 
 bool glint_driver_cache_clean(void)
@@ -239,14 +245,14 @@ bool glint_driver_cache_clean(void)
     return folder[0] != '\0' && remove_used_since(begun);
 }
 
-bool glint_driver_cache_name_mark(const char *name, char *path, size_t capacity)
+bool glint_driver_cache_name_stamp(const char *name, char *path, size_t capacity)
 {
-    int length = snprintf(path, capacity, "%s/" MARKS, folder);
+    int length = snprintf(path, capacity, "%s/" STAMPS, folder);
     if (folder[0] == '\0' || length < 0 || (size_t)length >= capacity ||
         !glint_cache_folder_make(path, 0777)) {
         return false;
     }
-    length = snprintf(path, capacity, "%s/" MARKS "/%s", folder, name);
+    length = snprintf(path, capacity, "%s/" STAMPS "/%s", folder, name);
     return length > 0 && (size_t)length < capacity;
 }
 
@@ -274,7 +280,7 @@ void glint_driver_run_end(void)
 
 bool glint_driver_cache_is_used(void)
 {
-    return folder[0] != '\0' && atomic_load(&users) > 0;
+    return folder[0] != '\0' && atomic_load(&is_used);
 }
 
 void glint_driver_cache_mark(void)

@@ -16,10 +16,13 @@ void glint_driver_cache_release(void);
 // A sentence on what was done to the cache, which begins with its folder. NULL: nothing was done.
 const char *glint_driver_cache_note(void);
 
+// Why the cache can keep no kernels for later runs, which begins with its folder. NULL: it can.
+const char *glint_driver_cache_fault(void);
+
 // Sets `watch`, called whenever the driver begins to compile. NULL, the default: no call.
 void glint_driver_cache_watch(void (*watch)(void));
 
-// Call these before and after the driver compiles, or loads from its cache. Several threads may.
+// Call these before and after the driver compiles, or loads from its cache.
 void glint_driver_cache_begin(void);
 void glint_driver_cache_end(void);
 
@@ -29,9 +32,10 @@ bool glint_driver_cache_clean(void);
 // Records that glint_driver_cache_clean helped.
 void glint_driver_cache_is_mended(void);
 
-// Writes the path of a mark, a file in a folder of glint's own in the cache, and makes the folder.
-// What damages the cache removes all marks. False if there is no cache, or the path is too long.
-bool glint_driver_cache_name_mark(const char *name, char *path, size_t capacity);
+// Writes the path of a stamp (compiled.h), a file in a folder of glint's own in the cache, and
+// makes the folder. When damaged entries are removed, all stamps go too. False if there is no
+// cache, or the path is too long.
+bool glint_driver_cache_name_stamp(const char *name, char *path, size_t capacity);
 
 // Sets the device's name, for messages about a death. NULL or "": unknown.
 void glint_driver_cache_set_device(const char *device);

@@ -1,13 +1,13 @@
 // Starts glint-codec and sends it requests. See codec.h.
 #include "image/codec.h"
 
+#include "base/spawn.h"
+
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,37 +52,6 @@ bool glint_codec_find(char path[PATH_MAX])
     return false;
 }
 
-// Starts `path`. Its only descriptors are `socket` and /dev/null. Signals stay blocked there: glint
-// handles the signals of a terminal or a batch system.
-static int spawn(const char *path, int socket, pid_t *process)
-{
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    sigset_t all, blocked;
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_adddup2(&files, socket, GLINT_CODEC_SOCKET);
-    for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; standard++) {
-        posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
-    }
-    posix_spawn_file_actions_addclosefrom_np(&files, GLINT_CODEC_SOCKET + 1);
-    sigfillset(&all);
-    sigemptyset(&blocked);
-    const int ours[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-    for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++) {
-        sigaddset(&blocked, ours[i]);
-    }
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setsigmask(&attributes, &blocked);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    char name[] = GLINT_CODEC_PROGRAM;
-    char *const arguments[] = {name, NULL};
-    const int fault = posix_spawn(process, path, &files, &attributes, arguments, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-    return fault;
-}
-
 // Starts the codec unless it runs. The caller holds the lock. On a failure the error's code is
 // `failure`.
 static glint_status start(glint_status failure, glint_error *error)
@@ -101,7 +70,9 @@ static glint_status start(glint_status failure, glint_error *error)
         return glint_fail(error, failure, GLINT_CODEC_PROGRAM ": no socket to it: %s (try again)",
                           strerror(errno));
     }
-    const int fault = spawn(path, ends[1], &codec.process);
+    char name[] = GLINT_CODEC_PROGRAM;
+    char *const arguments[] = {name, NULL};
+    const int fault = glint_spawn(path, arguments, ends[1], &codec.process);
     close(ends[1]);
     if (fault != 0) {
         close(ends[0]);
@@ -117,13 +88,9 @@ static glint_status start(glint_status failure, glint_error *error)
 // Stops the codec. The caller holds the lock.
 static int stop(void)
 {
-    int how = 0;
     close(codec.socket);
-    kill(codec.process, SIGKILL);
-    while (waitpid(codec.process, &how, 0) < 0 && errno == EINTR) {
-    }
     codec.owner = 0;
-    return how;
+    return glint_spawn_stop(codec.process);
 }
 
 // Receives one packet, an answer if it has an answer's size. Returns its bytes; 0 or −1 if the

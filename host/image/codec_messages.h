@@ -10,6 +10,7 @@
 #ifndef GLINT_IMAGE_CODEC_MESSAGES_H
 #define GLINT_IMAGE_CODEC_MESSAGES_H
 
+#include "base/spawn.h"
 #include "base/status.h"
 
 #include <stdbool.h>
@@ -20,7 +21,7 @@
 extern "C" {
 #endif
 
-#define GLINT_CODEC_SOCKET 3 // the codec's descriptor of the socket to glint
+#define GLINT_CODEC_SOCKET GLINT_SPAWN_SOCKET // the codec's descriptor of the socket to glint
 #define GLINT_CODEC_PATH 4096
 #define GLINT_PICTURE_CHANNELS_MAX 4096
 #define GLINT_DECODE_NAMES_MAX (UINT64_C(16) << 20) // bytes of channels' names

@@ -119,8 +119,9 @@ glint_kernel_kind glint_renderer_kernels(const glint_renderer *renderer);
 // that glint_plan_build_options describes would be faster.
 bool glint_renderer_wants_special(const glint_renderer *renderer);
 
-// Takes special kernels that somebody has compiled since. Errors: as building kernels.
-glint_status glint_renderer_take_special(glint_renderer *renderer, glint_error *error);
+// Takes special kernels that somebody has compiled since. If they cannot be built, general ones go
+// on.
+void glint_renderer_take_special(glint_renderer *renderer);
 
 // A frame to render. Pointers are borrowed.
 typedef struct glint_frame_request {

@@ -5,11 +5,10 @@
 
 const char *glint_kernel_kind_name(glint_kernel_kind kind)
 {
-    static const char *const names[] = {
-        [GLINT_KERNEL_SPECIAL] = "special",
-        [GLINT_KERNEL_MIRRORS] = "general (mirrors)",
-        [GLINT_KERNEL_PATHS] = "general (paths)",
-        [GLINT_KERNEL_EVERYTHING] = "general (everything)",
+    static const char *const names[] = {[GLINT_KERNEL_SPECIAL] = "special",
+#define NAME(name, text) [GLINT_KERNEL_##name] = "general (" text ")",
+                                        GLINT_GENERAL_KERNELS(NAME)
+#undef NAME
     };
     return names[kind];
 }
@@ -52,12 +51,8 @@ static bool takes_one_lookup(const glint_plan *plan)
 static bool has_room(const glint_plan *plan, glint_kernel_kind kind)
 {
     const glint_variant variant = general_variant(plan, kind);
-    glint_plan own = *plan;
-    own.stack_capacity = variant.stack_capacity;
     return plan->stack_capacity <= variant.stack_capacity &&
-           plan->traversal_stack <= variant.traversal_stack &&
-           (!plan->tiles ||
-            glint_plan_branch_bytes(&own, variant.features) <= GLINT_BRANCHES_MAX_BYTES);
+           plan->traversal_stack <= variant.traversal_stack;
 }
 
 glint_kernel_kind glint_general_kernel_of(const glint_plan *plan)
@@ -83,13 +78,13 @@ bool glint_kernel_has(const glint_plan *plan, glint_kernel_kind kind, glint_feat
                                         : general_variant(plan, kind).features[feature];
 }
 
-void glint_kernel_options(const glint_plan *plan, glint_kernel_kind kind, char *text,
-                          size_t capacity)
+void glint_kernel_options(const glint_plan *plan, glint_kernel_kind kind,
+                          char text[GLINT_BUILD_OPTIONS_BYTES])
 {
     if (kind == GLINT_KERNEL_SPECIAL) {
-        glint_plan_build_options(plan, text, capacity);
+        glint_plan_build_options(plan, text);
         return;
     }
     const glint_variant variant = general_variant(plan, kind);
-    glint_plan_write_options(plan, &variant, text, capacity);
+    glint_plan_write_options(plan, &variant, text);
 }

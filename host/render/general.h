@@ -10,7 +10,7 @@
 // The kinds of kernels: special ones, and the general ones of kernels/features.h by size.
 typedef enum glint_kernel_kind {
     GLINT_KERNEL_SPECIAL,
-#define GLINT_KERNEL_NAME(name) GLINT_KERNEL_##name,
+#define GLINT_KERNEL_NAME(name, text) GLINT_KERNEL_##name,
     GLINT_GENERAL_KERNELS(GLINT_KERNEL_NAME)
 #undef GLINT_KERNEL_NAME
         GLINT_KERNEL_KINDS
@@ -27,16 +27,17 @@ glint_kernel_kind glint_general_kernel_of(const glint_plan *plan);
 // True if the plan's kernel of a kind contains the feature.
 bool glint_kernel_has(const glint_plan *plan, glint_kernel_kind kind, glint_feature feature);
 
-// Writes the build options of the plan's kernel of a kind, at most `capacity` bytes. General
-// kernels depend on few properties of a plan: precision, width, tiles.
-void glint_kernel_options(const glint_plan *plan, glint_kernel_kind kind, char *text,
-                          size_t capacity);
+// Writes the build options of the plan's kernel of a kind. General kernels depend on few properties
+// of a plan: precision, width, tiles.
+void glint_kernel_options(const glint_plan *plan, glint_kernel_kind kind,
+                          char text[GLINT_BUILD_OPTIONS_BYTES]);
 
-// What compiling a general kernel came to.
-typedef struct glint_general_report {
-    bool was_compiled; // the driver's cache held it before
+// What compiling a kernel came to.
+typedef struct glint_compile_report {
+    bool was_cached;  // the driver's cache held it before
+    bool is_needless; // nothing was compiled: a kernel for lists, where no kernel has tiles
     double ms;
-} glint_general_report;
+} glint_compile_report;
 
 // Which general kernel to compile.
 typedef struct glint_general_request {
@@ -47,13 +48,13 @@ typedef struct glint_general_request {
 
 // Compiles a general kernel for the device, with the packets that it renders with, so that the
 // driver's cache holds it. Errors: as glint_program_build; GLINT_DEVICE_FAILED if the device lacks
-// the precision.
+// the precision; GLINT_OUTPUT_FAILED if the driver's cache cannot hold it (device/compiled.h).
 glint_status glint_general_compile(glint_device *device, const glint_general_request *request,
-                                   glint_general_report *report, glint_error *error);
+                                   glint_compile_report *report, glint_error *error);
 
 // Compiles special kernels with these build options (glint_plan_build_options) in the same way.
-// Errors: GLINT_USAGE for options without a packet's width; as glint_program_build.
+// Errors: GLINT_USAGE for options without a packet's width; as glint_general_compile.
 glint_status glint_special_compile(glint_device *device, const char *options,
-                                   glint_general_report *report, glint_error *error);
+                                   glint_compile_report *report, glint_error *error);
 
 #endif

@@ -5,6 +5,7 @@
 #include "device/driver_cache.h"
 #include "device/program.h"
 #include "render/launches.h"
+#include "render/vertices.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -86,57 +87,59 @@ static bool are_compiled(glint_kernel_cache *cache, const glint_kernel_request *
     return find(cache, options) != NULL || glint_program_is_compiled(request->device, &program);
 }
 
-#define OPTIONS_BYTES 4096
-
 // Chooses the kind of kernel, and writes its options.
 static glint_kernel_kind choose(glint_kernel_cache *cache, const glint_kernel_request *request,
-                                char options[OPTIONS_BYTES])
+                                char options[GLINT_BUILD_OPTIONS_BYTES])
 {
     const glint_kernel_kind general = glint_general_kernel_of(request->plan);
-    glint_kernel_options(request->plan, GLINT_KERNEL_SPECIAL, options, OPTIONS_BYTES);
+    glint_kernel_options(request->plan, GLINT_KERNEL_SPECIAL, options);
     if (request->choice == GLINT_KERNELS_SPECIAL || general == GLINT_KERNEL_SPECIAL ||
         (request->choice == GLINT_KERNELS_AUTO && are_compiled(cache, request, options))) {
         return GLINT_KERNEL_SPECIAL;
     }
-    char of_general[OPTIONS_BYTES];
-    glint_kernel_options(request->plan, general, of_general, OPTIONS_BYTES);
+    char of_general[GLINT_BUILD_OPTIONS_BYTES];
+    glint_kernel_options(request->plan, general, of_general);
     if (request->choice == GLINT_KERNELS_AUTO && !are_compiled(cache, request, of_general)) {
         return GLINT_KERNEL_SPECIAL;
     }
-    memcpy(options, of_general, OPTIONS_BYTES);
+    memcpy(options, of_general, GLINT_BUILD_OPTIONS_BYTES);
     return general;
 }
 
-void glint_kernels_note_run(const glint_kernel_request *request, glint_kernels *kernels)
+glint_status glint_kernels_warm_up(const glint_kernel_request *request,
+                                   const struct glint_launcher *launcher, glint_kernels *kernels,
+                                   glint_error *error)
 {
-    const glint_program_request program = program_request(request, kernels->options);
-    glint_program_mark_compiled(request->device, &program);
-    kernels->have_run = true;
-}
-
-bool glint_kernels_have_special(glint_kernel_cache *cache, const glint_kernel_request *request)
-{
-    char options[OPTIONS_BYTES];
-    glint_kernel_options(request->plan, GLINT_KERNEL_SPECIAL, options, sizeof options);
-    return are_compiled(cache, request, options);
+    if (kernels->have_run) {
+        return GLINT_OK;
+    }
+    const glint_frame_record nothing = {0};
+    glint_driver_cache_begin();
+    glint_status status = glint_vertices_shade(launcher, &nothing, 0, error);
+    if (status == GLINT_OK) {
+        status = glint_launches_warm_up(launcher, error);
+    }
+    glint_driver_cache_end();
+    if (status == GLINT_OK) {
+        const glint_program_request program = program_request(request, kernels->options);
+        glint_program_stamp_compiled(request->device, &program);
+        kernels->have_run = true;
+    }
+    return status;
 }
 
 glint_status glint_kernels_compile(const glint_kernel_request *request, const char *options,
-                                   bool *was_compiled, glint_error *error)
+                                   bool *was_cached, glint_error *error)
 {
     const glint_program_request program = program_request(request, options);
-    *was_compiled = glint_program_is_compiled(request->device, &program);
+    TRY(glint_programs_check_cache(request->device, error));
+    *was_cached = glint_program_is_compiled(request->device, &program);
     glint_kernels made = {0};
     glint_status status = renew(request, options, GLINT_KERNEL_SPECIAL, &made, error);
     if (status == GLINT_OK) {
         const glint_launcher launcher = {
             .device = request->device, .plan = request->plan, .kernels = &made};
-        glint_driver_cache_begin();
-        status = glint_launches_warm_up(&launcher, error);
-        glint_driver_cache_end();
-    }
-    if (status == GLINT_OK) {
-        glint_kernels_note_run(request, &made);
+        status = glint_kernels_warm_up(request, &launcher, &made, error);
     }
     release(&made);
     return status;
@@ -145,7 +148,7 @@ glint_status glint_kernels_compile(const glint_kernel_request *request, const ch
 glint_status glint_kernel_cache_get(glint_kernel_cache *cache, const glint_kernel_request *request,
                                     glint_kernels **kernels, glint_error *error)
 {
-    char options[OPTIONS_BYTES];
+    char options[GLINT_BUILD_OPTIONS_BYTES];
     const glint_kernel_kind kind = choose(cache, request, options);
     glint_kernels *k = find(cache, options);
     if (k == NULL) {

@@ -13,11 +13,13 @@
 
 #define GLINT_KERNELS_KEPT 8
 
+struct glint_launcher; // launches.h
+
 // The kernels of one plan, or general kernels.
 typedef struct glint_kernels {
     char *options; // build options, owned; NULL: this entry is empty
     glint_kernel_kind kind;
-    bool have_run;      // glint_kernels_note_run was called
+    bool have_run;      // glint_kernels_warm_up was called
     cl_kernel tiles;    // render_tiles
     cl_kernel vertices; // shade_vertices; NULL if the plan shades pixels
     uint64_t last_use;  // number of the last use in the cache; 0: none
@@ -43,18 +45,17 @@ typedef struct glint_kernel_request {
 glint_status glint_kernel_cache_get(glint_kernel_cache *cache, const glint_kernel_request *request,
                                     glint_kernels **kernels, glint_error *error);
 
-// Compiles kernels with these build options and runs them once, over no pixels. Of the plan, only
-// the packets' width counts. *was_compiled: the driver's cache held them. Errors: as
-// glint_kernel_cache_get.
+// Runs the launcher's kernels once, over no pixels, by which the driver compiles all of them. Does
+// nothing if they have run. Errors: GLINT_DEVICE_FAILED.
+glint_status glint_kernels_warm_up(const glint_kernel_request *request,
+                                   const struct glint_launcher *launcher, glint_kernels *kernels,
+                                   glint_error *error);
+
+// Compiles kernels with these build options. Of the plan, only the packets' width and the shading
+// count. *was_cached: the driver's cache held them. Errors: as glint_kernel_cache_get;
+// GLINT_OUTPUT_FAILED if the driver's cache cannot hold them.
 glint_status glint_kernels_compile(const glint_kernel_request *request, const char *options,
-                                   bool *was_compiled, glint_error *error);
-
-// True if the request's special kernels are ready in this process, or compiled in the driver's
-// cache.
-bool glint_kernels_have_special(glint_kernel_cache *cache, const glint_kernel_request *request);
-
-// Notes that the kernels have run for the first time, by which the driver has compiled all of them.
-void glint_kernels_note_run(const glint_kernel_request *request, glint_kernels *kernels);
+                                   bool *was_cached, glint_error *error);
 
 void glint_kernel_cache_free(glint_kernel_cache *cache);
 

@@ -115,9 +115,10 @@ int glint_plan_feature_count(const glint_plan *plan)
     return count;
 }
 
-void glint_plan_write_options(const glint_plan *plan, const glint_variant *variant, char *text,
-                              size_t capacity)
+void glint_plan_write_options(const glint_plan *plan, const glint_variant *variant,
+                              char text[GLINT_BUILD_OPTIONS_BYTES])
 {
+    const size_t capacity = GLINT_BUILD_OPTIONS_BYTES;
     size_t used = (size_t)snprintf(
         text, capacity,
         "-cl-std=CL1.2 -w -DGLINT_GENERAL=%d -DGLINT_WIDTH=%d -DGLINT_BVH_WIDTH=%d "
@@ -135,7 +136,7 @@ void glint_plan_write_options(const glint_plan *plan, const glint_variant *varia
     }
 }
 
-void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity)
+void glint_plan_build_options(const glint_plan *plan, char text[GLINT_BUILD_OPTIONS_BYTES])
 {
     glint_variant own = {.half_texels = plan->half_texels,
                          .stack_capacity = plan->stack_capacity,
@@ -143,7 +144,7 @@ void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacit
     for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
         own.features[i] = plan->features[i].compiled;
     }
-    glint_plan_write_options(plan, &own, text, capacity);
+    glint_plan_write_options(plan, &own, text);
 }
 
 void glint_plan_describe(const glint_plan *plan, char *text, size_t capacity)

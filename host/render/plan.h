@@ -146,9 +146,11 @@ static inline size_t glint_plan_scalar_bytes(const glint_plan *plan)
 // The number of compiled features.
 int glint_plan_feature_count(const glint_plan *plan);
 
+#define GLINT_BUILD_OPTIONS_BYTES 4096
+
 // Writes the build options of the plan's special kernels, which contain what the plan compiles
-// ("-DGLINT_WIDTH=16 …"), at most `capacity` bytes. general.h has the options of general kernels.
-void glint_plan_build_options(const glint_plan *plan, char *text, size_t capacity);
+// ("-DGLINT_WIDTH=16 …"). general.h has the options of general kernels.
+void glint_plan_build_options(const glint_plan *plan, char text[GLINT_BUILD_OPTIONS_BYTES]);
 
 // Describes the plan in one line: "shading pixel, depth auto (at most 64), precision float, half
 // texels, width 16, 12 of 18 features".

@@ -88,27 +88,35 @@ static void choose_stack(const glint_settings *settings, glint_plan *plan)
     }
 }
 
-size_t glint_plan_branch_bytes(const glint_plan *plan, const bool features[GLINT_FEATURE_COUNT])
+// The most bytes of the waiting branches of a tile. They lie in a work-item's private memory, which
+// on CPUs is a thread's stack. The smallest default of the C library is 2 MiB.
+#define LANES_MAX 16
+#define BRANCHES_MAX_BYTES ((size_t)5 << 18)
+
+#define TILE_BRANCHES(branch_bytes, width, capacity)                                               \
+    ((size_t)(branch_bytes)*16 * (size_t)(width) * (size_t)(capacity))
+
+_Static_assert(TILE_BRANCHES(GLINT_BRANCH_BYTES(sizeof(double), 1, 1, 1, 1, 1, 1), LANES_MAX,
+                             GLINT_STACK_LEAST) <= BRANCHES_MAX_BYTES,
+               "general kernels, which have all features, have tiles");
+
+static size_t branch_bytes(const glint_plan *plan)
 {
-    const size_t branch = GLINT_BRANCH_BYTES(
-        glint_plan_scalar_bytes(plan),
-        features[GLINT_FEATURE_MIP_LEVELS] || features[GLINT_FEATURE_TEXTURES],
-        features[GLINT_FEATURE_ALPHA], features[GLINT_FEATURE_ROUGH],
-        features[GLINT_FEATURE_FACETS], features[GLINT_FEATURE_DISPERSION],
-        features[GLINT_FEATURE_LOCAL_ORIGINS] && plan->precision != GLINT_PRECISION_DOUBLE);
-    return branch * 16 * (size_t)plan->kernel_width * (size_t)plan->stack_capacity;
+#define IS_COMPILED(name) plan->features[GLINT_FEATURE_##name].compiled
+    return GLINT_BRANCH_BYTES(
+        glint_plan_scalar_bytes(plan), IS_COMPILED(MIP_LEVELS) || IS_COMPILED(TEXTURES),
+        IS_COMPILED(ALPHA), IS_COMPILED(ROUGH), IS_COMPILED(FACETS), IS_COMPILED(DISPERSION),
+        IS_COMPILED(LOCAL_ORIGINS) && plan->precision != GLINT_PRECISION_DOUBLE);
+#undef IS_COMPILED
 }
 
 // Each pixel of a tile has room for all branches of a path. If this takes too much memory, a
 // work-item renders one packet.
 static void limit_branches(glint_plan *plan)
 {
-    bool features[GLINT_FEATURE_COUNT];
-    for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {
-        features[i] = plan->features[i].compiled;
-    }
-    const size_t bytes = glint_plan_branch_bytes(plan, features);
-    if (plan->tiles && bytes > GLINT_BRANCHES_MAX_BYTES) {
+    const size_t bytes =
+        TILE_BRANCHES(branch_bytes(plan), plan->kernel_width, plan->stack_capacity);
+    if (plan->tiles && bytes > BRANCHES_MAX_BYTES) {
         plan->tiles = false;
         snprintf(plan->tiles_reason, sizeof plan->tiles_reason,
                  "the waiting branches of a tile would take %zu KiB", bytes >> 10);

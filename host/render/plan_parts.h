@@ -1,4 +1,4 @@
-// Makes the parts of a plan; glint_plan_make puts them together. For plan*.c only.
+// Makes the parts of a plan; glint_plan_make puts them together. For this folder only.
 #ifndef GLINT_RENDER_PLAN_PARTS_H
 #define GLINT_RENDER_PLAN_PARTS_H
 
@@ -30,9 +30,9 @@ typedef struct glint_variant {
     int stack_capacity, traversal_stack;
 } glint_variant;
 
-// Writes the build options of a variant, at most `capacity` bytes.
-void glint_plan_write_options(const glint_plan *plan, const glint_variant *variant, char *text,
-                              size_t capacity);
+// Writes the build options of a variant.
+void glint_plan_write_options(const glint_plan *plan, const glint_variant *variant,
+                              char text[GLINT_BUILD_OPTIONS_BYTES]);
 
 // ---- plan_device.c: adapts the kernels to the device -------------------------------------------
 
@@ -40,13 +40,6 @@ void glint_plan_write_options(const glint_plan *plan, const glint_variant *varia
 // of nodes that suffices for all but the largest trees.
 #define GLINT_STACK_LEAST 18
 #define GLINT_TRAVERSAL_STACK_LEAST 128
-
-// The bytes of a tile's waiting branches in kernels of these features, with 16 packets a tile.
-size_t glint_plan_branch_bytes(const glint_plan *plan, const bool features[GLINT_FEATURE_COUNT]);
-
-// The most bytes of them. They lie in a work-item's private memory, which on CPUs is a thread's
-// stack. The smallest default of the C library is 2 MiB.
-#define GLINT_BRANCHES_MAX_BYTES ((size_t)5 << 18)
 
 // Chooses the width of packets, the tiles, and the stack of waiting branches.
 void glint_plan_choose_packets(const glint_plan_inputs *in, glint_plan *plan);

@@ -81,11 +81,11 @@ static glint_status fill(const glint_renderer_inputs *inputs, glint_probe *probe
     without_frames.settings = &settings;
     without_frames.without_frames = true;
     TRY(glint_renderer_create(&without_frames, &probe->renderer, error));
-    char options[4096];
+    char options[GLINT_BUILD_OPTIONS_BYTES];
     const glint_plan *plan = &probe->renderer->plan;
     probe->kind = settings.kernels == GLINT_KERNELS_GENERAL ? glint_general_kernel_of(plan)
                                                             : GLINT_KERNEL_SPECIAL;
-    glint_kernel_options(plan, probe->kind, options, sizeof options);
+    glint_kernel_options(plan, probe->kind, options);
     const glint_program_request request = {inputs->kernel_dir, options, true};
     TRY(glint_program_build(probe->renderer->device, &request, &probe->program, error));
     return create_buffers(probe, error);

@@ -2,7 +2,6 @@
 #include "render/renderer.h"
 
 #include "base/clock.h"
-#include "device/driver_cache.h"
 #include "render/vertices.h"
 
 #include <stdlib.h>
@@ -42,14 +41,6 @@ glint_launcher glint_renderer_launcher(const glint_renderer *r)
                             .outputs = glint_target_arguments(&r->target)};
 }
 
-static glint_status warm_up(const glint_renderer *r, glint_error *error)
-{
-    const glint_launcher launcher = glint_renderer_launcher(r);
-    const glint_frame_record nothing = {0};
-    TRY(glint_vertices_shade(&launcher, &nothing, 0, error));
-    return glint_launches_warm_up(&launcher, error);
-}
-
 static glint_status find_kernels(glint_renderer *r, glint_error *error)
 {
     double clock = glint_now_ms();
@@ -58,11 +49,8 @@ static glint_status find_kernels(glint_renderer *r, glint_error *error)
     TRY(glint_kernel_cache_get(&r->cache, &request, &kernels, error));
     r->kernels = kernels;
     if (!kernels->have_run) {
-        glint_driver_cache_begin();
-        const glint_status status = warm_up(r, error);
-        glint_driver_cache_end();
-        TRY(status);
-        glint_kernels_note_run(&request, kernels);
+        const glint_launcher launcher = glint_renderer_launcher(r);
+        TRY(glint_kernels_warm_up(&request, &launcher, kernels, error));
         r->phases.kernel_build += glint_lap_ms(&clock);
     }
     return GLINT_OK;
@@ -245,9 +233,9 @@ glint_status glint_renderer_set_settings(glint_renderer *r, const glint_settings
 
 static bool has_same_options(const glint_plan *a, const glint_plan *b)
 {
-    char options[2][4096];
-    glint_plan_build_options(a, options[0], sizeof options[0]);
-    glint_plan_build_options(b, options[1], sizeof options[1]);
+    char options[2][GLINT_BUILD_OPTIONS_BYTES];
+    glint_plan_build_options(a, options[0]);
+    glint_plan_build_options(b, options[1]);
     return strcmp(options[0], options[1]) == 0;
 }
 
@@ -311,17 +299,24 @@ void glint_renderer_free(glint_renderer *renderer)
 bool glint_renderer_wants_special(const glint_renderer *r)
 {
     return r->settings.kernels == GLINT_KERNELS_AUTO && r->kernel_dir == NULL &&
-           glint_renderer_kernels(r) != GLINT_KERNEL_SPECIAL;
+           !r->special_failed && glint_renderer_kernels(r) != GLINT_KERNEL_SPECIAL;
 }
 
-glint_status glint_renderer_take_special(glint_renderer *r, glint_error *error)
+void glint_renderer_take_special(glint_renderer *r)
 {
-    const glint_kernel_request request = {r->device, r->kernel_dir, &r->plan, r->settings.kernels};
-    if (!glint_renderer_wants_special(r) || !glint_kernels_have_special(&r->cache, &request)) {
-        return GLINT_OK;
+    const glint_kernels *before = r->kernels;
+    glint_error error = {0};
+    if (!glint_renderer_wants_special(r)) {
+        return;
     }
-    r->bands_per_ms = 0;
-    return note(r, GLINT_RENDERER_LACKS_SETTINGS, find_kernels(r, error));
+    if (find_kernels(r, &error) != GLINT_OK) {
+        r->kernels = before; // the cache still has them: they are not its oldest
+        r->special_failed = true;
+        glint_error_free(&error);
+    }
+    if (r->kernels != before) {
+        r->bands_per_ms = 0;
+    }
 }
 
 const glint_plan *glint_renderer_plan(const glint_renderer *renderer)

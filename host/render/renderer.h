@@ -30,6 +30,7 @@ struct glint_renderer {
     glint_light light;
     glint_kernel_cache cache;
     const glint_kernels *kernels; // kernels of the plan, owned by the cache; NULL: none
+    bool special_failed;          // glint_renderer_take_special could not build them
     glint_target target;
     double bands_per_ms; // bands of tiles per ms in the last frame; 0 before the first
     glint_phases phases;

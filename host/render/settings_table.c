@@ -284,6 +284,7 @@ const glint_setting glint_setting_table[] = {
                     "special kernels contain only what the scene needs and run fastest. general "
                     "kernels serve most scenes, so they are compiled once (glint warm). Both "
                     "give the same pixels. auto takes what is compiled already, special first.",
+                .fallback = "auto; special for glint bench",
                 .choices = GLINT_CHOICES("auto", "special", "general")}},
     {GLINT_SETTINGS_OF_LAYERS, MEMBER(aovs), .fingerprint = 12, .roles = GLINT_SETTING_VARIES,
      .print = print_aovs,

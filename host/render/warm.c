@@ -25,37 +25,53 @@ static glint_status make_plan(const glint_device *device, const glint_general_re
     return GLINT_OK;
 }
 
-glint_status glint_general_compile(glint_device *device, const glint_general_request *request,
-                                   glint_general_report *report, glint_error *error)
+static glint_status compile(glint_device *device, const glint_plan *plan, const char *options,
+                            glint_compile_report *report, glint_error *error)
 {
     double clock = glint_now_ms();
-    glint_plan plan;
-    *report = (glint_general_report){0};
-    TRY(make_plan(device, request, &plan, error));
-    char options[4096];
-    glint_kernel_options(&plan, request->kind, options, sizeof options);
-    const glint_kernel_request kernels = {.device = device, .plan = &plan};
-    TRY(glint_kernels_compile(&kernels, options, &report->was_compiled, error));
+    const glint_kernel_request kernels = {.device = device, .plan = plan};
+    TRY(glint_kernels_compile(&kernels, options, &report->was_cached, error));
     report->ms = glint_lap_ms(&clock);
     return GLINT_OK;
 }
 
+glint_status glint_general_compile(glint_device *device, const glint_general_request *request,
+                                   glint_compile_report *report, glint_error *error)
+{
+    glint_plan plan;
+    char options[GLINT_BUILD_OPTIONS_BYTES];
+    *report = (glint_compile_report){0};
+    TRY(make_plan(device, request, &plan, error));
+    if (request->for_lists) {
+        const glint_general_request whole = {request->kind, request->precision, false};
+        glint_plan plan_of_whole;
+        TRY(make_plan(device, &whole, &plan_of_whole, error));
+        report->is_needless = !plan_of_whole.tiles;
+    }
+    if (report->is_needless) {
+        return GLINT_OK;
+    }
+    glint_kernel_options(&plan, request->kind, options);
+    return compile(device, &plan, options, report, error);
+}
+
 glint_status glint_special_compile(glint_device *device, const char *options,
-                                   glint_general_report *report, glint_error *error)
+                                   glint_compile_report *report, glint_error *error)
 {
     static const char width[] = "-DGLINT_WIDTH=";
-    double clock = glint_now_ms();
     const char *at = strstr(options, width);
-    *report = (glint_general_report){0};
+    *report = (glint_compile_report){0};
     if (at == NULL) {
         return glint_fail(error, GLINT_USAGE,
                           "--build-options: no %s is among them (glint info --json lists a plan's "
                           "build_options)",
                           width);
     }
-    const glint_plan plan = {.kernel_width = atoi(at + strlen(width))};
-    const glint_kernel_request kernels = {.device = device, .plan = &plan};
-    TRY(glint_kernels_compile(&kernels, options, &report->was_compiled, error));
-    report->ms = glint_lap_ms(&clock);
-    return GLINT_OK;
+    const glint_plan plan = {.kernel_width = atoi(at + strlen(width)),
+                             .shading = strstr(options, "-DGLINT_VERTEX_COLOR=1") != NULL
+                                            ? GLINT_SHADING_VERTEX_COLOR
+                                        : strstr(options, "-DGLINT_VERTEX_DIRECTION=1") != NULL
+                                            ? GLINT_SHADING_VERTEX_DIRECTION
+                                            : GLINT_SHADING_PIXEL};
+    return compile(device, &plan, options, report, error);
 }

@@ -13,6 +13,15 @@ check 'glint --help lists it' lists_it
 refuses 2 'unknown option' warm --nonsense
 refuses 2 'float' warm --precision half
 refuses 4 'nothing' warm --device nothing
+refuses 2 'leave out --precision' warm --build-options '-DGLINT_WIDTH=8' --precision float
+refuses 2 'leave out --precision' warm --build-options '-DGLINT_WIDTH=8' --lists
+
+# A cache that keeps nothing: there is nothing to warm.
+mkdir tmp
+echo x >in/file
+TMPDIR=$work/tmp POCL_CACHE_DIR=$work/in/file refuses 5 'in/file: the kernel cache cannot be used: ' warm
+check 'a cache that cannot be used: nothing is left' test -z "$(ls -A tmp)"
+POCL_KERNEL_CACHE=0 refuses 5 'POCL_KERNEL_CACHE=0' warm
 
 # An empty cache: no general kernel delays the first picture.
 run render "${picture[@]}"
@@ -30,7 +39,7 @@ rm -rf cache
 run warm
 check 'warm compiles three kernels' test "$status" -eq 0 -a "$(grep -c compiled stdout)" -eq 3
 run warm
-check 'warm keeps them' test "$status" -eq 0 -a "$(grep -c kept stdout)" -eq 3
+check 'warm keeps them' test "$status" -eq 0 -a "$(grep -c cached stdout)" -eq 3
 run render "${picture[@]}"
 check 'warm: general kernels' stat_is 'general (mirrors)' kernels
 run render "$3/glass_sphere.gltf" "${picture[@]:1}"
@@ -43,14 +52,14 @@ check 'warm: special kernels, asked for' stat_is special kernels
 # A long sequence begins with general kernels; special ones are compiled meanwhile.
 clean
 refuses 2 'GLINT_WIDTH' warm --build-options '-w'
-marks() { find cache/glint -type f | wc -l; }
-before=$(marks)
+stamps() { find cache/glint -type f | wc -l; }
+before=$(stamps)
 "$glint" render "$3/glass_sphere.gltf" --turntable 9999 --samples 4 -o out/f.####.png --progress none 2>stderr &
 for _ in $(seq 900); do
-    [ "$(marks)" -eq "$before" ] || break
+    [ "$(stamps)" -eq "$before" ] || break
     sleep 0.1
 done
-check 'a long sequence: special kernels are compiled meanwhile' test "$(marks)" -gt "$before"
+check 'a long sequence: special kernels are compiled meanwhile' test "$(stamps)" -gt "$before"
 kill -INT $!
 wait $!
 check 'a long sequence: stopped' test $? -eq 130
@@ -62,13 +71,13 @@ kill -INT $!
 wait $!
 rm -rf out/*
 
-# Marks that are wrong, or that PoCL does not stand behind, cost time alone.
-mv cache/glint marks
+# Stamps that are wrong, or that PoCL does not stand behind, cost time alone.
+mv cache/glint stamps
 rm -rf cache
 mkdir cache
-mv marks cache/glint
+mv stamps cache/glint
 run render "${picture[@]}"
-check 'marks without kernels: rendered' test "$status" -eq 0 -a -s out/x.exr
+check 'stamps without kernels: rendered' test "$status" -eq 0 -a -s out/x.exr
 POCL_KERNEL_CACHE=0 run render "${picture[@]}"
 check 'PoCL keeps nothing: special kernels' stat_is special kernels
 
@@ -84,7 +93,7 @@ for i in 2 3 4 5 6; do
     run compare "out/p$i.exr" out/p1.exr --fail-above max=0
     check "eight processes: picture $i is picture 1" test "$status" -eq 0
 done
-check 'eight processes: all warm' test "$(cat warm?.txt | grep -cE ' (compiled|kept) ')" -eq 6
+check 'eight processes: all warm' test "$(cat warm?.txt | grep -cE ' (compiled|cached) ')" -eq 6
 rm -rf out/*
 
 # A process that is killed while it compiles.

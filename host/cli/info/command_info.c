@@ -385,9 +385,10 @@ static void print_plan(const glint_subject *subject)
         printf("  %d waiting branches a pixel: %s\n", plan->stack_capacity, plan->stack_reason);
     }
     const glint_kernel_kind general = glint_general_kernel_of(plan);
-    printf("  kernels: %s\n", general != GLINT_KERNEL_SPECIAL
-                                  ? glint_kernel_kind_name(general)
-                                  : "special ones alone: no general kernel has all these features");
+    printf("  kernels: %s\n",
+           general != GLINT_KERNEL_SPECIAL
+               ? glint_kernel_kind_name(general)
+               : "special ones alone: no general kernel has all these features and sizes");
     for (int compiled = 1; compiled >= 0; compiled--) {
         printf("  %s\n", compiled ? "compiled in" : "left out");
         for (int i = 0; i < GLINT_FEATURE_COUNT; i++) {

@@ -5,17 +5,18 @@
 #include "base/child.h"
 #include "base/parallel.h"
 #include "device/device.h"
+#include "device/driver_cache.h"
 #include "render/general.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { FLOAT, DOUBLE, BOTH };
+enum { NOT_GIVEN = -1, FLOAT, DOUBLE, BOTH };
 
 // The options of glint warm.
 typedef struct warm_request {
     const char *device;
-    int precision; // FLOAT, DOUBLE or BOTH
+    int precision; // FLOAT (also if NOT_GIVEN), DOUBLE or BOTH
     bool lists;
     const char *build_options; // of special kernels; NULL: general kernels
 } warm_request;
@@ -57,21 +58,24 @@ static glint_status compile(void *context, char **text, glint_error *error)
 {
     const job *j = context;
     glint_device *device = NULL;
-    glint_general_report report;
+    glint_compile_report report;
     glint_status status;
     TRY(glint_device_open(j->device, &device, error));
     TRY_OR(cleanup, status,
            j->build_options != NULL
                ? glint_special_compile(device, j->build_options, &report, error)
                : glint_general_compile(device, &j->kernel, &report, error));
-    if (asprintf(text, "%-22s %-6s %-5s  %-8s  %5.1f s", glint_kernel_kind_name(j->kernel.kind),
+    if (report.is_needless) {
+        goto cleanup;
+    }
+    if (asprintf(text, "%-22s %-6s %-5s  %-8s  %5.1f s\n", glint_kernel_kind_name(j->kernel.kind),
                  j->build_options != NULL                        ? ""
                  : j->kernel.precision == GLINT_PRECISION_DOUBLE ? "double"
                                                                  : "float",
                  j->build_options != NULL ? ""
                  : j->kernel.for_lists    ? "lists"
                                           : "tiles",
-                 report.was_compiled ? "kept" : "compiled", report.ms / 1000) < 0) {
+                 report.was_cached ? "cached" : "compiled", report.ms / 1000) < 0) {
         *text = NULL;
         status = glint_fail_memory(error, "a line");
     }
@@ -91,6 +95,7 @@ static void compile_elsewhere(size_t index, void *context)
 // Lists the kernels, the largest first: it takes longest.
 static size_t list_jobs(const warm_request *request, job jobs[MOST_JOBS])
 {
+    const int wanted = request->precision == NOT_GIVEN ? FLOAT : request->precision;
     size_t count = 0;
     if (request->build_options != NULL) {
         jobs[0] = (job){.device = request->device, .build_options = request->build_options};
@@ -99,8 +104,7 @@ static size_t list_jobs(const warm_request *request, job jobs[MOST_JOBS])
     for (int kind = GLINT_KERNEL_KINDS - 1; kind > GLINT_KERNEL_SPECIAL; kind--) {
         for (int i = 0; i < 4; i++) {
             const int precision = i % 2, for_lists = i / 2;
-            if ((request->precision == precision || request->precision == BOTH) &&
-                (!for_lists || request->lists)) {
+            if ((wanted == precision || wanted == BOTH) && (!for_lists || request->lists)) {
                 jobs[count++] = (job){
                     .device = request->device,
                     .kernel = {(glint_kernel_kind)kind, (glint_precision)precision, for_lists != 0},
@@ -111,17 +115,28 @@ static size_t list_jobs(const warm_request *request, job jobs[MOST_JOBS])
     return count;
 }
 
+static void set_defaults(void *context)
+{
+    ((warm_request *)context)->precision = NOT_GIVEN;
+}
+
 static glint_status run(void *context, const glint_arguments *arguments, glint_error *error)
 {
     (void)arguments;
     const warm_request *request = context;
     job jobs[MOST_JOBS];
     glint_status status = GLINT_OK;
+    if (request->build_options != NULL && (request->precision != NOT_GIVEN || request->lists)) {
+        return glint_fail(error, GLINT_USAGE,
+                          "--build-options: they hold the precision and what is rendered already "
+                          "(leave out --precision and --lists)");
+    }
+    glint_driver_cache_prepare(); // here, so that the children share a temporary cache
     const size_t count = list_jobs(request, jobs);
     glint_parallel_for(count, compile_elsewhere, jobs);
     for (size_t i = 0; i < count; i++) {
         if (jobs[i].status == GLINT_OK) {
-            printf("%s\n", jobs[i].line);
+            printf("%s", jobs[i].line != NULL ? jobs[i].line : "");
         } else if (status == GLINT_OK) {
             status = jobs[i].status; // of the first that failed
             *error = jobs[i].error;
@@ -141,11 +156,11 @@ const glint_command glint_command_warm = {
         "Compiles the general kernels, which serve most scenes, into the driver's cache. Frames of "
         "new scenes then begin at once. ./glint does it at the end of its build. PoCL's cache is "
         "the folder POCL_CACHE_DIR, or ~/.cache/pocl/kcache: machines of one kind may share it, "
-        "and "
-        "a container may ship it.",
+        "and a container may ship it.",
     .examples = "  glint warm\n"
                 "  POCL_CACHE_DIR=/shared/kernels glint warm --precision both\n",
     .groups = groups,
     .request_size = sizeof(warm_request),
+    .set_defaults = set_defaults,
     .run = run,
 };

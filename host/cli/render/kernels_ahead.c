@@ -1,34 +1,24 @@
 // Compiles special kernels in another process. See kernels_ahead.h.
 #include "cli/render/kernels_ahead.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
+#include "base/spawn.h"
+
 #include <stdio.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 // Special kernels save up to a third of the time. Compiling them takes a core for 2 to 5 s.
 #define WORTH_MS 60000
 
 // PoCL compiles one program at a time in a process, and its cache serves all. So a process of its
-// own compiles, at low priority; it prints nothing.
+// own compiles; it prints nothing.
 static bool start(const glint_plan *plan, const glint_capabilities *device, pid_t *process)
 {
     char program[] = "glint", command[] = "warm", option[] = "--build-options";
-    char by[] = "--device", number[16], options[4096];
+    char by[] = "--device", number[16], options[GLINT_BUILD_OPTIONS_BYTES];
     char *const arguments[] = {program, command, by, number, option, options, NULL};
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; standard++) {
-        posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
-    }
-    posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
     snprintf(number, sizeof number, "%d", device->index);
-    glint_plan_build_options(plan, options, sizeof options);
-    const int fault = posix_spawn(process, "/proc/self/exe", &files, NULL, arguments, environ);
-    posix_spawn_file_actions_destroy(&files);
-    return fault == 0;
+    glint_plan_build_options(plan, options);
+    return glint_spawn("/proc/self/exe", arguments, -1, process) == 0;
 }
 
 void render_kernels_ahead_consider(render_kernels_ahead *ahead, const glint_renderer *renderer,
@@ -48,8 +38,7 @@ void render_kernels_ahead_consider(render_kernels_ahead *ahead, const glint_rend
 void render_kernels_ahead_end(render_kernels_ahead *ahead)
 {
     if (ahead->process > 0) {
-        kill(ahead->process, SIGKILL);
-        waitpid(ahead->process, NULL, 0);
+        (void)glint_spawn_stop(ahead->process);
     }
     *ahead = (render_kernels_ahead){0};
 }

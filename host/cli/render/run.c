@@ -109,7 +109,8 @@ static glint_status reach(render_run *run, glint_sequence_frame *frame, const ch
     run->build_ms += glint_lap_ms(&clock);
     frame->camera = render_stage_camera(&run->shot.stage, frame->number);
     look_ahead(run);
-    return glint_renderer_take_special(run->tracer.renderer, error);
+    glint_renderer_take_special(run->tracer.renderer);
+    return GLINT_OK;
 }
 
 static glint_sequence_next next_frame(void *context, glint_sequence_frame *frame)

@@ -50,8 +50,9 @@ typedef struct selftest_request {
 // Both lists are in the order of the options' choices.
 static const int widths[] = {0, 1, 8, 16};
 enum { ALL_WIDTHS = 4 };
-enum { FLOAT, DOUBLE, ALL_PRECISIONS, UNSAID };
-enum { SPECIAL, GENERAL, NOT_SAID };
+enum { NOT_GIVEN = -1 };
+enum { FLOAT, DOUBLE, ALL_PRECISIONS };
+enum { SPECIAL, GENERAL };
 
 // ---- Options -----------------------------------------------------------------------------------
 
@@ -173,8 +174,8 @@ static const glint_option *const groups[] = {selftest_options, NULL};
 static void set_defaults(void *context)
 {
     selftest_request *request = context;
-    request->precision = UNSAID;
-    request->kernels = NOT_SAID;
+    request->precision = NOT_GIVEN;
+    request->kernels = NOT_GIVEN;
     request->limit_s = DEFAULT_LIMIT;
     request->rays = 0;
 }
@@ -182,10 +183,10 @@ static void set_defaults(void *context)
 // Fills in the options that were not given; some defaults depend on other options.
 static void complete(selftest_request *request)
 {
-    if (request->precision == UNSAID) {
+    if (request->precision == NOT_GIVEN) {
         request->precision = request->quick ? FLOAT : ALL_PRECISIONS;
     }
-    if (request->kernels == NOT_SAID) {
+    if (request->kernels == NOT_GIVEN) {
         request->kernels = request->quick ? GENERAL : SPECIAL;
     }
     if (request->jobs == 0) {

@@ -70,9 +70,9 @@ static json_t *features_object(const glint_plan *plan)
 json_t *glint_json_plan(const glint_plan *plan)
 {
     char text[512];
-    char options[4096];
+    char options[GLINT_BUILD_OPTIONS_BYTES];
     glint_plan_describe(plan, text, sizeof text);
-    glint_plan_build_options(plan, options, sizeof options);
+    glint_plan_build_options(plan, options);
     bool is_double = plan->precision == GLINT_PRECISION_DOUBLE;
     json_t *object = json_object();
     glint_json_put_text(object, "text", text);

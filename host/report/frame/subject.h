@@ -25,7 +25,7 @@ typedef struct glint_subject {
     double max_error; // relative RMSE of --max-error, which replaces some settings; 0: not given
     const glint_capabilities *device;
     const glint_plan *plan;
-    const char *kernels;      // kind of kernels that ran: glint_kernel_kind_name; NULL: none
+    const char *kernels; // kind of kernels of the latest frame: glint_kernel_kind_name; NULL: none
     const char *plan_failure; // why there is no plan
     const glint_bvh_report *bvh;
     const glint_warnings *warnings;
