@@ -23,8 +23,8 @@ static inline coat_reflectance reflect_from_coat(const scene_buffers *scene, con
     f.whole = f.by_path = surface_reflectance(s->clearcoat_cosine, real_of(CLEARCOAT_IOR));
 #if GLINT_ROUGH
     const mask rough = out->coat_rough = is_coat_rough(scene, s);
-    const lobe_parts albedo =
-        find_albedo(scene->cells.values, s->clearcoat_cosine, s->clearcoat_roughness, rough);
+    const lobe_parts albedo = out->coat_albedo =
+        find_albedo(scene, s->clearcoat_cosine, s->clearcoat_roughness, rough);
     out->coat_gain = fused(light_lost(scene, &albedo), real_of(CLEARCOAT_F0), real_of(1));
     const real lobe = out->coat_gain * fused(albedo.base, real_of(CLEARCOAT_F0), albedo.edge);
     f.whole = SELECT(rough, lobe, f.whole);

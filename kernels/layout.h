@@ -48,11 +48,13 @@ typedef struct glint_split_vector {
 // ---- Lobes -------------------------------------------------------------------------------------
 // The buffer that rough surfaces (GLINT_ROUGH) read, in floats. It begins with a table of albedos:
 // the light that a lobe reflects of a white environment, without and with Fresnel's (1 − v·h)⁵. The
-// two values are ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl. The table is indexed by [roughness from 0
-// to 1][√(n·v) from 0 to 1], in equal steps. A table of the same shape follows for sheen: the share
-// of a white environment that it reflects, and 0. Its roughness runs from NARROW to 1. Without
-// GLINT_SHEEN it holds zeros.
-#define GLINT_ALBEDO_ROUGHNESSES 32
+// two values are ∫ D V (1 − m) n·l dl and ∫ D V m n·l dl. The table is indexed by [roughness ρ from
+// 0 to 1][x from 0 to 1], in equal steps, with x = (t + t (1 + ρ)/(t + ρ))/2 and t = √(n·v). The
+// first half of x resolves what happens where n·v is about α, the second half the rest. A table of
+// the same shape follows for sheen: the share of a white environment that it reflects, and 0. Its
+// roughness runs from NARROW to 1, and its columns are equal steps of t. Without GLINT_SHEEN it
+// holds zeros.
+#define GLINT_ALBEDO_ROUGHNESSES 64
 #define GLINT_ALBEDO_COSINES 32
 #define GLINT_ALBEDO_VALUES (2 * GLINT_ALBEDO_ROUGHNESSES * GLINT_ALBEDO_COSINES)
 // The next float is the brightness of the environment, R + G + B: the square of the mean of
@@ -64,7 +66,8 @@ typedef struct glint_split_vector {
 // bits its row. So the four parts of a cell stand together, from four times the cell's place on. A
 // cell has these values:
 //   - its centroid, a unit vector, weighted by the brightness of its parts
-//   - its approximate width, as an angle
+//   - its approximate width w, as an angle. Its solid angle is about w² u (1 + w² (9 − 15 u²)/24),
+//     where u is the largest component of its middle's direction
 //   - ∫ E dω of R, G, B
 //   - the variance of the position of its light along one axis, in squared radians
 #define GLINT_LOBES_CELLS (GLINT_LOBES_BRIGHTNESS + GLINT_CELL_VALUES)

@@ -7,10 +7,6 @@ static inline path make_branch(const scene_buffers *scene, const path *ray, cons
     path branch = *ray;
     branch.direction = direction;
     branch.met = ray->met + (lane_int)1;
-#if GLINT_ROUGH
-    branch.held = real3_of(real_of(0), real_of(0), real_of(0));
-    branch.shown = real_of(1);
-#endif
     if (HAS(CONVEX_SOLID)) {
         const mask leaves = (s->outside & !beyond) | (beyond & !s->outside);
         branch.looked_up = SELECT(leaves, int_of(ESCAPES), int_of(0));

@@ -15,9 +15,11 @@ typedef struct scattering {
     real3 lobe_base, lobe_edge;   // how much of lobe_light's two parts comes by paths
     real3 matte_base, matte_edge; // and how much comes without a path
     real lobe_weight;             // weight of the whole lobe, with and without paths
+    lobe_parts albedo;            // what lobe_light's two parts are if all is white
 #endif
 #if GLINT_SHEEN
-    real3 sheen; // factor of the sheen's light
+    real3 sheen;       // factor of the sheen's light
+    real sheen_albedo; // this light if all is white
 #endif
 #if GLINT_CLEARCOAT
     mask coat_apart;  // `transmitted` holds the coat's reflection; else `reflected` has it
@@ -25,6 +27,7 @@ typedef struct scattering {
 #if GLINT_ROUGH
     mask coat_rough; // the clear coat reflects a lobe
     real coat_gain;  // weight of its edge part; its base part weighs F0 times as much
+    lobe_parts coat_albedo;
 #endif
 #endif
 } scattering;
@@ -230,8 +233,7 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
 {
     // Find the albedo of the lobe.
     const real zero = real_of(0);
-    lobe_parts albedo =
-        find_albedo(scene->cells.values, s->cosine, s->roughness, out->rough);
+    lobe_parts albedo = find_albedo(scene, s->cosine, s->roughness, out->rough);
 #if GLINT_BRUSHED
     const mask brushed = out->rough & (s->anisotropy > R(0.0));
     if (HAS(BRUSHED) && any_lane(brushed)) {
@@ -241,6 +243,7 @@ static inline real scatter_lobe(const scene_buffers *scene, const surface *s, re
         albedo.edge = SELECT(brushed, found.edge, albedo.edge);
     }
 #endif
+    out->albedo = albedo;
     // Weigh the metal.
     const real lost = light_lost(scene, &albedo);
     const real3 one = real3_of(real_of(1), real_of(1), real_of(1));
@@ -356,7 +359,8 @@ static inline void scatter_from_sheen(const scene_buffers *scene, const surface 
     const real roughness = (LARGER(s->sheen_roughness, real_of(narrow)) - narrow) *
                            (R(1.0) / (R(1.0) - narrow));
     const lobe_parts albedo =
-        find_albedo(scene->cells.values + GLINT_ALBEDO_VALUES, s->cosine, roughness, there);
+        read_albedo(scene->cells.values + GLINT_ALBEDO_VALUES, roughness, sqrt(s->cosine), there);
+    out->sheen_albedo = albedo.base;
     const real left = LARGER(fused(-most, albedo.base, real_of(1)), real_of(0));
     out->sheen = zero;
     leave_share(SELECT(there, left, real_of(1)), out);

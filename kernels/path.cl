@@ -25,8 +25,9 @@ typedef struct path {
     // path is cut short; ESCAPES: it meets nothing.
     lanes_int looked_up;
 #if GLINT_ROUGH
-    real3 held; // light that the path adds at its end
-    real shown; // weight of the environment's light at the path's end, beside `held`
+    // A lobe's light. At its end the path takes `held`, and the environment's light times `shown`.
+    real3 held;
+    real shown;
 #endif
 #if GLINT_DISPERSION
     lanes_int dispersed; // 1: its light is of one wavelength

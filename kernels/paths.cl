@@ -433,7 +433,7 @@ static inline mask bring_held(const scene_buffers *scene, paths *all, int slot, 
                         scale(ray->weight, R(1.0) - ray->shown));
     }
 #endif
-    gather(scene, all, slot, ray->held, escaped & (ray->shown < R(1.0)));
+    gather(scene, all, slot, multiply(ray->weight, ray->held), escaped & (ray->shown < R(1.0)));
     ray->weight = select3(escaped, scale(ray->weight, ray->shown), ray->weight);
     return escaped & (ray->shown > R(0.0));
 }

@@ -4,9 +4,11 @@
 // light. Each ray chooses cells with small errors, independently of its neighbours in the packet.
 #if GLINT_ROUGH
 
-// The smallest (v·h)² that the code assumes. v·h is the factor by which a lobe is narrower in l
-// than in h, across the plane of incidence.
-#define LOBE_STEEPEST R(0.0225)
+// v·h is the factor by which a lobe is narrower in l than in h, across the plane of incidence.
+// STEEPEST is the smallest (v·h)² for which cells become smaller. Below SLANTED, cells may be wider
+// than the lobe.
+#define LOBE_STEEPEST R(0.0001)
+#define LOBE_SLANTED R(0.15)
 
 // A rough surface, and the direction from which it is seen.
 typedef struct lobe_shape {
@@ -80,6 +82,7 @@ typedef struct lobe {
     real alpha_along;
     real narrowed, widened; // α across over α along, and its inverse
 #endif
+    bool is_slanted; // v·h may be below LOBE_SLANTED
     real widest;    // largest width, squared
     real smith;     // √(α² + (1 − α²) cos²)
     real largest;   // largest size of cells, as GLINT_CELL_LARGEST
@@ -90,9 +93,11 @@ typedef struct lobe {
 #endif
 } lobe;
 
-// Light of both parts of Schlick's F = F0 (1 − m) + m with m = (1 − v·h)⁵.
+// Light of both parts of Schlick's F = F0 (1 − m) + m with m = (1 − v·h)⁵: sums over cells, which
+// stand for ∫ D V (1 − m) E n·l dl and ∫ D V m E n·l dl.
 typedef struct lobe_light {
-    real3 base, edge; // ∫ D V (1 − m) E n·l dl, ∫ D V m E n·l dl
+    real3 base, edge;
+    real white_base, white_edge; // the same sums with E = 1
 } lobe_light;
 
 // Sets the axes. `across` is v without its part along n; `squared` is its squared length.
@@ -151,6 +156,25 @@ static inline real lobe_root(const lobe *l)
     return smith_root(l->alpha_squared, l->cosine);
 }
 
+// The lobes that are seen at a slant: n·v is below a limit. Only those of plain microfacets count.
+static inline mask slanted_below(const lobe *l, real limit)
+{
+    mask slanted = l->cosine < limit;
+#if GLINT_BRUSHED
+    slanted = slanted & (l->widened == R(1.0));
+#endif
+#if GLINT_SHEEN
+    slanted = l->is_sheen ? mask_none() : slanted;
+#endif
+    return slanted;
+}
+
+// Lobes for which v·h may be below LOBE_SLANTED: it is (n·l + n·v)/2 or more.
+static inline mask are_slanted(const lobe *l)
+{
+    return slanted_below(l, real_of(R(2.0) * LOBE_SLANTED));
+}
+
 // Prepares a lobe. n and v are unit vectors in axes of the environment, and the cosine is n·v.
 // `weight` is the lobe's weight in the pixel.
 static inline lobe find_lobe(const scene_buffers *scene, const lobe_shape *shape, real3 v,
@@ -164,11 +188,13 @@ static inline lobe find_lobe(const scene_buffers *scene, const lobe_shape *shape
     l.widest = fused(real_of(GLINT_LOBE_WIDEST * GLINT_LOBE_TAIL), R(1.0) / (l.alpha * l.alpha),
                      real_of(GLINT_LOBE_WIDEST));
     l.smith = lobe_root(&l);
+    l.is_slanted = any_lane(are_slanted(&l));
     const real inverse = R(1.0) / LARGER(weight, real_of(R(1e-4)));
     const real more = l.alpha * (sqrt(inverse) - R(1.0));
     const real usual = real_of(GLINT_CELL_LARGEST);
     l.largest = fused(usual, LARGER(more, real_of(0)), usual);
-    l.tolerance = (map->tolerance * map->values[GLINT_LOBES_BRIGHTNESS]) * inverse;
+    l.tolerance = (map->tolerance * map->values[GLINT_LOBES_BRIGHTNESS]) * inverse *
+                  SELECT(are_slanted(&l), real_of(R(0.5)), real_of(1));
     return l;
 }
 
@@ -215,10 +241,10 @@ static inline half_vector half_vector_of(const lobe *l, scalar8 cell)
 
 // The factor by which the spread of a cell's light about its centroid changes the weight, to second
 // order. It averages D: half of the light's variance about the centroid, converted to h, times the
-// Laplacian of D. The Laplacian is D (16 s² − 8 α²)/A² with A = α² + s², s = sin θ_h. `scale` is
-// 1/(A |u + v|²)², and `width` is A |u + v|².
-static inline real spread_factor(const lobe *l, const half_vector *h, real width, scalar variance,
-                                 real scale)
+// Laplacian of D. The Laplacian is D (16 s² − 8 α²)/A² with A = α² + s², s = sin θ_h. `width` is
+// A |u + v|², `inverse` is 1/width.
+static inline real spread_factor(const lobe *l, const half_vector *h, real width, real variance,
+                                 real inverse)
 {
     const real turned = h->whole + SMALLER(R(50.0) * h->whole, real_of(4)); // 1 + 1/(v·h)², scaled
     real laplacian = fused(l->alpha_squared * R(-0.5), h->whole, h->square);
@@ -229,8 +255,8 @@ static inline real spread_factor(const lobe *l, const half_vector *h, real width
         laplacian = fused(R(1.5) * h->curled, real_of(1), R(-0.25) * both * width);
     }
 #endif
-    const real curved = laplacian * (variance * turned);
-    return LARGER(fused(curved, scale, real_of(1)), real_of(R(0.1)));
+    const real curved = (laplacian * inverse) * (variance * turned);
+    return LARGER(fused(curved, inverse, real_of(1)), real_of(R(0.1)));
 }
 
 // (α² cos² θ_h + sin² θ_h) |u + v|².
@@ -345,7 +371,7 @@ static inline real bend_of_sheen(const lobe *l, const half_vector *h, const shee
 }
 
 // weigh_direction for sheen, which has one part only.
-static inline lobe_parts weigh_sheen_direction(const lobe *l, const half_vector *h, scalar variance,
+static inline lobe_parts weigh_sheen_direction(const lobe *l, const half_vector *h, real variance,
                                                mask these)
 {
     const real up = SMALLER(LARGER(h->up, real_of(0)), real_of(1));
@@ -364,7 +390,7 @@ static inline lobe_parts weigh_sheen_direction(const lobe *l, const half_vector 
 // Weighs light from a direction, for the rays in `these`. `variance` is the spread of the light
 // about it.
 static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, real width,
-                                         scalar variance, mask these)
+                                         real variance, mask these)
 {
 #if GLINT_SHEEN
     if (l->is_sheen) {
@@ -380,11 +406,16 @@ static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, re
     {
         root = smith_root(l->alpha_squared, h->up);
     }
-    const real shadowing = fused(h->up, l->smith, l->cosine * root);
-    const real above = R(0.15915494309189535) * l->alpha_squared * h->up * h->whole * h->whole;
-    const real inverse = R(1.0) / (width * width * shadowing);
-    const real factor = spread_factor(l, h, width, variance, inverse * shadowing);
-    const real weight = SELECT(these & (h->up > R(0.0)), above * inverse * factor, real_of(0));
+    // Both divisors are positive in exact arithmetic. |u + v|² is nearly 0 where both directions lie
+    // in the plane, opposite to each other.
+    const real shadowing = LARGER(fused(h->up, l->smith, l->cosine * root), real_of(R(1e-12)));
+    width = LARGER(width, real_of(R(1e-20)));
+    const real both = R(1.0) / (width * shadowing), inverse = both * shadowing;
+    const real ratio = h->whole * inverse;
+    const real above = R(0.15915494309189535) * l->alpha_squared * h->up * (both * width);
+    const real factor = spread_factor(l, h, width, variance, inverse);
+    const real weight =
+        SELECT(these & (h->up > R(0.0)), above * (ratio * ratio) * factor, real_of(0));
     const real m = fused(sqrt(h->whole), real_of(R(-0.5)), real_of(1)), m2 = m * m;
     lobe_parts parts;
     parts.edge = weight * (m2 * m2 * m);
@@ -392,14 +423,51 @@ static inline lobe_parts weigh_direction(const lobe *l, const half_vector *h, re
     return parts;
 }
 
+// Averages D over a cell that is wider than the lobe, across the plane of incidence: along y, D is
+// 1/(A + y²)², and its integral is π/2 A^(−3/2). Changes the cell's width and variance, and returns
+// the factor that is left. Where v·h is LOBE_SLANTED or more, cells are small enough.
+static inline real average_across(const lobe *l, const half_vector *h, scalar8 cell, real *width,
+                                  real *variance)
+{
+    const real3 u = real3_of(real_of(cell.s0), real_of(cell.s1), real_of(cell.s2));
+    const real first = dot3(l->first, u) + l->sine, y = fabs(dot3(l->second, u));
+    const real steep = R(0.5) / LOBE_SLANTED * sqrt(h->whole);
+    const real small = SELECT(are_slanted(l), SMALLER(steep, real_of(1)), real_of(1));
+    const real half_size = R(0.5) * cell.s3 * (R(1.0) - small);
+    const real left = LARGER(y - half_size, real_of(0));
+    const real of_cell = fused(l->alpha_squared * h->c, h->c, fused(first, first, left * left));
+    *width = SELECT(small < R(1.0), of_cell, *width);
+    *variance *= small;
+    return R(1.0) / fused(R(1.2732395447351628) * half_size,
+                          R(1.0) / sqrt(LARGER(*width, real_of(R(1e-20)))), real_of(1));
+}
+
+// The solid angle of a cell, with its centroid as its middle.
+static inline scalar angle_of(scalar8 cell)
+{
+    const scalar u = fmax(fmax(fabs(cell.s0), fabs(cell.s1)), fabs(cell.s2));
+    const scalar squared = cell.s3 * cell.s3;
+    return squared * u * fma(squared, R(0.375) - R(0.625) * u * u, R(1.0));
+}
+
 // Adds a cell's light for the rays in `these`.
 static inline void add_cell(const lobe *l, const half_vector *h, real width, scalar8 cell,
                             mask these, lobe_light *sum)
 {
-    const lobe_parts parts = weigh_direction(l, h, width, cell.s7, these);
+    real variance = real_of(cell.s7);
+    real factor = real_of(1);
+    if (l->is_slanted) {
+        factor = average_across(l, h, cell, &width, &variance);
+    }
+    lobe_parts parts = weigh_direction(l, h, width, variance, these);
+    parts.base *= factor;
+    parts.edge *= factor;
     const real3 light = real3_of(real_of(cell.s4), real_of(cell.s5), real_of(cell.s6));
+    const scalar angle = angle_of(cell);
     sum->base = scale_add(light, parts.base, sum->base);
     sum->edge = scale_add(light, parts.edge, sum->edge);
+    sum->white_base = fused(parts.base, real_of(angle), sum->white_base);
+    sum->white_edge = fused(parts.edge, real_of(angle), sum->white_edge);
 }
 
 // Four neighbouring cells, and the rays that take them or their parts.
@@ -456,7 +524,7 @@ static inline int visit_group(const cell_map *map, const lobe *l, const cell_gro
 static inline lobe_light integrate_lobe(const scene_buffers *scene, const lobe *l, mask wanted)
 {
     const real3 zero = real3_of(real_of(0), real_of(0), real_of(0));
-    lobe_light sum = {zero, zero};
+    lobe_light sum = {zero, zero, real_of(0), real_of(0)};
     cell_group waiting[GROUPS];
     for (uint root = 0; root < GLINT_CUBE_FACES * GLINT_CELLS_ROOT * GLINT_CELLS_ROOT; root += 4) {
         waiting[0].these = wanted;
@@ -482,7 +550,7 @@ static inline lobe_parts weigh_light(const scene_buffers *scene, const lobe_shap
     lobe_widths(shape, LARGER(shape->roughness, real_of((scalar)GLINT_ROUGHNESS_NARROW)), &l);
     l.smith = lobe_root(&l);
     const half_vector h = half_vector_towards(&l, to_light);
-    return weigh_direction(&l, &h, width_of(&l, &h), 0, these);
+    return weigh_direction(&l, &h, width_of(&l, &h), real_of(0), these);
 }
 #endif
 
@@ -504,12 +572,11 @@ static inline real share_of_lobe(const scene_buffers *scene, const lobe_shape *s
     return SMALLER(x * x * x, real_of(1)); // α is x²
 }
 
-// Reads both integrals from a table.
-static inline lobe_parts find_albedo(global const float *table, real cosine, real roughness,
-                                     mask wanted)
+// Reads both values from a table, at a place from 0 to 1 down and to the right.
+static inline lobe_parts read_albedo(global const float *table, real down, real right, mask wanted)
 {
-    const real down = roughness * (scalar)(GLINT_ALBEDO_ROUGHNESSES - 1);
-    const real right = sqrt(cosine) * (scalar)(GLINT_ALBEDO_COSINES - 1);
+    down *= (scalar)(GLINT_ALBEDO_ROUGHNESSES - 1);
+    right *= (scalar)(GLINT_ALBEDO_COSINES - 1);
     const lanes_int last_row = int_of(GLINT_ALBEDO_ROUGHNESSES - 2);
     const lanes_int last_column = int_of(GLINT_ALBEDO_COSINES - 2);
     const lanes_int row = min(to_int_down(down), last_row);
@@ -529,6 +596,16 @@ static inline lobe_parts find_albedo(global const float *table, real cosine, rea
         LANE(albedo.edge, lane) = fused(share, sides.w - sides.y, sides.y);
     }
     return albedo;
+}
+
+// The share of a white environment that a lobe reflects.
+static inline lobe_parts find_albedo(const scene_buffers *scene, real cosine, real roughness,
+                                     mask wanted)
+{
+    const real t = sqrt(cosine);
+    const real near = t / LARGER(t + roughness, real_of(R(1e-6)));
+    const real right = R(0.5) * fused(near, roughness, t + near);
+    return read_albedo(scene->cells.values, roughness, right, wanted);
 }
 
 #if GLINT_BRUSHED

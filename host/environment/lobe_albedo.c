@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { RINGS = 24, SECTORS = 16 };
+enum { RINGS = 48, SECTORS = 10 };
 
 // Λ of Smith's shadowing function.
 static double lambda(double cosine, double alpha)
@@ -59,6 +59,15 @@ static void integrate(const visible *a, float out[2])
     out[1] = (float)(edge / (RINGS * SECTORS));
 }
 
+// t at a column x of the table: the root of t² + (1 + 2ρ − 2x) t − 2xρ, written without
+// cancellation.
+static double root_at(double x, double roughness)
+{
+    const double half = x - roughness - 0.5, product = 2 * x * roughness;
+    const double root = sqrt(half * half + product);
+    return fmin(half > 0 ? half + root : product / (root - half), 1);
+}
+
 static void fill_row(size_t row, void *context)
 {
     float *table = context;
@@ -70,7 +79,8 @@ static void fill_row(size_t row, void *context)
         a.sines[i] = sin(angle);
     }
     for (int i = 0; i < GLINT_ALBEDO_COSINES; i++) {
-        const double root = fmax(i / (GLINT_ALBEDO_COSINES - 1.0), 1e-3), cosine = root * root;
+        const double root = fmax(root_at(i / (GLINT_ALBEDO_COSINES - 1.0), roughness), 1e-6);
+        const double cosine = root * root;
         a.v = (glint_vec3){sqrt(1 - cosine * cosine), 0, cosine};
         a.stretched = glint_vec3_normalize((glint_vec3){a.alpha * a.v.x, 0, a.v.z});
         integrate(&a, table + 2 * (row * GLINT_ALBEDO_COSINES + (size_t)i));

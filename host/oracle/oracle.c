@@ -42,7 +42,6 @@ static void follow(walk *w, const path *p)
     }
     // Arrive at the surface, with the media on both sides.
     path here = *p;
-    here.holds = false;
     bool there = true;
     if (w->scene->overlaps) {
         int sides[2];

@@ -34,7 +34,7 @@ static void add(walk *w, vector weight, vector radiance)
 void oracle_escape(walk *w, const path *p, vector direction, vector weight)
 {
     if (p->holds)
-        w->radiance = plus(w->radiance, p->held);
+        add(w, weight, p->held);
     else if (w->view->transparent && p->met == 0)
         w->uncovered += largest(weight);
     else
@@ -257,13 +257,22 @@ static void add_paint(walk *w, const path *p, const surface *s, double share)
     add_matte(w, p, &back, scaled(s->through_color, share * s->through));
 }
 
-// Follows the reflected branch. If `held` is not NULL, the branch adds it at its end.
+// a/b in each colour; 0 where b is 0.
+static vector quotient(vector a, vector b)
+{
+    for (int i = 0; i < 3; i++)
+        a.at[i] = b.at[i] > 0.0 ? a.at[i] / b.at[i] : 0.0;
+    return a;
+}
+
+// Follows the reflected branch. If `held` is not NULL, it is the light that the branch brings where
+// it ends, if nothing changes its weight on the way.
 static void reflect(walk *w, const path *p, const surface *s, vector weight, const vector *held)
 {
     path back = leaving(p, s, 1.0, 2.0);
     back.holds = held != NULL;
     if (held) {
-        back.held = times(p->weight, *held);
+        back.held = quotient(times(p->weight, *held), weight);
         if (s->roughness >= 0.07)
             back.cone.spread = hypot(back.cone.spread, 2.0 * s->roughness * s->roughness);
     }

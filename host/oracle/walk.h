@@ -16,7 +16,7 @@ typedef struct path {
     int met;          // surfaces met so far, without those that were not there
     double travelled; // length of the path so far
     bool dispersed;   // holds only the walk's wavelength
-    bool holds;       // adds `held` at its end, instead of the environment's light
+    bool holds;       // takes the light `held` at its end, instead of the environment's
     vector held;
 } path;
 

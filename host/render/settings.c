@@ -59,7 +59,7 @@ int glint_settings_directions(const glint_settings *settings)
 
 double glint_lobe_tolerance(glint_roughness roughness)
 {
-    return roughness == GLINT_ROUGHNESS_EXACT ? 0.002 : 0.4;
+    return roughness == GLINT_ROUGHNESS_EXACT ? 0.001 : 0.4;
 }
 
 // ---- Checks ------------------------------------------------------------------------------------
