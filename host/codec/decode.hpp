@@ -33,6 +33,11 @@ class Memory
 
     // Makes the file this large and zero. Throws std::bad_alloc.
     std::uint8_t *grow(std::size_t bytes);
+    // What grow returned last.
+    std::uint8_t *data() const
+    {
+        return static_cast<std::uint8_t *>(at_);
+    }
 
   private:
     int file_;

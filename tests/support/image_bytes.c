@@ -24,7 +24,6 @@ void image_bytes_put(image_bytes *file, const void *bytes, size_t length)
     file->length += length;
 }
 
-// All three formats are little-endian.
 void image_bytes_put_number(image_bytes *file, uint64_t number, int bytes)
 {
     for (int i = 0; i < bytes; i++) {
@@ -38,96 +37,6 @@ void image_bytes_put_big(image_bytes *file, uint64_t number, int bytes)
     for (int i = bytes - 1; i >= 0; i--) {
         image_bytes_put_number(file, number >> (8 * i) & 0xff, 1);
     }
-}
-
-static void put_float(image_bytes *file, float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    image_bytes_put_number(file, bits, 4);
-}
-
-static void put_text(image_bytes *file, const char *text)
-{
-    image_bytes_put(file, text, strlen(text) + 1);
-}
-
-// ---- EXR: openexr.com, "OpenEXR File Layout" ----------------------------------------------------
-
-static void put_attribute(image_bytes *file, const char *name, const char *type, uint32_t size)
-{
-    put_text(file, name);
-    put_text(file, type);
-    image_bytes_put_number(file, size, 4);
-}
-
-static void put_window(image_bytes *file, const char *name, const int window[4])
-{
-    put_attribute(file, name, "box2i", 16);
-    for (int i = 0; i < 4; i++) {
-        image_bytes_put_number(file, (uint64_t)(int64_t)window[i], 4);
-    }
-}
-
-static void put_exr_header(image_bytes *file, const exr_recipe *recipe)
-{
-    image_bytes_put_number(file, 20000630, 4);
-    image_bytes_put_number(file, 2, 4);
-    uint32_t size = 1;
-    for (int c = 0; c < recipe->channels; c++) {
-        size += (uint32_t)strlen(recipe->names[c]) + 1 + 16;
-    }
-    put_attribute(file, "channels", "chlist", size);
-    for (int c = 0; c < recipe->channels; c++) {
-        put_text(file, recipe->names[c]);
-        image_bytes_put_number(file, 2, 4); // float
-        image_bytes_put_number(file, 0, 4);
-        image_bytes_put_number(file, 1, 4); // sampled at every pixel
-        image_bytes_put_number(file, 1, 4);
-    }
-    image_bytes_put_number(file, 0, 1);
-    put_attribute(file, "compression", "compression", 1);
-    image_bytes_put_number(file, 0, 1);
-    put_window(file, "dataWindow", recipe->data);
-    put_window(file, "displayWindow", recipe->display);
-    if (recipe->envmap >= 0) {
-        put_attribute(file, "envmap", "envmap", 1);
-        image_bytes_put_number(file, (uint64_t)recipe->envmap, 1);
-    }
-    put_attribute(file, "lineOrder", "lineOrder", 1);
-    image_bytes_put_number(file, 0, 1);
-    put_attribute(file, "pixelAspectRatio", "float", 4);
-    put_float(file, 1.0f);
-    put_attribute(file, "screenWindowCenter", "v2f", 8);
-    put_float(file, 0.0f);
-    put_float(file, 0.0f);
-    put_attribute(file, "screenWindowWidth", "float", 4);
-    put_float(file, 1.0f);
-    image_bytes_put_number(file, 0, 1);
-}
-
-image_bytes exr_bytes(const exr_recipe *recipe)
-{
-    image_bytes file = {0};
-    put_exr_header(&file, recipe);
-    int width = recipe->data[2] - recipe->data[0] + 1,
-        height = recipe->data[3] - recipe->data[1] + 1;
-    uint64_t line = (uint64_t)width * (uint64_t)recipe->channels * 4;
-    uint64_t first = file.length + 8 * (uint64_t)height;
-    for (int y = 0; y < height; y++) {
-        image_bytes_put_number(&file, first + (uint64_t)y * (line + 8), 8);
-    }
-    for (int y = 0; y < height; y++) {
-        image_bytes_put_number(&file, (uint64_t)(int64_t)(recipe->data[1] + y), 4);
-        image_bytes_put_number(&file, line, 4);
-        for (int c = 0; c < recipe->channels; c++) {
-            for (int x = 0; x < width; x++) {
-                put_float(&file, recipe->value(c, recipe->data[0] + x, recipe->data[1] + y,
-                                               recipe->context));
-            }
-        }
-    }
-    return file;
 }
 
 // ---- TIFF 6.0 -----------------------------------------------------------------------------------
