@@ -1,9 +1,11 @@
-// Decodes a picture through OpenImageIO, with values as stored. See decode.hpp.
+// Decodes a picture, with values as stored. See decode.hpp. OpenImageIO decodes all formats but
+// Radiance's.
 //
 // Of a mipmapped file it reads level 0. It puts an EXR's pixels into the display window; pixels
 // outside the data window are zero. An EXR with the envmap attribute is only its data window. It
 // converts an EXR's colours to those of Rec. 709. ICC profiles are not applied.
 #include "codec/decode.hpp"
+#include "codec/hdr.h"
 #include "codec/parts.hpp"
 #include "codec/primaries.h"
 
@@ -320,18 +322,30 @@ bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
 
 glint_status check_jpeg(const glint_codec_request &request, glint_error *error)
 {
-    std::vector<unsigned char> bytes(request.file_bytes);
-    std::FILE *file = std::fopen(opened_path(request).c_str(), "rbe");
-    std::size_t length = file != nullptr ? std::fread(bytes.data(), 1, bytes.size(), file) : 0;
-    if (file != nullptr) {
-        std::fclose(file);
-    }
-    bytes.resize(length);
-    if (!jpeg_is_whole(bytes)) {
+    if (!jpeg_is_whole(read_file(request))) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: its end is missing (make the file anew)",
                           request.path);
     }
     return GLINT_OK;
+}
+
+// ---- Radiance -----------------------------------------------------------------------------------
+
+glint_status decode_hdr(const glint_codec_request &request, Memory &memory,
+                        glint_codec_answer &answer, glint_error *error)
+{
+    const std::vector<unsigned char> bytes = read_file(request);
+    const glint_hdr_file file = {request.path, bytes.data(), bytes.size()};
+    glint_hdr header;
+    TRY(glint_hdr_read_header(&file, &header, error));
+    TRY(check_cost(request, header.length, header.scanlines, 3, error));
+    answer.facts.width = header.length;
+    answer.facts.height = header.scanlines;
+    answer.facts.channels = 3;
+    answer.facts.orientation = header.orientation;
+    answer.value_bytes = bytes_of(answer.facts);
+    return glint_hdr_read_pixels(&file, &header,
+                                 reinterpret_cast<float *>(memory.grow(answer.value_bytes)), error);
 }
 
 } // namespace
@@ -340,6 +354,9 @@ glint_status decode_picture(const glint_codec_request &request, Memory &memory,
                             glint_codec_answer &answer, glint_error *error)
 {
     const char *path = request.path;
+    if (std::strcmp(request.plugin, "hdr") == 0) {
+        return decode_hdr(request, memory, answer, error);
+    }
     if (std::strcmp(request.plugin, "jpeg") == 0) {
         TRY(check_jpeg(request, error));
     }
