@@ -302,6 +302,57 @@ static void webp_is_read(void **state)
     glint_image_free(&image);
 }
 
+static glint_image read_jpeg(const unsigned char *components, int count, int adobe)
+{
+    image_bytes file = jpeg_bytes(components, count, adobe);
+    scratch_write("a.jpg", file.bytes, (long)file.length);
+    image_bytes_free(&file);
+    return image_file_read("a.jpg", NULL);
+}
+
+// Checks the codes of all pixels. Rounding moves a code by one.
+static void expect_codes(glint_image *image, int red, int green, int blue)
+{
+    const int codes[3] = {red, green, blue};
+    assert_int_equal(image->width, 8);
+    assert_int_equal(image->channels, 3);
+    for (int i = 0; i < 8 * 8 * 3; i++) {
+        const int code = glint_linear_to_srgb8(image->pixels[i]);
+        if (abs(code - codes[i % 3]) > 1) {
+            fail_msg("component %d is %d, not %d", i % 3, code, codes[i % 3]);
+        }
+    }
+    glint_image_free(image);
+}
+
+// Programs of Adobe store inks inverted: red is cyan × black. Without Adobe's marker nobody knows.
+static void jpegs_of_inks_are_read_where_their_marker_says_how(void **state)
+{
+    (void)state;
+    // JFIF's YCbCr of (200, 100, 50), as a check of the files.
+    glint_image image = read_jpeg((const unsigned char[]){124, 86, 182}, 3, -1);
+    expect_codes(&image, 200, 100, 50);
+    image = read_jpeg((const unsigned char[]){200, 100, 50}, 3, 0);
+    expect_codes(&image, 200, 100, 50);
+    image = read_jpeg((const unsigned char[]){200, 100, 50, 255}, 4, 0);
+    expect_codes(&image, 200, 100, 50);
+    image = read_jpeg((const unsigned char[]){200, 100, 50, 128}, 4, 0);
+    expect_codes(&image, 100, 50, 25);
+    // YCCK: the YCbCr of the inverted inks.
+    image = read_jpeg((const unsigned char[]){131, 170, 73, 255}, 4, 2);
+    expect_codes(&image, 200, 100, 50);
+    const unsigned char inks[4] = {200, 100, 50, 128};
+    image_bytes file = jpeg_bytes(inks, 4, -1);
+    // Fill bytes may stand before a marker.
+    for (int fill = 0; fill < 2; fill++) {
+        scratch_write("a.jpg", file.bytes, (long)file.length);
+        refuse(scratch_path("a.jpg"), "CMYK without Adobe's marker");
+        image_bytes_put(&file, "\xff", 1);
+        memmove(file.bytes + 3, file.bytes + 2, file.length - 3);
+    }
+    image_bytes_free(&file);
+}
+
 static void content_decides_over_the_extension(void **state)
 {
     (void)state;
@@ -435,6 +486,7 @@ int main(void)
         IN_FOLDER(exr_pixels_stand_in_the_display_window),
         IN_FOLDER(exr_envmap_attribute_is_told),
         IN_FOLDER(webp_is_read),
+        IN_FOLDER(jpegs_of_inks_are_read_where_their_marker_says_how),
         IN_FOLDER(content_decides_over_the_extension),
         IN_FOLDER(what_is_no_picture_is_refused_by_name),
         IN_FOLDER(a_small_file_that_claims_to_be_huge_is_refused),

@@ -301,29 +301,68 @@ glint_status decode_part(const glint_codec_request &request, ImageInput &input, 
 
 // ---- JPEG ---------------------------------------------------------------------------------------
 
-// Checks that a JPEG has its end: a truncated JPEG decodes without an error, grey where it ends.
-// Segments state their length. After the start of scan (DA) comes the end (FF D9), which cannot
-// occur in the coded pixels.
-bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
+// What the segments of a JPEG say. Segments state their length.
+struct JpegFacts {
+    bool is_whole = true;  // unless its end is missing
+    bool has_inks = false; // four components
+    bool has_adobe = false;
+};
+
+// True if the pixels have an end. After the start of scan (DA) comes the end (FF D9), which cannot
+// occur in the coded pixels. A truncated JPEG decodes without an error, grey where it ends.
+bool has_end(const std::vector<unsigned char> &bytes, std::size_t pixels)
 {
+    const unsigned char end[] = {0xff, 0xd9};
+    return pixels < bytes.size() && std::search(bytes.begin() + std::ptrdiff_t(pixels), bytes.end(),
+                                                end, end + 2) != bytes.end();
+}
+
+// A start of frame has one of the markers C0 to CF that are not C4, C8 or CC.
+bool is_frame(unsigned marker)
+{
+    return marker == 0xc0 || (marker > 0xc0 && marker <= 0xcf && marker % 4 != 0);
+}
+
+JpegFacts find_jpeg_facts(const std::vector<unsigned char> &bytes)
+{
+    JpegFacts facts;
     std::size_t at = 2;
     while (at + 4 <= bytes.size() && bytes[at] == 0xff) {
-        unsigned marker = bytes[at + 1];
-        at += 2u + bytes[at + 2] * 256u + bytes[at + 3];
-        if (marker == 0xda) {
-            const unsigned char end[] = {0xff, 0xd9};
-            return at < bytes.size() && std::search(bytes.begin() + std::ptrdiff_t(at), bytes.end(),
-                                                    end, end + 2) != bytes.end();
+        const unsigned marker = bytes[at + 1];
+        if (marker == 0xff) { // a fill byte
+            at++;
+            continue;
         }
+        const std::size_t next = at + 2u + bytes[at + 2] * 256u + bytes[at + 3];
+        if (marker == 0xda) {
+            facts.is_whole = has_end(bytes, next);
+            return facts;
+        }
+        if (is_frame(marker) && at + 9 < bytes.size()) {
+            facts.has_inks = bytes[at + 9] == 4;
+        }
+        if (marker == 0xee && at + 9 <= bytes.size()) {
+            facts.has_adobe = facts.has_adobe || std::memcmp(&bytes[at + 4], "Adobe", 5) == 0;
+        }
+        at = next;
     }
     // This is not the usual structure: leave the decision to the decoder.
-    return at + 4 <= bytes.size();
+    facts.is_whole = at + 4 <= bytes.size();
+    return facts;
 }
 
 glint_status check_jpeg(const glint_codec_request &request, glint_error *error)
 {
-    if (!jpeg_is_whole(read_file(request))) {
+    const JpegFacts facts = find_jpeg_facts(read_file(request));
+    if (!facts.is_whole) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: its end is missing (make the file anew)",
+                          request.path);
+    }
+    // OpenImageIO takes all inks for inverted, as programs of Adobe store them.
+    if (facts.has_inks && !facts.has_adobe) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: holds CMYK without Adobe's marker, so it is not clear what its inks "
+                          "are (save it as RGB)",
                           request.path);
     }
     return GLINT_OK;

@@ -86,6 +86,100 @@ image_bytes tiff_bytes(const tiff_recipe *recipe)
     return file;
 }
 
+// ---- JPEG: ITU-T T.81
+// -----------------------------------------------------------------------------
+
+// Bits that wait for a whole byte.
+typedef struct bit_writer {
+    image_bytes *file;
+    unsigned bits;
+    int count;
+} bit_writer;
+
+static void put_bits(bit_writer *to, unsigned bits, int count)
+{
+    for (int i = count - 1; i >= 0; i--) {
+        to->bits = to->bits << 1 | (bits >> i & 1);
+        if (++to->count == 8) {
+            image_bytes_put_big(to->file, to->bits & 0xff, 1);
+            if ((to->bits & 0xff) == 0xff) {
+                image_bytes_put_big(to->file, 0, 1); // no marker
+            }
+            to->count = 0;
+        }
+    }
+}
+
+// A block without detail: the category of its mean, the mean, and the end of the block.
+static void put_block(bit_writer *to, int value)
+{
+    const int mean = 8 * (value - 128);
+    int category = 0;
+    while (abs(mean) >> category != 0) {
+        category++;
+    }
+    put_bits(to, (unsigned)category, 4);
+    put_bits(to, (unsigned)(mean < 0 ? mean - 1 : mean), category);
+    put_bits(to, 0, 1);
+}
+
+static void put_frame(image_bytes *file, int count)
+{
+    image_bytes_put_big(file, 0xffc0, 2);
+    image_bytes_put_big(file, (unsigned)(8 + 3 * count), 2);
+    image_bytes_put_big(file, 8, 1);
+    image_bytes_put_big(file, 8, 2);
+    image_bytes_put_big(file, 8, 2);
+    image_bytes_put_big(file, (unsigned)count, 1);
+    for (int c = 1; c <= count; c++) {
+        image_bytes_put_big(file, (unsigned)c << 16 | 0x1100, 3); // every pixel; table 0
+    }
+}
+
+// Codes of four bits for the categories 0 to 11, and of one bit for the end of a block.
+static void put_codes(image_bytes *file)
+{
+    static const unsigned char means[] = {0xff, 0xc4, 0, 31, 0, 0, 0, 0, 12, 0,  0,
+                                          0,    0,    0, 0,  0, 0, 0, 0, 0,  0,  0,
+                                          1,    2,    3, 4,  5, 6, 7, 8, 9,  10, 11};
+    static const unsigned char details[22] = {0xff, 0xc4, 0, 20, 0x10, 1};
+    image_bytes_put(file, means, sizeof means);
+    image_bytes_put(file, details, sizeof details);
+}
+
+image_bytes jpeg_bytes(const unsigned char *components, int count, int adobe)
+{
+    image_bytes file = {0};
+    image_bytes_put_big(&file, 0xffd8, 2);
+    if (adobe >= 0) {
+        image_bytes_put(&file,
+                        "\xff\xee\0\x0e"
+                        "Adobe\0\x64\0\0\0\0",
+                        15);
+        image_bytes_put_big(&file, (unsigned)adobe, 1);
+    }
+    image_bytes_put_big(&file, 0xffdb004300, 5);
+    for (int i = 0; i < 64; i++) {
+        image_bytes_put_big(&file, 1, 1);
+    }
+    put_frame(&file, count);
+    put_codes(&file);
+    image_bytes_put_big(&file, 0xffda, 2);
+    image_bytes_put_big(&file, (unsigned)(6 + 2 * count), 2);
+    image_bytes_put_big(&file, (unsigned)count, 1);
+    for (int c = 1; c <= count; c++) {
+        image_bytes_put_big(&file, (unsigned)c << 8, 2);
+    }
+    image_bytes_put_big(&file, 0x003f00, 3);
+    bit_writer bits = {&file, 0, 0};
+    for (int c = 0; c < count; c++) {
+        put_block(&bits, components[c]);
+    }
+    put_bits(&bits, 0x7f, 7); // fills the last byte
+    image_bytes_put_big(&file, 0xffd9, 2);
+    return file;
+}
+
 // ---- Radiance -----------------------------------------------------------------------------------
 
 image_bytes hdr_bytes(int width, int height, const unsigned char *rgbe)

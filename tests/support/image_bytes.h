@@ -46,6 +46,10 @@ typedef struct tiff_recipe {
 } tiff_recipe;
 image_bytes tiff_bytes(const tiff_recipe *recipe);
 
+// A baseline JPEG of 8 × 8 equal pixels, of `count` components. adobe: the colour transform that
+// Adobe's marker names; −1: no marker.
+image_bytes jpeg_bytes(const unsigned char *components, int count, int adobe);
+
 // A Radiance picture without run-length coding, four bytes a pixel, of fewer than 8 columns.
 image_bytes hdr_bytes(int width, int height, const unsigned char *rgbe);
 
