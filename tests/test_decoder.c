@@ -91,7 +91,12 @@ static void pictures_of_the_allowed_size_are_read_and_larger_ones_not(void **sta
 {
     (void)state;
     static const char *const names[] = {"B", "G", "R"};
-    exr_recipe recipe = {names, 3, {0, 0, 63, 63}, {0, 0, 63, 63}, -1, one, NULL};
+    exr_recipe recipe = {.names = names,
+                         .channels = 3,
+                         .data = {0, 0, 63, 63},
+                         .display = {0, 0, 63, 63},
+                         .envmap = -1,
+                         .value = one};
     image_bytes file = exr_bytes(&recipe);
     scratch_write("a.exr", file.bytes, (long)file.length);
     image_bytes_free(&file);

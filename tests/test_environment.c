@@ -5,8 +5,10 @@
 #include "environment/environment.h"
 #include "image/image_io.h"
 #include "support/direction_maps.h"
+#include "support/image_bytes.h"
 #include "support/scratch.h"
 
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -275,6 +277,54 @@ static void layout_names_are_known_both_ways(void **state)
 }
 
 // Puts bad values among grey pixels, so that every look-up has a known result.
+static void expect_warning(const char *name, const char *said)
+{
+    glint_warnings warnings = {0};
+    glint_environment environment = load(scratch_path(name), GLINT_LAYOUT_UNKNOWN, &warnings);
+    assert_int_equal(warnings.count, said != NULL ? 1 : 0);
+    if (said != NULL && (strstr(warnings.texts[0], said) == NULL ||
+                         strstr(warnings.texts[0], "no highlights above white") == NULL)) {
+        fail_msg("'%s' does not say '%s'", warnings.texts[0], said);
+    }
+    glint_warnings_free(&warnings);
+    glint_environment_free(&environment);
+}
+
+// One warning for a file, and one for six.
+static void integers_are_warned_of(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"};
+    static const char *const faces[6] = {"posx", "negx", "posy", "negy", "posz", "negz"};
+    glint_image image;
+    assert_int_equal(glint_image_create(16, 8, 3, &image, NULL), GLINT_OK);
+    for (int k = 0; k < 5; k++) {
+        write_image(files[k], &image, GLINT_ENVMAP_NONE);
+        expect_warning(files[k], k < 3 ? "8-bit integers" : NULL);
+    }
+    glint_image_free(&image);
+    const uint16_t codes[8 * 4] = {65535};
+    image_bytes file = tiff_bytes(&(tiff_recipe){8, 4, 1, 16, 0, 1, codes});
+    scratch_write("a.tif", file.bytes, (long)file.length);
+    image_bytes_free(&file);
+    expect_warning("a.tif", "16-bit integers");
+    // The six faces of a cube: all of floats, then one of integers.
+    assert_int_equal(glint_image_create(8, 8, 3, &image, NULL), GLINT_OK);
+    assert_int_equal(mkdir(scratch_path("faces"), 0777), 0);
+    for (int face = 0; face < 6; face++) {
+        char name[32];
+        snprintf(name, sizeof name, "faces/%s.exr", faces[face]);
+        write_image(name, &image, GLINT_ENVMAP_NONE);
+    }
+    expect_warning("faces", NULL);
+    write_image("a.png", &image, GLINT_ENVMAP_NONE);
+    char png[PATH_MAX];
+    snprintf(png, sizeof png, "%s", scratch_path("a.png"));
+    assert_int_equal(rename(png, scratch_path("faces/negy.exr")), 0); // the content decides
+    expect_warning("faces", "8-bit integers");
+    glint_image_free(&image);
+}
+
 static void values_that_are_no_radiance_are_mended_and_counted(void **state)
 {
     (void)state;
@@ -572,6 +622,7 @@ int main(void)
         IN_FOLDER(faces_that_are_missing_or_doubtful_are_named),
         IN_FOLDER(shapes_that_say_too_little_are_refused_with_choices),
         IN_FOLDER(an_odd_latlong_is_taken_when_asked_and_warned_of),
+        IN_FOLDER(integers_are_warned_of),
         IN_FOLDER(values_that_are_no_radiance_are_mended_and_counted),
         IN_FOLDER(faces_of_codes_are_the_pixels_of_the_image),
         IN_FOLDER(grey_is_repeated_and_alpha_is_not_used),

@@ -240,14 +240,19 @@ static void a_fresh_file_is_not_kept(void **state)
 static void what_was_warned_of_warns_again(void **state)
 {
     (void)state;
-    const char *path = write_map("map.exr", 2 * ROWS - 1, 0.5f);
+    // A stretched map is not kept; integers are.
+    const char *stretched = write_map("map.exr", 2 * ROWS - 1, 0.5f);
+    const char *integers = write_map("map.png", 2 * ROWS, 0.5f);
     const glint_layout_request request = {.layout = GLINT_LAYOUT_LATLONG};
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 4; k++) {
         glint_environment environment;
         glint_warnings warnings = {0};
-        assert_int_equal(glint_environment_load(path, &request, &environment, &warnings, NULL),
+        assert_int_equal(glint_environment_load(k < 2 ? stretched : integers, &request,
+                                                &environment, &warnings, NULL),
                          GLINT_OK);
+        assert_int_equal(is_of_cache(&environment), k == 3);
         assert_int_equal(warnings.count, 1);
+        assert_non_null(strstr(warnings.texts[0], k < 2 ? "stretched" : "8-bit integers"));
         glint_warnings_free(&warnings);
         glint_environment_free(&environment);
     }

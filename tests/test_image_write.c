@@ -284,6 +284,55 @@ static void values_that_half_cannot_hold_are_clamped(void **state)
     glint_image_free(&read);
 }
 
+// A pattern of the largest and other values, different in each channel. B44's blocks are 4 × 4,
+// those of DWA 8 × 8.
+static glint_image make_extremes(int pattern)
+{
+    static const float others[] = {0, 1, 3e4f, -1e6f, -INFINITY, -65504};
+    glint_image image;
+    assert_int_equal(glint_image_create(256, 256, 4, &image, NULL), GLINT_OK);
+    unsigned seed = 7;
+    for (int i = 0; i < 256 * 256 * 4; i++) {
+        const int x = i / 4 % 256, y = i / 1024;
+        seed = seed * 1664525u + 1013904223u;
+        bool is_high = seed >> 31 != 0;
+        if (pattern == 1) {
+            is_high = (x % 8 < 4) == (i % 4 == 1); // edges, opposite in green
+        } else if (pattern == 2) {
+            is_high = (x + y + i % 4) % 8 < 5;
+        }
+        const float other = others[(x / 8 + y / 8) % 6];
+        image.pixels[i] = i % 4 == 3 ? 1 : is_high ? (seed >> 30 & 1 ? 65504 : INFINITY) : other;
+    }
+    return image;
+}
+
+// Losses once made infinities of 65504 (DWA) and of −65504 (B44). Values stay within DWA's own
+// error of the largest value that a file keeps.
+static void lossy_compressions_make_nothing_infinite(void **state)
+{
+    (void)state;
+    static const char *const compressions[] = {"pxr24", "b44", "b44a", "dwaa", "dwab"};
+    for (int k = 0; k < 30; k++) {
+        const char *compression = compressions[k % 5];
+        glint_image wrote = make_extremes(k / 10);
+        // PXR24 and B44 keep floats, also infinite ones.
+        const glint_write_options options = {.exr_float = k % 10 >= 8, .compression = compression};
+        assert_int_equal(glint_image_write(scratch_path("a.exr"), &wrote, &options, NULL),
+                         GLINT_OK);
+        glint_image read = image_file_read("a.exr", NULL);
+        for (int i = 0; i < 256 * 256 * 4; i++) {
+            const double value = (double)read.pixels[i];
+            const bool is_high = i % 4 < 3 && wrote.pixels[i] >= 65504;
+            if (!isfinite(value) || (is_high && value < 57000)) {
+                fail_msg("%s: %g becomes %g", compression, (double)wrote.pixels[i], value);
+            }
+        }
+        glint_image_free(&wrote);
+        glint_image_free(&read);
+    }
+}
+
 static void exposure_is_stops_and_leaves_exr_alone(void **state)
 {
     (void)state;
@@ -457,6 +506,7 @@ int main(void)
         IN_FOLDER(jpeg_is_close_and_over_black),
         IN_FOLDER(jpeg_orientation_is_applied),
         IN_FOLDER(values_that_half_cannot_hold_are_clamped),
+        IN_FOLDER(lossy_compressions_make_nothing_infinite),
         IN_FOLDER(exposure_is_stops_and_leaves_exr_alone),
         IN_FOLDER(png_metadata_is_text_with_its_values),
         IN_FOLDER(exr_metadata_has_openexrs_types),

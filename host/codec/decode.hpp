@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace glint
 {
@@ -16,6 +17,9 @@ inline std::string opened_path(const glint_codec_request &request)
 {
     return request.file < 0 ? request.path : "/proc/self/fd/" + std::to_string(request.file);
 }
+
+// The bytes of the file of a request; fewer if it is cut short.
+std::vector<unsigned char> read_file(const glint_codec_request &request);
 
 // The memory file that receives the values. Owns its mapping.
 class Memory
@@ -33,6 +37,11 @@ class Memory
 
     // Makes the file this large and zero. Throws std::bad_alloc.
     std::uint8_t *grow(std::size_t bytes);
+    // What grow returned last.
+    std::uint8_t *data() const
+    {
+        return static_cast<std::uint8_t *>(at_);
+    }
 
   private:
     int file_;

@@ -1,12 +1,25 @@
-// Maps the memory file and limits the size of a picture. See decode.hpp.
+// Reads files, maps the memory file and limits the size of a picture. See decode.hpp.
 #include "codec/decode.hpp"
 
+#include <cstdio>
 #include <new>
 #include <sys/mman.h>
 #include <unistd.h>
 
 namespace glint
 {
+
+std::vector<unsigned char> read_file(const glint_codec_request &request)
+{
+    std::vector<unsigned char> bytes(request.file_bytes);
+    std::FILE *file = std::fopen(opened_path(request).c_str(), "rbe");
+    std::size_t length = file != nullptr ? std::fread(bytes.data(), 1, bytes.size(), file) : 0;
+    if (file != nullptr) {
+        std::fclose(file);
+    }
+    bytes.resize(length);
+    return bytes;
+}
 
 Memory::~Memory()
 {

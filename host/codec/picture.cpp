@@ -1,10 +1,13 @@
-// Decodes a picture through OpenImageIO, with values as stored. See decode.hpp.
+// Decodes a picture, with values as stored. See decode.hpp. OpenImageIO decodes all formats but
+// Radiance's.
 //
-// In a file with several parts it reads the first part with colour (R, G, B) or grey (Y); in a
-// mipmapped file, level 0. It refuses deep pixels. It puts an EXR's pixels into the display window;
-// pixels outside the data window are zero. An EXR with the envmap attribute is only its data
-// window. ICC profiles are not applied.
+// Of a mipmapped file it reads level 0. It puts an EXR's pixels into the display window; pixels
+// outside the data window are zero. An EXR with the envmap attribute is only its data window. It
+// converts an EXR's colours to those of Rec. 709. ICC profiles are not applied.
 #include "codec/decode.hpp"
+#include "codec/hdr.h"
+#include "codec/parts.hpp"
+#include "codec/primaries.h"
 
 #include "image/image_io.h"
 
@@ -44,154 +47,7 @@ std::string cause_of(ImageInput &input, const glint_codec_request &request)
     return text.empty() ? "it is damaged or cut short" : text;
 }
 
-// ---- Channels by name ---------------------------------------------------------------------------
-
-// The places of R, G, B or of grey, and of alpha, among the file's channels; −1 if missing.
-struct Picked {
-    int color[3] = {-1, -1, -1};
-    int alpha = -1;
-    int colors = 0; // 1 or 3; 0: nothing found
-
-    int channels() const
-    {
-        return colors + (alpha >= 0 ? 1 : 0);
-    }
-    int place(int channel) const
-    {
-        return channel < colors ? color[channel] : alpha;
-    }
-};
-
-// The channel "layer.name", or "name" for an empty layer.
-int find_channel(const ImageSpec &spec, const std::string &layer, const char *name)
-{
-    std::string wanted = layer.empty() ? name : layer + "." + name;
-    for (int c = 0; c < spec.nchannels; c++) {
-        if (strcasecmp(spec.channelnames[std::size_t(c)].c_str(), wanted.c_str()) == 0) {
-            return c;
-        }
-    }
-    return -1;
-}
-
-Picked pick_layer(const ImageSpec &spec, const std::string &layer)
-{
-    Picked picked;
-    for (int c = 0; c < 3; c++) {
-        const char *names[] = {"R", "G", "B"};
-        picked.color[c] = find_channel(spec, layer, names[c]);
-    }
-    // The Y of a position or a normal is not grey.
-    bool is_vector = find_channel(spec, layer, "X") >= 0;
-    int grey = is_vector ? -1 : find_channel(spec, layer, "Y");
-    if (picked.color[0] >= 0 && picked.color[1] >= 0 && picked.color[2] >= 0) {
-        picked.colors = 3;
-    } else if (grey >= 0) {
-        picked.color[0] = grey;
-        picked.colors = 1;
-    } else {
-        return {};
-    }
-    picked.alpha = find_channel(spec, layer, "A");
-    return picked;
-}
-
-std::vector<std::string> layers_of(const ImageSpec &spec)
-{
-    std::vector<std::string> layers;
-    for (const std::string &name : spec.channelnames) {
-        std::size_t dot = name.rfind('.');
-        std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
-        if (!layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end()) {
-            layers.push_back(layer);
-        }
-    }
-    return layers;
-}
-
-// Picks the unnamed layer, or else the only layer with colour. A single channel is grey, whatever
-// its name. If several layers are possible, `doubt` lists them.
-Picked pick(const ImageSpec &spec, std::string &doubt)
-{
-    Picked picked = pick_layer(spec, "");
-    if (picked.colors > 0) {
-        return picked;
-    }
-    if (spec.nchannels == 1) {
-        picked.color[0] = 0;
-        picked.colors = 1;
-        return picked;
-    }
-    int found = 0;
-    for (const std::string &layer : layers_of(spec)) {
-        Picked candidate = pick_layer(spec, layer);
-        if (candidate.colors > 0) {
-            picked = candidate;
-            doubt += (found++ == 0 ? "" : ", ") + layer;
-        }
-    }
-    if (found <= 1) {
-        doubt.clear();
-    }
-    return picked;
-}
-
-// ---- The part that is read ----------------------------------------------------------------------
-
-struct Part {
-    int index = 0;
-    ImageSpec spec;
-    Picked picked;
-};
-
-// Lists names for a message: the first ones, then "…".
-void list_names(const std::vector<std::string> &from, std::string &names)
-{
-    const std::size_t most = 8;
-    for (std::size_t i = 0; i < from.size() && i <= most; i++) {
-        names += (names.empty() ? "" : ", ") + (i < most ? from[i] : "…");
-    }
-}
-
-glint_status find_part(const char *path, ImageInput &input, Part &part, glint_error *error)
-{
-    // Find the first part with colour or grey.
-    bool has_deep = false;
-    std::string doubt, names;
-    for (int index = 0; index < 1000 && input.seek_subimage(index, 0); index++) {
-        ImageSpec spec = input.spec(index, 0);
-        has_deep = has_deep || spec.deep;
-        if (spec.deep) {
-            continue;
-        }
-        if (spec.nchannels > GLINT_PICTURE_CHANNELS_MAX) {
-            return glint_fail(error, GLINT_BAD_INPUT,
-                              "%s: %d channels are more than the %d that are read (save the wanted "
-                              "ones alone)",
-                              path, spec.nchannels, GLINT_PICTURE_CHANNELS_MAX);
-        }
-        Picked picked = pick(spec, doubt);
-        if (picked.colors > 0 && doubt.empty()) {
-            part = {index, spec, picked};
-            return GLINT_OK;
-        }
-        if (!doubt.empty()) {
-            return glint_fail(error, GLINT_BAD_INPUT,
-                              "%s: holds several layers: %s (save the wanted one alone)", path,
-                              doubt.c_str());
-        }
-        list_names(spec.channelnames, names);
-    }
-    (void)input.geterror(); // the end of the parts is no error
-    // Say why there is none.
-    if (has_deep) {
-        return glint_fail(error, GLINT_BAD_INPUT,
-                          "%s: holds deep pixels, which are not read (flatten it)", path);
-    }
-    return glint_fail(error, GLINT_BAD_INPUT,
-                      "%s: no channels R, G, B or Y among its %s (rename them)", path,
-                      names.c_str());
-}
+// ---- Size ---------------------------------------------------------------------------------------
 
 // The most bytes of pixels for a byte of the file. Deflation reaches 1,032. EXR's block transforms
 // and TIFF's newer methods reach more on flat pictures. DDS compresses by 8.
@@ -273,6 +129,32 @@ void find_facts(const char *plugin, const Part &part, glint_stored_facts &facts)
         facts.envmap = GLINT_ENVMAP_LATLONG;
     }
     facts.is_direct3d_cube = texture == "CubeFace Environment" && std::strcmp(plugin, "dds") == 0;
+}
+
+// Finds the matrix for an EXR's colours, if they are not those of Rec. 709.
+glint_status find_conversion(const glint_codec_request &request, const Part &part,
+                             glint_color_matrix &matrix, bool &is_converted, glint_error *error)
+{
+    const OIIO::ParamValue *stored =
+        std::strcmp(request.plugin, "openexr") == 0 && part.picked.colors == 3
+            ? part.spec.find_attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8))
+            : nullptr;
+    if (stored == nullptr) {
+        return GLINT_OK;
+    }
+    glint_primaries primaries;
+    for (int i = 0; i < 8; i++) {
+        primaries.xy[i / 2][i % 2] = double(stored->get_float_indexed(i));
+    }
+    is_converted = !glint_primaries_are_rec709(&primaries);
+    if (is_converted && !glint_primaries_to_rec709(&primaries, &matrix)) {
+        return glint_fail(
+            error, GLINT_BAD_INPUT,
+            "%s: its chromaticities are no colours (correct the attribute, or take it "
+            "out)",
+            request.path);
+    }
+    return GLINT_OK;
 }
 
 // ---- Pixels -------------------------------------------------------------------------------------
@@ -377,68 +259,132 @@ bool read_framed(ImageInput &input, const Part &part, Memory &memory, glint_stor
     return is_read;
 }
 
+glint_status read_part(const glint_codec_request &request, ImageInput &input, const Part &part,
+                       Memory &memory, glint_stored_facts &facts, glint_error *error)
+{
+    const ImageSpec &spec = part.spec;
+    bool is_read = false;
+    if (is_framed(request, part, facts)) {
+        TRY(check_cost(request, spec.full_width, spec.full_height, facts.channels, error));
+        is_read = read_framed(input, part, memory, facts);
+    } else {
+        is_read = read_values(input, part, facts, memory.grow(bytes_of(facts)));
+    }
+    return is_read ? GLINT_OK
+                   : glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", request.path,
+                                cause_of(input, request).c_str());
+}
+
 glint_status decode_part(const glint_codec_request &request, ImageInput &input, Memory &memory,
                          glint_codec_answer &answer, glint_error *error)
 {
-    const char *path = request.path;
     glint_stored_facts &facts = answer.facts;
+    glint_color_matrix matrix;
+    bool is_converted = false;
     Part part;
-    TRY(find_part(path, input, part, error));
+    TRY(find_part(request, input, part, error));
     TRY(check_size(request, part, error));
     find_facts(request.plugin, part, facts);
-    bool is_read = false;
-    if (is_framed(request, part, facts)) {
-        TRY(check_cost(request, part.spec.full_width, part.spec.full_height, facts.channels,
-                       error));
-        is_read = read_framed(input, part, memory, facts);
-    } else {
-        // Halfs stay halfs: they take half the memory, and glint converts them in parallel.
-        facts.is_half = part.spec.format == TypeDesc::HALF && part.spec.channelformats.empty();
-        is_read = read_values(input, part, facts, memory.grow(bytes_of(facts)));
-    }
+    TRY(find_conversion(request, part, matrix, is_converted, error));
+    // Halfs stay halfs: they take half the memory, and glint converts them in parallel.
+    facts.is_half = part.spec.format == TypeDesc::HALF && part.spec.channelformats.empty() &&
+                    !is_converted && !is_framed(request, part, facts);
+    TRY(read_part(request, input, part, memory, facts, error));
     answer.value_bytes = bytes_of(facts);
-    if (!is_read) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
-                          cause_of(input, request).c_str());
+    if (is_converted) {
+        glint_color_matrix_apply(&matrix, reinterpret_cast<float *>(memory.data()),
+                                 std::size_t(facts.width) * std::size_t(facts.height),
+                                 std::size_t(facts.channels));
     }
     return GLINT_OK;
 }
 
 // ---- JPEG ---------------------------------------------------------------------------------------
 
-// Checks that a JPEG has its end: a truncated JPEG decodes without an error, grey where it ends.
-// Segments state their length. After the start of scan (DA) comes the end (FF D9), which cannot
-// occur in the coded pixels.
-bool jpeg_is_whole(const std::vector<unsigned char> &bytes)
+// What the segments of a JPEG say. Segments state their length.
+struct JpegFacts {
+    bool is_whole = true;  // unless its end is missing
+    bool has_inks = false; // four components
+    bool has_adobe = false;
+};
+
+// True if the pixels have an end. After the start of scan (DA) comes the end (FF D9), which cannot
+// occur in the coded pixels. A truncated JPEG decodes without an error, grey where it ends.
+bool has_end(const std::vector<unsigned char> &bytes, std::size_t pixels)
 {
+    const unsigned char end[] = {0xff, 0xd9};
+    return pixels < bytes.size() && std::search(bytes.begin() + std::ptrdiff_t(pixels), bytes.end(),
+                                                end, end + 2) != bytes.end();
+}
+
+// A start of frame has one of the markers C0 to CF that are not C4, C8 or CC.
+bool is_frame(unsigned marker)
+{
+    return marker == 0xc0 || (marker > 0xc0 && marker <= 0xcf && marker % 4 != 0);
+}
+
+JpegFacts find_jpeg_facts(const std::vector<unsigned char> &bytes)
+{
+    JpegFacts facts;
     std::size_t at = 2;
     while (at + 4 <= bytes.size() && bytes[at] == 0xff) {
-        unsigned marker = bytes[at + 1];
-        at += 2u + bytes[at + 2] * 256u + bytes[at + 3];
-        if (marker == 0xda) {
-            const unsigned char end[] = {0xff, 0xd9};
-            return at < bytes.size() && std::search(bytes.begin() + std::ptrdiff_t(at), bytes.end(),
-                                                    end, end + 2) != bytes.end();
+        const unsigned marker = bytes[at + 1];
+        if (marker == 0xff) { // a fill byte
+            at++;
+            continue;
         }
+        const std::size_t next = at + 2u + bytes[at + 2] * 256u + bytes[at + 3];
+        if (marker == 0xda) {
+            facts.is_whole = has_end(bytes, next);
+            return facts;
+        }
+        if (is_frame(marker) && at + 9 < bytes.size()) {
+            facts.has_inks = bytes[at + 9] == 4;
+        }
+        if (marker == 0xee && at + 9 <= bytes.size()) {
+            facts.has_adobe = facts.has_adobe || std::memcmp(&bytes[at + 4], "Adobe", 5) == 0;
+        }
+        at = next;
     }
     // This is not the usual structure: leave the decision to the decoder.
-    return at + 4 <= bytes.size();
+    facts.is_whole = at + 4 <= bytes.size();
+    return facts;
 }
 
 glint_status check_jpeg(const glint_codec_request &request, glint_error *error)
 {
-    std::vector<unsigned char> bytes(request.file_bytes);
-    std::FILE *file = std::fopen(opened_path(request).c_str(), "rbe");
-    std::size_t length = file != nullptr ? std::fread(bytes.data(), 1, bytes.size(), file) : 0;
-    if (file != nullptr) {
-        std::fclose(file);
-    }
-    bytes.resize(length);
-    if (!jpeg_is_whole(bytes)) {
+    const JpegFacts facts = find_jpeg_facts(read_file(request));
+    if (!facts.is_whole) {
         return glint_fail(error, GLINT_BAD_INPUT, "%s: its end is missing (make the file anew)",
                           request.path);
     }
+    // OpenImageIO takes all inks for inverted, as programs of Adobe store them.
+    if (facts.has_inks && !facts.has_adobe) {
+        return glint_fail(error, GLINT_BAD_INPUT,
+                          "%s: holds CMYK without Adobe's marker, so it is not clear what its inks "
+                          "are (save it as RGB)",
+                          request.path);
+    }
     return GLINT_OK;
+}
+
+// ---- Radiance -----------------------------------------------------------------------------------
+
+glint_status decode_hdr(const glint_codec_request &request, Memory &memory,
+                        glint_codec_answer &answer, glint_error *error)
+{
+    const std::vector<unsigned char> bytes = read_file(request);
+    const glint_hdr_file file = {request.path, bytes.data(), bytes.size()};
+    glint_hdr header;
+    TRY(glint_hdr_read_header(&file, &header, error));
+    TRY(check_cost(request, header.length, header.scanlines, 3, error));
+    answer.facts.width = header.length;
+    answer.facts.height = header.scanlines;
+    answer.facts.channels = 3;
+    answer.facts.orientation = header.orientation;
+    answer.value_bytes = bytes_of(answer.facts);
+    return glint_hdr_read_pixels(&file, &header,
+                                 reinterpret_cast<float *>(memory.grow(answer.value_bytes)), error);
 }
 
 } // namespace
@@ -447,6 +393,9 @@ glint_status decode_picture(const glint_codec_request &request, Memory &memory,
                             glint_codec_answer &answer, glint_error *error)
 {
     const char *path = request.path;
+    if (std::strcmp(request.plugin, "hdr") == 0) {
+        return decode_hdr(request, memory, answer, error);
+    }
     if (std::strcmp(request.plugin, "jpeg") == 0) {
         TRY(check_jpeg(request, error));
     }
@@ -460,8 +409,13 @@ glint_status decode_picture(const glint_codec_request &request, Memory &memory,
     // Ask for colour and alpha as stored: premultiplying comes after linearising.
     wishes.attribute("oiio:UnassociatedAlpha", 1);
     if (!input->open(opened_path(request), spec, wishes)) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s (make the file anew)", path,
-                          cause_of(*input, request).c_str());
+        const std::string cause = cause_of(*input, request);
+        const bool is_subsampled = cause.find("ubsampled") != std::string::npos;
+        return glint_fail(error, GLINT_BAD_INPUT, "%s: %s", path,
+                          is_subsampled
+                              ? "has channels of lower resolution, as luminance and chroma "
+                                "(Y, RY, BY) have: they are not read (save it as R, G, B)"
+                              : (cause + " (make the file anew)").c_str());
     }
     const glint_status status = decode_part(request, *input, memory, answer, error);
     input->close();

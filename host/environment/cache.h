@@ -24,6 +24,7 @@ typedef struct glint_env_cache_facts {
     int32_t width, height, channels; // of the picture
     int32_t envmap;                  // a glint_envmap
     int32_t is_direct3d_cube;
+    int32_t code_bits;
 } glint_env_cache_facts;
 
 // True unless the cache is turned off.

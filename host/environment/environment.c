@@ -47,6 +47,18 @@ static glint_status make_cube(const glint_source *source, glint_cube *cube, glin
     return make_cube_of_disc(source, cube, error);
 }
 
+// Integers end at white, however many bits they have.
+static void warn_of_integers(const char *path, const glint_source *source, glint_warnings *warnings)
+{
+    if (source->facts.code_bits != 0) {
+        glint_warn(
+            warnings,
+            "%s: its %d-bit integers hold no highlights above white, so lights in it are too "
+            "weak (use .exr or .hdr)",
+            path, source->facts.code_bits);
+    }
+}
+
 static glint_status set_name(const char *name, glint_environment *environment, glint_error *error)
 {
     environment->name = strdup(name);
@@ -86,7 +98,8 @@ cleanup:
 
 // Takes the environment from the cache. Returns false if it is not there.
 static bool take_cached(const char *path, const glint_layout_request *request,
-                        const glint_env_cache_key *key, glint_environment *environment)
+                        const glint_env_cache_key *key, glint_environment *environment,
+                        glint_warnings *warnings)
 {
     glint_env_cache_facts facts;
     if (!glint_env_cache_take(key, &facts, &environment->radiance)) {
@@ -94,13 +107,15 @@ static bool take_cached(const char *path, const glint_layout_request *request,
     }
     glint_source source = {.image = {facts.width, facts.height, facts.channels, NULL},
                            .facts = {.envmap = (glint_envmap)facts.envmap,
-                                     .is_direct3d_cube = facts.is_direct3d_cube != 0}};
+                                     .is_direct3d_cube = facts.is_direct3d_cube != 0,
+                                     .code_bits = facts.code_bits}};
     if (glint_source_recall(path, request, key->kind, &source, NULL) != GLINT_OK ||
         set_name(path, environment, NULL) != GLINT_OK) {
         glint_environment_free(environment);
         return false;
     }
     describe(&source, environment);
+    warn_of_integers(path, &source, warnings);
     return true;
 }
 
@@ -113,8 +128,12 @@ static void begin_write(const glint_env_cache_key *key, const glint_source *sour
         !glint_env_cache_key_holds(environment->name, key)) {
         return;
     }
-    const glint_env_cache_facts facts = {image->width, image->height, image->channels,
-                                         source->facts.envmap, source->facts.is_direct3d_cube};
+    const glint_env_cache_facts facts = {.width = image->width,
+                                         .height = image->height,
+                                         .channels = image->channels,
+                                         .envmap = source->facts.envmap,
+                                         .is_direct3d_cube = source->facts.is_direct3d_cube,
+                                         .code_bits = source->facts.code_bits};
     environment->write = glint_env_cache_begin_write(key, &facts, &environment->radiance);
 }
 
@@ -136,11 +155,12 @@ glint_status glint_environment_load(const char *path, const glint_layout_request
     }
     glint_env_cache_key key;
     const bool has_key = glint_env_cache_is_on() && glint_env_cache_key_make(path, request, &key);
-    if (has_key && take_cached(path, request, &key, environment)) {
+    if (has_key && take_cached(path, request, &key, environment, warnings)) {
         return GLINT_OK;
     }
     glint_source source;
     TRY(glint_source_open(path, request, &source, warnings, error));
+    warn_of_integers(path, &source, warnings);
     const glint_status status = make(path, &source, environment, error);
     if (has_key && status == GLINT_OK) {
         begin_write(&key, &source, environment);

@@ -110,11 +110,14 @@ static glint_status check_face(const glint_face_files *files, int face, const gl
 }
 
 // Reads a face and copies it to its place in the strip. The first face creates the strip.
-static glint_status read_face(const glint_face_files *files, int face, glint_image *strip,
+static glint_status read_face(const glint_face_files *files, int face, glint_source *source,
                               glint_error *error)
 {
+    glint_image *strip = &source->image;
     glint_image image = {0};
-    TRY(glint_image_read(files->paths[face], &image, NULL, error));
+    glint_image_facts facts;
+    TRY(glint_image_read(files->paths[face], &image, &facts, error));
+    source->facts.code_bits = facts.code_bits != 0 ? facts.code_bits : source->facts.code_bits;
     const int edge = face == 0 ? image.width : strip->width;
     glint_status status;
     TRY_OR(cleanup, status, check_face(files, face, &image, edge, error));
@@ -147,7 +150,7 @@ static glint_status check_asked(const char *path, bool is_folder, glint_layout a
 }
 
 // Reads the six faces into one picture.
-static glint_status read_faces(const char *path, bool is_folder, glint_image *strip,
+static glint_status read_faces(const char *path, bool is_folder, glint_source *source,
                                glint_error *error)
 {
     glint_face_files files = {0};
@@ -156,12 +159,12 @@ static glint_status read_faces(const char *path, bool is_folder, glint_image *st
            is_folder ? glint_face_files_in_folder(path, &files, error)
                      : glint_face_files_by_pattern(path, &files, error));
     for (int face = 0; face < 6; face++) {
-        TRY_OR(cleanup, status, read_face(&files, face, strip, error));
+        TRY_OR(cleanup, status, read_face(&files, face, source, error));
     }
 cleanup:
     glint_face_files_free(&files);
     if (status != GLINT_OK) {
-        glint_image_free(strip);
+        glint_image_free(&source->image);
     }
     return status;
 }
@@ -178,7 +181,7 @@ static void recognise_faces(bool is_folder, glint_source *source)
 static glint_status load_faces(const char *path, bool is_folder, glint_source *source,
                                glint_warnings *warnings, glint_error *error)
 {
-    TRY(read_faces(path, is_folder, &source->image, error));
+    TRY(read_faces(path, is_folder, source, error));
     recognise_faces(is_folder, source);
     mend(path, source, warnings);
     return GLINT_OK;

@@ -19,7 +19,7 @@ extern "C" {
 typedef struct glint_source {
     glint_image image;       // radiance; six files become one picture of layout FACES
     glint_stored stored;     // the file's values, if `image` has no pixels (glint_source_open)
-    glint_image_facts facts; // of a single file
+    glint_image_facts facts; // of a single file; of six: code_bits of one that has any
     glint_chart chart;
     const char *reason;   // how glint knows the layout; static text
     size_t mended_texels; // NaN, infinite or negative texels, replaced (see radiance.h)

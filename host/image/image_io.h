@@ -24,6 +24,7 @@ typedef enum glint_envmap {
 typedef struct glint_image_facts {
     glint_envmap envmap;
     bool was_encoded; // 8- or 16-bit integers with the sRGB curve, linearised on reading
+    int code_bits;    // 8 or 16: integers, up to white; 0: floats or halfs
     // DDS: six faces stacked vertically, +X −X +Y −Y +Z −Z of Direct3D.
     bool is_direct3d_cube;
 } glint_image_facts;

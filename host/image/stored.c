@@ -18,6 +18,7 @@ glint_image_facts glint_image_facts_of(const glint_stored *stored)
     return (glint_image_facts){
         .envmap = (glint_envmap)stored->facts.envmap,
         .was_encoded = stored->facts.transfer != GLINT_TRANSFER_LINEAR,
+        .code_bits = stored->facts.code_bits,
         .is_direct3d_cube = stored->facts.is_direct3d_cube != 0,
     };
 }

@@ -25,6 +25,8 @@ exr alpha A,B,G,R 0.75,0.5,0.5,0.5
 exr grey_alpha A,Y 1,0.5
 exr layer beauty.B,beauty.G,beauty.R 0.5,0.5,0.5
 exr layers a.B,a.G,a.R,b.B,b.G,b.R 1,1,1,1,1,1
+exr parts depth=Z/rgba=B,G,R 7,0.5,0.5,0.5
+exr two_parts left=B,G,R/right=B,G,R 1,1,1,0.5,0.5,0.5
 exr depth Z,ZBack 1,1
 "$make_exr" in/wide.exr B,G,R 0.5,0.5,0.5 0,0,8,3 0,0,8,3
 # The data window covers the right half; pixels outside it are 0.
@@ -78,7 +80,8 @@ refuses 3 'in/missing.exr: ' compare in/missing.exr in/half.exr
 refuses 3 'in/missing.exr: ' compare in/half.exr in/missing.exr -o out/x.png --json out/x.json
 refuses 3 'in/text.png: ' compare in/half.exr in/text.png --json -
 refuses 3 'in/short.exr: ' compare in/short.exr in/half.exr
-refuses 3 'several layers: a, b' compare in/layers.exr in/half.exr
+refuses 3 'several pictures: a, b' compare in/layers.exr in/half.exr
+refuses 3 'several pictures: left, right' compare in/half.exr in/two_parts.exr
 refuses 3 'no channels R, G, B or Y' compare in/half.exr in/depth.exr
 refuses 3 'in/half.exr: it is 8x4 pixels and in/wide.exr 9x4 (' compare in/half.exr in/wide.exr \
     -o out/x.png --json out/x.json --fail-above rmse=1
@@ -159,7 +162,7 @@ clean
 
 # ---- channels and windows -----------------------------------------------------------------------
 
-for other in grey grey_alpha layer overscan moved; do
+for other in grey grey_alpha layer parts overscan moved; do
     compares "$other is the same picture" "in/$other.exr" in/half.exr
     are largest alpha 0.0
 done

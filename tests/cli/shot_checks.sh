@@ -144,7 +144,27 @@ check 'the preview has the plate, too' same_pixels out/preview.png out/direct.pn
 run render "${shot[@]}" -o in/plate.png --without 1
 run render "${shot[@]}" -o out/empty.png --without 1 --background in/plate.png
 check 'a PNG comes out as it went in' same_pixels out/empty.png in/plate.png
+# As a plate it may have 8 bits. As an environment it lacks highlights.
+run render "${shot[@]}" -o out/empty.png --without 1 --background in/plate.png --strict
+check 'a plate of 8 bits is no reason for a warning' test "$status" -eq 0
+run render "${shot[@]}" -o out/dim.png --env in/plate.png
+check 'an environment of 8 bits: said in one line' \
+    test "$status" -eq 0 -a "$(grep -c 'warning: in/plate.png: .* no highlights above white' stderr)" -eq 1
+run render "${shot[@]}" -o out/strict.png --env in/plate.png --strict
+check 'and refused by --strict' test "$status" -eq 3 -a ! -e out/strict.png
+# Of an EXR's parts, the colour is the plate and the environment.
+"$make_exr" in/flat.exr B,G,R 0.1,0.2,0.3 0,0,63,47 0,0,63,47
+"$make_exr" in/parts.exr depth=Z/rgba=B,G,R 7,0.1,0.2,0.3 0,0,63,47 0,0,63,47
+"$make_exr" in/lights.exr a=B,G,R/b=B,G,R 1,1,1,2,2,2 0,0,63,47 0,0,63,47
+run render "${shot[@]}" -o out/flat.exr --background in/flat.exr
+run render "${shot[@]}" -o out/parts.exr --background in/parts.exr
+check 'the colour part is the plate' same_pixels out/parts.exr out/flat.exr
+run render "${shot[@]}" -o out/flat.exr --env in/flat.exr
+run render "${shot[@]}" -o out/parts.exr --env in/parts.exr
+check 'the colour part is the environment' same_pixels out/parts.exr out/flat.exr
 clean
+refuses 3 'several pictures: a, b' render "${shot[@]}" -o out/a.exr --background in/lights.exr
+refuses 3 'several pictures: a, b' render "${shot[@]}" -o out/a.exr --env in/lights.exr
 refuses 2 'did you mean transparent?' render "${shot[@]}" -o out/a.exr --background trasnparent
 refuses 2 'env or transparent, or an image' render "${shot[@]}" -o out/a.exr --background wall
 refuses 2 'pictures are for render alone' info in/mirror_sphere.gltf --background in/plate.exr

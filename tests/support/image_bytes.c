@@ -24,7 +24,6 @@ void image_bytes_put(image_bytes *file, const void *bytes, size_t length)
     file->length += length;
 }
 
-// All three formats are little-endian.
 void image_bytes_put_number(image_bytes *file, uint64_t number, int bytes)
 {
     for (int i = 0; i < bytes; i++) {
@@ -38,96 +37,6 @@ void image_bytes_put_big(image_bytes *file, uint64_t number, int bytes)
     for (int i = bytes - 1; i >= 0; i--) {
         image_bytes_put_number(file, number >> (8 * i) & 0xff, 1);
     }
-}
-
-static void put_float(image_bytes *file, float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    image_bytes_put_number(file, bits, 4);
-}
-
-static void put_text(image_bytes *file, const char *text)
-{
-    image_bytes_put(file, text, strlen(text) + 1);
-}
-
-// ---- EXR: openexr.com, "OpenEXR File Layout" ----------------------------------------------------
-
-static void put_attribute(image_bytes *file, const char *name, const char *type, uint32_t size)
-{
-    put_text(file, name);
-    put_text(file, type);
-    image_bytes_put_number(file, size, 4);
-}
-
-static void put_window(image_bytes *file, const char *name, const int window[4])
-{
-    put_attribute(file, name, "box2i", 16);
-    for (int i = 0; i < 4; i++) {
-        image_bytes_put_number(file, (uint64_t)(int64_t)window[i], 4);
-    }
-}
-
-static void put_exr_header(image_bytes *file, const exr_recipe *recipe)
-{
-    image_bytes_put_number(file, 20000630, 4);
-    image_bytes_put_number(file, 2, 4);
-    uint32_t size = 1;
-    for (int c = 0; c < recipe->channels; c++) {
-        size += (uint32_t)strlen(recipe->names[c]) + 1 + 16;
-    }
-    put_attribute(file, "channels", "chlist", size);
-    for (int c = 0; c < recipe->channels; c++) {
-        put_text(file, recipe->names[c]);
-        image_bytes_put_number(file, 2, 4); // float
-        image_bytes_put_number(file, 0, 4);
-        image_bytes_put_number(file, 1, 4); // sampled at every pixel
-        image_bytes_put_number(file, 1, 4);
-    }
-    image_bytes_put_number(file, 0, 1);
-    put_attribute(file, "compression", "compression", 1);
-    image_bytes_put_number(file, 0, 1);
-    put_window(file, "dataWindow", recipe->data);
-    put_window(file, "displayWindow", recipe->display);
-    if (recipe->envmap >= 0) {
-        put_attribute(file, "envmap", "envmap", 1);
-        image_bytes_put_number(file, (uint64_t)recipe->envmap, 1);
-    }
-    put_attribute(file, "lineOrder", "lineOrder", 1);
-    image_bytes_put_number(file, 0, 1);
-    put_attribute(file, "pixelAspectRatio", "float", 4);
-    put_float(file, 1.0f);
-    put_attribute(file, "screenWindowCenter", "v2f", 8);
-    put_float(file, 0.0f);
-    put_float(file, 0.0f);
-    put_attribute(file, "screenWindowWidth", "float", 4);
-    put_float(file, 1.0f);
-    image_bytes_put_number(file, 0, 1);
-}
-
-image_bytes exr_bytes(const exr_recipe *recipe)
-{
-    image_bytes file = {0};
-    put_exr_header(&file, recipe);
-    int width = recipe->data[2] - recipe->data[0] + 1,
-        height = recipe->data[3] - recipe->data[1] + 1;
-    uint64_t line = (uint64_t)width * (uint64_t)recipe->channels * 4;
-    uint64_t first = file.length + 8 * (uint64_t)height;
-    for (int y = 0; y < height; y++) {
-        image_bytes_put_number(&file, first + (uint64_t)y * (line + 8), 8);
-    }
-    for (int y = 0; y < height; y++) {
-        image_bytes_put_number(&file, (uint64_t)(int64_t)(recipe->data[1] + y), 4);
-        image_bytes_put_number(&file, line, 4);
-        for (int c = 0; c < recipe->channels; c++) {
-            for (int x = 0; x < width; x++) {
-                put_float(&file, recipe->value(c, recipe->data[0] + x, recipe->data[1] + y,
-                                               recipe->context));
-            }
-        }
-    }
-    return file;
 }
 
 // ---- TIFF 6.0 -----------------------------------------------------------------------------------
@@ -174,6 +83,100 @@ image_bytes tiff_bytes(const tiff_recipe *recipe)
     for (unsigned i = 0; i < values; i++) {
         image_bytes_put_number(&file, recipe->codes[i], recipe->bits / 8);
     }
+    return file;
+}
+
+// ---- JPEG: ITU-T T.81
+// -----------------------------------------------------------------------------
+
+// Bits that wait for a whole byte.
+typedef struct bit_writer {
+    image_bytes *file;
+    unsigned bits;
+    int count;
+} bit_writer;
+
+static void put_bits(bit_writer *to, unsigned bits, int count)
+{
+    for (int i = count - 1; i >= 0; i--) {
+        to->bits = to->bits << 1 | (bits >> i & 1);
+        if (++to->count == 8) {
+            image_bytes_put_big(to->file, to->bits & 0xff, 1);
+            if ((to->bits & 0xff) == 0xff) {
+                image_bytes_put_big(to->file, 0, 1); // no marker
+            }
+            to->count = 0;
+        }
+    }
+}
+
+// A block without detail: the category of its mean, the mean, and the end of the block.
+static void put_block(bit_writer *to, int value)
+{
+    const int mean = 8 * (value - 128);
+    int category = 0;
+    while (abs(mean) >> category != 0) {
+        category++;
+    }
+    put_bits(to, (unsigned)category, 4);
+    put_bits(to, (unsigned)(mean < 0 ? mean - 1 : mean), category);
+    put_bits(to, 0, 1);
+}
+
+static void put_frame(image_bytes *file, int count)
+{
+    image_bytes_put_big(file, 0xffc0, 2);
+    image_bytes_put_big(file, (unsigned)(8 + 3 * count), 2);
+    image_bytes_put_big(file, 8, 1);
+    image_bytes_put_big(file, 8, 2);
+    image_bytes_put_big(file, 8, 2);
+    image_bytes_put_big(file, (unsigned)count, 1);
+    for (int c = 1; c <= count; c++) {
+        image_bytes_put_big(file, (unsigned)c << 16 | 0x1100, 3); // every pixel; table 0
+    }
+}
+
+// Codes of four bits for the categories 0 to 11, and of one bit for the end of a block.
+static void put_codes(image_bytes *file)
+{
+    static const unsigned char means[] = {0xff, 0xc4, 0, 31, 0, 0, 0, 0, 12, 0,  0,
+                                          0,    0,    0, 0,  0, 0, 0, 0, 0,  0,  0,
+                                          1,    2,    3, 4,  5, 6, 7, 8, 9,  10, 11};
+    static const unsigned char details[22] = {0xff, 0xc4, 0, 20, 0x10, 1};
+    image_bytes_put(file, means, sizeof means);
+    image_bytes_put(file, details, sizeof details);
+}
+
+image_bytes jpeg_bytes(const unsigned char *components, int count, int adobe)
+{
+    image_bytes file = {0};
+    image_bytes_put_big(&file, 0xffd8, 2);
+    if (adobe >= 0) {
+        image_bytes_put(&file,
+                        "\xff\xee\0\x0e"
+                        "Adobe\0\x64\0\0\0\0",
+                        15);
+        image_bytes_put_big(&file, (unsigned)adobe, 1);
+    }
+    image_bytes_put_big(&file, 0xffdb004300, 5);
+    for (int i = 0; i < 64; i++) {
+        image_bytes_put_big(&file, 1, 1);
+    }
+    put_frame(&file, count);
+    put_codes(&file);
+    image_bytes_put_big(&file, 0xffda, 2);
+    image_bytes_put_big(&file, (unsigned)(6 + 2 * count), 2);
+    image_bytes_put_big(&file, (unsigned)count, 1);
+    for (int c = 1; c <= count; c++) {
+        image_bytes_put_big(&file, (unsigned)c << 8, 2);
+    }
+    image_bytes_put_big(&file, 0x003f00, 3);
+    bit_writer bits = {&file, 0, 0};
+    for (int c = 0; c < count; c++) {
+        put_block(&bits, components[c]);
+    }
+    put_bits(&bits, 0x7f, 7); // fills the last byte
+    image_bytes_put_big(&file, 0xffd9, 2);
     return file;
 }
 
