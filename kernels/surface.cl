@@ -292,41 +292,36 @@ static inline void orient_brush(const scene_buffers *scene, const closest *hit, 
 }
 #endif
 
-// Rule 1: only the geometric normal decides the side. Both normals are turned to the viewer.
+// Rule 1: the geometric normal alone decides the side, once for a triangle. From inside both normals
+// are turned round. A shading normal that leans beyond the triangle's plane stays as it is.
 static inline void orient_normals(const scene_buffers *scene, const triangle *t, const path *ray,
                                   const closest *hit, surface *s)
 {
     real3 v = negate(ray->direction);
     real facing = dot3(s->geometric_normal, v);
     s->outside = facing > R(0.0);
-    s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
-    s->lit_normal = s->geometric_normal;
 #if HEEDS_CURVATURE
     s->curvature = real_of(0);
 #endif
-    // Interpolate the shading normal, and turn it to the geometric normal's side.
+    // The shading normal as the file has it.
+    real3 own = s->geometric_normal;
 #if GLINT_SMOOTH_NORMALS
     const real3 *normals = t->normals;
     const mask given = normals_given(normals);
     mask valid;
     real3 n = normalized(interpolate(normals, hit->b1, hit->b2), &valid);
-    mask against = dot3(n, s->geometric_normal) < R(0.0);
-    n = select3(against, negate(n), n);
-    s->lit_normal = select3(given & valid, n, s->geometric_normal);
+    own = select3(given & valid, n, own);
 #endif
+    // Textures bend it.
+    real3 bent = own;
 #if GLINT_NORMAL_MAPS
-#if GLINT_SMOOTH_NORMALS
-    const mask turned_round = SELECT(given & valid, against, !s->outside);
-#else
-    const mask turned_round = !s->outside;
-#endif
-    // Textures bend the normal as it is in the file.
-    const real3 own = select3(turned_round, negate(s->lit_normal), s->lit_normal);
     if (HAS(NORMAL_MAPS)) {
-        const real3 bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
-        s->lit_normal = select3(turned_round, negate(bent), bent);
+        bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
     }
 #endif
+    // Turn both normals to the viewer's side.
+    s->lit_normal = select3(s->outside, bent, negate(bent));
+    s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
     // Turn the shading normal to the viewer.
     real cosine = dot3(s->lit_normal, v);
     mask away = cosine < R(0.0);

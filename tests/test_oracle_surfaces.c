@@ -258,6 +258,34 @@ static void bent_normals_turn_reflections(void **state)
     }
 }
 
+// The winding alone says which side of a normal is lit: E(n) in front, E(−n) behind, with n as the
+// file has it, by however much it leans.
+static void the_winding_decides_which_side_is_lit(void **state)
+{
+    (void)state;
+    for (int degrees = 0; degrees <= 180; degrees += 20) {
+        mesh m = {0};
+        const double corners[3][3] = {{-9, 0, 9}, {9, 0, 9}, {0, 0, -9}};
+        mesh_add_triangle(&m, corners, 0);
+        vector n = {{sin(RADIANS(degrees)), cos(RADIANS(degrees)), 0.0}};
+        for (int k = 0; k < 3; k++)
+            vector_store(n, m.triangles[0].normal[k]);
+        oracle_material matte = blend_of(0.0);
+        matte.base[0] = matte.base[1] = matte.base[2] = 1.0;
+        oracle_scene scene = scene_of(&m, &matte);
+        scene.irradiance = light_direction_mean;
+        oracle_view view = {.depth = 1};
+        for (int side = -1; side <= 1; side += 2) {
+            oracle_ray ray = {{0.0, side, 0.0}, {0.0, -side, 0.0}};
+            double rgb[3];
+            oracle_radiance(&scene, &view, &ray, rgb, NULL);
+            for (int i = 0; i < 3; i++)
+                assert_close(rgb[i], 0.5 + side * n.at[i] / 3.0, 1e-15);
+        }
+        mesh_free(&m);
+    }
+}
+
 // ---- Coverage -----------------------------------------------------------------------------------
 
 typedef struct cover_case {
@@ -344,6 +372,7 @@ int main(void)
         cmocka_unit_test(mirror_balls_spread_what_a_pixel_sees),
         cmocka_unit_test(slabs_bring_what_a_pixel_sees_nearer),
         cmocka_unit_test(bent_normals_turn_reflections),
+        cmocka_unit_test(the_winding_decides_which_side_is_lit),
         cmocka_unit_test(what_is_there_in_part_lets_light_pass),
         cmocka_unit_test(glass_counts_where_it_is_there),
     };

@@ -256,15 +256,13 @@ static double curvature_of(const oracle_triangle *triangle)
     return copysign(sqrt(turned / squares), parted < 0.0 ? -1.0 : 1.0);
 }
 
-// Rule 1: a texture bends the normal as the file has it. Then it is turned to the side of n_g like
-// the unbent normal.
+// Rule 1: a texture bends the normal as the file has it. From inside it is turned round, as n_g is.
 static void take_normals(const place *p, const arrival *by, surface *s)
 {
     vector own = p->winding;
     bool smooth = interpolated_normal(p, &own);
     own = smooth ? own : p->winding;
-    double side = dot(own, s->geometric) < 0.0 ? -1.0 : 1.0;
-    s->lit = scaled(bent(p, by, ORACLE_NORMAL, own, s), side);
+    s->lit = scaled(bent(p, by, ORACLE_NORMAL, own, s), s->front ? 1.0 : -1.0);
     double cosine = dot(s->lit, s->viewer);
     s->normal = scaled(s->lit, cosine < 0.0 ? -1.0 : 1.0);
     s->cosine = fmin(fabs(cosine), 1.0);

@@ -1,5 +1,6 @@
-// Tests hard cases of shading normals: they lean under the surface, have no direction or an odd
-// length. Also tests unit vectors after a thousand bounces.
+// Tests hard cases of shading normals: they lean under the surface or beyond its plane, have no
+// direction or an odd length. Also tests unit vectors after a thousand bounces.
+#include "selftest/judged.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 #include "selftest/vectors.h"
@@ -90,6 +91,68 @@ static glint_status leaning_normals(trial *t)
         }
     }
     return GLINT_OK;
+}
+
+// ---- Normals that lean beyond the plane ---------------------------------------------------------
+
+// A ball of matte paint. Its normals lean sideways: not at the bottom, and by 170° at the top.
+static glint_status leaning_ball(glint_scene *scene, glint_error *error)
+{
+    static const double centre[3] = {0, 0, 0};
+    shape s = shape_begin();
+    shape_add_ball(&s, &(shape_ball){centre, 0.75, 2, MATERIAL_PAINT, true, NULL});
+    TRY(shape_end(&s, scene, error));
+    for (size_t v = 0; v < 3 * scene->triangle_count; v++) {
+        const float *p = scene->positions + 3 * v;
+        const double x = (double)p[0] / 0.75, y = (double)p[1] / 0.75, z = (double)p[2] / 0.75;
+        const double lean = (y + 1) / 2 * 170 * GLINT_PI / 180;
+        const double side[3] = {-z, 0, x}; // at right angles to the vertex's direction
+        const double ring = fmax(hypot(x, z), 1e-9);
+        const double outward[3] = {x, y, z};
+        for (int k = 0; k < 3; k++) {
+            scene->normals[3 * v + (size_t)k] =
+                (float)(cos(lean) * outward[k] + sin(lean) * side[k] / ring);
+        }
+    }
+    return GLINT_OK;
+}
+
+// Judges the ball's matte light. The winding alone decides which side of a normal is lit. So across
+// a triangle the light changes as the normals do, without patches.
+static glint_status judge_leaning_ball(trial *t, const double eye[3], glint_measure *errors)
+{
+    static const double target[3] = {0, 0, 0};
+    glint_scene scene = {0};
+    judged frame = {0};
+    glint_settings settings = trial_settings(t);
+    settings.depth = 1;
+    settings.all_features = true;
+    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    glint_status status;
+    TRY_OR(cleanup, status, leaning_ball(&scene, t->error));
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    frame.view.edges = true;
+    for (int p = 0; p < settings.width * settings.height; p++) {
+        double expected[4];
+        oracle_report report;
+        judged_pixel(&frame, p, expected, &report);
+        for (int k = 0; report.edge >= 1e-6 && k < 4; k++) {
+            measure_value(errors, frame.picture.values[4 * p + k], expected[k], 1,
+                          "pixel (%d, %d), value %d", p % settings.width, p / settings.width, k);
+        }
+    }
+cleanup:
+    judged_end(&frame);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// The irradiance map errs as the environment does; see cases_materials.c.
+static glint_status normals_past_the_plane(trial *t)
+{
+    static const double outside[3] = {0.3, 0.2, 2.2}, inside[3] = {0.1, -0.3, 0.2};
+    TRY(judge_leaning_ball(t, outside, trial_error(t, "matte light, from outside", "", 4e-4)));
+    return judge_leaning_ball(t, inside, trial_error(t, "and from inside", "", 4e-4));
 }
 
 // ---- Lengths -----------------------------------------------------------------------------------
@@ -249,6 +312,9 @@ cleanup:
 const trial_case normal_cases[] = {
     {"leaning_normals",
      "normals up to 89.9° off the surface's: reflections above it, without jumps", leaning_normals},
+    {"normals_past_the_plane",
+     "normals up to 170° off the surface's: matte light as the winding says, without patches",
+     normals_past_the_plane},
     {"odd_normals", "normals 0, NaN, infinite, 10^±20 long: unit reflections, or the surface's own",
      odd_normals},
     {"drift", "1000 bounces off normals 10^−6 too long: directions keep their length", drift},
