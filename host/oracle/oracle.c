@@ -53,7 +53,8 @@ static void follow(walk *w, const path *p)
     here.travelled += hit.distance;
     here.cone.width += here.cone.spread * hit.distance;
     // Evaluate the surface.
-    arrival by = {p->direction, here.cone.width, here.travelled, w->view->anisotropy};
+    arrival by = {p->direction, here.cone.width, here.travelled, w->view->anisotropy,
+                  w->view->roughness > 0};
     surface s = oracle_surface_at(w->scene, &hit, &by);
     report->jump = fmin(report->jump, s.jump);
     if (!there)

@@ -50,7 +50,8 @@ typedef struct surface {
 typedef struct arrival {
     vector direction;
     double width, travelled;
-    int taps; // most taps of a texture
+    int taps;   // most taps of a texture
+    bool lobes; // lobes, sheen and facets spread light
 } arrival;
 
 surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, const arrival *by);

@@ -95,12 +95,12 @@ static glint_status leaning_normals(trial *t)
 
 // ---- Normals that lean beyond the plane ---------------------------------------------------------
 
-// A ball of matte paint. Its normals lean sideways: not at the bottom, and by 170° at the top.
-static glint_status leaning_ball(glint_scene *scene, glint_error *error)
+// A ball whose normals lean sideways: not at the bottom, and by 170° at the top.
+static glint_status leaning_ball(shape_material material, glint_scene *scene, glint_error *error)
 {
     static const double centre[3] = {0, 0, 0};
     shape s = shape_begin();
-    shape_add_ball(&s, &(shape_ball){centre, 0.75, 2, MATERIAL_PAINT, true, NULL});
+    shape_add_ball(&s, &(shape_ball){centre, 0.75, 2, material, true, NULL});
     TRY(shape_end(&s, scene, error));
     for (size_t v = 0; v < 3 * scene->triangle_count; v++) {
         const float *p = scene->positions + 3 * v;
@@ -119,7 +119,7 @@ static glint_status leaning_ball(glint_scene *scene, glint_error *error)
 
 // Judges the ball's matte light. The winding alone decides which side of a normal is lit. So across
 // a triangle the light changes as the normals do, without patches.
-static glint_status judge_leaning_ball(trial *t, const double eye[3], glint_measure *errors)
+static glint_status judge_matte_ball(trial *t, const double eye[3], glint_measure *errors)
 {
     static const double target[3] = {0, 0, 0};
     glint_scene scene = {0};
@@ -129,7 +129,7 @@ static glint_status judge_leaning_ball(trial *t, const double eye[3], glint_meas
     settings.all_features = true;
     const glint_camera camera = shape_camera(eye, target, 0.8, 0);
     glint_status status;
-    TRY_OR(cleanup, status, leaning_ball(&scene, t->error));
+    TRY_OR(cleanup, status, leaning_ball(MATERIAL_PAINT, &scene, t->error));
     TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
     frame.view.edges = true;
     for (int p = 0; p < settings.width * settings.height; p++) {
@@ -147,12 +147,63 @@ cleanup:
     return status;
 }
 
-// The irradiance map errs as the environment does; see cases_materials.c.
+// A ball that sends light in many directions. Its normals point away from the viewer in places, and
+// its light must not jump at their edges.
+typedef struct spreading_ball {
+    const char *what;
+    shape_material material;
+    float roughness, sheen, clearcoat_roughness;
+    int strata; // the oracle's directions along each axis
+    double bound;
+} spreading_ball;
+
+static glint_status judge_spreading_ball(trial *t, const spreading_ball *ball)
+{
+    static const double eye[3] = {0.3, 0.2, 2.2}, target[3] = {0, 0, 0};
+    glint_scene scene = {0};
+    judged frame = {0};
+    glint_settings settings = trial_settings(t);
+    settings.width = 16;
+    settings.height = 12;
+    settings.depth = 1;
+    settings.roughness = GLINT_ROUGHNESS_EXACT;
+    settings.facets = 1024;
+    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    glint_status status;
+    TRY_OR(cleanup, status, leaning_ball(ball->material, &scene, t->error));
+    glint_material *m = &scene.materials[ball->material];
+    m->roughness = ball->roughness;
+    m->sheen_color[1] = ball->sheen;
+    m->sheen_roughness = 0.5F;
+    m->clearcoat = ball->clearcoat_roughness > 0 ? 1 : 0;
+    m->clearcoat_roughness = ball->clearcoat_roughness;
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    frame.view.roughness = ball->strata;
+    measure_error(trial_error(t, ball->what, "of the mean", ball->bound), judged_rmse(&frame),
+                  "relative RMSE");
+cleanup:
+    judged_end(&frame);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// The irradiance map errs as the environment does; see cases_materials.c. The other bounds are
+// those of cases_rough.c.
 static glint_status normals_past_the_plane(trial *t)
 {
     static const double outside[3] = {0.3, 0.2, 2.2}, inside[3] = {0.1, -0.3, 0.2};
-    TRY(judge_leaning_ball(t, outside, trial_error(t, "matte light, from outside", "", 4e-4)));
-    return judge_leaning_ball(t, inside, trial_error(t, "and from inside", "", 4e-4));
+    static const spreading_ball balls[] = {
+        {"rough metal", MATERIAL_TINTED, 0.6F, 0, 0, 64, 0.003},
+        {"rough glass", MATERIAL_GLASS, 0.4F, 0, 0, 24, 0.0015},
+        {"sheen on smooth metal", MATERIAL_TINTED, 0, 1, 0, 64, 0.001},
+        {"a rough coat on smooth metal", MATERIAL_TINTED, 0, 0, 0.5F, 64, 0.003},
+    };
+    TRY(judge_matte_ball(t, outside, trial_error(t, "matte light, from outside", "", 4e-4)));
+    TRY(judge_matte_ball(t, inside, trial_error(t, "and from inside", "", 4e-4)));
+    for (size_t i = 0; i < sizeof balls / sizeof *balls; i++) {
+        TRY(judge_spreading_ball(t, &balls[i]));
+    }
+    return GLINT_OK;
 }
 
 // ---- Lengths -----------------------------------------------------------------------------------
@@ -313,7 +364,7 @@ const trial_case normal_cases[] = {
     {"leaning_normals",
      "normals up to 89.9° off the surface's: reflections above it, without jumps", leaning_normals},
     {"normals_past_the_plane",
-     "normals up to 170° off the surface's: matte light as the winding says, without patches",
+     "normals up to 170° off the surface's: light as the winding says, without patches",
      normals_past_the_plane},
     {"odd_normals", "normals 0, NaN, infinite, 10^±20 long: unit reflections, or the surface's own",
      odd_normals},
