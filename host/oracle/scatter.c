@@ -405,7 +405,7 @@ static shares shares_at(walk *w, const path *p, const surface *s)
         bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // then paint has no coat
         vector coat = {{0.0, 0.0, 0.0}};
         if (!rough && !w->view->no_fresnel)
-            coat = oracle_dielectric(s, 1.0, m->ior);
+            coat = oracle_coat(s, m->ior);
         of.reflected = plus(of.reflected, scaled(coat, as_paint));
         of.paint = as_paint * (1.0 - largest(coat));
     }

@@ -69,4 +69,7 @@ vector oracle_tinted(const surface *s, double f0);
 // between F0 and 1.
 vector oracle_dielectric(const surface *s, double here, double there);
 
+// The same of smooth paint in empty space. With high indices it has Schlick's edge (rule 6).
+vector oracle_coat(const surface *s, double ior);
+
 #endif
