@@ -61,7 +61,20 @@ typedef struct sides {
     real eta;    // the outer medium's index of refraction over the inner one's
     real outer;  // the outer medium's index of refraction
     real cosine; // of light's angle to the normal in the outer medium
+    bool of_paint;
 } sides;
+
+// Above the index 2 + √3 Fresnel's term falls below F0 before it rises. Its inverse:
+#define HIGH_INDEX_ETA R(0.26794919243112270647)
+
+// Rule 6: how far the coat of paint has Schlick's edge instead of Fresnel's, by the index of
+// refraction: not at all up to 2 + √3, and wholly from 6 on.
+static inline real schlick_share(const sides *at)
+{
+    const scalar inverse = R(1.0) / (HIGH_INDEX_ETA - R(1.0) / R(6.0));
+    const real share = (HIGH_INDEX_ETA - at->eta) * inverse;
+    return at->of_paint ? SMALLER(LARGER(share, real_of(0)), real_of(1)) : real_of(0);
+}
 
 // The reflectance of a dielectric per colour; `reflectance` is its Fresnel term. With
 // KHR_materials_specular this term sets the position between the coloured F0 and 1, and `specular`
@@ -69,18 +82,29 @@ typedef struct sides {
 static inline real3 specular_reflectance(const scene_buffers *scene, const surface *s,
                                          real reflectance, const sides *at)
 {
-    const real root = (R(1.0) - at->eta) / (R(1.0) + at->eta);
+    const real root = (R(1.0) - at->eta) / (R(1.0) + at->eta), f0 = root * root;
+    const real m = R(1.0) - at->cosine, m2 = m * m, edge = m2 * m2 * m;
+    const real share = schlick_share(at);
+    if (at->of_paint) {
+        const real schlick = fused(R(1.0) - f0, edge, f0);
+        reflectance = fused(share, schlick - reflectance, reflectance);
+    }
     real3 reflected = real3_of(reflectance, reflectance, reflectance);
     real3 roots = real3_of(root, root, root); // of the base beneath a film
     real weight = real_of(1);
 #if GLINT_SPECULAR
     if (HAS(SPECULAR)) {
-        const real f0 = root * root;
-        const real way = LARGER((reflectance - f0) / (R(1.0) - f0), real_of(0));
+        real way = (reflectance - f0) / (R(1.0) - f0);
+        // Rounding must not make it negative. A high index may.
+        way = SELECT(at->eta < HIGH_INDEX_ETA, way, LARGER(way, real_of(0)));
+        way = SELECT(share < R(1.0), way, edge); // F0 may be 1
         const real3 from = specular_at_right_angles(scene, s, f0);
         const real3 rest = real3_of(R(1.0) - from.x, R(1.0) - from.y, R(1.0) - from.z);
         weight = s->specular;
         reflected = scale(scale_add(rest, way, from), weight);
+        const real zero = real_of(0);
+        reflected = real3_of(LARGER(reflected.x, zero), LARGER(reflected.y, zero),
+                             LARGER(reflected.z, zero));
 #if GLINT_IRIDESCENCE
         const real sign = SELECT(root < R(0.0), real_of(-1), real_of(1));
         roots = scale(film_roots(from), sign);
@@ -93,10 +117,10 @@ static inline real3 specular_reflectance(const scene_buffers *scene, const surfa
     return reflected;
 }
 
-// specular_reflectance of a surface that light meets from empty space.
-static inline real3 specular_from_space(const scene_buffers *scene, const surface *s)
+// specular_reflectance of paint or of glass that light meets from empty space.
+static inline real3 specular_from_space(const scene_buffers *scene, const surface *s, bool of_paint)
 {
-    const sides at = {R(1.0) / s->ior, real_of(1), s->cosine};
+    const sides at = {R(1.0) / s->ior, real_of(1), s->cosine, of_paint};
     return specular_reflectance(scene, s, surface_reflectance(s->cosine, s->ior), &at);
 }
 
@@ -177,7 +201,7 @@ static inline void scatter_glass(const scene_buffers *scene, const surface *s, r
     const real3 all = real3_of(share, share, share);
     // If light comes from within, its angle outside is the transmitted ray's.
     const sides at = {SELECT(within, R(1.0) / eta, eta), outer,
-                      SELECT(within, fused(eta, s->cosine, -out->bend), s->cosine)};
+                      SELECT(within, fused(eta, s->cosine, -out->bend), s->cosine), false};
     real3 reflected = scale(specular_reflectance(scene, s, reflectance, &at), share);
     reflected = select3(out->total_reflection, all, reflected);
     if (GLINT_THIN_WALL) {
@@ -301,7 +325,7 @@ static inline void scatter_paint(const scene_buffers *scene, const surface *s, r
 #if GLINT_FACETS
         smooth = smooth | s->facet.there;
 #endif
-        const real3 reflectance = specular_from_space(scene, s);
+        const real3 reflectance = specular_from_space(scene, s, true);
         const real3 gloss = scale(reflectance, SELECT(smooth, share, real_of(0)));
         out->reflected_weight = add(out->reflected_weight, gloss);
         kept = SELECT(smooth, R(1.0) - largest3(reflectance), kept);

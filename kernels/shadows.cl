@@ -161,7 +161,7 @@ static inline real3 light_passing(const scene_buffers *scene, const surface *s)
     const real share = (R(1.0) - s->metallic) * s->transmission;
     real reflectance = real_of(0);
     if (HAS(FRESNEL)) {
-        reflectance = largest3(specular_from_space(scene, s));
+        reflectance = largest3(specular_from_space(scene, s, false));
     }
     real left = share - share * reflectance;
 #if GLINT_CLEARCOAT

@@ -276,57 +276,132 @@ static inline real3 bent_normal(const scene_buffers *scene, const closest *hit, 
 }
 #endif
 
+#if GLINT_ROUGH || GLINT_FACETS
 #if GLINT_BRUSHED
-// Finds the direction in which the surface is rougher; `own` is the normal as in the file.
-static inline void orient_brush(const scene_buffers *scene, const closest *hit, real3 own, real3 v,
-                                surface *s)
+// The direction along which the texture is rougher; `own` is the normal as in the file. Without
+// tangents a surface is not brushed.
+static inline real3 brush_direction(const scene_buffers *scene, const closest *hit, real3 own,
+                                    surface *s)
 {
     real3 tangent, bitangent;
     const mask there =
         find_tangents(scene, hit, hit->place >= (lane_int)0, own, &tangent, &bitangent);
-    const real3 along = scale_add(bitangent, s->brush_y, scale(tangent, s->brush_x));
-    mask valid;
-    s->along = normalized(scale_add(s->normal, -dot3(along, s->normal), along), &valid);
-    s->anisotropy = SELECT(there & valid, s->anisotropy, real_of(0));
-    s->along_cosine = dot3(s->along, v);
+    s->anisotropy = SELECT(there, s->anisotropy, real_of(0));
+    return scale_add(bitangent, s->brush_y, scale(tangent, s->brush_x));
 }
 #endif
 
-// Rule 1: only the geometric normal decides the side. Both normals are turned to the viewer.
+// Finds surfaces that send light in many directions: lobes, sheen, facets.
+static inline mask spread_light(const scene_buffers *scene, const surface *s)
+{
+    const lane_int glass = GLINT_MATERIAL_SOLID | GLINT_MATERIAL_THIN;
+    const lane_int others = glass | GLINT_MATERIAL_BLEND | GLINT_MATERIAL_UNLIT;
+    const mask rough = s->roughness >= (scalar)GLINT_ROUGHNESS_LEAST;
+    mask spread = mask_none();
+#if GLINT_ROUGH
+    if (HAS(ROUGH)) {
+        mask lobes = rough;
+#if GLINT_BRUSHED
+        lobes = lobes | (s->anisotropy > R(0.0));
+#endif
+#if GLINT_SHEEN
+        lobes = HAS(SHEEN) ? lobes | (largest3(s->sheen_color) > R(0.0)) : lobes;
+#endif
+        spread = lobes & ((s->flags & others) == (lane_int)0);
+    }
+#endif
+#if GLINT_FACETS
+    spread = HAS(FACETS) ? spread | (rough & ((s->flags & glass) != (lane_int)0)) : spread;
+#endif
+    return spread;
+}
+
+// The normal about which light is spread, on the viewer's side. A normal that points away is folded
+// across the plane at right angles to v, as directions are. Unlike −n it does not jump there.
+static inline real3 folded_to_viewer(real3 n, real3 v)
+{
+    return scale_add(v, R(-2.0) * dot3(n, v), n);
+}
+
+// Orients the normal for lobes, sheen and facets. The normals in `away` point away from the viewer.
+static inline void orient_lobes(const scene_buffers *scene, const closest *hit, real3 own, real3 v,
+                                mask away, surface *s)
+{
+#if GLINT_BRUSHED
+    s->along = s->normal;
+    if (HAS(BRUSHED)) {
+        s->along = brush_direction(scene, hit, own, s);
+    } else {
+        s->anisotropy = s->along_cosine = real_of(0);
+    }
+#endif
+    const mask folds = away & spread_light(scene, s);
+    s->normal = select3(folds, folded_to_viewer(s->lit_normal, v), s->normal);
+#if GLINT_BRUSHED
+    if (HAS(BRUSHED)) {
+        mask valid;
+        s->along = normalized(scale_add(s->normal, -dot3(s->along, s->normal), s->along), &valid);
+        s->anisotropy = SELECT(valid, s->anisotropy, real_of(0));
+        s->along_cosine = dot3(s->along, v);
+    }
+#endif
+}
+#endif
+
+#if GLINT_CLEARCOAT
+// Orients the coat's normal; `own` is the normal as in the file.
+static inline void orient_clearcoat(const scene_buffers *scene, const closest *hit, real3 own,
+                                    real3 v, surface *s)
+{
+    real3 coat = own;
+#if GLINT_NORMAL_MAPS
+    if (HAS(CLEARCOAT) && HAS(NORMAL_MAPS)) {
+        coat = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->clearcoat_bump);
+    }
+#endif
+    coat = select3(s->outside, coat, negate(coat));
+    const real up = dot3(coat, v);
+    const mask away = up < R(0.0);
+    s->clearcoat_normal = select3(away, negate(coat), coat);
+    s->clearcoat_cosine = SMALLER(fabs(up), real_of(1));
+#if GLINT_ROUGH
+    const mask folds = away & (s->clearcoat_roughness >= (scalar)GLINT_ROUGHNESS_LEAST);
+    s->clearcoat_normal =
+        select3(HAS(ROUGH) ? folds : mask_none(), folded_to_viewer(coat, v), s->clearcoat_normal);
+#endif
+}
+#endif
+
+// Rule 1: the geometric normal alone decides the side, once for a triangle. From inside both normals
+// are turned round. A shading normal that leans beyond the triangle's plane stays as it is.
 static inline void orient_normals(const scene_buffers *scene, const triangle *t, const path *ray,
                                   const closest *hit, surface *s)
 {
     real3 v = negate(ray->direction);
     real facing = dot3(s->geometric_normal, v);
     s->outside = facing > R(0.0);
-    s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
-    s->lit_normal = s->geometric_normal;
 #if HEEDS_CURVATURE
     s->curvature = real_of(0);
 #endif
-    // Interpolate the shading normal, and turn it to the geometric normal's side.
+    // The shading normal as the file has it.
+    real3 own = s->geometric_normal;
 #if GLINT_SMOOTH_NORMALS
     const real3 *normals = t->normals;
     const mask given = normals_given(normals);
     mask valid;
     real3 n = normalized(interpolate(normals, hit->b1, hit->b2), &valid);
-    mask against = dot3(n, s->geometric_normal) < R(0.0);
-    n = select3(against, negate(n), n);
-    s->lit_normal = select3(given & valid, n, s->geometric_normal);
+    own = select3(given & valid, n, own);
 #endif
+    // Textures bend it.
+    real3 bent = own;
 #if GLINT_NORMAL_MAPS
-#if GLINT_SMOOTH_NORMALS
-    const mask turned_round = SELECT(given & valid, against, !s->outside);
-#else
-    const mask turned_round = !s->outside;
-#endif
-    // Textures bend the normal as it is in the file.
-    const real3 own = select3(turned_round, negate(s->lit_normal), s->lit_normal);
     if (HAS(NORMAL_MAPS)) {
-        const real3 bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
-        s->lit_normal = select3(turned_round, negate(bent), bent);
+        bent = bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->bump);
     }
 #endif
+    // Turn both normals to the viewer's side.
+    s->lit_normal = select3(s->outside, bent, negate(bent));
+    s->geometric_normal = select3(s->outside, s->geometric_normal, negate(s->geometric_normal));
     // Turn the shading normal to the viewer.
     real cosine = dot3(s->lit_normal, v);
     mask away = cosine < R(0.0);
@@ -339,26 +414,11 @@ static inline void orient_normals(const scene_buffers *scene, const triangle *t,
 #endif
     cosine = fabs(cosine);
     s->cosine = SMALLER(cosine, real_of(1));
-#if GLINT_BRUSHED
-    s->along = s->normal;
-    if (HAS(BRUSHED)) {
-        orient_brush(scene, hit, own, v, s);
-    } else {
-        s->anisotropy = s->along_cosine = real_of(0);
-    }
+#if GLINT_ROUGH || GLINT_FACETS
+    orient_lobes(scene, hit, own, v, away, s);
 #endif
 #if GLINT_CLEARCOAT
-    s->clearcoat_normal = s->normal;
-    s->clearcoat_cosine = s->cosine;
-#if GLINT_NORMAL_MAPS
-    if (HAS(CLEARCOAT) && HAS(NORMAL_MAPS)) {
-        const real3 coat =
-            bent_normal(scene, hit, hit->place >= (lane_int)0, own, s->clearcoat_bump);
-        const real up = dot3(coat, v);
-        s->clearcoat_normal = select3(up < R(0.0), negate(coat), coat);
-        s->clearcoat_cosine = SMALLER(fabs(up), real_of(1));
-    }
-#endif
+    orient_clearcoat(scene, hit, own, v, s);
 #endif
 }
 

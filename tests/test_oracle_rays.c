@@ -398,6 +398,33 @@ static void an_exploding_tree_is_bounded_and_told(void **state)
     mesh_free(&m);
 }
 
+// A ray comes down at 45 degrees on a mirror at y = 1 and goes up to a screen at x = 2, at y = 3.
+// With a start of ¼ it leaves from y = 1.25.
+static void rays_start_beside_surfaces_if_asked(void **state)
+{
+    (void)state;
+    for (int beside = 0; beside < 2; beside++) {
+        double low = beside ? 3.2 : 2.9, high = beside ? 3.3 : 3.1;
+        mesh m = {0};
+        mesh_add_quad(&m, (const double[4][3]){{-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1}}, 0);
+        mesh_add_quad(
+            &m, (const double[4][3]){{2, low, -1}, {2, low, 1}, {2, high, 1}, {2, high, -1}}, 1);
+        oracle_material materials[2] = {oracle_material_default, oracle_material_default};
+        materials[0].metallic = 1.0;
+        materials[1].unlit = true;
+        materials[1].base[0] = 5.0;
+        oracle_scene scene = scene_of(&m, materials);
+        for (int start = 0; start < 2; start++) {
+            oracle_view view = {.depth = 2, .start = 0.25 * start};
+            oracle_ray ray = {{-1.0, 2.0, 0.1}, {1.0, -1.0, 0.0}};
+            double rgb[3];
+            oracle_radiance(&scene, &view, &ray, rgb, NULL);
+            assert_close(rgb[0], start == beside ? 5.0 : 1.0, 1e-14);
+        }
+        mesh_free(&m);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -413,6 +440,7 @@ int main(void)
         cmocka_unit_test(surfaces_mix_metal_then_glass_then_paint),
         cmocka_unit_test(edges_and_critical_angles_are_told),
         cmocka_unit_test(an_exploding_tree_is_bounded_and_told),
+        cmocka_unit_test(rays_start_beside_surfaces_if_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -258,6 +258,73 @@ static void bent_normals_turn_reflections(void **state)
     }
 }
 
+// The winding alone says which side of a normal is lit: E(n) in front, E(−n) behind, with n as the
+// file has it, by however much it leans.
+static void the_winding_decides_which_side_is_lit(void **state)
+{
+    (void)state;
+    for (int degrees = 0; degrees <= 180; degrees += 20) {
+        mesh m = {0};
+        const double corners[3][3] = {{-9, 0, 9}, {9, 0, 9}, {0, 0, -9}};
+        mesh_add_triangle(&m, corners, 0);
+        vector n = {{sin(RADIANS(degrees)), cos(RADIANS(degrees)), 0.0}};
+        for (int k = 0; k < 3; k++)
+            vector_store(n, m.triangles[0].normal[k]);
+        oracle_material matte = blend_of(0.0);
+        matte.base[0] = matte.base[1] = matte.base[2] = 1.0;
+        oracle_scene scene = scene_of(&m, &matte);
+        scene.irradiance = light_direction_mean;
+        oracle_view view = {.depth = 1};
+        for (int side = -1; side <= 1; side += 2) {
+            oracle_ray ray = {{0.0, side, 0.0}, {0.0, -side, 0.0}};
+            double rgb[3];
+            oracle_radiance(&scene, &view, &ray, rgb, NULL);
+            for (int i = 0; i < 3; i++)
+                assert_close(rgb[i], 0.5 + side * n.at[i] / 3.0, 1e-15);
+        }
+        mesh_free(&m);
+    }
+}
+
+// ---- High indices -------------------------------------------------------------------------------
+
+// What smooth black paint reflects of E = 1 is F. Between Fresnel's and Schlick's term an index's
+// share is linear in its inverse, so the middle of 1/6 and 1/(2 + √3) has half of each.
+static void paint_of_high_index_has_schlicks_edge(void **state)
+{
+    (void)state;
+    double a = 1.0 / (2.0 + sqrt(3.0)), middle = 0.5 * (a + 1.0 / 6.0);
+    const double iors[] = {1.5, 1.0 / a - 1e-9, 1.0 / middle, 6.0, 50.0, 1e20};
+    const double shares[] = {0.0, 0.0, 0.5, 1.0, 1.0, 1.0};
+    mesh m = {0};
+    mesh_add_quad(&m, (const double[4][3]){{-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50}},
+                  0);
+    for (int i = 0; i < 6; i++) {
+        for (int colored = 0; colored < 2; colored++) {
+            oracle_material paint = oracle_material_default;
+            paint.base[0] = paint.base[1] = paint.base[2] = 0.0;
+            paint.ior = iors[i];
+            paint.specular = colored ? 0.75 : 1.0;
+            paint.specular_color[0] = colored ? 0.25 : 1.0;
+            oracle_scene scene = scene_of(&m, &paint);
+            oracle_view view = {.depth = 1};
+            for (int degrees = 0; degrees < 90; degrees += 5) {
+                double c = cos(RADIANS(degrees)), rgb[3];
+                oracle_ray ray = {{0.0, 1.0, 0.0}, {sin(RADIANS(degrees)), -c, 0.0}};
+                oracle_radiance(&scene, &view, &ray, rgb, NULL);
+                double f0 = normal_fresnel(iors[i]), fifth = pow(1.0 - c, 5.0);
+                double f = oracle_fresnel(c, 1.0, iors[i]);
+                double w = f0 < 1.0 ? (f - f0) / (1.0 - f0) : 0.0;
+                w += shares[i] * (fifth - w);
+                double from = colored ? 0.25 * f0 : f0;
+                double seen = from + (1.0 - from) * w;
+                assert_close(rgb[0], colored ? 0.75 * seen : seen, 1e-9);
+            }
+        }
+    }
+    mesh_free(&m);
+}
+
 // ---- Coverage -----------------------------------------------------------------------------------
 
 typedef struct cover_case {
@@ -344,6 +411,8 @@ int main(void)
         cmocka_unit_test(mirror_balls_spread_what_a_pixel_sees),
         cmocka_unit_test(slabs_bring_what_a_pixel_sees_nearer),
         cmocka_unit_test(bent_normals_turn_reflections),
+        cmocka_unit_test(the_winding_decides_which_side_is_lit),
+        cmocka_unit_test(paint_of_high_index_has_schlicks_edge),
         cmocka_unit_test(what_is_there_in_part_lets_light_pass),
         cmocka_unit_test(glass_counts_where_it_is_there),
     };

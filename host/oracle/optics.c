@@ -71,16 +71,33 @@ static vector filmed(const surface *s, double here, double there)
     return scaled(oracle_film(&stack, s->cosine), s->specular);
 }
 
-vector oracle_dielectric(const surface *s, double here, double there)
+// A dielectric whose reflectance is the share `schlick` of Schlick's term and the rest of
+// Fresnel's.
+static vector mixed_dielectric(const surface *s, double here, double there, double schlick)
 {
-    double f = oracle_fresnel(s->cosine, here, there), f0 = oracle_fresnel(1.0, here, there);
+    double f0 = oracle_fresnel(1.0, here, there);
+    double exact = (oracle_fresnel(s->cosine, here, there) - f0) / (1.0 - f0);
+    double way = schlick * pow(1.0 - s->cosine, 5.0);
+    if (schlick < 1.0) // else F0 may be 1
+        way += (1.0 - schlick) * exact;
     vector reflected = {{0.0, 0.0, 0.0}}, from = oracle_tinted(s, f0);
-    double way = fmax(0.0, (f - f0) / (1.0 - f0));
     for (int i = 0; i < 3; i++)
-        reflected.at[i] = s->specular * (from.at[i] + (1.0 - from.at[i]) * way);
+        reflected.at[i] = s->specular * fmax(0.0, from.at[i] + (1.0 - from.at[i]) * way);
     double sine = sqrt(fmax(0.0, 1.0 - s->cosine * s->cosine));
     bool total = here * sine >= there || here * sine >= s->material->film_ior;
     if (s->film == 0.0 || total)
         return reflected;
     return plus(scaled(reflected, 1.0 - s->film), scaled(filmed(s, here, there), s->film));
+}
+
+vector oracle_dielectric(const surface *s, double here, double there)
+{
+    return mixed_dielectric(s, here, there, 0.0);
+}
+
+vector oracle_coat(const surface *s, double ior)
+{
+    double exact_up_to = 2.0 + sqrt(3.0), schlick_from = 6.0;
+    double way = (1.0 / exact_up_to - 1.0 / ior) / (1.0 / exact_up_to - 1.0 / schlick_from);
+    return mixed_dielectric(s, 1.0, ior, fmin(fmax(way, 0.0), 1.0));
 }

@@ -16,6 +16,12 @@ static void report_clear(oracle_report *report)
         .edge = ORACLE_EDGE_REACH, .critical = INFINITY, .threshold = INFINITY, .jump = INFINITY};
 }
 
+static arrival arrival_of(const walk *w, const path *here)
+{
+    return (arrival){here->direction, here->cone.width, here->travelled, w->view->anisotropy,
+                     w->view->roughness > 0};
+}
+
 // Traces a path's ray and continues from the surface that it meets.
 static void follow(walk *w, const path *p)
 {
@@ -52,7 +58,7 @@ static void follow(walk *w, const path *p)
     here.travelled += hit.distance;
     here.cone.width += here.cone.spread * hit.distance;
     // Evaluate the surface.
-    arrival by = {p->direction, here.cone.width, here.travelled, w->view->anisotropy};
+    arrival by = arrival_of(w, &here);
     surface s = oracle_surface_at(w->scene, &hit, &by);
     report->jump = fmin(report->jump, s.jump);
     if (!there)

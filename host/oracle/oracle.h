@@ -154,6 +154,9 @@ typedef struct oracle_view {
     // Light past all surfaces is left out, and lowers alpha.
     bool transparent;
     bool edges; // measure oracle_report.edge; takes about twice the time
+    // Rays that leave surfaces start beside them, as if the place's coordinates had been rounded by
+    // this share. It shows how much rounding changes a pixel. 0: they start on the surface.
+    double start;
 } oracle_view;
 
 typedef struct oracle_ray {

@@ -41,6 +41,23 @@ void oracle_escape(walk *w, const path *p, vector direction, vector weight)
         add(w, weight, environment(w->scene, w->scene->radiance, direction));
 }
 
+// The place where a ray leaves a surface; see oracle_view.start. Rounding the coordinates by a
+// share of the triangle's moves a place off its plane by the sum of their parts along the normal,
+// at most.
+static vector start_of(const walk *w, const surface *s, vector direction)
+{
+    const oracle_triangle *t = &w->scene->triangles[s->triangle];
+    double reach = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        double most = 0.0;
+        for (int k = 0; k < 3; k++)
+            most = fmax(most, fabs(t->position[k][axis]));
+        reach += fabs(s->geometric.at[axis]) * most;
+    }
+    double side = dot(direction, s->geometric) < 0.0 ? -1.0 : 1.0;
+    return plus(s->point, scaled(s->geometric, side * w->view->start * reach));
+}
+
 // Rule 7: ends the path or continues to the next surface.
 static void branch(walk *w, const path *from, const surface *s, vector direction, vector weight)
 {
@@ -61,7 +78,7 @@ static void branch(walk *w, const path *from, const surface *s, vector direction
         return;
     }
     path next = *from;
-    next.origin = s->point;
+    next.origin = w->view->start != 0.0 ? start_of(w, s, direction) : s->point;
     next.direction = direction;
     next.weight = weight;
     next.left = s->triangle;
@@ -414,7 +431,7 @@ static shares shares_at(walk *w, const path *p, const surface *s)
         bool rough = w->view->roughness == 0 && s->roughness >= 0.01; // then paint has no coat
         vector coat = {{0.0, 0.0, 0.0}};
         if (!rough && !w->view->no_fresnel)
-            coat = oracle_dielectric(s, 1.0, m->ior);
+            coat = oracle_coat(s, m->ior);
         of.reflected = plus(of.reflected, scaled(coat, as_paint));
         of.paint = as_paint * (1.0 - largest(coat));
     }

@@ -34,7 +34,7 @@ vector oracle_pass_straight(void *state, const oracle_hit *hit, vector direction
     oracle_shadow *to_light = state;
     path *way = &to_light->way;
     const walk *w = to_light->walk;
-    arrival by = {direction, 0.0, way->travelled + hit->distance, 1};
+    arrival by = {direction, 0.0, way->travelled + hit->distance, 1, false};
     oracle_hit met = *hit;
     bool shown = !w->scene->overlaps || shows(to_light, &met, direction);
     surface s = oracle_surface_at(w->scene, &met, &by);

@@ -256,27 +256,46 @@ static double curvature_of(const oracle_triangle *triangle)
     return copysign(sqrt(turned / squares), parted < 0.0 ? -1.0 : 1.0);
 }
 
-// Rule 1: a texture bends the normal as the file has it. Then it is turned to the side of n_g like
-// the unbent normal.
+// n on the viewer's side: turned round, or mirrored in the plane across v if it spreads light.
+static vector towards_viewer(vector n, vector v, bool spreads)
+{
+    double cosine = dot(n, v);
+    if (cosine >= 0.0)
+        return n;
+    return spreads ? minus(n, scaled(v, 2.0 * cosine)) : scaled(n, -1.0);
+}
+
+static bool spreads_light(const surface *s)
+{
+    const oracle_material *m = s->material;
+    bool glass = oracle_is_solid(m) || oracle_is_thin(m);
+    bool sheen = !glass && largest_magnitude(s->sheen_color) > 0.0;
+    return m->mirror < 0.0 && (s->roughness >= 0.01 || s->anisotropy > 0.0 || sheen);
+}
+
+// Rule 1: a texture bends the normal as the file has it. From inside it is turned round, as n_g is.
 static void take_normals(const place *p, const arrival *by, surface *s)
 {
     vector own = p->winding;
     bool smooth = interpolated_normal(p, &own);
     own = smooth ? own : p->winding;
-    double side = dot(own, s->geometric) < 0.0 ? -1.0 : 1.0;
+    double side = s->front ? 1.0 : -1.0;
     s->lit = scaled(bent(p, by, ORACLE_NORMAL, own, s), side);
-    double cosine = dot(s->lit, s->viewer);
-    s->normal = scaled(s->lit, cosine < 0.0 ? -1.0 : 1.0);
-    s->cosine = fmin(fabs(cosine), 1.0);
-    take_brush(p, by, own, s);
-    vector coat = bent(p, by, ORACLE_CLEARCOAT_NORMAL, own, s);
-    double up = dot(coat, s->viewer);
-    s->clearcoat_normal = scaled(coat, up < 0.0 ? -1.0 : 1.0);
-    s->clearcoat_cosine = fmin(fabs(up), 1.0);
+    s->normal = towards_viewer(s->lit, s->viewer, false);
+    s->cosine = fmin(dot(s->normal, s->viewer), 1.0);
     if (smooth)
         s->curvature = curvature_of(p->triangle) * (dot(own, s->normal) < 0.0 ? -1.0 : 1.0);
     if (smooth && p->corners)
         s->jump = fmin(s->jump, s->cosine); // here the curvature changes its sign
+    take_brush(p, by, own, s);
+    if (by->lobes && spreads_light(s)) {
+        s->normal = towards_viewer(s->lit, s->viewer, true);
+        take_brush(p, by, own, s);
+    }
+    vector coat = scaled(bent(p, by, ORACLE_CLEARCOAT_NORMAL, own, s), side);
+    bool rough_coat = by->lobes && s->clearcoat_roughness >= 0.01;
+    s->clearcoat_normal = towards_viewer(coat, s->viewer, rough_coat);
+    s->clearcoat_cosine = fmin(dot(s->clearcoat_normal, s->viewer), 1.0);
 }
 
 surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, const arrival *by)

@@ -50,7 +50,8 @@ typedef struct surface {
 typedef struct arrival {
     vector direction;
     double width, travelled;
-    int taps; // most taps of a texture
+    int taps;   // most taps of a texture
+    bool lobes; // lobes, sheen and facets spread light
 } arrival;
 
 surface oracle_surface_at(const oracle_scene *scene, const oracle_hit *hit, const arrival *by);
@@ -67,5 +68,8 @@ vector oracle_tinted(const surface *s, double f0);
 // of index `there`. KHR_materials_specular changes F0, but keeps the weight of Fresnel's term
 // between F0 and 1.
 vector oracle_dielectric(const surface *s, double here, double there);
+
+// The same of smooth paint in empty space. With high indices it has Schlick's edge (rule 6).
+vector oracle_coat(const surface *s, double ior);
 
 #endif

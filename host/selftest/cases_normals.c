@@ -1,5 +1,6 @@
-// Tests hard cases of shading normals: they lean under the surface, have no direction or an odd
-// length. Also tests unit vectors after a thousand bounces.
+// Tests hard cases of shading normals: they lean under the surface or beyond its plane, have no
+// direction or an odd length. Also tests unit vectors after a thousand bounces.
+#include "selftest/judged.h"
 #include "selftest/shapes.h"
 #include "selftest/trial.h"
 #include "selftest/vectors.h"
@@ -90,6 +91,197 @@ static glint_status leaning_normals(trial *t)
         }
     }
     return GLINT_OK;
+}
+
+// ---- Normals that lean beyond the plane ---------------------------------------------------------
+
+// A ball whose normals lean sideways: not at the bottom, and by 170° at the top.
+static glint_status leaning_ball(shape_material material, glint_scene *scene, glint_error *error)
+{
+    static const double centre[3] = {0, 0, 0};
+    shape s = shape_begin();
+    shape_add_ball(&s, &(shape_ball){centre, 0.75, 2, material, true, NULL});
+    TRY(shape_end(&s, scene, error));
+    for (size_t v = 0; v < 3 * scene->triangle_count; v++) {
+        const float *p = scene->positions + 3 * v;
+        const double x = (double)p[0] / 0.75, y = (double)p[1] / 0.75, z = (double)p[2] / 0.75;
+        const double lean = (y + 1) / 2 * 170 * GLINT_PI / 180;
+        const double side[3] = {-z, 0, x}; // at right angles to the vertex's direction
+        const double ring = fmax(hypot(x, z), 1e-9);
+        const double outward[3] = {x, y, z};
+        for (int k = 0; k < 3; k++) {
+            scene->normals[3 * v + (size_t)k] =
+                (float)(cos(lean) * outward[k] + sin(lean) * side[k] / ring);
+        }
+    }
+    return GLINT_OK;
+}
+
+// Judges the ball's matte light. The winding alone decides which side of a normal is lit. So across
+// a triangle the light changes as the normals do, without patches.
+static glint_status judge_matte_ball(trial *t, const double eye[3], glint_measure *errors)
+{
+    static const double target[3] = {0, 0, 0};
+    glint_scene scene = {0};
+    judged frame = {0};
+    glint_settings settings = trial_settings(t);
+    settings.depth = 1;
+    settings.all_features = true;
+    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    glint_status status;
+    TRY_OR(cleanup, status, leaning_ball(MATERIAL_PAINT, &scene, t->error));
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    frame.view.edges = true;
+    for (int p = 0; p < settings.width * settings.height; p++) {
+        double expected[4];
+        oracle_report report;
+        judged_pixel(&frame, p, expected, &report);
+        for (int k = 0; report.edge >= 1e-6 && k < 4; k++) {
+            measure_value(errors, frame.picture.values[4 * p + k], expected[k], 1,
+                          "pixel (%d, %d), value %d", p % settings.width, p / settings.width, k);
+        }
+    }
+cleanup:
+    judged_end(&frame);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// A ball that sends light in many directions. Its normals point away from the viewer in places, and
+// its light must not jump at their edges.
+typedef struct spreading_ball {
+    const char *what;
+    shape_material material;
+    float roughness, sheen, clearcoat_roughness;
+    int strata; // the oracle's directions along each axis
+    double bound;
+} spreading_ball;
+
+static glint_status judge_spreading_ball(trial *t, const spreading_ball *ball)
+{
+    static const double eye[3] = {0.3, 0.2, 2.2}, target[3] = {0, 0, 0};
+    glint_scene scene = {0};
+    judged frame = {0};
+    glint_settings settings = trial_settings(t);
+    settings.width = 16;
+    settings.height = 12;
+    settings.depth = 1;
+    settings.roughness = GLINT_ROUGHNESS_EXACT;
+    settings.facets = 1024;
+    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    glint_status status;
+    TRY_OR(cleanup, status, leaning_ball(ball->material, &scene, t->error));
+    glint_material *m = &scene.materials[ball->material];
+    m->roughness = ball->roughness;
+    m->sheen_color[1] = ball->sheen;
+    m->sheen_roughness = 0.5F;
+    m->clearcoat = ball->clearcoat_roughness > 0 ? 1 : 0;
+    m->clearcoat_roughness = ball->clearcoat_roughness;
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    frame.view.roughness = ball->strata;
+    measure_error(trial_error(t, ball->what, "of the mean", ball->bound), judged_rmse(&frame),
+                  "relative RMSE");
+cleanup:
+    judged_end(&frame);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// The irradiance map errs as the environment does; see cases_materials.c. The other bounds are
+// those of cases_rough.c.
+static glint_status normals_past_the_plane(trial *t)
+{
+    static const double outside[3] = {0.3, 0.2, 2.2}, inside[3] = {0.1, -0.3, 0.2};
+    static const spreading_ball balls[] = {
+        {"rough metal", MATERIAL_TINTED, 0.6F, 0, 0, 64, 0.003},
+        {"rough glass", MATERIAL_GLASS, 0.4F, 0, 0, 24, 0.0015},
+        {"sheen on smooth metal", MATERIAL_TINTED, 0, 1, 0, 64, 0.001},
+        {"a rough coat on smooth metal", MATERIAL_TINTED, 0, 0, 0.5F, 64, 0.003},
+    };
+    TRY(judge_matte_ball(t, outside, trial_error(t, "matte light, from outside", "", 4e-4)));
+    TRY(judge_matte_ball(t, inside, trial_error(t, "and from inside", "", 4e-4)));
+    for (size_t i = 0; i < sizeof balls / sizeof *balls; i++) {
+        TRY(judge_spreading_ball(t, &balls[i]));
+    }
+    return GLINT_OK;
+}
+
+// ---- Glass whose normals lean ------------------------------------------------------------------
+
+// A ball of glass whose normals all lean by `lean`, in a direction that turns with the height.
+static glint_status leaning_glass(double lean, glint_scene *scene, glint_error *error)
+{
+    static const double centre[3] = {0, 0, 0};
+    shape s = shape_begin();
+    shape_add_ball(&s, &(shape_ball){centre, 0.75, 3, MATERIAL_GLASS, true, NULL});
+    TRY(shape_end(&s, scene, error));
+    for (size_t v = 0; v < 3 * scene->triangle_count; v++) {
+        const float *p = scene->positions + 3 * v;
+        const double x = (double)p[0] / 0.75, y = (double)p[1] / 0.75, z = (double)p[2] / 0.75;
+        const double ring = fmax(hypot(x, z), 1e-9), turn = 6 * y;
+        const double outward[3] = {x, y, z}, across[3] = {-z / ring, 0, x / ring};
+        const double up[3] = {-x * y / ring, ring, -z * y / ring};
+        for (int k = 0; k < 3; k++) {
+            const double aside = cos(turn) * across[k] + sin(turn) * up[k];
+            scene->normals[3 * v + (size_t)k] = (float)(cos(lean) * outward[k] + sin(lean) * aside);
+        }
+    }
+    return GLINT_OK;
+}
+
+// A ray starts 8u of its triangle's coordinates off a surface. Other roundings on the way add about
+// as much. The errors of several surfaces can add up.
+#define START_ROUNDINGS 16
+#define ADDED_UP 8
+
+static glint_status judge_leaning_glass(trial *t, double lean, glint_measure *unexplained,
+                                        glint_measure *decided)
+{
+    static const double eye[3] = {0.3, 0.2, 2.2}, target[3] = {0, 0, 0};
+    glint_scene scene = {0};
+    judged frame = {0};
+    glint_settings settings = trial_settings(t);
+    settings.width = 32;
+    settings.height = 24;
+    settings.depth = 8;
+    const glint_camera camera = shape_camera(eye, target, 0.8, 0);
+    glint_status status;
+    TRY_OR(cleanup, status, leaning_glass(lean, &scene, t->error));
+    TRY_OR(cleanup, status, judged_frame(t, &scene, &camera, &settings, &frame));
+    for (int p = 0; p < settings.width * settings.height; p++) {
+        double expected[4], off = 0;
+        oracle_report report;
+        judged_pixel(&frame, p, expected, &report);
+        if (report.surfaces == 0) {
+            continue;
+        }
+        const double spread = judged_spread(&frame, p, START_ROUNDINGS * t->u, expected);
+        for (int k = 0; k < 4; k++) {
+            off = fmax(off, fabs(frame.picture.values[4 * p + k] - expected[k]));
+        }
+        measure_event(decided, spread > 1e-3, "pixel (%d, %d)", p % settings.width,
+                      p / settings.width);
+        measure_event(unexplained, !(off <= 4e-4 + ADDED_UP * spread),
+                      "normals lean by %g, pixel (%d, %d): off by %.3g, rounding moves it by %.3g",
+                      lean, p % settings.width, p / settings.width, off, spread);
+    }
+cleanup:
+    judged_end(&frame);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// Where normals lean far, each surface multiplies an error by several, and in single precision no
+// digits may be left after eight surfaces. So no bound on colours holds. But no pixel may be off by
+// more than rounding the places on surfaces moves it. In rare pixels an edge is between the places.
+static glint_status tilted_glass(trial *t)
+{
+    glint_measure *unexplained =
+        trial_share(t, "pixels off by more than rounding moves them", 0.01);
+    TRY(judge_leaning_glass(t, 0, unexplained,
+                            trial_share(t, "pixels that it moves by 10⁻³: normals upright", 0)));
+    TRY(judge_leaning_glass(t, 0.5, unexplained, trial_share(t, "leaning by 0.5 rad", 0.5)));
+    return judge_leaning_glass(t, 1.5, unexplained, trial_share(t, "leaning by 1.5 rad", 0.75));
 }
 
 // ---- Lengths -----------------------------------------------------------------------------------
@@ -249,6 +441,12 @@ cleanup:
 const trial_case normal_cases[] = {
     {"leaning_normals",
      "normals up to 89.9° off the surface's: reflections above it, without jumps", leaning_normals},
+    {"normals_past_the_plane",
+     "normals up to 170° off the surface's: light as the winding says, without patches",
+     normals_past_the_plane},
+    {"tilted_glass",
+     "glass whose normals lean by up to 1.5 rad: eight surfaces, errors no larger than rounding's",
+     tilted_glass},
     {"odd_normals", "normals 0, NaN, infinite, 10^±20 long: unit reflections, or the surface's own",
      odd_normals},
     {"drift", "1000 bounces off normals 10^−6 too long: directions keep their length", drift},

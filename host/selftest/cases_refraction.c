@@ -4,6 +4,7 @@
 #include "selftest/trial.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double indices[] = {1.1, 1.33, 1.5, 2.42, 10};
 #define INDEX_COUNT (sizeof indices / sizeof *indices)
@@ -266,6 +267,92 @@ static glint_status metal_at_its_ends(trial *t)
     return GLINT_OK;
 }
 
+// ---- High indices ------------------------------------------------------------------------------
+
+// A surface that reflects, and the largest of the colours of KHR_materials_specular.
+typedef struct high_index {
+    double ior, specular, color;
+    bool is_paint; // else glass without thickness
+} high_index;
+
+// Rule 6 in long double. Glass has Fresnel's term at every index. Paint has it up to 2 + √3, and
+// Schlick's from 6 on.
+static double expected_of(const high_index *of, double cosine)
+{
+    const long double n = (long double)(float)of->ior, root = (n - 1) / (n + 1), f0 = root * root;
+    const long double a = 2 - sqrtl(3), b = (a - 1 / n) / (a - 1 / 6.0L);
+    const long double e = of->is_paint ? fminl(fmaxl(b, 0), 1) : 0;
+    const long double schlick = f0 + (1 - f0) * powl(1 - (long double)cosine, 5);
+    const long double f = (1 - e) * (long double)reflectance(cosine, (double)(1 / n)) + e * schlick;
+    const long double from = fminl((long double)(float)of->color * f0, 1);
+    const long double w = f0 < 1 ? (f - f0) / (1 - f0) : powl(1 - (long double)cosine, 5);
+    return (double)((long double)(float)of->specular * fmaxl(from + (1 - from) * w, 0));
+}
+
+static glint_status measure_high_index(trial *t, const high_index *of, glint_measure *errors)
+{
+    enum { COUNT = 64 };
+    static const double corners[4][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    static glint_probe_ray rays[COUNT];
+    static glint_probe_bounce bounces[COUNT];
+    glint_scene scene = {0};
+    glint_probe *probe = NULL;
+    glint_status status;
+    const shape_material which = of->is_paint ? MATERIAL_PAINT : MATERIAL_GLASS;
+    shape s = shape_begin();
+    shape_add_quad(&s, corners, which);
+    TRY_OR(cleanup, status, shape_end(&s, &scene, t->error));
+    glint_material *m = &scene.materials[which];
+    m->roughness = m->thickness = 0;
+    m->ior = (float)of->ior;
+    m->specular = (float)of->specular;
+    m->specular_color[0] = (float)of->color;
+    m->specular_color[1] = m->specular_color[2] = 0;
+    TRY_OR(cleanup, status, trial_probe(t, &scene, &probe));
+    for (int i = 0; i < COUNT; i++) {
+        const double angle = i == 0 ? 0 : GLINT_PI / 2 * i / COUNT;
+        const double d[3] = {sin(angle), 0, -cos(angle)};
+        rays[i] = (glint_probe_ray){.from = -1};
+        for (int k = 0; k < 3; k++) {
+            rays[i].direction[k] = trial_rounded(t, d[k]);
+            rays[i].origin[k] = trial_rounded(t, -0.5 * d[k]);
+        }
+    }
+    TRY_OR(cleanup, status, trial_bounce(t, probe, rays, bounces, COUNT));
+    for (int i = 0; i < COUNT; i++) {
+        measure_value(errors, bounces[i].reflected_weight, expected_of(of, bounces[i].cosine), t->u,
+                      "%s of ior %g, specular %g × %g, cos θ %.9g",
+                      of->is_paint ? "paint" : "glass", of->ior, of->specular, of->color,
+                      bounces[i].cosine);
+    }
+cleanup:
+    glint_probe_free(probe);
+    glint_scene_free(&scene);
+    return status;
+}
+
+// Fresnel's term errs by 16u (see fresnel_at_its_ends). The colour divides this by 1 − F0, which is
+// at least a half up to index 6, and below that Schlick's term alone is left.
+static glint_status high_indices(trial *t)
+{
+    static const double iors[] = {1.5, 2.42, 3.7, 3.8, 4.5, 5.5, 6, 8, 1000, 1e20, 3e38};
+    glint_measure *paint = trial_error(t, "what paint reflects", "u", 48);
+    glint_measure *glass = trial_error(t, "what glass reflects, index up to 5.5", "u", 48);
+    for (size_t i = 0; i < sizeof iors / sizeof *iors; i++) {
+        const high_index looks[] = {{iors[i], 1, 1, true},
+                                    {iors[i], 1, 0.25, true},
+                                    {iors[i], 0.5, 20, true},
+                                    {iors[i], 1, 1, false},
+                                    {iors[i], 0.5, 0.25, false}};
+        for (size_t k = 0; k < sizeof looks / sizeof *looks; k++) {
+            if (looks[k].is_paint || iors[i] < 6) {
+                TRY(measure_high_index(t, &looks[k], looks[k].is_paint ? paint : glass));
+            }
+        }
+    }
+    return GLINT_OK;
+}
+
 const trial_case refraction_cases[] = {
     {"critical_angle", "rays to both sides of total reflection: the right side, the reflectance",
      critical_angle},
@@ -274,6 +361,9 @@ const trial_case refraction_cases[] = {
      extreme_indices},
     {"fresnel_at_its_ends", "Fresnel's term at 0°, at 90°, at Brewster's angle, in between",
      fresnel_at_its_ends},
+    {"high_indices",
+     "paint of index 1.5 to 3·10^38: Fresnel's term, then Schlick's, without a jump; glass",
+     high_indices},
     {"metal_at_its_ends", "Schlick's term for metal, against the formula", metal_at_its_ends},
     {0},
 };

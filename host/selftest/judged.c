@@ -33,6 +33,21 @@ void judged_pixel(const judged *of, int p, double expected[4], oracle_report *re
     oracle_pixel(&of->judge.scene, &of->view, pixel, expected, report);
 }
 
+double judged_spread(const judged *of, int p, double start, const double expected[4])
+{
+    judged moved = *of;
+    double spread = 0;
+    for (int side = -1; side <= 1; side += 2) {
+        double color[4];
+        moved.view.start = side * start;
+        judged_pixel(&moved, p, color, NULL);
+        for (int k = 0; k < 4; k++) {
+            spread = fmax(spread, fabs(color[k] - expected[k]));
+        }
+    }
+    return spread;
+}
+
 double judged_rmse(const judged *of)
 {
     const int pixels = of->picture.width * of->picture.height;

@@ -24,6 +24,10 @@ glint_status judged_frame(trial *t, const glint_scene *scene, const glint_camera
 // The oracle's colour of pixel `p`, counted from the top left, row by row.
 void judged_pixel(const judged *of, int p, double expected[4], oracle_report *report);
 
+// How far a pixel moves from `expected`, at most, if rays start beside surfaces by this share of
+// their coordinates, on either side (oracle_view.start). Ill-conditioned pixels move far.
+double judged_spread(const judged *of, int p, double start, const double expected[4]);
+
 // The root mean square of all differences in R, G and B, over the mean.
 double judged_rmse(const judged *of);
 
