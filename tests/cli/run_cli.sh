@@ -505,7 +505,7 @@ clean
 run info in/rough.gltf --env in/sky.hdr
 check 'info succeeds' test "$status" -eq 0 -a ! -s stderr
 for text in 'Scene in/rough.gltf' '1 triangles' 'chrome: metal' 'front: perspective' \
-    'flat: orthographic' 'Environment in/sky.hdr' 'layout latlong' 'MIRROR' 'GLASS' 'left out' \
+    'field of view 45.84° (vertical)' 'flat: orthographic' 'Environment in/sky.hdr' 'layout latlong' 'MIRROR' 'GLASS' 'left out' \
     'MiB on the device' 'tree: 1 nodes, 1 clusters' 'bytes a triangle' 'rough'; do
     check "info says: $text" grep -qF "$text" stdout
 done
