@@ -173,6 +173,20 @@ refuses 3 'in/missing.gltf: ' info in/missing.gltf
 refuses 3 'in/broken.gltf: ' render in/broken.gltf -o out/x.png
 refuses 3 'in/folder.gltf: ' render in/folder.gltf -o out/x.png
 refuses 3 '/dev/null: ' render /dev/null -o out/x.png
+# Files that are not glTF.
+printf '# exported\nv 0 0 0\n' >in/car.obj
+printf 'PK\3\4\12\0\0\0' >in/car.usdz
+gzip -c in/mirror.gltf >in/packed.gltf
+tar -cf in/car.glb in/mirror.gltf
+for command in 'render -o out/x.png' info 'capture out/x.exr --at 0,0,0' 'bench --rounds 1'; do
+    # shellcheck disable=SC2086 # a list of words
+    refuses 3 'in/car.obj: it is a Wavefront OBJ file, not glTF (import it in Blender, then File > Export' \
+        ${command%% *} in/car.obj ${command#"${command%% *}"}
+done
+refuses 3 'in/car.usdz: it is a USD file, not glTF (' info in/car.usdz
+refuses 3 'in/packed.gltf: it is packed by gzip, not glTF (unpack it' info in/packed.gltf
+refuses 3 'in/car.glb: it is an archive, not glTF (unpack it' info in/car.glb
+refuses 3 'in/sky.hdr: it is a picture, not glTF (give a scene; a picture can light it' render in/sky.hdr -o out/x.png
 refuses 3 'in/missing.hdr: ' render "${ok[@]}" --env in/missing.hdr
 refuses 3 'in/missing.hdr: ' info in/mirror.gltf --env in/missing.hdr
 refuses 3 'in/short.hdr: ' render "${ok[@]}" --env in/short.hdr
