@@ -13,7 +13,7 @@
 // The options of glint render, and what follows from them.
 typedef struct render_request {
     glint_input_request inputs; // first: the shared tables' offsets count from here
-    const char *output; // render_request_finish removes the backslashes that escape
+    const char *output;         // render_request_finish removes the backslashes that escape
     const char *stats;
     const char *compression;
     double max_error; // relative RMSE; 0: the settings decide
