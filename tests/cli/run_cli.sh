@@ -207,6 +207,9 @@ clean
 refuses 4 'nonsense' render "${ok[@]}" --device nonsense
 refuses 4 'nonsense' info in/mirror.gltf --device nonsense
 refuses 4 '99' render "${ok[@]}" --device 99
+refuses 9 'the frame needs 65536 MiB in one buffer and the device allows' render "${ok[@]}" --size 65536x65536 --progress none
+refuses 9 'the frame needs 65536 MiB in one buffer and the device allows' \
+    render in/mirror.gltf -o out/x.#.png --size 65536x65536 --frames 1-9 --progress none
 
 # ---- write errors -------------------------------------------------------------------------------
 
