@@ -496,6 +496,12 @@ run contact whole/*.exr -o out/toned.png --tone agx
 check 'a contact sheet with a tone curve' apart 0.01 out/toned.png out/sheet.png
 run contact whole/*.exr -o out/sheet.exr --tone agx
 check 'a contact sheet: a tone curve that is left out is said' grep -q 'warning: .*--tone' stderr
+# A number in a name that is no frame's: the label is the name.
+cp whole/f.0001.exr in/8.exr
+cp whole/f.0001.exr in/ball_8k.exr
+run contact in/8.exr -o out/number.png
+run contact in/ball_8k.exr -o out/name.png
+check 'a contact sheet: ball_8k is not frame 8' apart 0 out/name.png out/number.png
 run contact whole/f.0001.exr in/scene.bin whole/f.0002.exr -o out/part.png
 check 'a contact sheet: one is missing: exit status 6' test "$status" -eq 6 -a -s out/part.png
 check 'a contact sheet: it is named' grep -q 'in/scene.bin: ' stderr
