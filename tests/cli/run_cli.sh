@@ -80,16 +80,6 @@ for words in '' '--help' '-h' 'help'; do
     check "glint $words lists the commands" grep -q '^  render ' stdout
     check "glint $words succeeds quietly" test "$status" -eq 0 -a ! -s stderr
 done
-for command in render info bench; do
-    "$glint" "$command" --help >help.txt
-    for words in "--help $command" "-h $command" "help $command" "$command -h" "$command -help"; do
-        # shellcheck disable=SC2086 # a list of words
-        run $words
-        check "glint $words is the help of $command" cmp stdout help.txt
-    done
-done
-run help --help
-check 'glint help --help lists the commands' grep -q '^  render ' stdout
 run --version
 check '--version prints one version' grep -qxE 'glint [0-9]+\.[0-9]+\.[0-9]+.*' stdout
 run render --help in/missing.gltf --depth 3
@@ -102,11 +92,6 @@ refuses 2 "did you mean render?" rendr
 refuses 2 "unknown command 'frobnicate'" frobnicate
 refuses 2 'unknown option --verbose' --verbose
 refuses 2 'did you mean devices?' help device
-refuses 2 'did you mean render?' --help rendr
-refuses 2 'in/mirror.gltf is a file, no command (did you mean glint render in/mirror.gltf -o OUT?)' in/mirror.gltf
-refuses 2 'did you mean glint render car.GLB -o OUT?' car.GLB --size 64x64
-refuses 2 'did you mean glint render in/missing -o OUT?' in/missing
-refuses 2 'in/sky.hdr is a picture, no command (did you mean glint compare' in/sky.hdr
 refuses 2 'SCENE is missing' render
 refuses 2 'SCENE is missing' render -o out/x.png
 refuses 2 'SCENE is missing' info
@@ -123,18 +108,6 @@ refuses 2 '--mend' render "${ok[@]}" --mend inf
 refuses 2 'did you mean --depth?' render "${ok[@]}" --dept 3
 refuses 2 'did you mean --samples?' render "${ok[@]}" --sample=4
 refuses 2 'unknown option -x' render "${ok[@]}" -x
-# Options of other renderers.
-refuses 2 'unknown option --dof (glint has no depth of field)' render "${ok[@]}" --dof
-refuses 2 'unknown option --threads (glint takes the cores' render "${ok[@]}" --threads 4
-refuses 2 'unknown option --resolution (did you mean --size WxH?)' render "${ok[@]}" --resolution 64x64
-refuses 2 'unknown option --spp (did you mean --samples 16?)' render "${ok[@]}" --spp=16
-refuses 2 'unknown option --width (did you mean --size WxH?)' render "${ok[@]}" --width 64 --height 64
-refuses 2 'unknown option --gpu (did you mean --device gpu?)' render "${ok[@]}" --gpu
-refuses 2 'unknown option -spp (did you mean --samples 16?)' render "${ok[@]}" -spp 16
-refuses 2 'unknown option -size (did you mean --size?)' render "${ok[@]}" -size 64x64
-refuses 2 'unknown option -output (did you mean --output?)' render in/mirror.gltf -output out/x.png
-refuses 2 'OUT stands without an option: glint env IN OUT' env in/sky.hdr --output out/x.exr
-refuses 2 'unknown option --output (did you mean --json?)' info in/mirror.gltf --output x
 refuses 2 '--json takes no value' info in/mirror.gltf --json=yes
 refuses 2 '--help takes no value' info in/mirror.gltf --help=x
 refuses 2 'did you mean --help?' info in/mirror.gltf --hel
@@ -200,20 +173,6 @@ refuses 3 'in/missing.gltf: ' info in/missing.gltf
 refuses 3 'in/broken.gltf: ' render in/broken.gltf -o out/x.png
 refuses 3 'in/folder.gltf: ' render in/folder.gltf -o out/x.png
 refuses 3 '/dev/null: ' render /dev/null -o out/x.png
-# Files that are not glTF.
-printf '# exported\nv 0 0 0\n' >in/car.obj
-printf 'PK\3\4\12\0\0\0' >in/car.usdz
-gzip -c in/mirror.gltf >in/packed.gltf
-tar -cf in/car.glb in/mirror.gltf
-for command in 'render -o out/x.png' info 'capture out/x.exr --at 0,0,0' 'bench --rounds 1'; do
-    # shellcheck disable=SC2086 # a list of words
-    refuses 3 'in/car.obj: it is a Wavefront OBJ file, not glTF (import it in Blender, then File > Export' \
-        ${command%% *} in/car.obj ${command#"${command%% *}"}
-done
-refuses 3 'in/car.usdz: it is a USD file, not glTF (' info in/car.usdz
-refuses 3 'in/packed.gltf: it is packed by gzip, not glTF (unpack it' info in/packed.gltf
-refuses 3 'in/car.glb: it is an archive, not glTF (unpack it' info in/car.glb
-refuses 3 'in/sky.hdr: it is a picture, not glTF (give a scene; a picture can light it' render in/sky.hdr -o out/x.png
 refuses 3 'in/missing.hdr: ' render "${ok[@]}" --env in/missing.hdr
 refuses 3 'in/missing.hdr: ' info in/mirror.gltf --env in/missing.hdr
 refuses 3 'in/short.hdr: ' render "${ok[@]}" --env in/short.hdr
