@@ -1,4 +1,4 @@
-// Tests the device against the oracle: every scene of scenes/, at depth 1, 2 and 8.
+// Tests the device against the oracle: fifteen scenes of scenes/, at depth 1, 2 and 8.
 //
 // Single precision may decide otherwise than double, for a ray within rounding of an edge, of the
 // critical angle or of the least weight. The oracle's margins report such decisions. These pixels

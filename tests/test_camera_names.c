@@ -89,6 +89,9 @@ static void the_name_stands_before_the_extension_or_the_number(void **state)
         {"turn/f%04d.exr", "turn/f.front.%04d.exr"},
         {"turn/f_#.exr", "turn/f_front.#.exr"},
         {"a.b/stats", "a.b/stats.front"},
+        {"ring \\#1.png", "ring \\#1.front.png"},
+        {"ring \\#1.##.png", "ring \\#1.front.##.png"},
+        {"a\\\\##.png", "a.front.\\\\##.png"},
         {".png", "front.png"},
     };
     for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {

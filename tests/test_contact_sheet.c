@@ -1,5 +1,6 @@
 // Tests contact sheets: the places of pictures, and the mean in each pixel of the sheet.
 #include "report/compare/bitmap_font.h"
+#include "report/compare/contact_labels.h"
 #include "report/compare/contact_sheet.h"
 
 #include <ctype.h>
@@ -137,20 +138,67 @@ static void sheets_have_a_largest_size(void **state)
     glint_contact_sheet_free(&sheet);
 }
 
-static void labels_are_numbers_or_names(void **state)
+// A sheet's files and their labels, NULL at the end.
+typedef const char *labelled_files[9][2];
+
+static void frames_have_their_numbers_and_others_their_names(void **state)
 {
     (void)state;
-    static const char *const labels[][2] = {
-        {"turn/f.0012.exr", "0012"}, {"turn/f.0012b.exr", "0012"}, {"2/glass.exr", "glass"},
-        {"mirror.png", "mirror"},    {"a.b.hdr", "a.b"},           {"plain", "plain"},
-        {".hidden", ".hidden"},
+    static const labelled_files sheets[] = {
+        {{"turn/f.0012.exr", "0012"}},
+        {{"0012.exr", "0012"}},
+        {{"2/glass.exr", "glass"}},
+        {{"mirror.png", "mirror"}},
+        {{"a.b.hdr", "a.b"}},
+        {{"plain", "plain"}},
+        {{".hidden", ".hidden"}},
+        {{"", ""}},
+        // Numbers that are no frame's.
+        {{"ball_8k.exr", "ball_8k"}, {"2CylinderEngine.png", "2CylinderEngine"}},
+        {{"turn/f.0012b.exr", "f.0012b"}, {"v2/ring2.exr", "ring2"}},
+        {{"cam2_left.exr", "cam2_left"}, {"cam2_right.exr", "cam2_right"}},
+        // A sequence may have its numbers anywhere.
+        {{"a_0001.png", "0001"}, {"a_0002.png", "0002"}, {"a_10000.png", "10000"}},
+        {{"f7.png", "7"}, {"f12.png", "12"}, {"g12.png", "g12"}},
+        {{"f.1.v2.png", "1"}, {"f.2.v2.png", "2"}},
+        {{"turn-01.exr", "01"}, {"turn-02.exr", "02"}},
+        {{"f.-07.exr", "-07"}, {"f.08.exr", "08"}, {"f.00.exr", "00"}},
+        {{"-7.exr", "-7"}, {"8.exr", "8"}},
+        // Two numbers differ, so neither is the frame's.
+        {{"c1_f1.png", "c1_f1"}, {"c1_f2.png", "c1_f2"}, {"c2_f1.png", "c2_f1"}},
+        // The same numbers in different sequences; and the same name in different folders.
+        {{"front.0001.exr", "front.0001"}, {"side.0001.exr", "side.0001"}},
+        {{"a/f.0001.exr", "0001"}, {"b/f.0001.exr", "0001"}, {"b/f.0002.exr", "0002"}},
     };
-    for (size_t i = 0; i < sizeof labels / sizeof *labels; i++) {
-        char label[64];
-        glint_contact_label(labels[i][0], label, sizeof label);
-        assert_string_equal(label, labels[i][1]);
+    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++) {
+        const char *paths[9];
+        char labels[9][GLINT_CONTACT_LABEL];
+        size_t count = 0;
+        for (; sheets[i][count][0] != NULL; count++) {
+            paths[count] = sheets[i][count][0];
+        }
+        assert_int_equal(glint_contact_labels(paths, count, labels, NULL), GLINT_OK);
+        for (size_t k = 0; k < count; k++) {
+            assert_string_equal(labels[k], sheets[i][k][1]);
+        }
     }
-    // Every letter of a name must be visible.
+}
+
+static void long_names_are_cut(void **state)
+{
+    (void)state;
+    char name[300];
+    memset(name, '7', sizeof name);
+    name[sizeof name - 1] = '\0';
+    const char *paths[] = {name};
+    char labels[1][GLINT_CONTACT_LABEL];
+    assert_int_equal(glint_contact_labels(paths, 1, labels, NULL), GLINT_OK);
+    assert_int_equal(strlen(labels[0]), GLINT_CONTACT_LABEL - 1);
+}
+
+static void every_letter_of_a_name_is_visible(void **state)
+{
+    (void)state;
     for (int letter = 'A'; letter <= 'z'; letter++) {
         bool is_drawn = isalpha(letter) == 0;
         for (int i = 0; i < GLINT_FONT_WIDTH * GLINT_FONT_HEIGHT; i++) {
@@ -168,7 +216,9 @@ int main(void)
         cmocka_unit_test(pictures_lie_in_rows_and_fit),
         cmocka_unit_test(alpha_nan_and_missing_pictures_are_seen),
         cmocka_unit_test(sheets_have_a_largest_size),
-        cmocka_unit_test(labels_are_numbers_or_names),
+        cmocka_unit_test(frames_have_their_numbers_and_others_their_names),
+        cmocka_unit_test(long_names_are_cut),
+        cmocka_unit_test(every_letter_of_a_name_is_visible),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -436,7 +436,7 @@ static void a_frame_that_the_device_cannot_hold_is_refused_at_once(void **state)
                                           .settings = &settings};
     glint_renderer *renderer;
     glint_error error = {0};
-    assert_int_equal(glint_renderer_create(&inputs, &renderer, &error), GLINT_DEVICE_FAILED);
+    assert_int_equal(glint_renderer_create(&inputs, &renderer, &error), GLINT_DEVICE_LACKS);
     assert_null(renderer);
     assert_non_null(strstr(error.message, "the frame needs 65536 MiB"));
     glint_environment_free(&environment);

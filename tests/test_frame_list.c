@@ -216,6 +216,18 @@ static void names_hold_the_number(void **state)
         {"100%.exr", 7, "100%.exr"},
         {"%123d.exr", 7, "%123d.exr"},
         {"####", 0, "0000"},
+        // Escapes, and backslashes that escape nothing.
+        {"ring \\#1.png", 7, "ring #1.png"},
+        {"ring \\#1.####.png", 7, "ring #1.0007.png"},
+        {"take \\#####.exr", 7, "take #0007.exr"},
+        {"\\#\\#.exr", 7, "##.exr"},
+        {"a\\%d.%d", 7, "a%d.7"},
+        {"a\\%04d.##", 7, "a%04d.07"},
+        {"a\\\\##.exr", 7, "a\\07.exr"},
+        {"a\\\\\\##.exr", 7, "a\\#7.exr"},
+        {"a\\b\\\\c.#\\", 7, "a\\b\\\\c.7\\"},
+        {"f\\#/100\\%.#.exr", 7, "f\\#/100\\%.7.exr"},
+        {"", 7, ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         glint_frame_name name;
@@ -224,8 +236,9 @@ static void names_hold_the_number(void **state)
         char *path = glint_frame_name_make(&name, cases[i].frame);
         assert_string_equal(path, cases[i].name);
         free(path);
+        glint_frame_name_free(&name);
     }
-    static const char *const refused[] = {"a.##.##.exr", "a.%d.####.exr", "#.%4d"};
+    static const char *const refused[] = {"a.##.##.exr", "a.%d.####.exr", "#.%4d", "\\#.#.#"};
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         glint_frame_name name;
         glint_error error = {0};

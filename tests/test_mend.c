@@ -239,7 +239,7 @@ static void what_cannot_be_mended_is_refused(void **state)
     settings.shading = GLINT_SHADING_PIXEL;
     device.has_double = false;
     assert_int_equal(glint_settings_check(inputs.settings, inputs.device, inputs.scene, NULL),
-                     GLINT_DEVICE_FAILED);
+                     GLINT_DEVICE_LACKS);
 }
 
 int main(void)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -75,12 +76,55 @@ static void lists_have_commas_alone_between(void **state)
 static void a_word_is_near_by_two_letters_or_as_a_beginning(void **state)
 {
     (void)state;
-    static const char *const words[] = {"transparent", "env", "depth", NULL};
+    static const char *const words[] = {"transparent", "env", "depth", "aov", "render", NULL};
     assert_string_equal(glint_nearest_word("transparant", words), "transparent");
     assert_string_equal(glint_nearest_word("tr", words), "transparent");
     assert_string_equal(glint_nearest_word("dept", words), "depth");
+    assert_string_equal(glint_nearest_word("rednre", words), "render"); // two exchanges
+    assert_string_equal(glint_nearest_word("edpth", words), "depth");
+    assert_string_equal(glint_nearest_word("evn", words), "env");
     assert_null(glint_nearest_word("frobnicate", words));
+    assert_null(glint_nearest_word("dof", words)); // two letters of three are others
+    assert_null(glint_nearest_word("ev", words));
+    assert_null(glint_nearest_word("width", words));
     assert_null(glint_nearest_word("", words));
+}
+
+// The distance by its definition: the cheaper of all edits at the first letters.
+static size_t distance_by_definition(const char *a, const char *b)
+{
+    if (a[0] == '\0' || b[0] == '\0') {
+        return strlen(a) + strlen(b);
+    }
+    const size_t by_replacing = distance_by_definition(a + 1, b + 1) + (a[0] != b[0]);
+    const size_t by_deleting = distance_by_definition(a + 1, b) + 1;
+    const size_t by_inserting = distance_by_definition(a, b + 1) + 1;
+    size_t least = by_replacing < by_deleting ? by_replacing : by_deleting;
+    least = by_inserting < least ? by_inserting : least;
+    if (a[0] == b[1] && a[1] == b[0]) {
+        const size_t by_exchanging = distance_by_definition(a + 2, b + 2) + 1;
+        least = by_exchanging < least ? by_exchanging : least;
+    }
+    return least;
+}
+
+// All words of six letters from "abc".
+static void distances_are_those_of_the_definition(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"abcabcab", "bcacba", "cabcab", "ababab"};
+    for (int number = 0; number < 729; number++) {
+        char text[7] = "";
+        for (int i = 0, rest = number; i < 6; i++, rest /= 3) {
+            text[i] = (char)('a' + rest % 3);
+        }
+        for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+            const bool is_beginning = strncmp(words[k], text, 6) == 0;
+            const size_t distance = is_beginning ? 1 : distance_by_definition(text, words[k]);
+            assert_int_equal(glint_word_distance(text, words[k]),
+                             distance <= 2 ? distance : GLINT_WORD_IS_FAR);
+        }
+    }
 }
 
 int main(void)
@@ -91,6 +135,7 @@ int main(void)
         cmocka_unit_test(whole_numbers_have_neither),
         cmocka_unit_test(lists_have_commas_alone_between),
         cmocka_unit_test(a_word_is_near_by_two_letters_or_as_a_beginning),
+        cmocka_unit_test(distances_are_those_of_the_definition),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -390,7 +390,7 @@ static void a_renderer_outlives_a_scene_that_it_cannot_show(void **state)
     glint_image image = {0};
     const glint_camera camera = camera_of(s, 0);
     const glint_scene bad = {.triangle_count = (size_t)1 << 40, .moves = true};
-    assert_int_equal(glint_renderer_prepare(s->renderer, &bad, &error), GLINT_DEVICE_FAILED);
+    assert_int_equal(glint_renderer_prepare(s->renderer, &bad, &error), GLINT_DEVICE_LACKS);
     glint_error_free(&error);
     assert_int_equal(glint_renderer_set_prepared(s->renderer, &bad, &error), GLINT_USAGE);
     glint_error_free(&error);
@@ -398,7 +398,7 @@ static void a_renderer_outlives_a_scene_that_it_cannot_show(void **state)
                          &(glint_frame_request){s->renderer, &camera, NULL, &image, NULL}, &error),
                      GLINT_OK);
     assert_int_equal(test_count_different(&image, &s->alone[0]), 0);
-    assert_int_equal(glint_renderer_set_scene(s->renderer, &bad, &error), GLINT_DEVICE_FAILED);
+    assert_int_equal(glint_renderer_set_scene(s->renderer, &bad, &error), GLINT_DEVICE_LACKS);
     glint_error_free(&error);
     assert_int_equal(glint_renderer_frame(
                          &(glint_frame_request){s->renderer, &camera, NULL, &image, NULL}, &error),

@@ -231,7 +231,7 @@ static void what_the_device_cannot_hold_is_refused(void **state)
     assert_int_equal(glint_renderer_set_settings(s.renderer, &first, &error), GLINT_OK);
     const glint_status status = glint_renderer_set_settings(s.renderer, &large, &error);
     device->capabilities.memory_bytes = memory;
-    assert_int_equal(status, GLINT_DEVICE_FAILED);
+    assert_int_equal(status, GLINT_DEVICE_LACKS);
     assert_non_null(strstr(error.message, "scene, environment and frame need"));
     glint_error_free(&error);
     assert_int_equal(glint_renderer_set_settings(s.renderer, &first, NULL), GLINT_OK);

@@ -83,29 +83,38 @@ bool glint_parse_reals(const char *text, double *values, int count)
 
 // ---- Words -------------------------------------------------------------------------------------
 
-// The number of letters to insert, delete or replace to get from `a` to `b` (Levenshtein 1966).
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+// The number of letters to insert, delete or replace, and of neighbours to exchange, to get from
+// `a` to `b` (Damerau 1964, without edits of exchanged letters).
 static size_t edit_distance(const char *a, const char *b)
 {
     enum { LONGEST = 63 };
-    size_t row[LONGEST + 1];
-    size_t length = strlen(b);
-    if (length > LONGEST || strlen(a) > LONGEST) {
+    // Three rows of the table: for the last letter of `a`, the one before, and the one before that.
+    size_t rows[3][LONGEST + 1];
+    const size_t a_length = strlen(a), b_length = strlen(b);
+    if (a_length > LONGEST || b_length > LONGEST) {
         return LONGEST;
     }
-    for (size_t j = 0; j <= length; j++) {
-        row[j] = j;
-    }
-    for (size_t i = 0; a[i] != '\0'; i++) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < length; j++) {
-            size_t replaced = diagonal + (a[i] != b[j]);
-            size_t shorter = row[j] < row[j + 1] ? row[j] : row[j + 1];
-            diagonal = row[j + 1];
-            row[j + 1] = replaced < shorter + 1 ? replaced : shorter + 1;
+    for (size_t i = 0; i <= a_length; i++) {
+        size_t *row = rows[i % 3];
+        row[0] = i;
+        for (size_t j = 1; j <= b_length; j++) {
+            if (i == 0) {
+                row[j] = j;
+                continue;
+            }
+            const size_t *above = rows[(i - 1) % 3], *above_that = rows[(i + 1) % 3];
+            row[j] = least(above[j - 1] + (a[i - 1] != b[j - 1]), least(above[j], row[j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                row[j] = least(row[j], above_that[j - 2] + 1);
+            }
         }
     }
-    return row[length];
+    return rows[a_length % 3][b_length];
 }
 
 size_t glint_word_distance(const char *text, const char *word)
@@ -113,7 +122,9 @@ size_t glint_word_distance(const char *text, const char *word)
     const size_t length = strlen(text);
     const bool is_beginning = length >= 2 && strncmp(word, text, length) == 0;
     const size_t distance = is_beginning ? 1 : edit_distance(text, word);
-    return distance < GLINT_WORD_IS_FAR && distance < length ? distance : GLINT_WORD_IS_FAR;
+    // Two edits make another word of three letters.
+    const bool is_near = is_beginning || distance <= length / 3;
+    return is_near && distance < GLINT_WORD_IS_FAR ? distance : GLINT_WORD_IS_FAR;
 }
 
 const char *glint_nearest_word(const char *text, const char *const *words)

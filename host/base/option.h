@@ -71,7 +71,8 @@ bool glint_parse_real(const char *text, double *value);
 bool glint_parse_reals(const char *text, double *values, int count);
 
 // The edit distance from `text` to `word`, in letters; GLINT_WORD_IS_FAR if `word` was hardly
-// meant. The beginning of a word counts as near, because most wrong names are abbreviations.
+// meant: if more than two letters, or more than a third of `text`, are others. The beginning of a
+// word counts as near, because most wrong names are abbreviations.
 #define GLINT_WORD_IS_FAR 3
 size_t glint_word_distance(const char *text, const char *word);
 

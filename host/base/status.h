@@ -16,19 +16,22 @@ typedef enum glint_status {
     GLINT_OK = 0,
     GLINT_USAGE = 2,         // the command line makes no sense
     GLINT_BAD_INPUT = 3,     // a scene, environment or image that cannot be used
-    GLINT_DEVICE_FAILED = 4, // no device, too little memory on it, or the driver reported an error;
-                             // no cluster, or it refused a job
+    GLINT_DEVICE_FAILED = 4, // no device, or the driver reported an error; no cluster, or it
+                             // refused a job
     GLINT_OUTPUT_FAILED = 5, // an output file could not be written
     GLINT_FRAMES_FAILED = 6, // some frames of a sequence failed
     GLINT_MISMATCH = 7,      // a comparison or a self-test found an error
     GLINT_OUT_OF_MEMORY = 8, // the host has too little memory
+    GLINT_DEVICE_LACKS = 9,  // the device has too little memory in all, or no double precision:
+                             // trying again never helps
     GLINT_INTERRUPTED = 130, // stopped on request (signal), nothing half-written
 } glint_status;
 
 // True if the machine failed, not the input: the next piece of work would fail too.
 static inline bool glint_status_is_of_machine(glint_status status)
 {
-    return status == GLINT_DEVICE_FAILED || status == GLINT_OUT_OF_MEMORY;
+    return status == GLINT_DEVICE_FAILED || status == GLINT_OUT_OF_MEMORY ||
+           status == GLINT_DEVICE_LACKS;
 }
 
 #define GLINT_MESSAGE_CAPACITY 1024

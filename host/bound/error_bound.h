@@ -52,7 +52,7 @@ void glint_error_bound_set_environment(glint_error_bound *bound, const glint_cub
 // Renders a frame like glint_renderer_frame, with the cheapest settings that keep the bound. The
 // renderer keeps these settings afterwards. Its layers and the report are those of the frame; the
 // report must not be NULL. Errors: as glint_renderer_set_settings and glint_renderer_frame;
-// GLINT_DEVICE_FAILED if the device has no double precision.
+// GLINT_DEVICE_LACKS if the device has no double precision.
 glint_status glint_error_bound_frame(const glint_error_bound *bound,
                                      const glint_frame_request *request, glint_error_choice *choice,
                                      glint_error *error);

@@ -4,11 +4,13 @@
 #include "cli/common/options.h"
 
 #include "cli/common/death.h"
+#include "cli/common/file_names.h"
 #include "cli/common/plain_stdout.h"
 #include "cli/common/say.h"
 #include "cli/common/signals.h"
 #include "device/driver_cache.h"
 #include "image/codec.h"
+#include "image/formats.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const glint_command *const commands[] = {
@@ -49,11 +52,36 @@ static void print_overview(void)
            "Exit status\n"
            "  0 done, 2 usage, 3 bad input, 4 no device or cluster, or it failed, 5 output could\n"
            "  not be written, 6 some frames of a sequence failed, 7 a comparison or a self-test\n"
-           "  found an error, 8 not enough memory, 130 or 143 stopped by a signal\n"
+           "  found an error, 8 not enough memory, 9 the device lacks memory or double precision,\n"
+           "  130 or 143 stopped by a signal\n"
            "\n"
            "Examples\n"
            "  glint render scenes/gallery.gltf -o gallery.png\n"
            "  glint help render\n");
+}
+
+// Fails because no command has this name. A file is a scene, or pictures.
+static glint_status fail_unknown(const char *name, const char *nearest, glint_error *error)
+{
+    const bool is_scene = glint_has_extension(name, ".gltf") || glint_has_extension(name, ".glb");
+    struct stat facts;
+    const bool is_there = stat(name, &facts) == 0 && S_ISREG(facts.st_mode);
+    const bool is_file = is_scene || strchr(name, '/') != NULL || (is_there && nearest == NULL);
+    if (is_file && glint_image_written_format(name) != NULL) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s is a picture, no command (did you mean glint compare %s OTHER, or "
+                          "glint contact?)",
+                          name, name);
+    }
+    if (is_file) {
+        return glint_fail(error, GLINT_USAGE,
+                          "%s is a file, no command (did you mean glint render %s -o OUT?)", name,
+                          name);
+    }
+    return nearest != NULL ? glint_fail(error, GLINT_USAGE,
+                                        "unknown command '%s' (did you mean %s?)", name, nearest)
+                           : glint_fail(error, GLINT_USAGE,
+                                        "unknown command '%s' (glint --help lists them)", name);
 }
 
 static const glint_command *find_command(const char *name, glint_error *error)
@@ -65,18 +93,13 @@ static const glint_command *find_command(const char *name, glint_error *error)
         }
         names[i + 1] = commands[i]->name;
     }
-    const char *nearest = glint_nearest_word(name, names);
-    if (nearest != NULL) {
-        glint_fail(error, GLINT_USAGE, "unknown command '%s' (did you mean %s?)", name, nearest);
-    } else {
-        glint_fail(error, GLINT_USAGE, "unknown command '%s' (glint --help lists them)", name);
-    }
+    (void)fail_unknown(name, glint_nearest_word(name, names), error);
     return NULL;
 }
 
 static glint_status run_help(int argc, char **argv, glint_error *error)
 {
-    if (argc < 2) {
+    if (argc < 2 || argv[1][0] == '-') {
         print_overview();
         return GLINT_OK;
     }
@@ -126,15 +149,11 @@ static glint_status run_command(const glint_command *command, int argc, char **a
 static glint_status dispatch(int argc, char **argv, glint_error *error)
 {
     const char *word = argc > 1 ? argv[1] : "--help";
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
-        print_overview();
-        return GLINT_OK;
-    }
     if (strcmp(word, "--version") == 0) {
         printf("glint " GLINT_VERSION "\n");
         return GLINT_OK;
     }
-    if (strcmp(word, "help") == 0) {
+    if (strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
         return run_help(argc - 1, argv + 1, error);
     }
     if (word[0] == '-') {

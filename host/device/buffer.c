@@ -7,6 +7,7 @@
 
 #define MEBIBYTE 1048576.0
 #define LEAST_BYTES ((size_t)16)
+#define WAY_OUT "give a smaller frame or scene, or another --device"
 
 static glint_status check_size(const struct glint_device *device, const glint_content *content,
                                glint_error *error)
@@ -15,8 +16,9 @@ static glint_status check_size(const struct glint_device *device, const glint_co
     if (content->bytes <= c->largest_allocation_bytes) {
         return GLINT_OK;
     }
-    return glint_fail(error, GLINT_DEVICE_FAILED,
-                      "device '%s': %s needs %.0f MiB in one buffer and the device allows %.0f",
+    return glint_fail(error, GLINT_DEVICE_LACKS,
+                      "device '%s': %s needs %.0f MiB in one buffer and the device allows %.0f "
+                      "(" WAY_OUT ")",
                       c->name, content->what, (double)content->bytes / MEBIBYTE,
                       (double)c->largest_allocation_bytes / MEBIBYTE);
 }
@@ -33,8 +35,9 @@ glint_status glint_contents_check(const struct glint_device *device, const glint
     if (total <= (double)c->memory_bytes) {
         return GLINT_OK;
     }
-    return glint_fail(error, GLINT_DEVICE_FAILED,
-                      "device '%s': scene, environment and frame need %.0f MiB and it has %.0f",
+    return glint_fail(error, GLINT_DEVICE_LACKS,
+                      "device '%s': scene, environment and frame need %.0f MiB and it has %.0f "
+                      "(" WAY_OUT ")",
                       c->name, total / MEBIBYTE, (double)c->memory_bytes / MEBIBYTE);
 }
 

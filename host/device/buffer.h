@@ -14,12 +14,13 @@ typedef struct glint_content {
     const void *data; // NULL: any content
 } glint_content;
 
-// Fails with GLINT_DEVICE_FAILED if one of the contents exceeds the device's limit, or if all
+// Fails with GLINT_DEVICE_LACKS if one of the contents exceeds the device's limit, or if all
 // together exceed its memory less `used` bytes.
 glint_status glint_contents_check(const struct glint_device *device, const glint_content *contents,
                                   size_t count, size_t used, glint_error *error);
 
-// Makes a buffer of at least 16 bytes. Errors: GLINT_DEVICE_FAILED; *buffer is then NULL.
+// Makes a buffer of at least 16 bytes. Errors: GLINT_DEVICE_FAILED, GLINT_DEVICE_LACKS; *buffer is
+// then NULL.
 glint_status glint_buffer_create(const struct glint_device *device, const glint_content *content,
                                  cl_mem *buffer, glint_error *error);
 

@@ -158,6 +158,17 @@ void glint_device_await_drivers(void)
 
 // ---- Finding devices ----------------------------------------------------------------------------
 
+// Fails because there is no platform or no device.
+static glint_status fail_none(const char *what, glint_error *error)
+{
+    const char *loss = glint_driver_cache_loss();
+    return loss != NULL ? glint_fail(error, GLINT_DEVICE_FAILED, "%s", loss)
+                        : glint_fail(error, GLINT_DEVICE_FAILED,
+                                     "no OpenCL %s was found (install a driver; for the CPU, "
+                                     "Debian's package pocl-opencl-icd)",
+                                     what);
+}
+
 // Sets *devices to NULL if, and only if, it fails.
 static glint_status find_devices(found_device **devices, size_t *count, glint_error *error)
 {
@@ -170,9 +181,7 @@ static glint_status find_devices(found_device **devices, size_t *count, glint_er
     glint_driver_cache_prepare();
     cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &platform_count);
     if (code != CL_SUCCESS || platform_count == 0) {
-        return glint_fail(error, GLINT_DEVICE_FAILED,
-                          "no OpenCL platform was found (install a driver; for the CPU, Debian's "
-                          "package pocl-opencl-icd)");
+        return fail_none("platform", error);
     }
     platform_count = platform_count < MAX_PLATFORMS ? platform_count : MAX_PLATFORMS;
     found_device *list = calloc((size_t)platform_count * MAX_DEVICES, sizeof *list);
@@ -199,9 +208,7 @@ static glint_status find_devices(found_device **devices, size_t *count, glint_er
     }
     if (found == 0) {
         free(list);
-        return glint_fail(error, GLINT_DEVICE_FAILED,
-                          "no OpenCL device was found (install a driver; for the CPU, Debian's "
-                          "package pocl-opencl-icd)");
+        return fail_none("device", error);
     }
     sort_devices(list, found);
     *devices = list;

@@ -23,9 +23,13 @@
 #define STAMPS "glint"          // folder of glint_driver_cache_name_stamp
 #define TOUCHED "last_accessed" // file in an entry; PoCL touches it when it uses the entry
 #define LEAST_ROOM (UINT64_C(16) << 20)
-#define SLACK 2 // seconds that the clocks of files may be behind
+#define LONGEST_NAME 800 // bytes: PoCL holds paths of 1023 bytes, with at most 200 of its own
+#define TOO_LONG "its name is too long for PoCL"
+#define MOST_SHOWN 300 // bytes of a folder's name in a message
+#define SLACK 2        // seconds that the clocks of files may be behind
 
 static char folder[PATH_MAX];              // the cache; "": not known yet
+static bool is_lost;                       // PoCL has no folder at all
 static char temporary[PATH_MAX];           // our own folder; "": none
 static char fault[GLINT_MESSAGE_CAPACITY]; // why the cache can keep nothing; "": it can
 static char note[GLINT_MESSAGE_CAPACITY];
@@ -40,22 +44,48 @@ static void (*watcher)(void);
 
 // ---- The folder ---------------------------------------------------------------------------------
 
-// Finds the folder as PoCL does.
-static void find_folder(void)
+// Unsets PoCL's variables that are set and empty, as CI systems set what nobody gave. PoCL aborts
+// over an empty POCL_CACHE_DIR, and finds no devices with an empty POCL_DEVICES.
+static void unset_empty_variables(void)
+{
+    char name[64];
+    for (char **entry = environ; entry != NULL && *entry != NULL;) {
+        const size_t length = strcspn(*entry, "=");
+        const bool is_empty = strncmp(*entry, "POCL_", strlen("POCL_")) == 0 &&
+                              strcmp(*entry + length, "=") == 0 && length < sizeof name;
+        snprintf(name, sizeof name, "%.*s", (int)length, *entry);
+        // Removing an entry moves the others: begin again.
+        entry = is_empty && unsetenv(name) == 0 ? environ : entry + 1;
+    }
+}
+
+// Finds the folder as PoCL does. Returns false if its name is too long for PoCL.
+static bool find_folder(void)
 {
     const char *given = getenv(FOLDER_NAME), *home = getenv("HOME");
     const char *caches = getenv("XDG_CACHE_HOME");
-    if (given != NULL && given[0] != '\0') {
-        snprintf(folder, sizeof folder, "%s", given);
+    int length;
+    if (given != NULL) {
+        length = snprintf(folder, sizeof folder, "%s", given);
     } else if (caches != NULL && caches[0] != '\0') {
-        snprintf(folder, sizeof folder, "%s/pocl/kcache", caches);
+        length = snprintf(folder, sizeof folder, "%s/pocl/kcache", caches);
     } else if (home != NULL && home[0] != '\0') {
-        snprintf(folder, sizeof folder, "%s/.cache/pocl/kcache", home);
+        length = snprintf(folder, sizeof folder, "%s/.cache/pocl/kcache", home);
     } else {
-        snprintf(folder, sizeof folder, "/tmp/pocl/kcache");
+        length = snprintf(folder, sizeof folder, "/tmp/pocl/kcache");
     }
     snprintf(mark_path, sizeof mark_path, "%s/" MARK, folder);
     glint_driver_cache_set_device(NULL);
+    return length <= LONGEST_NAME;
+}
+
+// Tells PoCL the folder by its full name. PoCL takes no name of one letter, and its linker takes
+// "-cache" or "=cache" for an option. Returns false if the name is too long.
+static bool tell_pocl(const char *path)
+{
+    char whole[PATH_MAX];
+    return realpath(path, whole) != NULL && strlen(whole) <= LONGEST_NAME &&
+           setenv(FOLDER_NAME, strcmp(whole, "/") == 0 ? "/." : whole, 1) == 0;
 }
 
 void glint_driver_cache_set_device(const char *device)
@@ -91,7 +121,10 @@ static const char *find_fault(void)
     }
     const bool is_full = statvfs(folder, &room) == 0 &&
                          (uint64_t)room.f_bavail * (uint64_t)room.f_frsize < LEAST_ROOM;
-    return is_full ? "its disk is full" : NULL;
+    if (is_full) {
+        return "its disk is full";
+    }
+    return tell_pocl(folder) ? NULL : TOO_LONG;
 }
 
 // ---- Entries ------------------------------------------------------------------------------------
@@ -169,20 +202,36 @@ static void mend_after_death(void)
     }
 }
 
+// Makes a temporary folder in `place` and tells PoCL. Returns false if PoCL cannot use it.
+static bool make_temporary(const char *place)
+{
+    const int length = snprintf(temporary, sizeof temporary, "%s/glint-kernels-XXXXXX", place);
+    if (length < 0 || (size_t)length >= sizeof temporary || mkdtemp(temporary) == NULL) {
+        temporary[0] = '\0';
+        return false;
+    }
+    if (!tell_pocl(temporary)) {
+        (void)rmdir(temporary);
+        temporary[0] = '\0';
+        return false;
+    }
+    return true;
+}
+
 // Sends kernels to a temporary folder of this run.
 static void take_temporary(void)
 {
     const char *place = getenv("TMPDIR");
-    snprintf(temporary, sizeof temporary, "%s/glint-kernels-XXXXXX",
-             place != NULL && place[0] != '\0' ? place : "/tmp");
-    const bool is_made = mkdtemp(temporary) != NULL && setenv(FOLDER_NAME, temporary, 1) == 0;
-    snprintf(note, sizeof note, "%.700s; kernels are %s", fault,
-             is_made ? "compiled for this run alone (" FOLDER_NAME " names another folder)"
-                     : "not kept (let " FOLDER_NAME " name a folder that can be written)");
+    const bool is_made =
+        (place != NULL && place[0] != '\0' && make_temporary(place)) || make_temporary("/tmp");
+    snprintf(note, sizeof note, "%.700s%s", fault,
+             is_made ? "; kernels are compiled for this run alone (" FOLDER_NAME
+                       " names another folder)"
+                     : ", and neither TMPDIR nor /tmp (let " FOLDER_NAME
+                       " name a folder that can be written)");
+    is_lost = !is_made;
     if (is_made) {
         snprintf(folder, sizeof folder, "%s", temporary);
-    } else {
-        temporary[0] = '\0';
     }
 }
 
@@ -191,11 +240,12 @@ void glint_driver_cache_prepare(void)
     if (folder[0] != '\0') {
         return;
     }
-    find_folder();
-    const char *why = find_fault();
+    unset_empty_variables();
+    const char *why = find_folder() ? find_fault() : TOO_LONG;
     if (why != NULL) {
-        snprintf(fault, sizeof fault, "%.500s: the kernel cache cannot be used: %.100s", folder,
-                 why);
+        const bool is_whole = strlen(folder) <= MOST_SHOWN;
+        snprintf(fault, sizeof fault, "%.*s%s: the kernel cache cannot be used: %.100s", MOST_SHOWN,
+                 folder, is_whole ? "" : "...", why);
         take_temporary();
     } else {
         mend_after_death();
@@ -213,6 +263,11 @@ void glint_driver_cache_release(void)
 const char *glint_driver_cache_fault(void)
 {
     return fault[0] != '\0' ? fault : NULL;
+}
+
+const char *glint_driver_cache_loss(void)
+{
+    return is_lost ? note : NULL;
 }
 
 const char *glint_driver_cache_note(void)

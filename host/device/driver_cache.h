@@ -7,7 +7,8 @@
 #include <stddef.h>
 
 // Call it before OpenCL is used; only the first call has an effect. Removes entries over which an
-// earlier run died. If the cache cannot be written, sends kernels to a temporary folder.
+// earlier run died. If the cache cannot be written, or PoCL cannot use its name, sends kernels to a
+// temporary folder. Unsets PoCL's empty variables, and sets POCL_CACHE_DIR to the folder.
 void glint_driver_cache_prepare(void);
 
 // Removes the temporary folder.
@@ -15,6 +16,10 @@ void glint_driver_cache_release(void);
 
 // A sentence on what was done to the cache, which begins with its folder. NULL: nothing was done.
 const char *glint_driver_cache_note(void);
+
+// Why PoCL has no folder at all, and thus no device; begins with the cache's folder. NULL: it has
+// one.
+const char *glint_driver_cache_loss(void);
 
 // Why the cache can keep no kernels for later runs, which begins with its folder. NULL: it can.
 const char *glint_driver_cache_fault(void);

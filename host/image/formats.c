@@ -60,6 +60,12 @@ static const magic *magic_of(const char *start, size_t length)
     return NULL;
 }
 
+const char *glint_image_format_name(const void *start, size_t length)
+{
+    const magic *known = magic_of(start, length);
+    return known != NULL ? known->name : NULL;
+}
+
 // Sets the plugin by the file's first bytes.
 static glint_status recognise(const char *start, size_t length, glint_image_source *source,
                               glint_error *error)

@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -26,6 +27,10 @@ glint_status glint_image_find_source(const char *path, glint_image_source *sourc
 // Recognises a file's bytes. `name` is its name in messages. Both must outlive the source.
 glint_status glint_image_find_source_in_memory(const char *name, const void *bytes, uint64_t size,
                                                glint_image_source *source, glint_error *error);
+
+// The name of the image format that begins with these bytes ("PNG"), read by glint or not; NULL if
+// they are no image's.
+const char *glint_image_format_name(const void *start, size_t length);
 
 typedef enum glint_written_kind {
     GLINT_WRITTEN_EXR,

@@ -56,8 +56,8 @@ typedef struct glint_renderer_inputs {
 } glint_renderer_inputs;
 
 // Analyses the scene, makes the plan, builds the tree and the kernels, and uploads. Errors:
-// GLINT_USAGE, GLINT_BAD_INPUT, GLINT_DEVICE_FAILED. If a kernel does not compile, error->details
-// holds the build log.
+// GLINT_USAGE, GLINT_BAD_INPUT, GLINT_DEVICE_FAILED, GLINT_DEVICE_LACKS. If a kernel does not
+// compile, error->details holds the build log.
 glint_status glint_renderer_create(const glint_renderer_inputs *inputs, glint_renderer **renderer,
                                    glint_error *error);
 

@@ -47,7 +47,7 @@ typedef struct glint_general_request {
 } glint_general_request;
 
 // Compiles a general kernel for the device, with the packets that it renders with, so that the
-// driver's cache holds it. Errors: as glint_program_build; GLINT_DEVICE_FAILED if the device lacks
+// driver's cache holds it. Errors: as glint_program_build; GLINT_DEVICE_LACKS if the device lacks
 // the precision; GLINT_OUTPUT_FAILED if the driver's cache cannot hold it (device/compiled.h).
 glint_status glint_general_compile(glint_device *device, const glint_general_request *request,
                                    glint_compile_report *report, glint_error *error);

@@ -135,7 +135,7 @@ glint_status glint_settings_check(const glint_settings *s, const glint_capabilit
     }
     const bool is_double = s->precision == GLINT_PRECISION_DOUBLE;
     if ((is_double || s->mend > 0) && !device->has_double) {
-        return glint_fail(error, GLINT_DEVICE_FAILED, "device '%s' has no double precision (%s)",
+        return glint_fail(error, GLINT_DEVICE_LACKS, "device '%s' has no double precision (%s)",
                           device->name, is_double ? "use --precision float" : "leave --mend out");
     }
     return GLINT_OK;

@@ -175,7 +175,7 @@ bool glint_settings_are_variation(const glint_settings *settings, const glint_se
 extern const glint_settings glint_settings_default;
 
 // Checks that the settings are in range, compatible with each other, and supported by the device.
-// Reads the scene only for hits. Errors: GLINT_USAGE; GLINT_DEVICE_FAILED if the device lacks a
+// Reads the scene only for hits. Errors: GLINT_USAGE; GLINT_DEVICE_LACKS if the device lacks a
 // feature (double precision without cl_khr_fp64).
 glint_status glint_settings_check(const glint_settings *settings, const glint_capabilities *device,
                                   const glint_scene *scene, glint_error *error);

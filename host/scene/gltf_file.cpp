@@ -4,6 +4,7 @@
 #include "scene/gltf_file.hpp"
 
 #include "base/whole_io.h"
+#include "scene/foreign_format.h"
 
 #include <algorithm>
 #include <array>
@@ -282,6 +283,20 @@ Bytes read_external(const Document &document, const std::string &uri, const Plac
     return bytes;
 }
 
+// Refuses a file of another format, and reads its first bytes.
+std::array<unsigned char, GLINT_FOREIGN_HEAD> read_head(const File &file, const std::string &path)
+{
+    std::array<unsigned char, GLINT_FOREIGN_HEAD> head{};
+    const auto length = static_cast<std::size_t>(std::min<std::uint64_t>(head.size(), file.size()));
+    read_or_refuse(file, 0, head.data(), length);
+    std::array<char, 256> what{};
+    const glint_foreign_file facts = {path.c_str(), head.data(), length, file.size()};
+    if (glint_foreign_describe(&facts, what.data(), what.size())) {
+        throw refusal(what.data());
+    }
+    return head;
+}
+
 } // namespace
 
 void read_document(const char *path, Document &document)
@@ -295,14 +310,12 @@ void read_document(const char *path, Document &document)
     if (file.size() == 0) {
         throw refusal("byte 0: the file is empty (export it again)");
     }
+    const auto head = read_head(file, document.path);
     if (file.size() > largest_file) {
         throw refusal("the file has more than 4 GiB (put the data into .bin files beside it)");
     }
     document.folder = folder_of(document.path);
-    std::array<char, 4> magic{};
-    std::size_t head = std::min<std::size_t>(magic.size(), static_cast<std::size_t>(file.size()));
-    read_or_refuse(file, 0, magic.data(), head);
-    if (std::memcmp(magic.data(), "glTF", 4) == 0) {
+    if (std::memcmp(head.data(), "glTF", 4) == 0) {
         read_glb(file, document);
         return;
     }

@@ -77,6 +77,7 @@ check 'JSON: no seconds' stat_is null options seconds
 check 'JSON: the scene' stat_is "$scene" scenes 0 name
 check 'JSON: its triangles' stat_is 20480 scenes 0 scene triangle_count
 check 'JSON: the check' stat_is passed scenes 0 check outcome
+check 'JSON: complete' stat_is true complete
 check 'JSON: its error' stat_is_positive scenes 0 check error relative_rmse
 check 'JSON: nothing is not finite' stat_is 0 scenes 0 check nonfinite_pixels
 check 'JSON: every frame is the same' stat_is 0 scenes 0 check unsteady_frames
@@ -174,6 +175,7 @@ clean
 
 run bench glass mirror --size 32x18 --rounds 1 --depth 2 --kernel-width 8 --json out/stats.json
 check 'two built-in scenes' stat_is mirror scenes 1 name
+check 'two built-in scenes: complete' stat_is true complete
 check 'glass refracts' stat_is_positive scenes 0 mrays_per_second refracted_in
 check 'a mirror does not' stat_is 0 scenes 1 rays refracted_in
 check 'the depth' stat_is 2 scenes 1 settings depth
@@ -184,6 +186,50 @@ mv mirror_sphere.gltf mirror
 run bench mirror --size 16x16 --rounds 1 --no-check
 check 'a file named like a built-in scene is meant' test "$status" -ne 2
 rm -f mirror mirror_sphere.bin
+
+# ---- runs that end early ------------------------------------------------------------------------
+
+# cut_off SIGNAL STATUS OUTPUT: ends a run after its first scene.
+tiny=(--size 16x16 --rounds 1 --no-check --depth 1)
+cut_off() {
+    "$glint" bench mirror glass mixed "${tiny[@]}" --json out/stats.json >stdout 2>stderr &
+    local process=$! waited=0
+    until [ -s out/stats.json ] || [ "$waited" -ge 1200 ] || ! kill -0 "$process" 2>/dev/null; do
+        sleep 0.05
+        waited=$((waited + 1))
+    done
+    kill "-$1" "$process"
+    wait "$process"
+    check "$1 after a scene: exit status $2" test $? -eq "$2"
+    check "$1 after a scene: its JSON is there" stat_is mirror scenes 0 name
+    check "$1 after a scene: with its times" stat_is 1 scenes 0 frames kernel count
+    check "$1 after a scene: and no others" test "$(grep -c '"check": {' out/stats.json)" -eq 1
+    check "$1 after a scene: marked as incomplete" stat_is false complete
+    check "$1 after a scene: what is missing" stat_is mixed asked 2
+    check "$1 after a scene: no temporary" test "$(ls -A out)" = stats.json
+}
+cut_off KILL 137
+for _ in {1..200}; do # until its child has noticed
+    no_temporaries && break
+    sleep 0.1
+done
+check 'KILL after a scene: its child cleans up' no_temporaries
+clean
+cut_off INT 130
+check 'INT after a scene: said' grep -q '^glint: out/stats.json: it holds 1 of 3 scenes, and is marked' stderr
+run bench mirror "${tiny[@]}" --baseline out/stats.json --margin 1000000
+check 'a baseline that ended early serves for its scenes' test "$status" -eq 0
+check 'a baseline that ended early: said' \
+    grep -q '^glint: warning: out/stats.json: its run ended early: it holds 1 of 3 scenes' stderr
+clean
+printf '{"asset": ' >in/broken.gltf
+run bench mirror in/broken.gltf "${tiny[@]}" --json -
+check 'a second scene that fails: its exit status' test "$status" -eq 3
+mkdir -p out && cp stdout out/stats.json
+check 'a second scene that fails: the first is on stdout' stat_is mirror scenes 0 name
+check 'a second scene that fails: marked as incomplete' stat_is false complete
+check 'a second scene that fails: said' grep -q '^glint: the report: it holds 1 of 2 scenes' stderr
+clean
 
 # ---- signals ------------------------------------------------------------------------------------
 

@@ -66,6 +66,33 @@ rm -rf cache
 out_of_reach 'a file in its place'
 rm cache
 POCL_CACHE_DIR=/proc/none/cache out_of_reach 'no folder'
+# Names that PoCL cannot use: it holds paths of 1023 bytes, and puts its own folders below.
+long_name() { # LENGTH
+    local path=$work/long
+    while [ ${#path} -lt "$1" ]; do path=$path/$(printf 'n%.0s' {1..99}); done
+    path=${path:0:$1}
+    printf %s "${path/%\//n}"
+}
+for length in 950 1020 1030 5000; do
+    POCL_CACHE_DIR=$(long_name $length) out_of_reach "a name of $length bytes"
+    check "a name of $length bytes: said" grep -q ': its name is too long for PoCL; ' stderr
+done
+rm -rf long tmp
+# A TMPDIR that is no help leaves /tmp.
+rm -f out/x.png
+POCL_CACHE_DIR=/proc/none TMPDIR=/proc/none run render "${picture[@]}"
+check 'a useless TMPDIR: rendered' test "$status" -eq 0 -a -s out/x.png -a "$(wc -l <stderr)" -eq 1
+# shellcheck disable=SC2016 # for the other shell
+if unshare -m mount --bind "$work" /mnt 2>mount.log; then
+    unshare -m bash -c 'mount --bind "$1" /mnt && mount -t tmpfs -o ro none /tmp &&
+        POCL_CACHE_DIR=/proc/none TMPDIR=/proc/none exec "/mnt/${2##*/}" devices' \
+        _ "$(dirname "$glint")" "$glint" >stdout 2>stderr
+    check 'no folder at all: exit status 4' test $? -eq 4 -a "$(wc -l <stderr)" -eq 1
+    check 'no folder at all: said' \
+        grep -q '^glint: /proc/none: the kernel cache cannot be used: .* (let POCL_CACHE_DIR name a' stderr
+else
+    skip 'no folder at all' 'nothing can be mounted'
+fi
 mkdir cache
 if mount -t tmpfs -o size=20m none cache 2>mount.log; then
     head -c 12m /dev/zero >cache/fill
@@ -74,6 +101,30 @@ if mount -t tmpfs -o size=20m none cache 2>mount.log; then
 else
     skip 'a full disk' 'no small file system can be mounted'
 fi
+
+# Variables that are set and empty are as if unset.
+for variable in POCL_CACHE_DIR POCL_DEVICES POCL_MAX_WORK_GROUP_SIZE; do
+    rm -rf home out/x.png
+    mkdir home
+    HOME=$work/home env -u POCL_CACHE_DIR -u XDG_CACHE_HOME "$variable=" "$glint" render "${picture[@]}" \
+        >stdout 2>stderr
+    check "$variable is empty: rendered quietly" test $? -eq 0 -a -s out/x.png -a ! -s stderr
+    check "$variable is empty: the cache is where it always is" \
+        test -n "$(find home/.cache/pocl/kcache -name program.bc)"
+done
+# Names that PoCL or its linker would misread.
+mkdir names
+cd names || exit 1
+for name in -cache =cache . c/../d; do
+    for round in 1 2; do
+        POCL_CACHE_DIR=$name "$glint" render "$scene" --size 16x9 -o "$work/out/x.png" --progress none \
+            >../stdout 2>../stderr
+        check "a cache called $name, run $round" test $? -eq 0 -a ! -s ../stderr
+    done
+    check "a cache called $name: it keeps kernels" test -n "$(find "./$name" -name program.bc)"
+    find . -mindepth 1 -delete
+done
+cd ..
 
 # Another process's death must not mark the cache.
 rm -rf cache

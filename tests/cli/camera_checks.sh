@@ -203,6 +203,10 @@ run render in/seen.gltf --camera all "${small[@]}" -o out/x.#.exr --turntable 4 
 check '--camera all: a part of a turntable of each' test "$(echo out/*)" = \
     'out/x.flat.1.exr out/x.flat.3.exr out/x.front.1.exr out/x.front.3.exr'
 clean
+run render in/seen.gltf --camera all "${small[@]}" -o 'out/x \#1.##.exr' --frames 7
+check '--camera all: an escaped # beside the place of the number' test "$(echo out/*)" = \
+    'out/x #1.flat.07.exr out/x #1.front.07.exr'
+clean
 sed 's#"name": "flat"#"name": "../fl at"#; s#"name": "front", ##' in/seen.gltf >in/names.gltf
 run render in/names.gltf --camera all "${small[@]}" -o out/x.png
 check '--camera all: names that files can have' test -s out/x.0.png -a -s out/x..._fl_at.png

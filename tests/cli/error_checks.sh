@@ -82,6 +82,14 @@ for rung in 0 1 2 3; do
     check "its error is that of the files: $got, $want" test -n "$want" -a "$got" = "$want"
 done
 
+check 'JSON: complete' stat_is true complete
+printf '{"asset": ' >in/broken.gltf
+run bench "$scene" in/broken.gltf --error --no-sampling "${size[@]}" --rounds 1 --html out/other.html --json out/other.json
+check 'a second scene that fails: its exit status' test "$status" -eq 3
+check 'a second scene that fails: the first is there' test "$("$json_get" out/other.json scenes 0 name)" = "$scene"
+check 'a second scene that fails: marked as incomplete' test "$("$json_get" out/other.json complete)" = false
+check 'a second scene that fails: no pictures, no page' \
+    test ! -e out/other.html -a "$(grep -c '"picture"' out/other.json)" -eq 0
 check 'the page is HTML' grep -q '^<!DOCTYPE html>' out/page.html
 check 'and asks for nothing from elsewhere' test "$(grep -cE '(src|href)="?[a-z]+://|@import|url\(' out/page.html)" -eq 0
 check 'a picture and a map of each rung' test "$(grep -o '<img' out/page.html | wc -l)" -eq $((2 * rungs))

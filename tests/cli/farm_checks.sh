@@ -228,13 +228,23 @@ for how in 'kill -9 $$' 'kill -SEGV $$' 'exit 4' 'exit 127'; do
     check "$how: but not for ever" test ! -s "$CALLS" -a "$status" -ne 0
 done
 # shellcheck disable=SC2016
-for how in 'kill -TERM $$' 'kill -INT $$' 'exit 143' 'exit 2' 'exit 3' 'exit 5' 'exit 6' 'exit 0'; do
+for how in 'kill -TERM $$' 'kill -INT $$' 'exit 143' 'exit 2' 'exit 3' 'exit 5' 'exit 6' 'exit 9' 'exit 0'; do
     ends_with 0 "$how"
     check "$how: it stays ended" test ! -s "$CALLS"
 done
 # shellcheck disable=SC2016
 ends_with 0 'kill -TERM $PPID; exit 4'
 check 'told to stop while it fails: it stays ended' test ! -s "$CALLS" -a "$status" -eq 4
+# A frame that no attempt can render, by the program itself.
+rm -rf out/f.farm
+mkdir out/f.farm
+run farm slurm --dry-run --parts 2 --retries 2 -- "$scene" --turntable 4 --size 65536x65536 -o out/f.####.exr
+cp stdout script
+: >"$CALLS"
+part 2 0 script
+check 'a frame too large for the device: exit status 9' test "$status" -eq 9
+check 'a frame too large for the device: it stays ended' test ! -s "$CALLS"
+check 'a frame too large for the device: one line' test "$(grep -c 'the frame needs 65536 MiB' part.log)" -eq 1
 # A signal that arrives while the shell starts.
 sed 's/^status=143$/kill -TERM $$\nstatus=143/' script >early
 : >"$CALLS"

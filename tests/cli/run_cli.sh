@@ -193,6 +193,9 @@ clean
 refuses 4 'nonsense' render "${ok[@]}" --device nonsense
 refuses 4 'nonsense' info in/mirror.gltf --device nonsense
 refuses 4 '99' render "${ok[@]}" --device 99
+refuses 9 'the frame needs 65536 MiB in one buffer and the device allows' render "${ok[@]}" --size 65536x65536 --progress none
+refuses 9 'the frame needs 65536 MiB in one buffer and the device allows' \
+    render in/mirror.gltf -o out/x.#.png --size 65536x65536 --frames 1-9 --progress none
 
 # ---- write errors -------------------------------------------------------------------------------
 
@@ -505,7 +508,7 @@ clean
 run info in/rough.gltf --env in/sky.hdr
 check 'info succeeds' test "$status" -eq 0 -a ! -s stderr
 for text in 'Scene in/rough.gltf' '1 triangles' 'chrome: metal' 'front: perspective' \
-    'flat: orthographic' 'Environment in/sky.hdr' 'layout latlong' 'MIRROR' 'GLASS' 'left out' \
+    'field of view 45.84° (vertical)' 'flat: orthographic' 'Environment in/sky.hdr' 'layout latlong' 'MIRROR' 'GLASS' 'left out' \
     'MiB on the device' 'tree: 1 nodes, 1 clusters' 'bytes a triangle' 'rough'; do
     check "info says: $text" grep -qF "$text" stdout
 done

@@ -42,6 +42,10 @@ refuses 5 'out/missing' selftest --case $quick --json out/missing/x.json
 
 run selftest --list
 check '--list: a line each' test "$status" -eq 0 -a "$(wc -l <stdout)" -ge 40
+"$glint" selftest --list --quick >quick.txt
+check '--list --quick: some of them' test -s quick.txt -a "$(wc -l <quick.txt)" -lt "$(wc -l <stdout)"
+check '--list --quick: as --list has them' test -z "$(grep -vxFf stdout quick.txt)"
+check '--list --case: these' test "$("$glint" selftest --list --case prism,slab | cut -d ' ' -f 1 | tr '\n' ' ')" = 'slab prism '
 check '--list runs nothing' test "$(grep -c bound stdout)" -eq 0
 run selftest --case equal_indices --case metal_at_its_ends --precision float
 check 'cases by name: passed' test "$status" -eq 0 -a ! -s stderr

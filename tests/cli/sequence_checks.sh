@@ -26,6 +26,11 @@ eight='f.0001.exr f.0002.exr f.0003.exr f.0004.exr f.0005.exr f.0006.exr f.0007.
 # ---- mistakes -----------------------------------------------------------------------------------
 
 refuses 2 'which frames?' render "$scene" -o out/f.####.exr
+refuses 2 '# stands for the frame'"'"'s number' render "$scene" -o 'out/ring #1.png'
+refuses 2 'or write \# for the sign itself' render "$scene" -o 'out/ring #1.png'
+refuses 2 '%02d stands for the frame'"'"'s number' render "$scene" -o 'out/ring %02d.png'
+refuses 2 'or write \% for the sign itself' render "$scene" -o 'out/ring %02d.png'
+refuses 2 '\# and \% are the signs themselves' render "$scene" --turntable 2 -o 'out/ring #1.##.png'
 refuses 2 "need a place for their number" render "$scene" --frames 1-3 -o out/f.exr
 refuses 2 "two places" render "$scene" --frames 1-3 -o out/f.##.##.exr
 refuses 2 "frames '1-'" render "$scene" --frames 1- -o out/f.##.exr
@@ -77,6 +82,39 @@ clean
 run render "$scene" "${small[@]}" --frames 3-1,2-5x3 -o out/f.#.hdr
 check 'each frame once' test "$(files out)" = 'f.1.hdr f.2.hdr f.3.hdr f.5.hdr '
 check 'without a motion frames are alike' cmp out/f.1.hdr out/f.5.hdr
+clean
+
+# Names with a # or a %d that is none.
+run render "$scene" "${small[@]}" --preview -o 'out/ring \#1.exr' --stats out/s.json
+check 'an escaped #: one frame' test "$status" -eq 0 -a "$(files out)" = 'ring #1.exr ring #1.png s.json '
+check 'an escaped #: the statistics say so' test "$("$json_get" out/s.json output)" = 'out/ring #1.exr'
+run render "$scene" "${small[@]}" -o 'out/ring \#1.exr' --skip-existing
+check 'an escaped #: skipped' test "$status" -eq 0 -a "$(find out -newer out/s.json -name '*.exr' | wc -l)" -eq 0
+clean
+sequence --frames 1-2 -o 'out/ring \#1.##.exr'
+check 'an escaped # in a sequence' test "$(files out)" = 'ring #1.01.exr ring #1.02.exr '
+check 'an escaped # in a sequence: the pixels of the other names' same_pixels 'out/ring #1.02.exr' whole/f.0002.exr
+sequence --frames 1-2 -o 'out/ring \#1.##.exr' --skip-existing --stats s.jsonl
+tail -n 1 s.jsonl >stats.json
+check 'an escaped # in a sequence: skipped' test "$("$json_get" stats.json skipped)" -eq 2
+clean
+run render "$scene" "${small[@]}" -o 'out/100\%d\\%03d.png' --frames 7
+check 'an escaped %d, and a backslash before the number' test "$(files out)" = '100%d\007.png '
+clean
+cp "$scenes/axes.hdr" 'in/axes #1.hdr'
+cp "$scenes/axes.hdr" 'in/axes.hdr'
+run render "$scene" "${small[@]}" --env in/axes.hdr -o out/a.hdr
+run render "$scene" "${small[@]}" --env 'in/axes #1.hdr' -o out/b.hdr
+check 'an environment whose name holds a #: as it is' cmp out/a.hdr out/b.hdr
+run render "$scene" "${small[@]}" --env 'in/axes \#1.hdr' -o out/c.hdr
+check 'an environment whose name holds a #: escaped' cmp out/a.hdr out/c.hdr
+run render "$scene" "${small[@]}" -o in/plate.png
+cp in/plate.png 'in/plate #1.png'
+run render "$scene" "${small[@]}" --background in/plate.png -o out/a.hdr
+run render "$scene" "${small[@]}" --background 'in/plate #1.png' -o out/b.hdr
+check 'a plate whose name holds a #: as it is' cmp out/a.hdr out/b.hdr
+run render "$scene" "${small[@]}" --background 'in/plate \#1.png' -o out/c.hdr
+check 'a plate whose name holds a #: escaped' cmp out/a.hdr out/c.hdr
 clean
 
 sequence --frames 1-2 -o out/new/f.####.exr --stats out/new/s.jsonl
@@ -458,6 +496,12 @@ run contact whole/*.exr -o out/toned.png --tone agx
 check 'a contact sheet with a tone curve' apart 0.01 out/toned.png out/sheet.png
 run contact whole/*.exr -o out/sheet.exr --tone agx
 check 'a contact sheet: a tone curve that is left out is said' grep -q 'warning: .*--tone' stderr
+# A number in a name that is no frame's: the label is the name.
+cp whole/f.0001.exr in/8.exr
+cp whole/f.0001.exr in/ball_8k.exr
+run contact in/8.exr -o out/number.png
+run contact in/ball_8k.exr -o out/name.png
+check 'a contact sheet: ball_8k is not frame 8' apart 0 out/name.png out/number.png
 run contact whole/f.0001.exr in/scene.bin whole/f.0002.exr -o out/part.png
 check 'a contact sheet: one is missing: exit status 6' test "$status" -eq 6 -a -s out/part.png
 check 'a contact sheet: it is named' grep -q 'in/scene.bin: ' stderr

@@ -63,6 +63,15 @@ clean
 # each part sees the static objects from its place.
 refuses 2 'need a place for their number' capture in/clockwork.gltf out/a.exr --at 0,0,0 --frames 1-2
 refuses 2 'which frames?' capture in/clockwork.gltf out/a.####.exr --at 0,0,0
+refuses 2 'or write \# for the sign itself' capture in/clockwork.gltf 'out/ball #1.exr' --at 0,0,0
+run capture in/clockwork.gltf 'out/ball \#1.exr' --at 0,0,0 --to ball --size 8
+check 'an escaped # is no place' test "$status" -eq 0 -a -s 'out/ball #1.exr'
+run capture in/clockwork.gltf 'out/ball \#1.##.exr' --at 0,0,0 --to ball --size 8 --frames 1-2
+check 'an escaped # beside a place' test "$status" -eq 0 -a -s 'out/ball #1.01.exr' -a -s 'out/ball #1.02.exr'
+mkdir 'out/faces #1'
+run capture in/clockwork.gltf 'out/faces \#1' --at 0,0,0 --size 8
+check 'an escaped # in a folder for faces' test "$status" -eq 0 -a -s 'out/faces #1/posx.exr'
+clean
 refuses 2 "a number from" capture in/clockwork.gltf out/a.####.exr --at 0,0,0 --frames x
 moving=$("$glint" info in/clockwork.gltf | sed -n 's/^  \(.*\) (node [0-9]*): .*/\1/p' | head -n 1)
 run capture in/clockwork.gltf out/ball.####.exr --around "$moving" --to ball --size 32 --frames 1,13

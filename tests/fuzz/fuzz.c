@@ -78,6 +78,7 @@ static const char *const words[] = {
     "/dev/zero",
     "data:,",
     "####",
+    "\\#",
     "%s%n",
     "\xff\xfe",
     // NOLINTNEXTLINE(misc-misleading-bidirectional): that is what it tests
@@ -353,7 +354,10 @@ static void try_texts(const text *t, tallies *sum)
     glint_error_free(&error);
     glint_frame_list_free(&list);
     (void)glint_shard_parse(copy, &shard, NULL);
-    (void)glint_frame_name_parse(copy, &name, NULL);
+    if (glint_frame_name_parse(copy, &name, NULL) == GLINT_OK) {
+        free(glint_frame_name_make(&name, 1));
+    }
+    glint_frame_name_free(&name);
     write_input("1.json", t);
     glint_status status = glint_baseline_load(place("1.json"), &baseline, &error);
     json_decref(baseline);

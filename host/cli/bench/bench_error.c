@@ -1,9 +1,7 @@
 // Implements glint bench --error. See bench_error.h.
 #include "cli/bench/bench_error.h"
 
-#include "cli/common/json_output.h"
 #include "report/speed_error/speed_error_json.h"
-#include "report/speed_error/speed_error_page.h"
 
 #include <stdlib.h>
 
@@ -52,17 +50,4 @@ cleanup:
     glint_speed_error_free(result);
     free(result);
     return status;
-}
-
-glint_status bench_error_write(json_t *document, const char *html, const char *json,
-                               glint_error *error)
-{
-    if (html != NULL) {
-        TRY(glint_speed_error_page_write(html, document, error));
-    }
-    glint_speed_error_drop_pictures(document);
-    if (json != NULL) {
-        TRY(glint_write_json(json, json_incref(document), error));
-    }
-    return GLINT_OK;
 }

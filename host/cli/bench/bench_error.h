@@ -1,4 +1,4 @@
-// Measures every rung of a scene's ladder for glint bench --error, and writes the page of results.
+// Measures every rung of a scene's ladder for glint bench --error.
 #ifndef GLINT_CLI_BENCH_BENCH_ERROR_H
 #define GLINT_CLI_BENCH_BENCH_ERROR_H
 
@@ -21,10 +21,5 @@ typedef struct bench_error_task {
 // (report/speed_error/speed_error_json.h), malloc'd. Errors: as glint_speed_error_measure and
 // glint_speed_error_scene_json.
 glint_status bench_error_measure(const bench_error_task *task, char **text, glint_error *error);
-
-// Writes the page to `html` and the report to `json`; each may be NULL. Errors:
-// GLINT_OUTPUT_FAILED.
-glint_status bench_error_write(json_t *document, const char *html, const char *json,
-                               glint_error *error);
 
 #endif

@@ -10,14 +10,12 @@
 
 #include "base/child.h"
 #include "cli/bench/bench_error.h"
-#include "cli/bench/bench_table.h"
-#include "cli/bench/error_table.h"
+#include "cli/bench/bench_report.h"
 #include "cli/common/file_names.h"
 #include "cli/common/inputs.h"
 #include "cli/common/json_output.h"
 #include "cli/common/shell_word.h"
 #include "image/output_file.h"
-#include "report/bench/baseline.h"
 #include "report/bench/bench_json.h"
 #include "report/speed_error/speed_error_json.h"
 #include "scene/built_in.h"
@@ -26,8 +24,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-#define DEFAULT_MARGIN 10.0 // percent
 
 // The options of glint bench.
 typedef struct bench_request {
@@ -98,11 +94,8 @@ static const glint_option *const groups[] = {
 typedef struct bench_work {
     const bench_request *request;
     glint_progress_display display;
-    json_t *baseline;    // NULL: none
-    json_t *comparisons; // a list, one entry per scene with a correct picture
-    json_t *document;
-    char *command;                  // the command line; NULL without memory
-    size_t wrong, compared, slower; // numbers of scenes
+    bench_report report;
+    char *command; // the command line; NULL without memory
 } bench_work;
 
 // True if the name is a built-in scene. A file of the same name takes precedence.
@@ -252,114 +245,19 @@ cleanup:
     return status;
 }
 
-static bool prints_table(const bench_request *request)
+static glint_status measure_scenes(bench_work *work, glint_error *error)
 {
-    return !glint_is_stdout(request->json);
-}
-
-static glint_status compare_scene(bench_work *work, const json_t *entry, glint_error *error)
-{
-    const bench_request *request = work->request;
-    const char *name = glint_json_text_at(entry, "name");
-    const double margin = request->margin >= 0 ? request->margin : DEFAULT_MARGIN;
-    const glint_baseline baseline = {work->baseline, request->baseline, margin / 100};
-    glint_comparison comparison;
-    TRY(glint_baseline_compare(&baseline, entry, &comparison, error));
-    work->compared += comparison.verdict != GLINT_VERDICT_MISSING;
-    work->slower += comparison.verdict == GLINT_VERDICT_SLOWER;
-    (void)json_array_append_new(work->comparisons, glint_comparison_json(name, &comparison));
-    if (comparison.verdict == GLINT_VERDICT_MISSING) {
-        glint_say("warning: %s: there is no scene %s to compare with", request->baseline, name);
-    } else if (comparison.verdict == GLINT_VERDICT_SLOWER) {
-        glint_say("%s: slower: %.3f ms a frame, was %.3f (%+.1f%%)", name, comparison.now,
-                  comparison.before, 100 * (comparison.now / comparison.before - 1));
-    }
-    return GLINT_OK;
-}
-
-// Adds a scene's entry to the report, and prints it. Takes over the reference.
-static glint_status take_scene(bench_work *work, json_t *entry, glint_error *error)
-{
-    glint_status status = GLINT_OK;
-    json_t *entries = json_object_get(work->document, "scenes");
-    if (prints_table(work->request)) {
-        if (json_array_size(entries) == 0) {
-            glint_bench_print_head(work->document, stdout);
-        }
-        if (work->request->error) {
-            glint_error_print_scene(entry, stdout);
-        } else {
-            glint_bench_print_scene(entry, stdout);
-        }
-        fflush(stdout);
-    }
-    if (work->request->error) {
-        (void)json_array_append_new(entries, entry);
-        return status;
-    }
-    if (glint_json_at(entry, "frames") == NULL) {
-        work->wrong++;
-        glint_say("%s: the picture is wrong: %s (its speed is not reported)",
-                  glint_json_text_at(entry, "name"), glint_json_text_at(entry, "check.reason"));
-    } else if (work->baseline != NULL) {
-        status = compare_scene(work, entry, error);
-    }
-    (void)json_array_append_new(entries, entry);
-    return status;
-}
-
-static glint_status measure_scenes(bench_work *work, const char *const *names, size_t count,
-                                   glint_error *error)
-{
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < work->report.count; i++) {
         json_t *entry = NULL;
         glint_signals_cooperate(true);
-        const glint_status status = measure_scene(work, names[i], &entry, error);
+        const glint_status status = measure_scene(work, work->report.names[i], &entry, error);
         glint_signals_cooperate(false);
         TRY(status);
         if (glint_stop_requested()) {
             json_decref(entry);
             return glint_fail(error, GLINT_INTERRUPTED, "stopped");
         }
-        TRY(take_scene(work, entry, error));
-    }
-    return GLINT_OK;
-}
-
-// Adds the comparisons with the baseline to the report, and prints them.
-static void add_comparisons(bench_work *work)
-{
-    const bench_request *request = work->request;
-    json_t *object = json_object();
-    glint_json_put_text(object, "file", request->baseline);
-    glint_json_put_text(object, "glint", glint_json_text_at(work->baseline, "glint"));
-    glint_json_put_text(object, "date", glint_json_text_at(work->baseline, "date"));
-    glint_json_put_real(object, "margin_percent",
-                        request->margin >= 0 ? request->margin : DEFAULT_MARGIN);
-    glint_json_put(object, "scenes", json_incref(work->comparisons));
-    glint_json_put(work->document, "baseline", object);
-    if (prints_table(request)) {
-        printf("\nagainst %s\n", request->baseline);
-        for (size_t i = 0; i < json_array_size(work->comparisons); i++) {
-            glint_bench_print_comparison(json_array_get(work->comparisons, i), stdout);
-        }
-    }
-}
-
-static glint_status give_verdict(const bench_work *work, size_t count, glint_error *error)
-{
-    const bench_request *request = work->request;
-    if (work->wrong > 0) {
-        return glint_fail(error, GLINT_MISMATCH, "%zu of %zu pictures %s wrong", work->wrong, count,
-                          work->wrong == 1 ? "is" : "are");
-    }
-    if (work->baseline != NULL && work->compared == 0) {
-        return glint_fail(error, GLINT_BAD_INPUT, "%s: it holds none of the scenes measured",
-                          request->baseline);
-    }
-    if (work->slower > 0) {
-        return glint_fail(error, GLINT_MISMATCH, "%zu of %zu scenes %s slower than in %s",
-                          work->slower, count, work->slower == 1 ? "is" : "are", request->baseline);
+        TRY(bench_report_add(&work->report, entry, error));
     }
     return GLINT_OK;
 }
@@ -368,28 +266,30 @@ static glint_status bench(bench_work *work, const char *const *names, size_t cou
                           glint_error *error)
 {
     const bench_request *request = work->request;
-    if (request->baseline != NULL) {
-        TRY(glint_baseline_load(request->baseline, &work->baseline, error));
-    }
     const glint_bench_options options = options_of(request);
     const glint_speed_error_options error_options = error_options_of(request);
     glint_machine machine;
     glint_machine_describe(&machine);
-    work->document = request->error
-                         ? glint_speed_error_document(&machine, &error_options, work->command)
-                         : glint_bench_document(&machine, &options);
-    work->comparisons = json_array();
-    TRY(measure_scenes(work, names, count, error));
-    if (request->error) {
-        return bench_error_write(work->document, request->html, request->json, error);
+    work->report = (bench_report){
+        .json = request->json,
+        .html = request->html,
+        .baseline_path = request->baseline,
+        .margin = request->margin >= 0 ? request->margin : BENCH_DEFAULT_MARGIN,
+        .error = request->error,
+        .names = names,
+        .count = count,
+    };
+    TRY(bench_report_begin(&work->report,
+                           request->error
+                               ? glint_speed_error_document(&machine, &error_options, work->command)
+                               : glint_bench_document(&machine, &options),
+                           error));
+    const glint_status status = measure_scenes(work, error);
+    if (status != GLINT_OK) {
+        bench_report_leave(&work->report);
+        return status;
     }
-    if (work->baseline != NULL) {
-        add_comparisons(work);
-    }
-    if (request->json != NULL) {
-        TRY(glint_write_json(request->json, json_incref(work->document), error));
-    }
-    return give_verdict(work, count, error);
+    return bench_report_finish(&work->report, error);
 }
 
 // ---- The request -------------------------------------------------------------------------------
@@ -551,9 +451,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
         work.display.mode = GLINT_PROGRESS_NONE;
     }
     status = bench(&work, names, count, error);
-    json_decref(work.comparisons);
-    json_decref(work.baseline);
-    json_decref(work.document);
+    bench_report_free(&work.report);
     free(work.command);
 cleanup:
     free(names);

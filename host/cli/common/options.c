@@ -1,73 +1,24 @@
-// Parses a command line with a command's option table. options_help.c prints the help.
+// Parses a command line with a command's option table. options_rows.c walks through the table,
+// options_help.c prints the help.
 #include "cli/common/options.h"
+
+#include "cli/common/foreign_options.h"
 
 #include <string.h>
 
-// ---- The rows ----------------------------------------------------------------------------------
-
-static const glint_option help_row = {GLINT_OPTION_FLAG, .letter = 'h', .name = "help",
-                                      .help = "Print this."};
-
-// The next setting of the row's group; NULL at the end of the group.
-static const glint_option *next_setting(glint_option_cursor *cursor, const glint_option *row)
+// `dashes` are those that were typed.
+static glint_status fail_unknown(const glint_command *command, const char *dashes, const char *name,
+                                 glint_error *error)
 {
-    if (!glint_settings_option((glint_settings_group)row->group, cursor->setting++, row->offset,
-                               &cursor->made, cursor->fallback)) {
-        cursor->setting = 0;
-        cursor->row++;
-        return NULL;
+    char text[256], nearest[64] = "";
+    glint_option same;
+    if (glint_options_find(command, name, &same)) {
+        return glint_fail(error, GLINT_USAGE, "unknown option %s%s (did you mean --%s?)", dashes,
+                          name, name);
     }
-    if (row->fallback != NULL) {
-        cursor->made.fallback = row->fallback;
+    if (glint_foreign_option_explain(command, name, text, sizeof text)) {
+        return glint_fail(error, GLINT_USAGE, "unknown option %s%s (%s)", dashes, name, text);
     }
-    return &cursor->made;
-}
-
-const glint_option *glint_option_next(glint_option_cursor *cursor)
-{
-    while (*cursor->table != NULL) {
-        const glint_option *row = &(*cursor->table)[cursor->row];
-        if (row->kind == GLINT_OPTION_LAST) {
-            cursor->table++;
-            cursor->row = 0;
-        } else if (row->kind == GLINT_OPTION_SETTINGS) {
-            const glint_option *setting = next_setting(cursor, row);
-            if (setting != NULL) {
-                return setting;
-            }
-        } else {
-            cursor->row++;
-            return row;
-        }
-    }
-    const bool was_at_end = cursor->is_at_end;
-    cursor->is_at_end = true;
-    return was_at_end ? NULL : &help_row;
-}
-
-// Finds an option by its letter or, if `letter` is 0, by its name of `length` bytes. False if there
-// is none.
-static bool find(const glint_command *command, char letter, const char *name, size_t length,
-                 glint_option *found)
-{
-    glint_option_cursor cursor = {.table = command->groups};
-    const glint_option *option;
-    while ((option = glint_option_next(&cursor)) != NULL) {
-        const bool is_it = letter != 0
-                               ? option->letter == letter
-                               : option->name != NULL && strncmp(option->name, name, length) == 0 &&
-                                     option->name[length] == '\0';
-        if (is_it) {
-            *found = *option;
-            return true;
-        }
-    }
-    return false;
-}
-
-static glint_status fail_unknown(const glint_command *command, const char *name, glint_error *error)
-{
-    char nearest[64] = "";
     size_t best = GLINT_WORD_IS_FAR;
     glint_option_cursor cursor = {.table = command->groups};
     const glint_option *option;
@@ -80,10 +31,10 @@ static glint_status fail_unknown(const glint_command *command, const char *name,
         }
     }
     return best < GLINT_WORD_IS_FAR
-               ? glint_fail(error, GLINT_USAGE, "unknown option --%s (did you mean --%s?)", name,
-                            nearest)
-               : glint_fail(error, GLINT_USAGE, "unknown option --%s (glint %s --help lists them)",
-                            name, command->name);
+               ? glint_fail(error, GLINT_USAGE, "unknown option %s%s (did you mean --%s?)", dashes,
+                            name, nearest)
+               : glint_fail(error, GLINT_USAGE, "unknown option %s%s (glint %s --help lists them)",
+                            dashes, name, command->name);
 }
 
 // ---- The words ---------------------------------------------------------------------------------
@@ -105,7 +56,7 @@ static glint_status take(parsing *p, const glint_option *option, const char *val
         if (option->parse != NULL) {
             return option->parse(option, NULL, destination, error);
         }
-        *(option->letter == help_row.letter ? &p->help : (bool *)destination) = true;
+        *(option->letter == GLINT_HELP_LETTER ? &p->help : (bool *)destination) = true;
         return GLINT_OK;
     }
     if (value == NULL && p->next == p->end) {
@@ -126,23 +77,35 @@ static glint_status take_long(parsing *p, const char *word, glint_error *error)
     const size_t length = strcspn(word, "=");
     snprintf(name, sizeof name, "%.*s", (int)length, word);
     const char *value = word[length] == '=' ? word + length + 1 : NULL;
-    if (!find(p->command, 0, word, length, &option)) {
-        return fail_unknown(p->command, name, error);
+    if (!glint_options_find(p->command, name, &option)) {
+        return fail_unknown(p->command, "--", name, error);
     }
     const bool is_too_much = option.kind == GLINT_OPTION_FLAG && value != NULL;
     return is_too_much ? glint_option_parse(&option, value, NULL, error)
                        : take(p, &option, value, error);
 }
 
+// True for "size" and "spp" behind a single dash, which are no letters. "-help" gives help.
+static bool is_long_name(const glint_command *command, const char *letters)
+{
+    char text[256];
+    glint_option option;
+    return strlen(letters) > 1 && strcmp(letters, "help") != 0 &&
+           (glint_options_find(command, letters, &option) ||
+            glint_foreign_option_explain(command, letters, text, sizeof text));
+}
+
 // Parses "abc": several flags. The last letter may take a value: the rest of the word ("ofile") or
 // the next word.
 static glint_status take_letters(parsing *p, const char *letters, glint_error *error)
 {
+    if (is_long_name(p->command, letters)) {
+        return fail_unknown(p->command, "-", letters, error);
+    }
     for (; *letters != '\0' && !p->help; letters++) {
         glint_option option;
-        if (!find(p->command, *letters, "", 0, &option)) {
-            return glint_fail(error, GLINT_USAGE, "unknown option -%c (glint %s --help lists them)",
-                              *letters, p->command->name);
+        if (!glint_options_find_letter(p->command, *letters, &option)) {
+            return fail_unknown(p->command, "-", (const char[]){*letters, '\0'}, error);
         }
         if (option.kind != GLINT_OPTION_FLAG) {
             return take(p, &option, letters[1] != '\0' ? letters + 1 : NULL, error);

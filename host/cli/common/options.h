@@ -42,6 +42,8 @@ typedef struct glint_command {
         GLINT_OPTION_SETTINGS, .group = (which), .offset = (member)                                \
     }
 
+#define GLINT_HELP_LETTER 'h' // of --help, which every command has
+
 // An iterator over a command's option rows: settings in their places, --help as the last row.
 typedef struct glint_option_cursor {
     const glint_option *const *table;
@@ -53,6 +55,11 @@ typedef struct glint_option_cursor {
 
 // The next row, valid until the next call; NULL at the end.
 const glint_option *glint_option_next(glint_option_cursor *cursor);
+
+// Find an option of the command by its name without dashes, or by its letter, which must not be 0.
+// *found has no fallback text. False if there is none.
+bool glint_options_find(const glint_command *command, const char *name, glint_option *found);
+bool glint_options_find_letter(const glint_command *command, char letter, glint_option *found);
 
 // Parses arguments->words (word_count words, the command's name first). Fills `request`, which must
 // already hold the defaults, and the rest of *arguments. Options may stand before and after the

@@ -3,15 +3,18 @@
 #include "cli/common/options.h"
 #include "cli/common/say.h"
 
+#include "base/memory.h"
 #include "cli/common/file_names.h"
 #include "cli/common/inputs.h"
 #include "cli/common/tone_options.h"
 #include "image/image_io.h"
 #include "image/output_file.h"
+#include "report/compare/contact_labels.h"
 #include "report/compare/contact_sheet.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 // The options of glint contact.
 typedef struct contact_request {
@@ -78,15 +81,14 @@ static bool read_image(const char *path, glint_image *image)
 typedef struct contact_work {
     const contact_request *request;
     char *const *names;
+    char (*labels)[GLINT_CONTACT_LABEL]; // of the names
     int count, missing;
     glint_contact_sheet sheet;
 } contact_work;
 
 static void put(contact_work *work, int index, const glint_image *image)
 {
-    char label[64];
-    glint_contact_label(work->names[index], label, sizeof label);
-    glint_contact_sheet_put(&work->sheet, index, image, label);
+    glint_contact_sheet_put(&work->sheet, index, image, work->labels[index]);
 }
 
 // Makes the sheet with the aspect ratio of the first readable image. Marks the images before it as
@@ -127,11 +129,21 @@ cleanup:
     return status;
 }
 
+static glint_status make_labels(contact_work *work, glint_error *error)
+{
+    const size_t count = (size_t)work->count;
+    work->labels = glint_allocate(count, sizeof *work->labels);
+    return work->labels != NULL
+               ? glint_contact_labels((const char *const *)work->names, count, work->labels, error)
+               : glint_fail_memory(error, "the labels");
+}
+
 static glint_status make_sheet(contact_work *work, glint_error *error)
 {
     const contact_request *request = work->request;
     const glint_write_options options = {.exposure = (float)request->exposure,
                                          .tone = request->tone};
+    TRY(make_labels(work, error));
     for (int i = 0; i < work->count; i++) {
         TRY(add_image(work, i, error));
     }
@@ -157,6 +169,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     glint_warnings_free(&warnings);
     const glint_status status = make_sheet(&work, error);
     glint_contact_sheet_free(&work.sheet);
+    free(work.labels);
     return status;
 }
 
@@ -171,7 +184,7 @@ const glint_command glint_command_contact = {
     .synopsis = "IMAGE… -o SHEET [options]",
     .description =
         "Reduces the images and puts them in rows, in the order of their names on the command "
-        "line. Below each image stands the last number of its name, or its name. Transparent "
+        "line. Below each image stands its frame's number, or its name. Transparent "
         "images stand over grey. Pixels with NaN or infinity are magenta. An image that cannot be "
         "read becomes a crossed box, and the exit status is 6.",
     .examples = "  glint contact turn/*.exr -o sheet.png\n"

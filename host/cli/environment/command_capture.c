@@ -197,9 +197,8 @@ static glint_status check_request(const capture_request *request, glint_error *e
     return GLINT_OK;
 }
 
-static glint_status find_frames(capture_request *request, const char *path, glint_error *error)
+static glint_status find_frames(capture_request *request, glint_error *error)
 {
-    TRY(glint_frame_name_parse(path, &request->name, error));
     request->is_sequence = request->frames_text != NULL;
     if (request->is_sequence) {
         TRY(glint_frame_list_parse(request->frames_text, &request->frames, error));
@@ -207,11 +206,10 @@ static glint_status find_frames(capture_request *request, const char *path, glin
     if (request->frames.count > 1 && request->name.length == 0) {
         return glint_fail(error, GLINT_USAGE,
                           "%s: %llu frames need a place for their number (as in ball.####.exr)",
-                          path, (unsigned long long)request->frames.count);
+                          request->name.path, (unsigned long long)request->frames.count);
     }
     if (request->name.length > 0 && !request->is_sequence) {
-        return glint_fail(error, GLINT_USAGE, "%s: which frames? (name them with --frames 1-24)",
-                          path);
+        return glint_frame_name_refuse(&request->name, "name frames with --frames 1-24", error);
     }
     return GLINT_OK;
 }
@@ -235,8 +233,10 @@ static glint_status check_settings(const glint_settings *settings, glint_error *
 static glint_status settle(capture_request *request, const char *path, glint_error *error)
 {
     env_output_request *output = &request->output;
+    TRY(glint_frame_name_parse(path, &request->name, error));
     if (output->to == GLINT_LAYOUT_UNKNOWN) {
-        output->to = env_output_is_set(path) ? GLINT_LAYOUT_FACES : GLINT_LAYOUT_LATLONG;
+        output->to =
+            env_output_is_set(request->name.path) ? GLINT_LAYOUT_FACES : GLINT_LAYOUT_LATLONG;
     }
     if (output->size == 0) {
         output->size = glint_chart_size_for(output->to, FACE_EDGE);
@@ -247,7 +247,7 @@ static glint_status settle(capture_request *request, const char *path, glint_err
     request->inputs.settings.width = request->inputs.settings.height = edge;
     TRY(glint_input_request_finish(&request->inputs, error));
     TRY(check_settings(&request->inputs.settings, error));
-    return find_frames(request, path, error);
+    return find_frames(request, error);
 }
 
 static void say_done(const capture *work, const env_output *output, double ms)
@@ -375,12 +375,14 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
                    request->inputs.scene, (unsigned long long)request->frames.count);
     }
     glint_say_warnings(&work.inputs.warnings, 0);
-    status = request->is_sequence ? capture_frames(&work, error) : capture_to(&work, path, error);
+    status = request->is_sequence ? capture_frames(&work, error)
+                                  : capture_to(&work, request->name.path, error);
 cleanup:
     glint_renderer_free(work.renderer);
     glint_device_close(work.device);
     glint_inputs_free(&work.inputs);
     glint_frame_list_free(&request->frames);
+    glint_frame_name_free(&request->name);
     return status;
 }
 

@@ -305,7 +305,7 @@ static void print_camera(const glint_camera *camera)
     if (camera->orthographic) {
         printf("orthographic, %g m high", 2 * camera->ymag);
     } else {
-        printf("perspective, %.4g° high", camera->yfov * 180 / GLINT_PI);
+        printf("perspective, field of view %.4g° (vertical)", camera->yfov * 180 / GLINT_PI);
     }
     printf(", at (%g, %g, %g), looking along (%.3g, %.3g, %.3g)\n", camera->eye.x, camera->eye.y,
            camera->eye.z, 0 - camera->back.x, 0 - camera->back.y, 0 - camera->back.z);

@@ -113,12 +113,14 @@ char *render_camera_path(const char *path, const char *name)
     glint_error unused = {0};
     const bool has_place =
         glint_frame_name_parse(path, &frames, &unused) == GLINT_OK && frames.length > 0;
+    const size_t place = frames.written_at;
+    glint_frame_name_free(&frames);
     glint_error_free(&unused);
     const char *slash = strrchr(path, '/');
     const size_t last = slash != NULL ? (size_t)(slash + 1 - path) : 0;
     const char *dot = strrchr(path + last, '.');
     const size_t extension = dot != NULL ? (size_t)(dot - path) : strlen(path);
-    const size_t at = has_place ? frames.place : extension;
+    const size_t at = has_place ? place : extension;
     const bool is_apart = at == last || strchr(".-_", path[at - 1]) != NULL;
     char *made = NULL;
     const int printed = asprintf(&made, "%.*s%s%s%s%s", (int)at, path, is_apart ? "" : ".", name,

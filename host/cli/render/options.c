@@ -21,7 +21,8 @@ static const glint_option output_options[] = {
     {GLINT_OPTION_TEXT, .letter = 'o', .name = "output", .argument = "OUT",
      .help =
          "The image to write, by its extension: exr, hdr, png, jpg or tiff. It appears whole or "
-         "not at all. Frames of a sequence take their number's place: frame.####.exr.",
+         "not at all. Frames of a sequence take their number's place: frame.####.exr. \\# is the "
+         "sign itself.",
      .offset = offsetof(render_request, output)},
     EXPOSURE_OPTION(offsetof(render_request, exposure)),
     TONE_OPTION(offsetof(render_request, tone)),

@@ -28,18 +28,20 @@ glint_write_options render_write_options(const render_request *request)
 
 // ---- Checks ------------------------------------------------------------------------------------
 
-// Makes the preview's path: the path of the image with the extension ".png".
+// Makes the preview's name: the name of the image with the extension ".png".
 static glint_status name_preview(render_request *request, glint_error *error)
 {
     if (!request->preview) {
         return GLINT_OK;
     }
+    char *path;
     const int stem = (int)strlen(request->output) - (int)strlen(".exr");
-    if (asprintf(&request->preview_path, "%.*s.png", stem, request->output) < 0) {
-        request->preview_path = NULL;
+    if (asprintf(&path, "%.*s.png", stem, request->output) < 0) {
         return glint_fail_memory(error, "a file name");
     }
-    return glint_frame_name_parse(request->preview_path, &request->preview_name, error);
+    const glint_status status = glint_frame_name_parse(path, &request->preview_name, error);
+    free(path);
+    return status;
 }
 
 // Finds the frame whose file would have the path's last part: reads the number between the parts of
@@ -217,10 +219,11 @@ static glint_status find_light(render_request *request, glint_error *error)
                           "--env-layout: it says how a file is read, but no --env is given");
     }
     // One file, or a pattern with the frame's number.
-    if (env == NULL || access(env, F_OK) == 0) {
-        return GLINT_OK; // an existing file may have any name
+    if (env != NULL) {
+        TRY(glint_frame_name_parse_input(env, &request->env_name, error));
+        inputs->env = request->env_name.path;
     }
-    return glint_frame_name_parse(env, &request->env_name, error);
+    return GLINT_OK;
 }
 
 // Checks the options for the distance of the environment and the place where it was seen from.
@@ -258,16 +261,19 @@ static glint_status check_max_error(render_request *request, glint_error *error)
 static glint_status find_plate(render_request *request, glint_error *error)
 {
     const char *plate = request->inputs.settings.plate;
-    request->plate = request->plate_name.path = plate;
-    return plate == NULL || access(plate, F_OK) == 0
-               ? GLINT_OK
-               : glint_frame_name_parse(plate, &request->plate_name, error);
+    if (plate != NULL) {
+        TRY(glint_frame_name_parse_input(plate, &request->plate_name, error));
+        request->plate = request->plate_name.path;
+    }
+    return GLINT_OK;
 }
 
-// Finds which frames to render and how their files are named.
+// Finds which frames to render and how their files are named. From here on `output` is a path
+// without escapes.
 static glint_status find_frames(render_request *request, glint_error *error)
 {
     TRY(glint_frame_name_parse(request->output, &request->name, error));
+    request->output = request->name.path;
     request->is_sequence =
         request->frames_text != NULL || request->turntable > 0 || request->name.length > 0;
     if (!request->is_sequence && request->shard.count > 1) {
@@ -300,7 +306,7 @@ static glint_status check_place(render_request *request, glint_error *error)
     if (!request->is_sequence) {
         TRY(glint_output_file_check(request->output, error));
         if (request->preview) {
-            TRY(glint_output_file_check(request->preview_path, error));
+            TRY(glint_output_file_check(request->preview_name.path, error));
         }
     } else if (!glint_is_folder(request->folder)) {
         TRY(glint_folder_check(request->folder, error));
@@ -367,10 +373,10 @@ glint_status render_request_settle(render_request *request, const glint_motion *
     const bool moves = glint_motion_moves_scene(motion) || motion->moves_cameras;
     if (request->frames.count == 0) {
         return moves ? take_clip(request, motion->duration, error)
-                     : glint_fail(error, GLINT_USAGE,
-                                  "%s: which frames? (nothing moves in the scene: name them with "
-                                  "--frames 1-240, or --turntable 240)",
-                                  request->output);
+                     : glint_frame_name_refuse(&request->name,
+                                               "nothing moves in the scene, so name frames with "
+                                               "--frames 1-240 or --turntable 240",
+                                               error);
     }
     const int highest = glint_frame_list_highest(&request->frames);
     const double last = last_frame(request, motion->duration);
@@ -386,7 +392,10 @@ glint_status render_request_settle(render_request *request, const glint_motion *
 void render_request_free(render_request *request)
 {
     glint_frame_list_free(&request->frames);
-    free(request->preview_path);
+    glint_frame_name_free(&request->env_name);
+    glint_frame_name_free(&request->plate_name);
+    glint_frame_name_free(&request->name);
+    glint_frame_name_free(&request->preview_name);
     free(request->folder);
 }
 

@@ -13,7 +13,7 @@
 // The options of glint render, and what follows from them.
 typedef struct render_request {
     glint_input_request inputs; // first: the shared tables' offsets count from here
-    const char *output;
+    const char *output;         // render_request_finish removes the backslashes that escape
     const char *stats;
     const char *compression;
     double max_error; // relative RMSE; 0: the settings decide
@@ -44,8 +44,7 @@ typedef struct render_request {
     glint_shard shard;
     glint_frame_name name;
     char *folder;                  // folder of the output; owned
-    char *preview_path;            // NULL without previews; owned
-    glint_frame_name preview_name; // the name for preview_path
+    glint_frame_name preview_name; // empty without previews
 } render_request;
 
 extern const glint_option *const render_option_groups[];

@@ -12,7 +12,7 @@ static glint_status open_device(render_tracer *tracer, const render_request *req
     const glint_capabilities *device = glint_device_capabilities(tracer->device);
     return device->has_double
                ? GLINT_OK
-               : glint_fail(error, GLINT_DEVICE_FAILED,
+               : glint_fail(error, GLINT_DEVICE_LACKS,
                             "--max-error: device '%s' has no double precision, which errors are "
                             "counted from (name another with --device)",
                             device->name);

@@ -109,7 +109,8 @@ static glint_status parse_cases(const glint_option *option, const char *text, vo
 
 static const glint_option selftest_options[] = {
     {GLINT_OPTION_HEADING, .help = "What is run"},
-    {GLINT_OPTION_FLAG, .name = "list", .help = "Print the cases, a line each, and run none.",
+    {GLINT_OPTION_FLAG, .name = "list",
+     .help = "Print the cases, a line each, and run none; with --quick or --case, those chosen.",
      .offset = offsetof(selftest_request, list)},
     {GLINT_OPTION_FLAG, .name = "quick",
      .help = "Run the cases that cover most kernels, in float and with few rays. They take about a "
@@ -200,6 +201,11 @@ static void complete(selftest_request *request)
         request->cases.has[i] = glint_selftest_is_quick(i);
     }
     request->cases.any = request->cases.any || request->quick;
+}
+
+static bool is_chosen(const selftest_request *request, size_t index)
+{
+    return !request->cases.any || request->cases.has[index];
 }
 
 static glint_status check_request(const selftest_request *request, glint_error *error)
@@ -326,7 +332,7 @@ static void add_jobs(selftest_work *work, int width, glint_precision precision)
         .seed = (uint32_t)request->seed};
     bool is_first = true;
     for (size_t i = 0; glint_selftest_name(i) != NULL; i++) {
-        if (!request->cases.any || request->cases.has[i]) {
+        if (is_chosen(request, i)) {
             const size_t number = work->pool.job_count++;
             work->jobs[number] = (selftest_job){.index = i,
                                                 .is_first = is_first,
@@ -425,10 +431,12 @@ static glint_status give_verdict(const selftest_work *work, glint_error *error)
                       work->count, capabilities_of(work)->name, names);
 }
 
-static void print_list(void)
+static void print_list(const selftest_request *request)
 {
     for (size_t i = 0; glint_selftest_name(i) != NULL; i++) {
-        printf("%-23s %s\n", glint_selftest_name(i), glint_selftest_summary(i));
+        if (is_chosen(request, i)) {
+            printf("%-23s %s\n", glint_selftest_name(i), glint_selftest_summary(i));
+        }
     }
 }
 
@@ -472,7 +480,7 @@ static glint_status run(void *context, const glint_arguments *arguments, glint_e
     selftest_request *request = context;
     complete(request);
     if (request->list) {
-        print_list();
+        print_list(request);
         return GLINT_OK;
     }
     TRY(check_request(request, error));

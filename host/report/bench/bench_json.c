@@ -141,6 +141,7 @@ json_t *glint_bench_document(const glint_machine *machine, const glint_bench_opt
     glint_json_put_text(document, "date", machine->date);
     glint_json_put(document, "host", host);
     glint_json_put(document, "options", asked);
+    glint_json_put_flag(document, "complete", false);
     glint_json_put(document, "scenes", json_array());
     return document;
 }

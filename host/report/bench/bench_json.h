@@ -21,7 +21,7 @@ typedef struct glint_bench_scene {
 // The entry of one scene in the list of scenes.
 json_t *glint_bench_scene_json(const glint_bench_scene *scene, const glint_bench_result *result);
 
-// The whole document, with an empty list of scenes.
+// The whole document, with an empty list of scenes: it is not complete yet.
 json_t *glint_bench_document(const glint_machine *machine, const glint_bench_options *options);
 
 #endif

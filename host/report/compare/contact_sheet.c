@@ -4,10 +4,7 @@
 #include "report/compare/bitmap_font.h"
 #include "report/compare/heat_scale.h"
 
-#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 // sRGB codes 32, 96 and 224, as linear light.
@@ -153,27 +150,4 @@ void glint_contact_sheet_put(glint_contact_sheet *sheet, int index, const glint_
         const int at[2] = {left, top + sheet->height + 4};
         glint_font_draw(&sheet->image, at, UNIT, text, ink);
     }
-}
-
-// ---- Labels ------------------------------------------------------------------------------------
-
-void glint_contact_label(const char *path, char *label, size_t capacity)
-{
-    const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
-    const char *stem_end = dot != NULL && dot != name ? dot : name + strlen(name);
-    const char *end = stem_end;
-    while (end > name && !isdigit((unsigned char)end[-1])) {
-        end--;
-    }
-    const char *begin = end;
-    while (begin > name && isdigit((unsigned char)begin[-1])) {
-        begin--;
-    }
-    if (begin == end) { // no number
-        begin = name;
-        end = stem_end;
-    }
-    snprintf(label, capacity, "%.*s", (int)(end - begin), begin);
 }

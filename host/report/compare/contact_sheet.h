@@ -6,8 +6,6 @@
 #include "base/status.h"
 #include "image/image.h"
 
-#include <stddef.h>
-
 // A contact sheet. Zero is valid: no sheet.
 typedef struct glint_contact_sheet {
     int count;         // number of pictures
@@ -27,9 +25,5 @@ void glint_contact_sheet_free(glint_contact_sheet *sheet);
 // instead. Characters that the font lacks are blank.
 void glint_contact_sheet_put(glint_contact_sheet *sheet, int index, const glint_image *picture,
                              const char *label);
-
-// Makes the label for an image: the last number in its file name, usually the frame number. Without
-// a number, the name without its extension.
-void glint_contact_label(const char *path, char *label, size_t capacity);
 
 #endif

@@ -95,7 +95,7 @@ static glint_status open_device(run *r, glint_error *error)
     r->result->device = *glint_device_capabilities(r->device);
     if (!r->result->device.has_double) {
         return glint_fail(
-            error, GLINT_DEVICE_FAILED,
+            error, GLINT_DEVICE_LACKS,
             "device '%s' has no double precision, which errors are counted from (name "
             "another with --device)",
             r->result->device.name);

@@ -80,7 +80,7 @@ typedef struct glint_speed_error_options {
 
 // Measures a scene. The settings must suit glint_ladder_make, with the bilinear filter and without
 // layers. The device must have double precision. Free `result` with glint_speed_error_free, also
-// after an error. Errors: as rendering; GLINT_DEVICE_FAILED without double precision;
+// after an error. Errors: as rendering; GLINT_DEVICE_LACKS without double precision;
 // GLINT_INTERRUPTED.
 glint_status glint_speed_error_measure(const glint_bench_inputs *inputs,
                                        const glint_speed_error_options *options,
