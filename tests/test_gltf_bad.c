@@ -28,6 +28,9 @@ typedef struct bad_case {
 #define VIEW "\"bufferViews\":[{\"buffer\":0,\"byteLength\":120}],"
 #define ACCESSOR(text) VIEW "\"accessors\":[{" text "}]"
 #define VEC3 "\"type\":\"VEC3\",\"componentType\":5126"
+#define TETRAHEDRON_VIEWS                                                                          \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,"           \
+    "\"byteLength\":48}],"
 #define NODES(text) TETRAHEDRON "," ONE_SCENE ",\"nodes\":[" text "]"
 #define PRIMITIVE(text) TETRAHEDRON_STORAGE ",\"meshes\":[{\"primitives\":[{" text "}]}]" NODE
 #define SPARSE(text) ACCESSOR("\"count\":9,\"bufferView\":0," VEC3 ",\"sparse\":{" text "}")
@@ -105,7 +108,12 @@ static const bad_case cases[] = {
     {PRIMITIVE("\"attributes\":{\"POSITION\":2}"),
      "attributes.POSITION: the accessor holds SCALAR"},
     {PRIMITIVE("\"attributes\":{\"POSITION\":0,\"NORMAL\":2}"),
-     "attributes.NORMAL: accessors[2] has 12 elements, POSITION has 4"},
+     "attributes.NORMAL: the accessor holds SCALAR"},
+    {TETRAHEDRON_VIEWS "\"accessors\":[{\"bufferView\":0,\"count\":4," VEC3
+                       "},{\"bufferView\":1,\"count\":3," VEC3 "}]"
+                       ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+                       "\"NORMAL\":1}}]}]" NODE,
+     "meshes[0].primitives[0].attributes.NORMAL: accessors[1] has 3 elements, POSITION has 4"},
     {PRIMITIVE("\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":-1}"),
      "attributes.TEXCOORD_0: -1: the"},
     {PRIMITIVE("\"attributes\":{\"POSITION\":0},\"indices\":0"),

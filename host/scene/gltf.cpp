@@ -152,6 +152,7 @@ void open(const char *path, const glint_scene_options &options, glint_scene_sour
     read_buffers(load);
     unpack_views(load.model);
     decode_draco(load.model);
+    settle_attributes(load.model);
     load.primitives = prepare_primitives(load.model, load.tally);
     load.skins = read_skins(load.model);
     load.clips = read_clips(load.document, load.model, options.animation, load.tally);

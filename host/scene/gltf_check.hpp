@@ -16,6 +16,11 @@ void check_document(const Document &document, Model &model);
 // Checks meshes, and their primitives' attributes and indices.
 void check_meshes(const json &root, Model &model);
 
+// Checks that normals, joints, weights and targets have as many elements as the positions. Leaves out
+// texture coordinates, tangents and colours that cannot be read, with a note. Call it after Draco's
+// data is decoded, which has counts of its own.
+void settle_attributes(Model &model);
+
 // Checks nodes, scenes, cameras, and skins (gltf_skin.hpp).
 void check_graph(const json &root, Model &model);
 

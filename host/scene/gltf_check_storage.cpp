@@ -309,7 +309,7 @@ void check_accessor(const json &source, const Place &place, Model &model)
 
 } // namespace
 
-void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format)
+bool has_format(const tinygltf::Accessor &accessor, const Format &format)
 {
     const int component = accessor.componentType;
     const bool normalized = accessor.normalized;
@@ -318,14 +318,21 @@ void check_format(const tinygltf::Accessor &accessor, const Place &place, const 
         good || (format.normalized_ints && normalized && (component == 5120 || component == 5122));
     good = good || (format.unsigned_ints && normalized && (component == 5121 || component == 5123));
     good = good || (format.quantized && component >= 5120 && component <= 5123);
-    if (!good || accessor.type != format.type) {
+    return good && accessor.type == format.type;
+}
+
+void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format)
+{
+    if (!has_format(accessor, format)) {
+        const int component = accessor.componentType;
         std::string wanted = std::string(type_name(format.type)) + " of floats (5126)";
         if (format.normalized_ints || format.quantized || format.unsigned_ints) {
             wanted += ", bytes or shorts";
         }
         refuse(place, "the accessor holds " + std::string(type_name(accessor.type)) +
                           " of component type " + std::to_string(component) +
-                          (normalized ? ", normalized" : "") + " (it must be " + wanted + ")");
+                          (accessor.normalized ? ", normalized" : "") + " (it must be " + wanted +
+                          ")");
     }
 }
 

@@ -23,6 +23,7 @@ struct Format {
     bool quantized;             // any format that KHR_mesh_quantization allows for positions
     bool unsigned_ints = false; // normalised unsigned byte or short
 };
+bool has_format(const tinygltf::Accessor &accessor, const Format &format);
 void check_format(const tinygltf::Accessor &accessor, const Place &place, const Format &format);
 
 } // namespace glint

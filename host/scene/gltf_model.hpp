@@ -16,6 +16,7 @@
 #include <set>
 #include <string>
 #include <tiny_gltf.h>
+#include <utility>
 #include <vector>
 
 namespace glint
@@ -67,6 +68,13 @@ struct Model : tinygltf::Model {
     std::vector<int> light_of; // [node]: its punctual light; −1: none
     // [mesh]: the number of morph targets, the most of any primitive.
     std::vector<std::size_t> target_counts;
+    // Warnings about a primitive, {mesh, number}; given if it is drawn.
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> notes;
+
+    void note(std::pair<std::size_t, std::size_t> primitive, const std::string &text)
+    {
+        notes[primitive].push_back(text);
+    }
 };
 
 // Returns the bytes of all loaded buffers.

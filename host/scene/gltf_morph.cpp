@@ -12,7 +12,6 @@ void check_targets(const json &source, const Place &primitive_place, const Model
                    tinygltf::Primitive &primitive)
 {
     const json &targets = optional_array(source, primitive_place, "targets");
-    const auto base = primitive.attributes.find("POSITION");
     for (std::size_t i = 0; i < targets.size(); i++) {
         Place place = (primitive_place / "targets")[i];
         expect_object(targets[i], place);
@@ -30,16 +29,6 @@ void check_targets(const json &source, const Place &primitive_place, const Model
             const tinygltf::Accessor &accessor = model.accessors[index];
             check_format(accessor, attribute,
                          {row->type, true, model.quantized, row->any_integers && model.quantized});
-            if (base != primitive.attributes.end()) {
-                const std::size_t vertices =
-                    model.accessors[static_cast<std::size_t>(base->second)].count;
-                if (accessor.count != vertices) {
-                    refuse(attribute, "accessors[" + std::to_string(index) + "] has " +
-                                          counted(accessor.count, "element") +
-                                          ", the primitive's POSITION has " +
-                                          std::to_string(vertices) + " (they must agree)");
-                }
-            }
         }
     }
 }

@@ -158,6 +158,12 @@ void survey_primitive(Load &load, const Primitive &primitive)
         objects_of(load.document.root, "meshes")[primitive.mesh]["primitives"][primitive.number];
     std::string where = primitive.place().text();
     survey_extensions(source, Holder::primitive, where, load.tally);
+    const auto notes = load.model.notes.find({primitive.mesh, primitive.number});
+    if (notes != load.model.notes.end()) {
+        for (const std::string &note : notes->second) {
+            load.tally.add(note, where);
+        }
+    }
 }
 
 void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene)

@@ -1,0 +1,135 @@
+// Tests small faults: glint draws the rest of the file, and one line names what it leaves out or
+// takes otherwise. The rule is in docs/formats.md.
+#include "scene/scene.h"
+
+#include "support/gltf_text.h"
+#include "support/scratch.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// A file with a fault. `rest` holds the members of the top level beside the tetrahedron's data.
+typedef struct fault_case {
+    const char *rest;
+    const char *said; // part of the one warning; NULL: there is none
+} fault_case;
+
+#define NODE ",\"nodes\":[{\"mesh\":0}]," ONE_SCENE
+
+// Loads the file. It must show the tetrahedron, and say one line, or none.
+static glint_scene load_faulty(const char *folder, const fault_case *one)
+{
+    char *text = gltf_text(&the_tetrahedron, sizeof the_tetrahedron, one->rest);
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    glint_error error = {0};
+    if (load_text(folder, text, &scene, &warnings, &error) != GLINT_OK) {
+        fail_msg("%s: refused: %s", one->rest, error.message);
+    }
+    const char *first = warnings.count > 0 ? warnings.texts[0] : "nothing";
+    if (warnings.count != (one->said != NULL) ||
+        (one->said != NULL && strstr(first, one->said) == NULL)) {
+        fail_msg("%s: said %zu lines, \"%s\", expected \"%s\"", one->rest, warnings.count, first,
+                 one->said != NULL ? one->said : "nothing");
+    }
+    assert_int_equal(scene.triangle_count, 4);
+    glint_warnings_free(&warnings);
+    free(text);
+    return scene;
+}
+
+static void load_all(const char *folder, const fault_case *cases, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        glint_scene scene = load_faulty(folder, &cases[i]);
+        glint_scene_free(&scene);
+    }
+}
+
+#define LOAD_ALL(folder, cases) load_all(folder, cases, sizeof(cases) / sizeof *(cases))
+
+// ---- Attributes ---------------------------------------------------------------------------------
+
+// Accessors 3 to 6: four elements of VEC3, SCALAR, VEC4 and VEC2; 7: three of VEC2; 8: VEC2 of
+// bytes that are not normalised; 9: VEC3 of normalised shorts.
+#define DECORATED(attributes)                                                                      \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"                                           \
+    "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":48},"                                          \
+    "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24},{\"buffer\":0,\"byteLength\":120}],"       \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"      \
+    "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"                     \
+    "{\"bufferView\":2,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"},"                  \
+    "{\"bufferView\":3,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"                     \
+    "{\"bufferView\":3,\"componentType\":5126,\"count\":4,\"type\":\"SCALAR\"},"                   \
+    "{\"bufferView\":3,\"componentType\":5126,\"count\":4,\"type\":\"VEC4\"},"                     \
+    "{\"bufferView\":3,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"                     \
+    "{\"bufferView\":3,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"},"                     \
+    "{\"bufferView\":3,\"componentType\":5121,\"count\":4,\"type\":\"VEC2\"},"                     \
+    "{\"bufferView\":3,\"componentType\":5123,\"normalized\":true,\"count\":4,\"type\":\"VEC3\"}]" \
+    ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1," attributes       \
+    "},\"indices\":2}]}]" NODE
+
+static void decorations_that_cannot_be_read_are_left_out(void **state)
+{
+    static const fault_case cases[] = {
+        {DECORATED("\"TEXCOORD_0\":6"), NULL},
+        {DECORATED("\"TEXCOORD_0\":3"),
+         "meshes[0].primitives[0]: TEXCOORD_0 has more than two components: the first two count"},
+        {DECORATED("\"TEXCOORD_1\":5"), "TEXCOORD_1 has more than two components"},
+        {DECORATED("\"TEXCOORD_1\":9"), "TEXCOORD_1 has more than two components"},
+        {DECORATED("\"TEXCOORD_0\":4"), "TEXCOORD_0 is not VEC2 of floats or normalized integers "
+                                        "and is left out: the coordinates count as 0"},
+        {DECORATED("\"TEXCOORD_0\":8"), "TEXCOORD_0 is not VEC2 of floats or normalized"},
+        {DECORATED("\"TEXCOORD_0\":7"), "TEXCOORD_0 has another number of elements than POSITION "
+                                        "and is left out: the coordinates count as 0"},
+        {DECORATED("\"TANGENT\":5"), NULL},
+        {DECORATED("\"TANGENT\":3"), "TANGENT is not VEC4 of floats or normalized integers and is "
+                                     "left out: tangents are computed"},
+        {DECORATED("\"COLOR_0\":5"), NULL},
+        {DECORATED("\"COLOR_0\":9"), NULL},
+        {DECORATED("\"COLOR_0\":6"), "COLOR_0 is not VEC3 or VEC4 of floats or normalized integers "
+                                     "and is left out: the vertices are white"},
+        // Nothing reads them.
+        {DECORATED("\"TEXCOORD_2\":4"), NULL},
+        {DECORATED("\"_TEMPERATURE\":7"), NULL},
+    };
+    LOAD_ALL(*state, cases);
+}
+
+// Three coordinates are read in steps of three: the result is that of the first two.
+static void the_first_two_of_three_coordinates_count(void **state)
+{
+    static const char *const material =
+        ",\"images\":[{\"uri\":\"data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaGgAAAMEAYFL09IQAAAAAElFTkSuQm"
+        "CC"
+        "\"}],\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":{"
+        "\"baseColorTexture\":{\"index\":0}}}]";
+    char rest[4096] = DECORATED("\"TEXCOORD_0\":3");
+    strcat(rest, material);
+    char *indices = strstr(rest, "\"indices\":2}");
+    memmove(indices + 13, indices, strlen(indices) + 1);
+    memcpy(indices, "\"material\":0,", 13);
+    const fault_case one = {rest, "TEXCOORD_0 has more than two components"};
+    glint_scene scene = load_faulty(*state, &one);
+    assert_true(scene.attribute_set.texcoords);
+    const size_t stride = glint_attributes_stride(&scene.attribute_set);
+    for (size_t corner = 0; corner < 12; corner++) {
+        const float *from = the_tetrahedron.positions[the_tetrahedron.indices[corner]];
+        assert_memory_equal(scene.attributes + stride * corner, from, 2 * sizeof(float));
+    }
+    glint_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(decorations_that_cannot_be_read_are_left_out),
+        cmocka_unit_test(the_first_two_of_three_coordinates_count),
+    };
+    return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}
