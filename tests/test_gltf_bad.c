@@ -166,9 +166,6 @@ static const bad_case cases[] = {
     // Scenes.
     {TETRAHEDRON ",\"nodes\":[{}],\"scenes\":[{\"nodes\":[1]}]",
      "scenes[0].nodes[0]: 1: there is no"},
-    {TETRAHEDRON ",\"nodes\":[{}],\"scenes\":[{\"nodes\":[0,0]}]", "nodes[0] stands there twice"},
-    {TETRAHEDRON ",\"nodes\":[{\"children\":[1]},{}],\"scenes\":[{\"nodes\":[0,1]}]",
-     "scenes[0].nodes[1]: nodes[1] is a child of nodes[0] (a scene lists root nodes only)"},
     {GOOD ",\"scene\":1", "scene: 1: there is no such scene (the file has 1 scene"},
     // Cameras.
     {CAMERA("\"type\":\"fisheye\""), "cameras[0].type: \"fisheye\" is none"},

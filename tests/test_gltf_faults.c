@@ -7,8 +7,10 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -125,11 +127,97 @@ static void the_first_two_of_three_coordinates_count(void **state)
     glint_scene_free(&scene);
 }
 
+// ---- Scenes -------------------------------------------------------------------------------------
+
+// Node 0 moves by (8, 0, 0), its child 1 by (0, 4, 0), and the mesh of 2 below it by (0, 0, 2).
+#define CHAIN(scene)                                                                               \
+    TETRAHEDRON ",\"nodes\":[{\"children\":[1],\"translation\":[8,0,0]},{\"children\":[2],"        \
+                "\"translation\":[0,4,0]},{\"mesh\":0,\"translation\":[0,0,2]}],\"scenes\":[{"     \
+                "\"nodes\":[" scene "]}]"
+#define BELOW "the scene lists the node, and shows it below its parent, too (it is drawn once"
+#define ORPHAN "the scene lists the node, but not its parent (it is drawn where it stands without"
+
+static void a_scene_draws_each_node_once(void **state)
+{
+    static const struct {
+        fault_case fault;
+        double x, y, z;
+    } scenes[] = {
+        {{CHAIN("0"), NULL}, 8, 4, 2},
+        {{CHAIN("0,0"), "nodes[0]: the scene lists the node twice (it is drawn once)"}, 8, 4, 2},
+        {{CHAIN("0,1"), "nodes[1]: " BELOW}, 8, 4, 2},
+        {{CHAIN("2,0"), "nodes[2]: " BELOW}, 8, 4, 2},
+        {{CHAIN("2,1,0"), "nodes[2] and 1 more: " BELOW}, 8, 4, 2},
+        {{CHAIN("1"), "nodes[1]: " ORPHAN}, 0, 4, 2},
+        {{CHAIN("2"), "nodes[2]: " ORPHAN}, 0, 0, 2},
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        glint_scene scene = load_faulty(*state, &scenes[i].fault);
+        assert_int_equal(scene.instance_count, 1);
+        assert_true(scene.low.x == scenes[i].x && scene.low.y == scenes[i].y &&
+                    scene.low.z == scenes[i].z);
+        glint_scene_free(&scene);
+    }
+}
+
+// The scene lists node 1 without its parent 0. Both are joints. The vertices follow the first one,
+// which stands where the scene shows it.
+static void a_joint_stands_where_the_scene_shows_it(void **state)
+{
+    char *text = gltf_text(
+        &the_tetrahedron, sizeof the_tetrahedron,
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":1,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"},"
+        "{\"componentType\":5121,\"count\":4,\"type\":\"VEC4\"},"
+        "{\"componentType\":5126,\"count\":4,\"type\":\"VEC4\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":2,"
+        "\"WEIGHTS_0\":3},\"indices\":1}]}],\"skins\":[{\"joints\":[1,0]}],\"nodes\":[{"
+        "\"children\":[1],\"translation\":[8,0,0]},{\"translation\":[0,4,0]},{\"mesh\":0,"
+        "\"skin\":0}],\"scenes\":[{\"nodes\":[1,2]}]");
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
+    assert_true(any_warning_has(&warnings, "nodes[1]: " ORPHAN));
+    assert_true(scene.triangle_count == 4 && scene.low.x == 0 && scene.low.y == 4);
+    glint_warnings_free(&warnings);
+    glint_scene_free(&scene);
+    free(text);
+}
+
+// A chain of nodes, all listed, takes linear time.
+static void listing_all_nodes_takes_no_time(void **state)
+{
+    enum { depth = 50000 };
+    const size_t capacity = 64 * depth;
+    char *rest = malloc(capacity);
+    assert_non_null(rest);
+    size_t used = (size_t)snprintf(rest, capacity, TETRAHEDRON ",\"nodes\":[");
+    for (int i = 0; i + 1 < depth; i++) {
+        used += (size_t)snprintf(rest + used, capacity - used, "{\"children\":[%d]},", i + 1);
+    }
+    used +=
+        (size_t)snprintf(rest + used, capacity - used, "{\"mesh\":0}],\"scenes\":[{\"nodes\":[");
+    for (int i = depth - 1; i >= 0; i--) {
+        used += (size_t)snprintf(rest + used, capacity - used, i > 0 ? "%d," : "%d]}]", i);
+    }
+    const fault_case one = {rest, "nodes[49999] and 49998 more: " BELOW};
+    const clock_t begin = clock();
+    glint_scene scene = load_faulty(*state, &one);
+    assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 5);
+    glint_scene_free(&scene);
+    free(rest);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(decorations_that_cannot_be_read_are_left_out),
         cmocka_unit_test(the_first_two_of_three_coordinates_count),
+        cmocka_unit_test(a_scene_draws_each_node_once),
+        cmocka_unit_test(a_joint_stands_where_the_scene_shows_it),
+        cmocka_unit_test(listing_all_nodes_takes_no_time),
     };
     return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

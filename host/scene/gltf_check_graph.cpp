@@ -223,7 +223,6 @@ void check_nodes(const json &root, Model &model)
 void check_scenes(const json &root, Model &model)
 {
     const json &scenes = objects_of(root, "scenes");
-    std::vector<std::size_t> listed_by(model.parents.size(), scenes.size());
     for (std::size_t s = 0; s < scenes.size(); s++) {
         Place place = (Place() / "scenes")[s];
         tinygltf::Scene &scene = model.scenes.emplace_back();
@@ -232,16 +231,6 @@ void check_scenes(const json &root, Model &model)
         for (std::size_t i = 0; i < nodes.size(); i++) {
             Place entry = (place / "nodes")[i];
             std::size_t node = index_of(nodes[i], entry, model.parents.size(), "node");
-            int parent = model.parents[node];
-            if (parent >= 0) {
-                refuse(entry, node_name(node) + " is a child of " +
-                                  node_name(static_cast<std::size_t>(parent)) +
-                                  " (a scene lists root nodes only)");
-            }
-            if (listed_by[node] == s) {
-                refuse(entry, node_name(node) + " stands there twice (list it once)");
-            }
-            listed_by[node] = s;
             scene.nodes.push_back(static_cast<int>(node));
         }
     }

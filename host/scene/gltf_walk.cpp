@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "scene/gltf_extensions.hpp"
 #include "scene/gltf_lights.hpp"
+#include "scene/gltf_roots.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,12 +20,6 @@ namespace
 {
 
 constexpr std::size_t most_draws = std::size_t{1} << 22;
-
-std::string node_where(const Load &load, std::size_t node)
-{
-    const std::string &name = load.model.nodes[node].name;
-    return "nodes[" + std::to_string(node) + "]" + (name.empty() ? "" : " " + in_quotes(name));
-}
 
 // `rotation` is (x, y, z, w) of any length but 0. Exporters round, and a longer quaternion means
 // the same rotation.
@@ -270,39 +265,7 @@ void add_camera(Load &load, std::size_t node, const glint_mat4 &to_world, Camera
     cameras.add(camera, name.empty() ? source.name : name);
 }
 
-std::vector<std::string> names_of(const std::vector<tinygltf::Scene> &scenes)
-{
-    std::vector<std::string> names;
-    names.reserve(scenes.size());
-    for (const tinygltf::Scene &scene : scenes) {
-        names.push_back(scene.name);
-    }
-    return names;
-}
-
-std::vector<int> find_roots(Load &load, const char *name)
-{
-    const Model &model = load.model;
-    if (name != nullptr || !model.scenes.empty()) {
-        std::size_t scene = name != nullptr ? find_named(names_of(model.scenes), name, "scene")
-                            : model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene)
-                                                      : 0;
-        return model.scenes[scene].nodes;
-    }
-    // glTF calls such a file a library. A user who renders it wants to see its contents.
-    std::vector<int> roots;
-    for (std::size_t i = 0; i < model.nodes.size(); i++) {
-        if (load.model.parents[i] < 0) {
-            roots.push_back(static_cast<int>(i));
-        }
-    }
-    if (!roots.empty()) {
-        load.tally.add("missing, so that every root node is shown", "scenes");
-    }
-    return roots;
-}
-
-// Adds the roots and all nodes below them to the visits.
+// Adds the roots and all nodes below them to the visits, except nodes that are visited already.
 void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
 {
     struct Step {
@@ -317,6 +280,9 @@ void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
         const Step step = stack.back();
         stack.pop_back();
         auto index = static_cast<std::size_t>(step.node);
+        if (load.visit_of[index] >= 0) {
+            continue;
+        }
         const tinygltf::Node &node = load.model.nodes[index];
         const bool moves =
             ever_moves(moves_of(load, index)) ||
@@ -398,6 +364,12 @@ void survey_motion(Load &load)
 }
 
 } // namespace
+
+std::string node_where(const Load &load, std::size_t node)
+{
+    const std::string &name = load.model.nodes[node].name;
+    return "nodes[" + std::to_string(node) + "]" + (name.empty() ? "" : " " + in_quotes(name));
+}
 
 PoseSource pose_source(const Load &load)
 {

@@ -56,6 +56,9 @@ struct Load {
 // default.
 void choose_nodes(Load &load, const char *name);
 
+// Returns a node's name for warnings: nodes[3] "wheel".
+std::string node_where(const Load &load, std::size_t node);
+
 // Returns the matrix of a chosen node at `time` (seconds). `placed` holds the matrices of the nodes
 // before it.
 glint_mat4 place_node(const Load &load, std::size_t visit, double time,
