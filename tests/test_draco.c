@@ -395,10 +395,11 @@ static void what_no_accessor_asked_for_has_a_limit(void **state)
     uint32_t(*indices)[3] = calloc(faces, sizeof *indices);
     assert_true(positions && normals && colors && indices);
     for (uint32_t i = 0, f = 0; i < vertices; i++) {
-        positions[i][0] = (float)(i % side);
-        positions[i][1] = (float)(i / side);
+        const uint32_t row = i / side, column = i % side;
+        positions[i][0] = (float)column;
+        positions[i][1] = (float)row;
         normals[i][2] = 1;
-        if (i % side + 1 < side && i / side + 1 < side) {
+        if (column + 1 < side && row + 1 < side) {
             memcpy(indices[f++], (uint32_t[]){i, i + 1, i + side}, 12);
             memcpy(indices[f++], (uint32_t[]){i + 1, i + side + 1, i + side}, 12);
         }

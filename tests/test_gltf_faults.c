@@ -210,6 +210,155 @@ static void listing_all_nodes_takes_no_time(void **state)
     free(rest);
 }
 
+// ---- Nodes and members --------------------------------------------------------------------------
+
+#define NODES(nodes) TETRAHEDRON ",\"nodes\":[" nodes "]," ONE_SCENE
+#define STRIDE(positions, indices)                                                                 \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48" positions                                   \
+    "},{\"buffer\":0,\"byteOffset\":96,\"byteLength\":24" indices                                  \
+    "}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"   \
+    "{\"bufferView\":1,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}],\"meshes\":[{"    \
+    "\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}]" NODE
+#define MORPH(mesh, node)                                                                          \
+    TETRAHEDRON_STORAGE ",\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE                    \
+                        ",\"targets\":[{\"POSITION\":0},{}]}]" mesh                                \
+                        "}],\"nodes\":[{\"mesh\":0" node "}]," ONE_SCENE
+
+static void small_faults_of_members_are_mended(void **state)
+{
+    static const fault_case cases[] = {
+        // null counts as missing, and an empty array as an empty object.
+        {TETRAHEDRON NODE ",\"textures\":null,\"scene\":null,\"extensionsRequired\":null", NULL},
+        {NODES("{\"mesh\":0,\"camera\":null,\"matrix\":null,\"extensions\":[],\"name\":null}"),
+         NULL},
+        {NODES("{\"mesh\":0,\"extensions\":{\"KHR_lights_punctual\":null}}"), NULL},
+        {NODES("{\"mesh\":0,\"name\":5}"), NULL},
+        {NODES("{\"mesh\":0,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],\"scale\":[2,2,2],"
+               "\"translation\":[1,1,1]}"),
+         "nodes[0]: the node has a matrix, and translation, rotation or scale, too (the matrix"},
+        // Strides that need not be there.
+        {STRIDE(",\"byteStride\":0", ",\"byteStride\":0"), NULL},
+        {STRIDE(",\"byteStride\":12", ",\"byteStride\":2"), NULL},
+        {MORPH(",\"weights\":[0]", ""),
+         "meshes[0].primitives[0]: there are not as many weights as"},
+        {MORPH(",\"weights\":[0,0]", ",\"weights\":[0,0,0]"),
+         "nodes[0]: there are not as many weights as morph targets (missing ones are 0)"},
+        {MORPH(",\"weights\":[]", ""), NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        glint_scene scene = load_faulty(*state, &cases[i]);
+        assert_true(scene.low.x == 0 && scene.high.x == 1);
+        glint_scene_free(&scene);
+    }
+}
+
+static void a_version_may_be_a_number(void **state)
+{
+    static const char *const versions[] = {"2", "2.0", "\"2\"", "\"2.0\"", "\"2.1\""};
+    for (size_t i = 0; i < sizeof versions / sizeof *versions; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "{\"asset\":{\"version\":%s}}", versions[i]);
+        glint_scene scene;
+        assert_int_equal(load_text(*state, text, &scene, NULL, NULL), GLINT_OK);
+        glint_scene_free(&scene);
+    }
+}
+
+// ---- Extensions ---------------------------------------------------------------------------------
+
+#define ON_NODE(name) NODES("{\"mesh\":0,\"extensions\":{\"" name "\":{}}}")
+#define ON_PRIMITIVE(name)                                                                         \
+    TETRAHEDRON_STORAGE ",\"meshes\":[{\"primitives\":[{" TETRAHEDRON_PRIMITIVE                    \
+                        ",\"extensions\":{\"" name "\":{}}}]}]" NODE
+#define ON_SCENE(name)                                                                             \
+    TETRAHEDRON ",\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0],\"extensions\":{\"" name     \
+                "\":{}}}]"
+#define REQUIRED(name) TETRAHEDRON NODE ",\"extensionsRequired\":[\"" name "\"]"
+
+static void extensions_that_change_no_picture_are_silent(void **state)
+{
+    static const fault_case cases[] = {
+        {ON_PRIMITIVE("FB_ngon_encoding"), NULL},
+        {ON_PRIMITIVE("EXT_mesh_features"), NULL},
+        {ON_PRIMITIVE("EXT_structural_metadata"), NULL},
+        {ON_NODE("OMI_physics_body"), NULL},
+        {ON_NODE("OMI_seat"), NULL},
+        {ON_NODE("KHR_physics_rigid_bodies"), NULL},
+        {ON_NODE("KHR_xmp_json_ld"), NULL},
+        {ON_NODE("AGI_articulations"), NULL},
+        {ON_NODE("AGI_stk_metadata"), NULL},
+        {ON_NODE("MSFT_lod"), NULL},
+        {ON_NODE("KHR_audio_emitter"), NULL},
+        {ON_SCENE("KHR_xmp_json_ld"), NULL},
+        {ON_SCENE("FB_geometry_metadata"), NULL},
+        // These may change one.
+        {ON_NODE("VENDOR_of_the_future"),
+         "nodes[0]: VENDOR_of_the_future is not modelled, the node is shown without it"},
+        {ON_NODE("KHR_xm"), "KHR_xm is not modelled"},
+        {ON_PRIMITIVE("CESIUM_primitive_outline"), "the mesh is shown without it"},
+        {ON_SCENE("EXT_lights_image_based"),
+         "scenes[0]: EXT_lights_image_based is not modelled, the scene is shown without it"},
+        {ON_SCENE("OMI_environment_sky"), "OMI_environment_sky is not modelled"},
+        // A file may require what can be left out.
+        {REQUIRED("KHR_texture_basisu"), NULL},
+        {REQUIRED("FB_ngon_encoding"), NULL},
+        {REQUIRED("OMI_physics_body"), NULL},
+        {REQUIRED("KHR_materials_volume_scatter"), NULL},
+        {REQUIRED("KHR_animation_pointer"), NULL},
+        {REQUIRED("EXT_lights_image_based"), NULL},
+    };
+    LOAD_ALL(*state, cases);
+    assert_rest_refused(*state, REQUIRED("EXT_mesh_compression_of_the_future"),
+                        "is required by the file and not supported");
+    assert_rest_refused(*state, REQUIRED(""), "\"\" is required by the file and not supported");
+}
+
+// KHR_node_visibility hides a node with all below; a joint below still moves its mesh.
+static void hidden_nodes_are_not_drawn(void **state)
+{
+#define HIDDEN "\"extensions\":{\"KHR_node_visibility\":{\"visible\":false}}"
+    static const fault_case cases[] = {
+        {NODES("{\"mesh\":0,\"children\":[1,2]},{\"mesh\":0," HIDDEN ",\"children\":[3]},"
+               "{\"extensions\":{\"KHR_node_visibility\":{\"visible\":true}}},{\"mesh\":0}"),
+         NULL},
+        {NODES("{\"mesh\":0,\"children\":[1]},{\"mesh\":0," HIDDEN
+               "}") ",\"extensionsRequired\":[\"KHR_node_visibility\"]",
+         NULL},
+    };
+    LOAD_ALL(*state, cases);
+    char *text =
+        gltf_text(&the_tetrahedron, sizeof the_tetrahedron, NODES("{\"mesh\":0," HIDDEN "}"));
+    glint_scene scene;
+    glint_warnings warnings = {0};
+    assert_int_equal(load_text(*state, text, &scene, &warnings, NULL), GLINT_OK);
+    assert_true(scene.triangle_count == 0 && warnings.count == 0);
+    glint_scene_free(&scene);
+    free(text);
+}
+
+// ---- Alpha --------------------------------------------------------------------------------------
+
+// Glass with a volume is all there. That matters only if some alpha says otherwise.
+#define GLASS(mode, alpha, more)                                                                   \
+    TETRAHEDRON_STORAGE                                                                            \
+    ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1" more              \
+    "},\"indices\":2,\"material\":0}]}]" NODE ",\"materials\":[{\"alphaMode\":\"" mode             \
+    "\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0,\"baseColorFactor\":" \
+    "["                                                                                            \
+    "1,1,1," alpha "]},\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}," \
+    "\"KHR_materials_volume\":{\"thicknessFactor\":1}}}]"
+#define ALPHA "materials[0]: alphaMode counts for nothing in glass with a volume"
+
+static void alpha_of_glass_is_told_of_where_it_would_count(void **state)
+{
+    static const fault_case cases[] = {
+        {GLASS("OPAQUE", "0.5", ""), NULL}, {GLASS("BLEND", "1", ""), NULL},
+        {GLASS("BLEND", "0.5", ""), ALPHA}, {GLASS("MASK", "0.5", ""), NULL},
+        {GLASS("MASK", "0.25", ""), ALPHA}, {GLASS("BLEND", "1", ",\"COLOR_0\":1"), NULL},
+    };
+    LOAD_ALL(*state, cases);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -218,6 +367,11 @@ int main(void)
         cmocka_unit_test(a_scene_draws_each_node_once),
         cmocka_unit_test(a_joint_stands_where_the_scene_shows_it),
         cmocka_unit_test(listing_all_nodes_takes_no_time),
+        cmocka_unit_test(small_faults_of_members_are_mended),
+        cmocka_unit_test(a_version_may_be_a_number),
+        cmocka_unit_test(extensions_that_change_no_picture_are_silent),
+        cmocka_unit_test(hidden_nodes_are_not_drawn),
+        cmocka_unit_test(alpha_of_glass_is_told_of_where_it_would_count),
     };
     return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

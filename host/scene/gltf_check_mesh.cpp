@@ -34,8 +34,12 @@ void check_indices(const json &source, const Place &primitive_place, const Model
         refuse(place, name + " does not hold indices (SCALAR of 5121, 5123 or 5125, not "
                              "normalized)");
     }
-    if (accessor.bufferView >= 0 &&
-        model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride != 0) {
+    const std::size_t stride =
+        accessor.bufferView < 0
+            ? 0
+            : model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+    if (stride != 0 && static_cast<int>(stride) != tinygltf::GetComponentSizeInBytes(
+                                                       static_cast<std::uint32_t>(component))) {
         refuse(place, name + "'s bufferView has a byteStride (indices are packed tightly)");
     }
 }
@@ -211,7 +215,6 @@ void check_meshes(const json &root, Model &model)
     const json &meshes = objects_of(root, "meshes");
     for (std::size_t i = 0; i < meshes.size(); i++) {
         Place place = (Place() / "meshes")[i];
-        optional_text(meshes[i], place, "name");
         const json &primitives = array_at(meshes[i], place, "primitives");
         if (primitives.empty()) {
             refuse(place / "primitives", "empty (a mesh has at least one primitive)");
@@ -222,13 +225,18 @@ void check_meshes(const json &root, Model &model)
             const Place at = (place / "primitives")[p];
             mesh.primitives.push_back(check_primitive(root, primitives[p], at, model));
             check_draco(primitives[p], at, model);
-            VariantMaterials mapped = check_variant_mappings(root, primitives[p], at, model);
-            if (!mapped.empty()) {
-                model.mapped.push_back({i, p, std::move(mapped)});
+            MappedPrimitive mapped = read_variant_mappings(root, primitives[p], at, model);
+            if (!mapped.materials.empty() || !mapped.fault.empty()) {
+                mapped.mesh = i;
+                mapped.number = p;
+                model.mapped.push_back(std::move(mapped));
             }
             targets = std::max(targets, mesh.primitives.back().targets.size());
         }
-        mesh.weights = check_weights(meshes[i], place, targets);
+        mesh.weights = check_weights(meshes[i], place);
+        if (!mesh.weights.empty() && mesh.weights.size() != targets) {
+            model.note({i, 0}, wrong_weights);
+        }
     }
 }
 

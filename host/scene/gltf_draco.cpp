@@ -319,7 +319,7 @@ void connect(Model &model, const DracoPrimitive &one, const Packed &packed)
 {
     if (differs(model, one, packed)) {
         model.note({one.mesh, one.number}, "Draco's data has other numbers of vertices or corners "
-                                           "than the accessors, and counts");
+                                           "than the accessors say (Draco's data counts)");
     }
     tinygltf::Primitive &primitive = primitive_of(model, one);
     for (const auto &[name, id] : one.attributes) {

@@ -33,20 +33,12 @@ void check_targets(const json &source, const Place &primitive_place, const Model
     }
 }
 
-std::vector<double> check_weights(const json &object, const Place &place, std::size_t targets)
+std::vector<double> check_weights(const json &object, const Place &place)
 {
     std::vector<double> weights;
-    const json *found = member(object, "weights");
-    if (found == nullptr) {
-        return weights;
-    }
-    const json &numbers = array_at(object, place, "weights");
-    if (numbers.size() != targets) {
-        refuse(place / "weights", counted(numbers.size(), "number") + " for " +
-                                      counted(targets, "morph target") + " (they must agree)");
-    }
-    weights.reserve(targets);
-    for (std::size_t i = 0; i < targets; i++) {
+    const json &numbers = optional_array(object, place, "weights");
+    weights.reserve(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); i++) {
         weights.push_back(number_of(numbers[i], (place / "weights")[i]));
     }
     return weights;

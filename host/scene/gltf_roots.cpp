@@ -1,6 +1,8 @@
 // Finds the root nodes that a scene shows. See gltf_roots.hpp.
 #include "scene/gltf_roots.hpp"
 
+#include "scene/gltf_extensions.hpp"
+
 namespace glint
 {
 
@@ -80,6 +82,12 @@ std::vector<int> settle_roots(Load &load, const std::vector<int> &listed)
 
 } // namespace
 
+std::string node_where(const Load &load, std::size_t node)
+{
+    const std::string &name = load.model.nodes[node].name;
+    return "nodes[" + std::to_string(node) + "]" + (name.empty() ? "" : " " + in_quotes(name));
+}
+
 std::vector<int> find_roots(Load &load, const char *name)
 {
     const Model &model = load.model;
@@ -87,6 +95,8 @@ std::vector<int> find_roots(Load &load, const char *name)
         std::size_t scene = name != nullptr ? find_named(names_of(model.scenes), name, "scene")
                             : model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene)
                                                       : 0;
+        survey_extensions(objects_of(load.document.root, "scenes")[scene], Holder::scene,
+                          "scenes[" + std::to_string(scene) + "]", load.tally);
         return settle_roots(load, model.scenes[scene].nodes);
     }
     // glTF calls such a file a library. A user who renders it wants to see its contents.

@@ -139,12 +139,26 @@ void survey_rotation(Load &load, std::size_t index, const std::string &where)
     }
 }
 
+// Adds the notes about a node or a primitive.
+template <typename Key>
+void add_notes(const std::map<Key, std::vector<std::string>> &notes, const Key &key,
+               const std::string &where, Tally &tally)
+{
+    const auto found = notes.find(key);
+    if (found != notes.end()) {
+        for (const std::string &note : found->second) {
+            tally.add(note, where);
+        }
+    }
+}
+
 void survey_node(Load &load, std::size_t index)
 {
     std::string where = node_where(load, index);
     survey_rotation(load, index, where);
     survey_extensions(objects_of(load.document.root, "nodes")[index], Holder::node, where,
                       load.tally);
+    add_notes(load.model.node_notes, index, where, load.tally);
 }
 
 void survey_primitive(Load &load, const Primitive &primitive)
@@ -153,12 +167,7 @@ void survey_primitive(Load &load, const Primitive &primitive)
         objects_of(load.document.root, "meshes")[primitive.mesh]["primitives"][primitive.number];
     std::string where = primitive.place().text();
     survey_extensions(source, Holder::primitive, where, load.tally);
-    const auto notes = load.model.notes.find({primitive.mesh, primitive.number});
-    if (notes != load.model.notes.end()) {
-        for (const std::string &note : notes->second) {
-            load.tally.add(note, where);
-        }
-    }
+    add_notes(load.model.notes, {primitive.mesh, primitive.number}, where, load.tally);
 }
 
 void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_scene &scene)
@@ -169,13 +178,12 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
     const int skin = load.model.nodes[node].skin;
     auto mesh = static_cast<std::size_t>(load.model.nodes[node].mesh);
     const std::size_t first = load.primitives.first[mesh];
-    bool hides_any = false;
     for (std::size_t i = first; i < load.primitives.first[mesh + 1]; i++) {
         const Primitive &primitive = load.primitives.all[i];
         const Shape *shape = shapes.empty() ? nullptr : &shapes[i - first];
         const Stand stand = load.poses.stand_of(shape, skin, to_world);
         if (stand.is_hidden) {
-            hides_any = true;
+            load.hides_any = true;
             continue;
         }
         if (primitive.mode < 4) {
@@ -196,9 +204,6 @@ void draw_mesh(Load &load, std::size_t node, const glint_mat4 &to_world, glint_s
         if (instances.empty()) {
             load.draws.push_back({&primitive, static_cast<int>(node), stand.to_world, shape});
         }
-    }
-    if (hides_any) {
-        load.tally.add("a scale of 0 hides the mesh", node_where(load, node));
     }
 }
 
@@ -289,7 +294,12 @@ void visit_trees(Load &load, const std::vector<int> &roots, bool is_shown)
             (step.parent >= 0 && load.visits[static_cast<std::size_t>(step.parent)].moves);
         const auto here = static_cast<std::ptrdiff_t>(load.visits.size());
         load.visit_of[index] = here;
-        load.visits.push_back({index, step.parent, is_shown, moves, false});
+        const bool is_below_shown =
+            step.parent < 0 ? is_shown
+                            : load.visits[static_cast<std::size_t>(step.parent)].is_shown;
+        load.visits.push_back({index, step.parent,
+                               is_below_shown && load.model.hidden_nodes.count(index) == 0, moves,
+                               false});
         for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) {
             stack.push_back({*it, here});
         }
@@ -303,7 +313,8 @@ void visit_joints(Load &load)
     std::vector<char> is_known(load.skins.size(), 0);
     for (std::size_t i = 0; i < shown; i++) {
         const tinygltf::Node &node = load.model.nodes[load.visits[i].node];
-        if (node.mesh < 0 || node.skin < 0 || is_known[static_cast<std::size_t>(node.skin)] != 0) {
+        if (!load.visits[i].is_shown || node.mesh < 0 || node.skin < 0 ||
+            is_known[static_cast<std::size_t>(node.skin)] != 0) {
             continue;
         }
         is_known[static_cast<std::size_t>(node.skin)] = 1;
@@ -365,12 +376,6 @@ void survey_motion(Load &load)
 
 } // namespace
 
-std::string node_where(const Load &load, std::size_t node)
-{
-    const std::string &name = load.model.nodes[node].name;
-    return "nodes[" + std::to_string(node) + "]" + (name.empty() ? "" : " " + in_quotes(name));
-}
-
 PoseSource pose_source(const Load &load)
 {
     return {load.model, load.primitives, load.clips, load.skins, load.visit_of};
@@ -431,6 +436,7 @@ glint_mat4 place_node(const Load &load, std::size_t visit, double time,
 void walk_scene(Load &load, double time, glint_scene &scene)
 {
     load.draws.clear();
+    load.hides_any = false;
     std::vector<glint_mat4> placed;
     placed.reserve(load.visits.size());
     Cameras cameras;
@@ -439,7 +445,10 @@ void walk_scene(Load &load, double time, glint_scene &scene)
     }
     load.poses.begin(pose_source(load), time, placed);
     allocate_lights(load, scene);
-    for (std::size_t i = 0; i < load.visits.size() && load.visits[i].is_shown; i++) {
+    for (std::size_t i = 0; i < load.visits.size(); i++) {
+        if (!load.visits[i].is_shown) {
+            continue;
+        }
         const std::size_t index = load.visits[i].node;
         const tinygltf::Node &node = load.model.nodes[index];
         survey_node(load, index);
